@@ -8,19 +8,19 @@ bin := .venv/bin
 kernels := optimizer/program/kernel/__pycache__/kernels
 pip := $(bin)/pip --quiet --disable-pip-version-check
 
-.PHONY: install run test prepared quick bytecode chromium freecad mono lint bench hard validate nightly lock settings map docs package image image-check smoke sbom licences audit clean
+.PHONY: install run test prepared quick bytecode chromium freecad mono lint bench hard validate nightly lock settings map pictures docs package image image-check smoke sbom licences audit clean
 
 install: $(kernels)
 
 run: $(kernels)
 	$(bin)/counterweight serve
 
-# on two cores; the tests of a file stay together, with the server that they share. What is downloaded comes while the
+# on two cores, half of the processes begin with tests that wait (tests/distribution.py). What is downloaded comes while the
 # code is checked and compiled. Bytecode is kept: read from source, tests and modules cost every process a third of its start
 test: export PYTHONDONTWRITEBYTECODE :=
 test: .venv/development
 	$(MAKE) --no-print-directory --jobs 2 --output-sync=target prepared
-	$(bin)/pytest --numprocesses 3 --dist loadfile -m "not nightly"
+	$(bin)/pytest --numprocesses 4 --dist loadfile -m "not nightly"
 
 prepared: lint mono bytecode $(kernels)
 
@@ -78,13 +78,16 @@ hard: .venv/development $(kernels)
 validate: .venv/development $(kernels)
 	$(bin)/python -m tests.validation
 
-# hours: the references against references of their own, and what the tests do a few times, thousands of times; the image needs root
+# hours: every test, with ten times the examples and every answer through the checker; the references against references of
+# their own, and what the tests do a few times, thousands of times; the image needs root
 long := tests.hard.bodies tests.hard.boundary tests.hard.checked tests.hard.far_limits tests.hard.tampered tests.hard.worst_case tests.jobs.clocks tests.jobs.crashes \
     tests.jobs.flips tests.jobs.history tests.jobs.kills tests.network.attacks tests.network.bystander tests.network.load \
     tests.network.schema
 nightly: .venv/development $(kernels)
-	failed=0; $(MAKE) hard || failed=1; $(bin)/pytest --numprocesses 2 -m nightly || failed=1; \
+	failed=0; $(MAKE) hard || failed=1; \
+	HYPOTHESIS_PROFILE=night CHECKED_ANSWERS=every $(bin)/pytest --numprocesses 4 --dist loadfile || failed=1; \
 	$(MAKE) image-check || failed=1; \
+	$(bin)/python -m tests.mutation --count 300 || failed=1; \
 	for each in $(long); do echo "$$each"; $(bin)/python -m $$each || failed=1; done; exit $$failed
 
 # new versions into the hashed lists: names, versions and hashes only
@@ -103,6 +106,10 @@ settings: .venv/runtime
 map: .venv/runtime
 	$(bin)/python docs/room_map.py
 	$(bin)/python docs/sequences.py
+
+# the three pictures of the README, from a service that it starts
+pictures: .venv/development $(kernels) | chromium
+	$(bin)/python docs/readme_pictures.py
 
 # the documents as a site in artefacts/site, without a network
 docs: .venv/development

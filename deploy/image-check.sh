@@ -155,6 +155,8 @@ echo "ok      no kernel had to be compiled"
 step "service"
 COUNTERWEIGHT_KEY=$(become counterweight key create image-check --scope compute --scope sweeps)
 export COUNTERWEIGHT_KEY
+# there before it is read: the process beside this one may open it later
+: > "$folder/served"
 become "${command[@]}" > "$folder/served" 2>&1 < /dev/null &
 service=$!
 for ((waited = 0; waited < 60; waited++)); do

@@ -18,6 +18,7 @@ FOUND_AT_START = {
     "concurrent_solves": "number of cores",
     "sweep_workers": "number of cores",
     "data_dir": "$XDG_DATA_HOME/counterweight",
+    "guide_dir": "artefacts/site beside the packages",
 }
 
 #: what compose.yaml needs besides

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from optimizer.studies.accuracy.measure import accuracy
     from optimizer.studies.matching.match import match
     from optimizer.studies.pareto.pareto import pareto
+    from optimizer.studies.rounding.round import round_weights
     from optimizer.studies.sweep.whole import sweep_table
 
 __all__ = [
@@ -35,6 +36,7 @@ __all__ = [
     "pareto",
     "pin_loads",
     "rate",
+    "round_weights",
     "sweep_table",
 ]
 
@@ -48,6 +50,7 @@ _HOMES = {
     "pareto": "optimizer.studies.pareto.pareto",
     "pin_loads": "optimizer.pins.answer",
     "rate": "optimizer.rating.rate",
+    "round_weights": "optimizer.studies.rounding.round",
     "sweep_table": "optimizer.studies.sweep.whole",
 }
 

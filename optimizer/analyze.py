@@ -10,9 +10,11 @@ from optimizer.formulation.placement import on_webs
 from optimizer.mechanics.shapes import fitted_masses
 from optimizer.outputs.registry import fields, prepare
 from schemas.answer.answers import AnalyzeAnswer, Timing
+from schemas.base.mappings import or_mapping
 from schemas.request.requests import AnalyzeRequest
 
 
+@or_mapping(AnalyzeRequest)
 def analyze(request: AnalyzeRequest) -> AnalyzeAnswer:
     """What a machine does without and with the given counterweights.
 

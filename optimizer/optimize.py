@@ -18,6 +18,7 @@ from optimizer.solve.turn_residual import with_turn
 from optimizer.solve.worst_case import nothing_off
 from schemas.answer.alternatives import Alternative
 from schemas.answer.answers import Certificate, OptimizeAnswer, Timing
+from schemas.base.mappings import or_mapping
 from schemas.request.requests import OptimizeRequest
 
 #: outputs that every answer holds, and what it holds too where bearings or bending count, or the roll moment
@@ -25,6 +26,7 @@ _ALWAYS = ("residual",)
 _OF_THE_SHAFT, _ROLL = "main_bearings", "roll"
 
 
+@or_mapping(OptimizeRequest)
 def optimize(request: OptimizeRequest, solver: Solver | None = None) -> OptimizeAnswer:
     """Counterweights that minimise what the objective weighs, with a certificate.
 

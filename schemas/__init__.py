@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from schemas.rating.request import RatingRequest
     from schemas.request.accuracy import AccuracyAnswer, AccuracyRequest
     from schemas.request.requests import AnalyzeRequest, OptimizeRequest
+    from schemas.request.rounding import RoundAnswer, RoundRequest
     from schemas.request.verify import VerifyAnswer, VerifyRequest
     from schemas.scroll.pin_loads import PinLoadsAnswer, PinLoadsRequest
     from schemas.sweep.request import SweepRequest
@@ -37,6 +38,8 @@ __all__ = [
     "RatingAnswer",
     "RatingRequest",
     "ReciprocatingMachine",
+    "RoundAnswer",
+    "RoundRequest",
     "ScrollMachine",
     "SweepRequest",
     "VerifyAnswer",
@@ -59,6 +62,8 @@ _HOMES = {
     "RatingAnswer": "schemas.rating.answer",
     "RatingRequest": "schemas.rating.request",
     "ReciprocatingMachine": "schemas.machine.reciprocating",
+    "RoundAnswer": "schemas.request.rounding",
+    "RoundRequest": "schemas.request.rounding",
     "ScrollMachine": "schemas.machine.scroll_machine",
     "SweepRequest": "schemas.sweep.request",
     "VerifyAnswer": "schemas.request.verify",

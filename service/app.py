@@ -8,7 +8,7 @@ from functools import partial
 from typing import Any
 
 from anyio import create_task_group, to_thread
-from fastapi import FastAPI
+from fastapi import Depends, FastAPI
 from starlette.middleware import Middleware
 from starlette.types import ASGIApp, Receive, Scope, Send
 from uvicorn.middleware.proxy_headers import ProxyHeadersMiddleware
@@ -33,11 +33,14 @@ from service.http.computing import Computing
 from service.http.cut import Cut
 from service.http.direct import Direct
 from service.http.errors import ErrorAnswers, joined
+from service.http.methods import Methods
 from service.http.openapi import Documented
+from service.http.parameters import of_the_route
 from service.jobs import faults as job_faults
 from service.jobs.desk import JobService
 from service.jobs.events import Watch
-from service.routes import computations, effects, examples, health, portal, reference_page, sweeps
+from service.routes import computations, effects, examples, guide, health, portal, problems, reference_page, sweeps
+from service.routes import faults as route_faults
 from service.routes import metrics as metrics_route
 from service.routes import version as version_route
 from service.settings import Settings
@@ -55,7 +58,7 @@ from service.wire.security_headers import SecurityHeaders
 from service.workers import faults as worker_faults
 from service.workers.pool import Pool
 
-_RESOURCES = (sweeps, effects, examples, health, version_route, metrics_route, portal)
+_RESOURCES = (sweeps, effects, examples, health, version_route, metrics_route, problems, portal)
 
 #: what is said about every exception, as the rooms declare it; the last one is the last resort
 FAULTS = joined(
@@ -67,6 +70,7 @@ FAULTS = joined(
     worker_faults.FAULTS,
     watch_faults.FAULTS,
     leaving.FAULTS,
+    route_faults.FAULTS,
     http_faults.FAULTS,
 )
 
@@ -91,6 +95,8 @@ CORS: Mapping[str, Any] = {
         "Link",
         "Location",
         "Preference-Applied",
+        "RateLimit",
+        "RateLimit-Policy",
         "Retry-After",
         "Sweep-Complete",
         "Sweep-State",
@@ -157,6 +163,9 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: JobSer
         gc.collect()
         gc.freeze()
 
+    def template(scope: Scope) -> str | None:
+        return methods.template(scope)
+
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         async with create_task_group() as tasks:
@@ -177,7 +186,7 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: JobSer
         (
             Middleware(HeadAsGet),
             *_behind_proxies(chosen),
-            Middleware(RequestLog, metrics, traces, chosen.log_machines),
+            Middleware(RequestLog, metrics, traces, template, chosen.log_machines),
             Middleware(Cut, errors),
             Middleware(SecurityHeaders, chosen.hsts_s),
             Middleware(Cors, chosen.cors_origins, **CORS),
@@ -192,10 +201,13 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: JobSer
             ),
             Middleware(Direct, computations.endpoints(), errors),
         ),
+        keyed=chosen.keys_file is not None,
         title="counterweight",
+        contact={"name": "The Counterweight authors"},
         version=package_version(),
         description=_DESCRIPTION,
         lifespan=lifespan,
+        dependencies=[Depends(of_the_route)],
         redirect_slashes=False,
         # the service traces by itself
         telemetry={"tracing": False, "metrics": False, "logs": False},
@@ -211,12 +223,19 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: JobSer
     app.state.watch = Watch(desk.of())
     app.state.metrics = metrics
     app.state.computing = Computing(chosen, readiness, pool, metrics, traces)
-    errors.install(app)
-    app.include_router(computations.router())
-    for resource in _RESOURCES:
-        app.include_router(resource.router)
-    reference_page.install(app)
+    methods = _routes(app, chosen)
+    errors.install(app, methods)
     return app
+
+
+def _routes(app: FastAPI, chosen: Settings) -> Methods:
+    """All routes into the application, and the methods at their paths."""
+    routers = [computations.router(), *(resource.router for resource in _RESOURCES)]
+    for router in routers:
+        app.include_router(router)
+    reference_page.install(app)
+    guide.install(app, chosen.guide_dir)
+    return Methods(route for router in [app, *routers] for route in router.routes)
 
 
 def _behind_proxies(chosen: Settings) -> Sequence[Middleware]:

@@ -315,6 +315,21 @@ COMPUTATIONS: dict[str, Computation] = {
                 _workbook("service.workbook.answers:requested", "machine.xlsx"),
             ),
         ),
+        Computation(
+            name="round",
+            path="/v1/round",
+            request="schemas.request.rounding:RoundRequest",
+            answer="schemas.request.rounding:RoundAnswer",
+            compute="optimizer.studies.rounding.round:round_weights",
+            summary="The best rounding of an optimum to steps of mass and angle, and what the steps cost",
+            remark="Of every counterweight of the optimum mass and angle are on the step on either side, or it is left"
+            " out; the certificate is of all these sets. `rounding` says what the steps cost.",
+            help="Round an optimum to steps of mass and angle, and say what they cost.",
+            chapters="service.report.chapters.rounding:with_rounding",
+            options=("mass_step_kg", "angle_step_deg"),
+            examples="round",
+            later=True,
+        ),
         # of answers
         Computation(
             name="verify",
@@ -365,6 +380,7 @@ COMPUTATIONS: dict[str, Computation] = {
             examples="drawings",
         ),
         _table("built", "Counterweights as built beside the optimum, with the tolerance that they bear"),
+        _table("order", "The order for a workshop: sizes, pieces, where each goes, and tolerances"),
         _table("foundation_loads", "Forces and couples on the foundation, order by order"),
         _table("pin_loads", "Load of every anti-rotation pin of a scroll over a revolution"),
         _picture("pin_loads", "The load of every anti-rotation pin of a scroll over a revolution"),

@@ -29,6 +29,11 @@ def _data_dir() -> Path:
         return Path("counterweight-data")
 
 
+def _guide_dir() -> Path:
+    """Where `make docs` builds in a checkout."""
+    return Path(__file__).parents[1] / "artefacts" / "site"
+
+
 def _split(value: Any) -> Any:
     return tuple(filter(None, map(str.strip, value.split(",")))) if isinstance(value, str) else value
 
@@ -172,6 +177,14 @@ class _Watching(BaseSettings):
     )
 
 
+class _Documents(BaseSettings):
+    """The documents beside the service."""
+
+    guide_dir: Path = Field(
+        default_factory=_guide_dir, description="folder that `make docs` has built; served at /docs/guide"
+    )
+
+
 class _Jobs(BaseSettings):
     """Sweeps and other jobs."""
 
@@ -205,7 +218,7 @@ class _Jobs(BaseSettings):
     )
 
 
-class Settings(_Network, _Sizes, _Work, _Shares, _Access, _Watching, _Jobs):
+class Settings(_Network, _Sizes, _Work, _Shares, _Access, _Watching, _Documents, _Jobs):
     """What an operator can set; the defaults suit one user on one machine."""
 
     model_config = SettingsConfigDict(
@@ -229,11 +242,15 @@ def unknown_variables(environment: Mapping[str, str]) -> Iterator[str]:
 
 def wrong_values(error: ValidationError, options: Mapping[str, object]) -> Iterator[str]:
     """A sentence for every setting with a wrong value, by its option or by its environment variable."""
+    # as the operator has written them: names are read in small letters too
+    written = {name.upper(): name for name in os.environ}
     for detail in error.errors():
         place = str(detail["loc"][0]) if detail["loc"] else ""
         field = place.removeprefix(_PREFIX).lower()
         option = field in options or place in options
         # the port has a second variable, without the prefix
-        other = "PORT" if field == "port" and variable(field) not in os.environ else variable(field)
-        name = f"--{field}" if option else other
+        name = variable(field)
+        if field == "port" and name not in written:
+            name = "PORT"
+        name = f"--{field}" if option else written.get(name, name)
         yield f"{name}: {detail['msg']}"

@@ -5,12 +5,18 @@ import os
 import tempfile
 from collections import Counter
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 
-from tests.verification.every import check_every_answer
+from tests.verification.every import check_answers
+
+if TYPE_CHECKING:
+    from xdist.remote import Producer
+
+    from tests.distribution import Distribution
 
 # no test may touch the jobs of whoever runs it; processes that tests start inherit this
 _DATA = tempfile.TemporaryDirectory(prefix="counterweight-tests-")
@@ -22,9 +28,10 @@ os.environ["COUNTERWEIGHT_DATABASE_BUSY_S"] = "60"
 os.environ["COUNTERWEIGHT_REQUEST_TIMEOUT_S"] = "600"
 
 # times are for benchmarks, and a run that failed must fail again;
-# HYPOTHESIS_PROFILE=thorough looks at many more examples, other ones each time
+# HYPOTHESIS_PROFILE=night looks at ten times as many, =thorough at many more, other ones each time
 quick = {"deadline": None, "derandomize": True, "database": None, "suppress_health_check": [HealthCheck.too_slow]}
 settings.register_profile("quick", max_examples=30, **quick)
+settings.register_profile("night", max_examples=300, **quick)
 settings.register_profile("thorough", deadline=None, max_examples=1000)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))
 # else the numbers that stand in whatever modules are loaded are tried too: other ones after other tests, see
@@ -32,7 +39,7 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))
 providers.is_local_module_file = lambda _: False
 
 # a certificate that its own answer refutes fails the test that asked for it, whatever that looks at
-check_every_answer()
+check_answers()
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -42,6 +49,14 @@ def server_log_reaches_the_root() -> Iterator[None]:
     for name in ("uvicorn", "uvicorn.error"):
         logger = logging.getLogger(name)
         assert (logger.propagate, logger.handlers) == (True, []), f"{name} keeps what this file did to it: log_config"
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: "Producer") -> "Distribution | None":
+    """`--dist loadfile` as tests/distribution.py orders it."""
+    from tests.distribution import Distribution
+
+    return Distribution(config, log) if config.getvalue("dist") == "loadfile" else None
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

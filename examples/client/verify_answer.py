@@ -7,8 +7,8 @@ from typing import Dict, List, NamedTuple, Optional, Tuple
 
 from verify_claims import Claims, near, same
 from verify_cranks import balance_rates
-from verify_machine import NAMES, Machine, Mass, Responses
-from verify_numbers import ABOUT_ONE, ONE, SPECK, ZERO, Number, Place, real
+from verify_machine import ON_FRAME, Machine, Mass, Responses
+from verify_numbers import ABOUT_ONE, COSTS, ONE, SPECK, ZERO, Number, Place, real, total
 from verify_orders import first_order, floor, orders, second_order
 from verify_quality import quality
 from verify_weights import UNSURE, counterweights, listed, shafts, usual_gap
@@ -46,6 +46,7 @@ def before(request: Place, machine: Machine, answer: Place) -> Claims:
         yield near("reference_plane", answer / "reference_plane_m", machine.asked_plane * ABOUT_ONE)
     shown = answer / "residual"
     yield from first_order("before", shown / "before", machine.before)
+    yield from beside("before", shown / "responses", "before", machine.before)
     if answer / "floor":
         yield from floor(machine, request / "machine", answer / "floor")
     if shown / "orders":
@@ -53,10 +54,21 @@ def before(request: Place, machine: Machine, answer: Place) -> Claims:
         yield from orders("orders", shown / "orders" / "before", own)
 
 
+def beside(claim: str, place: Place, field: str, responses: Responses) -> Claims:
+    """First-order peaks of the responses that count beside force and moment."""
+    for one in place:
+        name = (one / "response").text(*ON_FRAME)
+        yield claim, one / "response", ONE, ONE
+        yield near(claim, one / field, total(map(abs, responses[name])))
+        if one / "unit":
+            yield same(claim, one / "unit", ON_FRAME[name].unit.replace("Nm", "N m"))
+
+
 def after(request: Place, machine: Machine, answer: Place, there: Fitted) -> Claims:
     """What the counterweights leave."""
     left, shown = machine.responses(there.first), answer / "residual"
     yield from first_order("after", shown / "after", left)
+    yield from beside("after", shown / "responses", "after", left)
     if shown / "orders":
         twice = second_order(request, machine, there.on_shafts)
         yield from orders("orders", shown / "orders" / "after", [(1, left), (2, twice)])
@@ -69,9 +81,7 @@ def after(request: Place, machine: Machine, answer: Place, there: Fitted) -> Cla
         yield from quality(request / "machine", machine, answer / "balance_quality", there.turning)
     if answer / "active_limits":
         rooms = touched(request, machine, left, there.mass)
-        if rooms is None:
-            yield "active_limits", answer / "active_limits", None, ONE
-        else:
+        if rooms is not None:
             yield from listed("active_limits", answer / "active_limits", rooms)
 
 
@@ -99,9 +109,9 @@ def touched(request: Place, machine: Machine, left: Responses, mass: Number) -> 
     if machine.budget is not None:
         rooms["max_total_mass"] = _room(float(mass), float(machine.budget))
     elsewhere = (goal / "orders").value == "all" or list(request / "scenarios") or request / "tolerances"
-    for name, unit in NAMES.items():
+    for name, one in ON_FRAME.items():
         for axis in ("", "_x", "_y"):
-            most = goal / f"{name}_ceiling{axis}_{unit}"
+            most = goal / f"{name}_ceiling{axis}_{one.unit}"
             if most and elsewhere:
                 return None
             if most:
@@ -129,6 +139,11 @@ def gaps(request: Place, answer: Place, mass: Number, chosen: bool = False) -> C
         yield near("gap", proof / "gap", gap + noise)
         yield near("relative_gap", proof / "relative_gap", (gap + noise) * ABOUT_ONE / size if size.low > 0 else ZERO)
         wide = (request / "accuracy" / "relative_gap").number(usual_gap(request / "machine"), least=0)
+        order = list(request / "objective" / "priorities")
+        last = max((n for n, one in enumerate(order) if (one / "goal").text() not in COSTS), default=0)
+        if last < len(order) - 1:
+            # what castings cost is made small within this
+            wide = wide + (order[last] / "allowance").number(0.0, least=0)
         if optimal:
             yield "status", answer / "status", wide * size + noise - gap, size
         rest = proof / "objective_without_counterweights"
@@ -155,3 +170,4 @@ def closest(request: Place, machine: Machine, place: Place) -> Claims:
     there = yield from fitted(request, machine, place / "counterweights", place / "balance_shafts")
     left = machine.responses(there.first)
     yield from first_order("closest", place / "first_order", left)
+    yield from beside("closest", place / "responses", "peak", left)

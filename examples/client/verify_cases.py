@@ -6,7 +6,7 @@ from math import radians, sin, sqrt
 from typing import Any, Dict, Iterator, List, NamedTuple, Optional, Sequence
 
 from verify_machine import Machine, Responses
-from verify_numbers import ABOUT_ONE, ONE, ZERO, NotCovered, Number, Place, Unreadable, largest, real, total
+from verify_numbers import ABOUT_ONE, COSTS, ONE, ZERO, NotCovered, Number, Place, Unreadable, largest, real, total
 from verify_program import Statement
 
 #: fields of a request that are known here
@@ -68,14 +68,14 @@ def cases(request: Place, machine: Machine, plane: Place) -> Iterator[Case]:
             body = with_value(body, path, (change / "value").value, request)
         changed = Place(body, *request.path)
         budget = changed / "machine" / "max_total_mass_kg"
-        own = Machine(changed / "machine", plane, budget)
+        own = Machine(changed / "machine", changed / "objective", plane, budget)
         yield Case(changed, own, (one / "weight").number(1.0, least=0), (one / "name").text())
 
 
 def goals(request: Place) -> List[str]:
-    """Goals that are met one after the other but for the mass; one name for all of them where they are weighed."""
+    """Goals that are met one after the other but for costs; one name for all of them where they are weighed."""
     named = [(one / "goal").text() for one in request / "objective" / "priorities"]
-    return [name for name in named if name != "mass"] or ["all"]
+    return [name for name in named if name not in COSTS] or ["all"]
 
 
 def goal_of(kind: str, named: Sequence[str]) -> int:
@@ -92,8 +92,13 @@ def nominal(machine: Machine, goal: Place, rows: Dict[str, Dict[str, Number]], r
 def peak(machine: Machine, responses: Responses, name: str, off: Scatter, sizes: Sequence[Number]) -> Number:
     """The largest of a response of the first order where counterweights are off."""
     co, counter = responses[name]
-    arms = [ONE if name == "force" else web.position - machine.plane for web in machine.webs]
-    return abs(co) + abs(counter) + off.of([arm * machine.square for arm in arms], sizes)
+    return abs(co) + abs(counter) + grown(machine, name, off, sizes)
+
+
+def grown(machine: Machine, name: str, off: Scatter, sizes: Sequence[Number]) -> Number:
+    """What a response of the first order grows by at most."""
+    arms = [machine.arm(name, web.position) for web in machine.webs]
+    return off.of([arm * machine.square for arm in arms], sizes)
 
 
 def with_value(body: Any, parts: Sequence[str], value: Any, place: Place) -> Any:

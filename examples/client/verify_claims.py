@@ -22,6 +22,8 @@ Claim = Tuple[str, Place, Optional[Number], Number]
 Claims = Generator[Claim, None, Any]
 #: no claim, but what one was proven by: with other numbers it may prove as much
 EVIDENCE = "evidence"
+#: sizes whose shares are told in doubles
+SMALL, LARGE = 1e-100, 1e100
 VERDICTS = ("held", "not covered", "broken")
 #: exit codes of the verdicts; 2 is for what cannot be read
 CODES = {"held": 0, "broken": 1, "not covered": 3}
@@ -55,20 +57,29 @@ def judged(claims: Iterable[Claim], answer: Place) -> Dict[str, Any]:
         if claim == EVIDENCE:
             evidence.add(place.path)
             continue
-        share = None if room is None else float(room / Number(size.high, size.high) if size.high > 0 else room)
+        share = None if room is None else _share(room, size)
         rank = 1 if room is None else 0 if room.high >= 0 else 2
         if rank != 1:
             looked_at.add(place.path)
         elif not place and place.path[:1] == ("answer",):
             # nothing is claimed
             continue
-        told = {"claim": claim, "verdict": VERDICTS[rank], "margin": share, "where": pointer(place.path)}
-        one = rank, -(share or 0.0), told
-        found[claim] = max(found.get(claim, one), one, key=lambda one: one[:2])
+        worse = rank, -(share or 0.0)
+        if claim not in found or worse > found[claim][:2]:
+            told = {"claim": claim, "verdict": VERDICTS[rank], "margin": share, "where": pointer(place.path)}
+            found[claim] = *worse, told
     leaves = account(answer, looked_at, evidence)
     worst = max([rank for rank, _, _ in found.values()], default=1)
     rank = max(worst, 1 if leaves["not_covered"] else 0)
     return {"claims": [told for _, _, told in found.values()], **leaves, "verdict": VERDICTS[rank]}
+
+
+def _share(room: Number, size: Number) -> float:
+    """The room as a share of what it is a share of."""
+    whole = float(size)
+    if SMALL < whole < LARGE:
+        return max(min(float(room) / whole, LARGE), -LARGE)
+    return float(room / Number(size.high, size.high) if size.high > 0 else room)
 
 
 def covered(claims: Iterator[Claim]) -> Iterator[Claim]:

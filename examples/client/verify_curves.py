@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from math import isfinite, isqrt
 from typing import Dict, Iterator, NamedTuple, Tuple
 
-from verify_machine import NAMES, Machine, over, row_masses
-from verify_numbers import BITS, ONE, ZERO, J, NotCovered, Number, Place, direction, largest, real, total
+from verify_machine import ON_FRAME, Machine, over, row_masses
+from verify_numbers import BITS, ONE, SPECK, ZERO, J, NotCovered, Number, Place, direction, real
+from verify_spans import Spans
 
 
 class Row(NamedTuple):
     """A piston on its crank."""
 
     product: Number  # reciprocating mass times crank radius, kg m
+    radius: Number  # of the crank, m
     crank: Number
     axis: Number
     ratio: Number  # crank radius over rod length
     position: Number
+    place: Place  # in the request
 
 
 class Turn:
@@ -30,16 +34,20 @@ class Turn:
             raise NotCovered(fidelity / "kinematics")
         if loads and asked / "friction":
             raise NotCovered(asked / "friction")
-        if loads and (fidelity / "shaft").text(default="simple_spans") != "simple_spans":
-            raise NotCovered(fidelity / "shaft")
+        continuous = (fidelity / "shaft").text("simple_spans", "continuous", default="simple_spans") == "continuous"
         self.rows = list(_rows(asked, loads))
         self.turning = [mass for mass in machine.masses if mass.counter is ZERO]
-        places = [((one / "name").text(), (one / "position_m").number() * machine.wide) for one in asked / "bearings"]
-        self.bearings, self.place = sorted(places, key=lambda one: one[1].low), asked / "bearings"
+        self.place = asked / "bearings"
+        bearings = sorted((Fraction((one / "position_m").double()), (one / "name").text()) for one in self.place)
+        #: names of the bearings, and what they carry, in rising places
+        self.bearings = {name: n for n, (_, name) in enumerate(bearings)}
+        self.places = [float(place) for place, _ in bearings]
+        apart = all(one < other for (one, _), (other, _) in zip(bearings, bearings[1:]))
+        self.spans = Spans([place for place, _ in bearings], continuous) if len(bearings) > 1 and apart else None
         self._known: Dict[Tuple[str, int], Number] = {}
 
     def seen(self, response: str, degrees: float) -> Number:
-        """A response without counterweights at a shaft angle, as the shaft sees it."""
+        """A response without counterweights but those that are fixed, at a shaft angle, as the shaft sees it."""
         machine, on_shaft = self.machine, response.partition(":")[0] in ("bearing", "bending")
         turn = self.turned(degrees)
         found = ZERO
@@ -50,11 +58,15 @@ class Turn:
             root, both = _root(upright), row.ratio * cosine * sine
             outward = cosine + over(row.ratio * (cosine * cosine - sine * sine), root, self.place)
             outward = outward + over(row.ratio * both * both, upright * root, self.place)
+            tangent = over(row.ratio * sine, root, self.place)
+            if response == "roll":
+                found = found + row.product * row.radius * machine.wide * outward * (sine + cosine * tangent)
+                continue
             force = row.product * machine.wide * outward * row.axis * turn.conjugate()
             if on_shaft:
-                force = force * (ONE - J * over(row.ratio * sine, root, self.place))
+                force = force * (ONE - J * tangent)
             found = found + force * self.factor(response, row.position)
-        for mass in self.turning:
+        for mass in (*self.turning, *machine.there) if response != "roll" else ():
             size = mass.product * machine.wide * self.factor(response, mass.position)
             found = found + (mass.co + machine.blur) * size
         return found * machine.square
@@ -73,31 +85,27 @@ class Turn:
 
     def _adds(self, response: str, position: Number) -> Number:
         kind, _, name = response.partition(":")
-        place = position * self.machine.wide
-        if kind in NAMES:
-            return ONE if kind == "force" else place - self.machine.plane * self.machine.wide
-        carried = self._carried(place)
+        if kind == "roll":
+            return ZERO
+        if kind in ON_FRAME:
+            return self.machine.arm(kind, position, self.machine.wide)
+        if self.spans is None:
+            raise NotCovered(self.place)
+        place = Fraction(position.low + position.high, 1 << BITS + 1)
         if kind == "bearing":
-            return carried[name]
-        plane = real(float(name)) * self.machine.wide
-        arms = (largest(where - plane, ZERO) * carried[each] for each, where in self.bearings)
-        return total(arms) - largest(place - plane, ZERO)
-
-    def _carried(self, place: Number) -> Dict[str, Number]:
-        """Shares of a load in a plane that the bearings carry, every span by itself, overhangs with the next."""
-        found = {name: ZERO for name, _ in self.bearings}
-        k = sum(place.low > where.low for _, where in self.bearings[1:-1])
-        (left, start), (right, end) = self.bearings[k : k + 2]
-        found[left], found[right] = (over(one, end - start, self.place) for one in (end - place, place - start))
-        return found
+            exact, size = self.spans.shares(place)[self.bearings[name]], Fraction(1)
+        else:
+            exact, size = self.spans.bending(Fraction(float(name)), place), self.spans.extent
+        # the service takes differences of places
+        return real(exact) + SPECK * real(abs(exact) + size)
 
     def knows(self, response: str) -> bool:
         """Whether there is such a response."""
         kind, _, name = response.partition(":")
         if kind not in ("bearing", "bending"):
-            return response in NAMES
-        if len(self.bearings) < 2 or kind == "bearing":
-            return len(self.bearings) > 1 and name in dict(self.bearings)
+            return response in (*ON_FRAME, "roll")
+        if self.spans is None or kind == "bearing":
+            return self.spans is not None and name in self.bearings
         try:
             return isfinite(float(name))
         except ValueError:
@@ -115,7 +123,8 @@ def _rows(asked: Place, loads: bool) -> Iterator[Row]:
             weight = row_masses(row)[0]
             ratio = over(radius, (rod / "length_m").number(), rod) if rod / "length_m" else ZERO
             where = (throw / "position_m").number() + (row / "offset_m").number(0.0)
-            yield Row(weight * radius, crank, direction((row / "axis_deg").double()), ratio, where)
+            axis = direction((row / "axis_deg").double())
+            yield Row(weight * radius, radius, crank, axis, ratio, where, row)
 
 
 def _root(number: Number) -> Number:

@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Dict, List, NamedTuple, Optional, Sequence, Tuple
 
 from verify_cases import Case, Scatter, goal_of
 from verify_curves import Turn
-from verify_machine import NAMES, Responses, over
+from verify_loads import Loads
+from verify_machine import ON_FRAME, Responses, over
 from verify_numbers import ABOUT_ONE, ONE, ZERO, J, NotCovered, Number, Place, largest
 from verify_program import CEILINGS, Statement
+from verify_program import Term as Length
+from verify_shafts import Geared, geared
 
 #: fields of an objective that look at the whole turn and are known here
-FIELDS = "orders bearing_weight bearing_ceiling_N specific_load_ceiling_Pa bending_weight bending_ceiling_Nm"
+FIELDS = (
+    "orders bearing_weight bearing_ceiling_N specific_load_ceiling_Pa bending_weight bending_ceiling_Nm roll_weight"
+)
+#: of balance shafts
+SHAFTS = " balance_shafts speed_ratio x_m y_m roll_weight "
 #: case, goal and kind
 Group = Tuple[Optional[str], int, str]
 
@@ -22,9 +30,10 @@ class Term(NamedTuple):
     row: str
     group: Group
     start: Number
-    factors: List[Number]  # of every web, per kg m
+    factors: List[Number]  # of every web, and of those of balance shafts, per kg m
     y: Number  # its multiplier
     floor: Number  # of its row
+    scalar: bool = False  # the real part alone counts
 
 
 class Part:
@@ -36,45 +45,77 @@ class Part:
         goal = self.goal
         self.all = (goal / "orders").text("first", "all", default="first") == "all"
         self.apart = (goal / "combine").text("sum", "max", default="sum") == "sum"
+        self.unweighted = weights
         self.weights = {name: weight * case.weight for name, weight in weights.items()}
-        if self.weights["bearing"].high > 0 and (goal / "bearing_measure").value == "rms":
-            raise NotCovered(goal / "bearing_measure")
-        self.area = {}
-        if (goal / "bearing_measure").value == "specific":
+        self.mean = (goal / "bearing_measure").value == "rms"
+        self.area, self.specific = {}, (goal / "bearing_measure").value == "specific"
+        if self.specific or goal / "specific_load_ceiling_Pa":
             for one in request / "machine" / "bearings":
                 self.area[(one / "name").text()] = (one / "diameter_m").number() * (one / "length_m").number()
         names = FIELDS.split()[1:]
         loads = any((goal / name).value not in (None, 0) for name in names)
-        self.turn = Turn(request, machine, loads)
+        rolls = weights["roll"].high > 0
+        self.turn = Turn(request, machine, loads or rolls)
         limits = [*names, *(CEILINGS.values() if self.all else ())]
         self.limited = any("_ceiling_" in name and goal / name for name in limits)
-        self.loads = loads or self.all
-        external = {name: self.weights[name] for name in NAMES if name in self.weights and not self.all}
+        self.of_shaft, self.over_turn = loads, loads or rolls or self.all
+        external = {name: self.weights[name] for name in ON_FRAME if name in self.weights and not self.all}
         self.rows = {"sum": external} if self.apart else {name: {name: weight} for name, weight in external.items()}
-        self.exact = Statement(machine, goal, self.rows if external else {}, capped=not self.all)
+        self.geared = geared(request / "machine", machine, mirrored=not self.all)
+        backwards = any(one.ratio == -1 for one in self.geared)
+        self.exact = Statement(machine, goal, self.rows if external else {}, not self.all, backwards)
+
+    @cached_property
+    def loads(self) -> Loads:
+        """Curves over the revolution."""
+        return Loads(self.case.request / "machine", self.machine, self.turn)
 
     def term(self, one: Place) -> Term:
         response, row = (one / "response").text(), (one / "row").text()
         kind, _, name = response.partition(":")
         y = (one / "x").number() + J * (one / "y").number()
-        if kind not in self.weights or not self.turn.knows(response):
+        if kind not in self.weights or self.weights[kind].high <= 0 or not self.turn.knows(response):
             raise NotCovered(one)
         if not one / "angle_deg":
             exact = self.exact.terms.get((response, (one / "part").text("co", "counter")))
             if exact is None:
                 raise NotCovered(one)
             floor = self.exact.floor[exact.row]
-            return Term(row, self._group("first"), exact.start, self._factors(response, exact.factor), y, floor)
-        weight = self.weights[kind] * ABOUT_ONE
-        weight = over(weight, self.area[name], one) if kind == "bearing" and self.area else weight
-        start = self.turn.seen(response, (one / "angle_deg").double()) * weight
-        return Term(row, self._group(kind), start, self._factors(response, weight), y, ZERO)
+            return Term(row, self._group("first"), exact.start, self.of_first_order(exact), y, floor)
+        weight, degrees = self.weights[kind] * ABOUT_ONE, (one / "angle_deg").double()
+        weight = over(weight, self.area[name], one) if kind == "bearing" and self.specific else weight
+        start, factors = self.turn.seen(response, degrees) * weight, self.at(response, degrees, weight)
+        return Term(row, self._group(kind), start, factors, y, ZERO, kind == "roll")
+
+    def of_first_order(self, term: Length) -> List[Number]:
+        """Factors of a length of the first order."""
+        back = [one.first(term.factor, term.backwards) * self._arm(term.moves, one) for one in self.geared]
+        return [*self._factors(term.moves, term.factor), *back]
+
+    def of_ceiling(self, response: str) -> List[Number]:
+        """Factors of what a ceiling of the first order limits."""
+        axis = response.partition(":")[2]
+        return self.of_first_order(Length("", response, ZERO, ONE, {"x": ONE, "y": -ONE}.get(axis, ZERO)))
+
+    def at(self, response: str, degrees: float, weight: Number) -> List[Number]:
+        """Factors of a response at a shaft angle."""
+        unit, square = self.turn.turned(degrees), self.machine.square
+        if response == "roll":
+            on_shafts = [one.roll(unit) * square for one in self.geared]
+        else:
+            # those on balance shafts do not load the crankshaft
+            moves = response in ON_FRAME
+            on_shafts = [one.seen(unit) * self._arm(response, one) if moves else ZERO for one in self.geared]
+        return [*self._factors(response, weight), *(one * weight for one in on_shafts)]
+
+    def _arm(self, response: str, one: Geared) -> Number:
+        return self.turn.factor(response, one.web.position) * self.machine.square
 
     def value(self, responses: Responses, off: Scatter, sizes: Sequence[Number]) -> Number:
         """The objective of the first order where counterweights of these sizes [kg m] are off."""
         rows = self.exact.values(responses)
         for term in self.exact.terms.values():
-            rows[term.row] = rows[term.row] + off.of(self._factors(term.moves, term.factor), sizes)
+            rows[term.row] = rows[term.row] + off.of(self.of_first_order(term), sizes)
         return largest(ZERO, *rows.values())
 
     def _group(self, kind: str) -> Group:
@@ -89,26 +130,26 @@ class Part:
         """What a ceiling limits, and how much it allows."""
         response, goal = (one / "response").text(), self.goal
         kind, _, name = response.partition(":")
-        along = bool(name) and kind in NAMES
+        along = bool(name) and kind in ON_FRAME
         if one / "angle_deg" and not self.turn.knows(kind if along else response):
             raise NotCovered(one)
         if not one / "angle_deg":
             if response not in self.exact.caps:
                 raise NotCovered(one)
-            co, counter = self.machine.before[kind]
+            co, counter = self.machine.laden[kind]
             start = co if not name else co + counter.conjugate() * (ONE if name == "x" else -ONE)
-            return start, self._factors(kind, ONE), self.exact.caps[response]
+            return start, self.of_ceiling(response), self.exact.caps[response]
         degrees = (one / "angle_deg").double()
         if along and self.all and response in CEILINGS and goal / CEILINGS[response]:
             # the real part of what is turned to the frame and to the axis
             back = self.turn.turned(degrees) * (ONE if name == "x" else -J)
-            factors = [factor * back.conjugate() for factor in self._factors(kind, ONE)]
+            factors = [factor * back for factor in self.at(kind, degrees, ONE)]
             return self.turn.seen(kind, degrees) * back, factors, (goal / CEILINGS[response]).number(least=0)
         start = self.turn.seen(response, degrees)
+        field = CEILINGS.get(kind) or {"bearing": "bearing_ceiling_N"}.get(kind, "")
+        caps = [limit.number(least=0) for limit in [goal / (field or "bending_ceiling_Nm")] if limit]
         if kind == "bearing" and goal / "specific_load_ceiling_Pa":
-            raise NotCovered(goal / "specific_load_ceiling_Pa")
-        field = f"{kind}_ceiling_{NAMES[kind]}" if kind in NAMES else {"bearing": "bearing_ceiling_N"}.get(kind, "")
-        cap = goal / (field or "bending_ceiling_Nm")
-        if not cap:
+            caps.append((goal / "specific_load_ceiling_Pa").number(least=0) * self.area[name])
+        if not caps:
             raise NotCovered(one)
-        return start, self._factors(response, ONE), cap.number(least=0)
+        return start, self.at(response, degrees, ONE), min(caps, key=lambda cap: cap.high)

@@ -8,7 +8,7 @@ from typing import Callable, Iterator, Sequence
 from verify_alternatives import alternatives
 from verify_answer import Fitted, closest
 from verify_claims import EVIDENCE, Claim, Claims, near, same
-from verify_machine import NAMES, Machine, Mass, Responses
+from verify_machine import FRAME_FIELDS, NAMES, Machine, Mass, Responses
 from verify_numbers import (
     ABOUT_ONE,
     ONE,
@@ -23,7 +23,7 @@ from verify_numbers import (
     total,
 )
 from verify_prices import prices, sensitivity
-from verify_program import CEILINGS, Statement, phasors
+from verify_program import CEILINGS, Statement, phasors, weighed
 from verify_weights import catalogue, heavy_enough, stocked
 
 CEILING = 1e-9  # of the larger of a ceiling and what is there without counterweights, likewise
@@ -75,14 +75,11 @@ def ceilings(statement: Statement, weights: Sequence[Mass], place: Place, kept: 
 
 def optimum(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> Claims:
     """The proof of the answer to one request, with its counterweights."""
-    request.known()
+    request.known(FRAME_FIELDS)
     asked, goal, proof = request / "machine", request / "objective", answer / "certificate"
     if (goal / "orders").text("first", "all", default="first") == "all":
         raise NotCovered(goal / "orders")
-    weights = {"force": (goal / "force_weight").number(1.0, least=0), "moment": ONE / machine.span}
-    if goal / "moment_weight":
-        weights["moment"] = (goal / "moment_weight").number(least=0)
-    weights = {name: weight for name, weight in weights.items() if weight.high > 0}
+    weights = {name: weight for name, weight in weighed(goal, machine).items() if weight.high > 0}
     together = (goal / "combine").text("sum", "max", default="sum") == "sum"
     rows = {"sum": weights} if together else {name: {name: weight} for name, weight in weights.items()}
     statement = Statement(machine, goal, rows)
@@ -170,14 +167,14 @@ def yardstick(statement: Statement, place: Place, rest: Number, implied: Place) 
 
 def infeasible(request: Place, answer: Place, budget: Place, said: Place) -> Claims:
     """No counterweights within the limits keep the ceilings, and what can be reached without them."""
-    request.known()
+    request.known(FRAME_FIELDS)
     goal, proofs, implied = request / "objective", said / "multipliers", said / "implied_max_mass_kg"
-    plain = Machine(request / "machine", answer / "reference_plane_m", budget)
-    exact = Machine(request / "machine", answer / "reference_plane_m", budget, exact=True)
+    plain = Machine(request / "machine", goal, answer / "reference_plane_m", budget)
+    exact = Machine(request / "machine", goal, answer / "reference_plane_m", budget, exact=True)
     statement = Statement(exact, goal, {})
     given = {CEILINGS[name]: name for name in statement.caps}
-    named = [one.text(*given) for one in said / "conflict"]
-    yield from (("conflict", one, ONE, ONE) for one in said / "conflict")
+    named = [one.text() for one in said / "conflict"]
+    yield from (("conflict", one, ONE if one.value in given else -ONE, ONE) for one in said / "conflict")
     if len({*named}) < len(named):
         yield "conflict", said / "conflict", -ONE, ONE
     if proofs / "conflict" and named:
@@ -195,6 +192,9 @@ def infeasible(request: Place, answer: Place, budget: Place, said: Place) -> Cla
             yield "conflict", lowest, lowest.number() - (goal / f"{name}_ceiling_{unit}").number(), lowest.number()
     for one in said / "smallest":
         name, lowest = (one / "response").text(*CEILINGS), one / "lower_bound"
+        if CEILINGS[name] not in given:
+            yield "smallest", one / "response", -ONE, ONE
+            continue
         alone, priced = Statement(plain, Place({}), {name: {name: ONE}}), partial(priced_at, {name: lowest.number()})
         yield from proven("smallest", lowest, alone, one / "multipliers", implied, {}, priced)
         yield "smallest", one / "response", ONE, ONE

@@ -21,10 +21,12 @@ counterweights: web mass_kg angle_deg position_m radius_m throw angle_from_crank
 shape: half_angle_deg chord_height_m outer_radius_m inertia_kg_m2
 balance_shafts: name speed_ratio gearing total_mass_kg counterweights
 shadow_prices: limit web value unit
-worst_case: force_peak_N moment_peak_Nm bearing_peak_N objective
+worst_case: force_peak_N moment_peak_Nm responses bearing_peak_N objective
+worst_case/responses closest/responses: response label unit peak
 price_of_robustness: nominal nominal_optimum nominal_optimum_worst_case
 sensitivity: objective_rise_per_deg objective_rise_per_percent
-residual: before after orders turn
+residual: before after orders responses turn
+residual/responses: response label unit before after turn_before turn_after
 residual/before residual/after first_order without_counterweights: force moment
 residual/before/force residual/after/force first_order/force without_counterweights/force: peak_N minor_N
   major_axis_deg peak_x_N peak_y_N co_rotating_N counter_rotating_N
@@ -50,7 +52,7 @@ ceilings: response part angle_deg scenario x y
 infeasibility: conflict smallest_force_N smallest_moment_Nm smallest_force_lower_bound_N
   smallest_moment_lower_bound_Nm scenarios smallest implied_max_mass_kg closest multipliers
 smallest: response ceiling_field ceiling smallest lower_bound multipliers
-closest: counterweights balance_shafts first_order
+closest: counterweights balance_shafts first_order responses
 infeasibility/multipliers: conflict smallest_force smallest_moment
 balance_rate: throw name rate sideways
 balance_quality: permissible_kg_m before after

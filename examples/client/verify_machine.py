@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Dict, NamedTuple, Optional, Sequence, Tuple
+from typing import Callable, Dict, NamedTuple, Optional, Sequence, Tuple
 
 from verify_numbers import (
     ABOUT_ONE,
@@ -49,14 +49,35 @@ class Web(NamedTuple):
 
 
 NAMES = {"force": "N", "moment": "Nm"}
-#: phasors that turn with and against the shaft, of force [N] and moment [N m]
+
+
+class OnFrame(NamedTuple):
+    """A response on the frame: the end of its fields, what it has of force and moment, and the fields that say so."""
+
+    unit: str
+    shares: Callable[[Machine, Place], Tuple[Number, Number]]  # by the fields of an objective
+    fields: str = ""
+
+
+#: all that an objective may weigh and limit on the frame
+ON_FRAME: Dict[str, OnFrame] = {
+    "force": OnFrame("N", lambda machine, goal: (ONE, ZERO)),
+    "moment": OnFrame("Nm", lambda machine, goal: (ZERO, ONE)),
+    # beside force and moment
+}
+#: fields of an objective about them
+FRAME_FIELDS = " ".join(
+    f"{name}_weight {name}_ceiling_{one.unit} {name}_ceiling_x_{one.unit} {name}_ceiling_y_{one.unit} {one.fields}"
+    for name, one in ON_FRAME.items()
+)
+#: phasors that turn with and against the shaft, in the units of the answer
 Responses = Dict[str, Tuple[Number, Number]]
 
 
 class Machine:
     """A machine in the units of the answer; its masses are exact, or known to their rounding."""
 
-    def __init__(self, place: Place, plane: Place, budget: Place, exact: bool = False) -> None:
+    def __init__(self, place: Place, goal: Place, plane: Place, budget: Place, exact: bool = False) -> None:
         (place / "rotation").text("ccw", "cw", default="ccw")
         kind = (place / "kind").text("reciprocating", "scroll")
         masses, planes, ends = (_throws if kind == "reciprocating" else _scroll)(place)
@@ -74,29 +95,45 @@ class Machine:
         # where the machine says that moments are, or midway; where the answer says so is what counts from here
         self.asked_plane = (place / "reference_plane_m").number(0.5 * (min(planes) + max(planes)))
         self.plane = plane.number() if plane else self.asked_plane
+        self.shares = {name: one.shares(self, goal) for name, one in ON_FRAME.items()}
         ends = [*ends, *((web / "position_m").double() for web in place / "webs")]
         span = real(max(ends)) - real(min(ends))
         self.span = span if span.low > real(NO_SPAN).high else ONE
         self.groups = _groups(place)
         #: what is there already: the program chooses beside it, within what it leaves of the budget
         there = [(web, *web.fixed) for web in self.webs if web.fixed is not None]
-        fixed = [Mass(mass * web.radius, direction(angle), ZERO, web.position) for web, mass, angle in there]
+        self.there = [Mass(mass * web.radius, direction(angle), ZERO, web.position) for web, mass, angle in there]
         self.fixed = total(mass for _, mass, _ in there)
         self.left = largest(self.budget - self.fixed, ZERO) if self.budget is not None else None
-        self.before, self.laden = self.responses([]), self.responses(fixed)
+        self.before, self.laden = self.responses([]), self.responses(self.there)
 
     def responses(self, weights: Sequence[Mass]) -> Responses:
         """With counterweights."""
         found = {}
-        for name in NAMES:
+        for name in ON_FRAME:
             co = counter = ZERO
             for mass in (*self.masses, *weights):
-                arm = ONE if name == "force" else mass.position * self.wide - self.plane * self.wide
+                arm = self.arm(name, mass.position, self.wide)
                 size = mass.product * self.wide * self.square * arm
                 co = co + (mass.co + self.blur) * size if mass.co is not ZERO else co
                 counter = counter + (mass.counter + self.blur) * size if mass.counter is not ZERO else counter
             found[name] = co, counter
         return found
+
+    def arm(self, name: str, position: Number, wide: Number = ONE) -> Number:
+        """What a unit of force in a plane adds to a response. ``wide``: what every product may be off by."""
+        force, moment = self.shares[name]
+        if moment is ZERO:
+            return force if force is ONE else force * wide
+        along = position - self.plane if wide is ONE else position * wide - self.plane * wide
+        along = along if moment is ONE else along * moment * wide
+        return along if force is ZERO else along + force * wide
+
+    def add(self, slopes: Dict[str, Number], name: str, by: Number) -> None:
+        """Add to the slopes by force and moment what a response has of them."""
+        for of, share in zip(NAMES, self.shares[name]):
+            if share is not ZERO:
+                slopes[of] = slopes[of] + (by if share is ONE else by * share)
 
     def together(self, pulls: Sequence[Number]) -> list[Number]:
         """What pulls at the webs, of identical castings by the mean of what pulls at all, as seen from their cranks."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from functools import partial
-from typing import Any, Iterator
+from typing import Any, Dict, Iterator
 
 from verify_answer import MASS_GAP, before, touched
 from verify_cases import with_value
@@ -12,7 +12,7 @@ from verify_claims import EVIDENCE, Claim, Claims, covered, near, same
 from verify_first import CEILING, ceilings, infeasible, light, lightest, priced_at, proven, smallest
 from verify_form import form
 from verify_leaves import Path
-from verify_machine import NAMES, Machine, Responses
+from verify_machine import FRAME_FIELDS, NAMES, ON_FRAME, Machine, Responses
 from verify_numbers import ABOUT_ONE, ONE, SPECK, ZERO, NotCovered, Number, Place, Unreadable, largest, real
 from verify_orders import first_order
 from verify_program import CEILINGS, Statement
@@ -27,7 +27,7 @@ UNSURE = 1e-9
 def front(request: Place, answer: Place) -> Claims:
     """Fronts of force and moment, one for each budget."""
     yield from form(answer, ("pareto",))
-    request.known()
+    request.known(FRAME_FIELDS)
     asked, goal = request / "machine", request / "objective"
     plain = _machine(request, answer, asked / "max_total_mass_kg")
     yield from before(request, plain, answer)
@@ -100,7 +100,7 @@ def _scale(statement: Statement, place: Place) -> Claim:
 
 
 def _machine(request: Place, answer: Place, budget: Place) -> Machine:
-    return Machine(request / "machine", answer / "reference_plane_m", budget)
+    return Machine(request / "machine", request / "objective", answer / "reference_plane_m", budget)
 
 
 def point(statement: Statement, request: Place, scale: Place, answer: Place) -> Claims:
@@ -212,7 +212,7 @@ def _row(request: Place, row: Place) -> Claims:
         "status": status,
         "counterweights": weights if status != "infeasible" else [],
         "total_mass_kg": (row / "total_mass_kg").value,
-        "residual": {"after": peaks if status != "infeasible" else None},
+        "residual": {"after": peaks, "responses": list(_beside(row))} if status != "infeasible" else {"after": None},
         "certificate": proofs if status != "infeasible" else None,
         "infeasibility": {**proofs, "conflict": given} if status == "infeasible" else None,
     }
@@ -222,6 +222,14 @@ def _row(request: Place, row: Place) -> Claims:
         yield EVIDENCE, row / "multipliers", None, ONE
 
 
+def _beside(row: Place) -> Iterator[Dict[str, Any]]:
+    """Peaks of the responses that count beside force and moment."""
+    for name, one in ON_FRAME.items():
+        column = f"{name}_peak_{one.unit}"
+        if name not in NAMES and row / column:
+            yield {"response": name, "after": (row / column).value}
+
+
 def _column(path: Path, start: int, found: Any) -> Path:
     """The column of a row in which a field of an answer stands."""
     row, inner = path[:start], path[start:]
@@ -229,6 +237,9 @@ def _column(path: Path, start: int, found: Any) -> Path:
         return (*row, f"{inner[2]}.{found['counterweights'][inner[1]]['web']}")
     if inner[:2] == ("residual", "after") and len(inner) == 4:
         return (*row, f"{inner[2]}_{inner[3]}")
+    if inner[:2] == ("residual", "responses") and len(inner) == 4:
+        name = found["residual"]["responses"][inner[2]]["response"]
+        return (*row, f"{name}_peak_{ON_FRAME[name].unit}")
     if inner[:1] in (("certificate",), ("infeasibility",)):
         return (*row, *inner[1:2])
     return path

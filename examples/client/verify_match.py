@@ -1,54 +1,218 @@
-"""Checks which weighed part goes on which row: each part once, and what the rows weigh with theirs.
+"""Checks which weighed part goes on which row: each part once, what the rows weigh, and what the machine comes to.
 
-What no other assignment undercuts, and the peaks, are not covered: of those the answer to optimize, or analyze, of the
-machine with these rows says all.
+That no assignment is better is proven by comparing all of them, where there are no more than a few thousand. Else it is
+not covered, nor is the best of the parts as they are listed where counterweights are chosen as well.
 """
 
 from __future__ import annotations
 
-from typing import Dict, Tuple
+import copy
+from itertools import combinations, permutations, product
+from math import factorial, perm
+from typing import Any, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple
 
 from verify_claims import Claims, near, same
-from verify_numbers import ABOUT_ONE, ONE, ZERO, NotCovered, Number, Place
+from verify_machine import NAMES, Machine, Responses
+from verify_numbers import ABOUT_ONE, ONE, SPECK, ZERO, Number, Place, Unreadable, largest, real
+from verify_orders import first_order
+from verify_program import Statement
+from verify_weights import counterweights
 
 __all__ = ["matching"]
+
+#: assignments that are compared, and what doubles may be off by, of all forces together
+MOST, ROUNDING = 5_000, 1e-11
+NUT = "balance_nut"
+Row = Tuple[int, int]
+
+
+class Parts(NamedTuple):
+    """Parts of a class by their names, in the order of the list, and the rows that take one each."""
+
+    name: str
+    masses: Dict[str, float]
+    rows: List[Row]
 
 
 def matching(request: Place, answer: Place) -> Claims:
     """Claims of an assignment of parts to rows."""
-    listed: Dict[Tuple[str, str], Number] = {}
+    asked = request / "machine"
+    rows = [(k, n) for k, throw in enumerate(asked / "throws") for n, _ in enumerate(throw / "rows")]
+    classes, nuts = list(_classes(request, rows)), _nuts(request)
+    matched = yield from _assigned(answer, classes, nuts, rows)
+    listed = dict.fromkeys(rows, 0.0)
+    for each in classes:
+        for row, mass in zip(each.rows, each.masses.values()):
+            listed[row] += mass
+    shown = list(answer / "rows")
+    places = [(int((row / "throw").double()), int((row / "row").double())) for row in shown]
+    yield "rows", answer / "rows", ONE if places == rows else -ONE, ONE
+    own = [row for throw in asked / "throws" for row in throw / "rows"]
+    for one, row, mine in zip(shown, places, own):
+        for name in ("throw", "row"):
+            yield same("rows", one / name, (one / name).value)
+        yield same("rows", one / "name", (mine / "name").value)
+        mass = (mine / "reciprocating_mass_kg").number(least=0) + real(matched.get(row, 0.0))
+        yield near("rows", one / "reciprocating_mass_kg", mass * ABOUT_ONE)
+    yield from _evaluated(request, answer, [_with(asked, by_row) for by_row in (listed, matched)], classes, nuts)
+
+
+def _classes(request: Place, rows: List[Row]) -> Iterator[Parts]:
     for kind in request / "parts":
         names = [each.text() for each in kind / "names"]
-        weights = [each.number(least=0) for each in kind / "masses_kg"]
-        listed.update(zip([((kind / "class").text(), name) for name in names], weights))
-    total = answer / "total_mass_kg"
-    sum_of_all = sum(((each / "mass_kg").number() for each in answer / "counterweights"), ZERO)
-    yield near("total_mass", total, sum_of_all * ABOUT_ONE, max(total.number(), ONE, key=lambda each: each.high))
-    if (request / "balance_nuts_kg").value:
-        # nuts have no names, and may lie beside the machine
-        raise NotCovered(request / "balance_nuts_kg")
-    weight: Dict[Tuple[int, int], Number] = {}
-    for k, throw in enumerate(request / "machine" / "throws"):
-        for n, row in enumerate(throw / "rows"):
-            weight[k, n] = (row / "reciprocating_mass_kg").number(least=0)
-    left = dict(listed)
-    for part in answer / "assignments":
-        key = (part / "class").text(), (part / "part").text()
-        place = int((part / "throw").double()), int((part / "row").double())
-        known = key in left and place in weight
-        for name in ("class", "part", "throw", "row"):
-            yield "assignments", part / name, ONE if known else -ONE, ONE
-        if known:
-            mass = left.pop(key)
-            yield near("assignments", part / "mass_kg", mass)
-            weight[place] = weight[place] + mass
-    yield same("spares", Place(len(list(answer / "spares")), *(answer / "spares").path), 0)
+        masses = [each.double(least=0) for each in kind / "masses_kg"]
+        taking = [(int((one / "throw").double()), int((one / "row").double())) for one in kind / "rows"]
+        if len({*names}) < len(names) or len(names) != len(masses) or not {*taking} <= {*rows}:
+            raise Unreadable(kind.path, "names, masses and rows must go together")
+        yield Parts((kind / "class").text(), dict(zip(names, masses)), taking or rows)
+
+
+def _nuts(request: Place) -> Dict[str, float]:
+    return {str(n + 1): each.double(least=0) for n, each in enumerate(request / "balance_nuts_kg")}
+
+
+def _assigned(answer: Place, classes: Sequence[Parts], nuts: Dict[str, float], rows: List[Row]) -> Claims:
+    """Every part on a row of its class, one each; nuts there or among the spares. Returns masses by rows."""
+    left = {(each.name, name): mass for each in classes for name, mass in each.masses.items()}
+    left.update({(NUT, name): mass for name, mass in nuts.items()})
+    rows_of = {each.name: list(each.rows) for each in classes}
+    rows_of[NUT] = list(rows)
+    matched: Dict[Row, float] = {}
+    for where in ("assignments", "spares"):
+        for part in answer / where:
+            key = (part / "class").text(), (part / "part").text()
+            known = key in left and (where == "assignments" or key[0] == NUT)
+            if where == "assignments":
+                row = int((part / "throw").double()), int((part / "row").double())
+                known = known and row in rows_of[key[0]]
+                for name in ("throw", "row"):
+                    yield "assignments", part / name, ONE if known else -ONE, ONE
+                if known:
+                    rows_of[key[0]].remove(row)
+                    matched[row] = matched.get(row, 0.0) + left[key]
+            for name in ("class", "part"):
+                yield where, part / name, ONE if known else -ONE, ONE
+            if known:
+                yield near(where, part / "mass_kg", real(left.pop(key)))
     yield "assignments", answer / "assignments", -ONE if left else ONE, ONE
-    rows = list(answer / "rows")
-    places = [(int((row / "throw").double()), int((row / "row").double())) for row in rows]
-    yield "rows", answer / "rows", ONE if sorted(places) == sorted(weight) else -ONE, ONE
-    for row, place in zip(rows, places):
-        for name in ("throw", "row"):
-            yield same("rows", row / name, (row / name).value if place in weight else None)
-        yield near("rows", row / "reciprocating_mass_kg", weight.get(place, ZERO) * ABOUT_ONE)
-    raise NotCovered(request / "parts")
+    return matched
+
+
+def _with(asked: Place, by_row: Dict[Optional[Row], float]) -> Place:
+    """The machine with masses on its rows."""
+    body: Any = copy.deepcopy(asked.value)
+    for k, throw in enumerate(asked / "throws"):
+        for n, row in enumerate(throw / "rows"):
+            mass = (row / "reciprocating_mass_kg").double(0.0) + by_row.get((k, n), 0.0)
+            body["throws"][k]["rows"][n]["reciprocating_mass_kg"] = mass
+    return Place(body, *asked.path)
+
+
+def _evaluated(
+    request: Place, answer: Place, machines: Sequence[Place], classes: Sequence[Parts], nuts: Dict[str, float]
+) -> Claims:
+    """Both ellipses, the objective, and its gap."""
+    goal, proof, none = request / "objective", answer / "certificate", Place(None)
+    before, after = (Machine(asked, goal, none, none) for asked in machines)
+    chosen = (request / "choose_counterweights").value is True
+    turning, mass = yield from counterweights(after, answer / "counterweights", machines[1])
+    yield near("total_mass", answer / "total_mass_kg", mass, largest(mass, ONE))
+    if not chosen:
+        there = {(one / "web").text(): one for one in request / "counterweights"}
+        for one in answer / "counterweights":
+            given = there.get((one / "web").text(), Place({"mass_kg": 0.0, "angle_deg": 0.0}))
+            yield near("counterweights", one / "mass_kg", (given / "mass_kg").number())
+    weights = {"force": (goal / "force_weight").number(1.0, least=0), "moment": ONE / after.span}
+    if goal / "moment_weight":
+        weights["moment"] = (goal / "moment_weight").number(least=0)
+    together = (goal / "combine").text("sum", "max", default="sum") == "sum"
+    rows = {"sum": weights} if together else {name: {name: weight} for name, weight in weights.items()}
+
+    def value(machine: Machine, responses: Responses) -> Number:
+        return largest(ZERO, *Statement(machine, goal, rows, capped=False).values(responses).values())
+
+    found = after.responses(turning)
+    objective = value(after, found)
+    yield from first_order("after", answer / "residual" / "after", found)
+    yield near("objective", proof / "objective", objective)
+    size = value(before, before.laden)
+    if not chosen:
+        listed = before.responses(turning)
+        size = value(before, listed)
+        yield from first_order("before", answer / "residual" / "before", listed)
+        yield near("before", proof / "objective_as_listed", size)
+    yield near("yardstick", proof / "yardstick", size)
+    yield from _gap(request, answer, proof)
+    if not chosen and _count(classes, nuts, len(list(_places(request / "machine")))) <= MOST:
+        lengths = {name: float(weight) for name, weight in weights.items()}
+        bare = [_with(request / "machine", {row: 1.0}) for row in [None, *_places(request / "machine")]]
+        responses = [Machine(one, none, none, none).responses(turning) for one in bare]
+        least = min(_every(request, lengths, together, responses, classes, nuts))
+        off = ROUNDING * (float(abs(size)) + float(objective))
+        room = least + off - (proof / "lower_bound").double(0.0)
+        yield "lower_bound", proof / "lower_bound", real(room), real(max(abs(least), off))
+
+
+def _gap(request: Place, answer: Place, proof: Place) -> Claims:
+    optimal = (answer / "status").text("optimal", "inaccurate") == "optimal"
+    if not proof / "lower_bound":
+        yield "status", answer / "status", -ONE if optimal else ONE, ONE
+        return
+    value, lowest = (proof / "objective").number(), (proof / "lower_bound").number()
+    size, gap = (proof / "yardstick").number(least=0), value - lowest
+    noise = SPECK * (abs(value) + abs(lowest))
+    yield near("gap", proof / "gap", gap + noise)
+    yield near("relative_gap", proof / "relative_gap", (gap + noise) * ABOUT_ONE / size if size.low > 0 else ZERO)
+    wide = (request / "accuracy" / "relative_gap").number(1e-3, least=0)
+    yield "status", answer / "status", wide * size + noise - gap if optimal else ONE, ONE
+
+
+def _places(asked: Place) -> Iterator[Row]:
+    return ((k, n) for k, throw in enumerate(asked / "throws") for n, _ in enumerate(throw / "rows"))
+
+
+def _count(classes: Sequence[Parts], nuts: Dict[str, float], rows: int) -> int:
+    """How many assignments there are."""
+    found = 1
+    for each in classes:
+        found *= factorial(min(len(each.masses), 20))
+    return found * sum(perm(len(nuts), n) * perm(rows, n) // factorial(n) for n in range(min(len(nuts), rows) + 1))
+
+
+def _every(
+    request: Place, weights: Dict[str, float], together: bool, machines: Sequence[Responses], parts: Sequence[Parts],
+    nuts: Dict[str, float],
+) -> Iterator[float]:  # fmt: skip
+    """Objectives of all assignments; ``machines``: responses without parts, and with a kilogram on each row."""
+    rows = list(_places(request / "machine"))
+    start, *more = [[one[name] for name in NAMES] for one in machines]
+    base = [each.middle() for each in _flat(start)]
+    slopes = [[each.middle() - old for each, old in zip(_flat(one), base)] for one in more]
+    across = [(request / "objective" / "direction_weights" / name).double(1.0, least=0) for name in ("x", "y")]
+    p, q = sum(across) / 2, (across[0] - across[1]) / 2
+    for orders in product(*(permutations(each.masses.values()) for each in parts)):
+        on_rows = dict.fromkeys(rows, 0.0)
+        for each, masses in zip(parts, orders):
+            for row, mass in zip(each.rows, masses):
+                on_rows[row] += mass
+        for fitted in _with_nuts(on_rows, nuts):
+            vectors = list(base)
+            for row, slope in zip(rows, slopes):
+                vectors = [one + fitted[row] * each for one, each in zip(vectors, slope)]
+            peaks = []
+            for name, (co, counter) in zip(NAMES, (vectors[:2], vectors[2:])):
+                lengths = abs(p * co + q * counter.conjugate()) + abs(q * co + p * counter.conjugate())
+                peaks.append(weights.get(name, 0.0) * lengths)
+            yield sum(peaks) if together else max(peaks)
+
+
+def _flat(one: Sequence[Tuple[Number, Number]]) -> List[Number]:
+    return [each for pair in one for each in pair]
+
+
+def _with_nuts(on_rows: Dict[Row, float], nuts: Dict[str, float]) -> Iterator[Dict[Row, float]]:
+    """Rows with nuts, at most one on each."""
+    for count in range(min(len(nuts), len(on_rows)) + 1):
+        for places in combinations(on_rows, count):
+            for masses in permutations(nuts.values(), count):
+                yield {**on_rows, **{row: on_rows[row] + mass for row, mass in zip(places, masses)}}

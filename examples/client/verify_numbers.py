@@ -66,19 +66,27 @@ class Number:
     def along(self, other: Number) -> Number:
         return (self.conjugate() * other).parts()[0]
 
+    def middle(self) -> complex:
+        """In doubles."""
+        return complex(_double(self.low + self.high, BITS + 1), _double(sum(self.y), BITS + 1))
+
     def __float__(self) -> float:
         """The upper end."""
-        try:
-            return self.high / (1 << BITS)
-        except OverflowError:
-            return sys.float_info.max if self.high > 0 else -sys.float_info.max
+        return _double(self.high, BITS)
+
+
+def _double(number: int, bits: int) -> float:
+    try:
+        return number / (1 << bits)
+    except OverflowError:
+        return sys.float_info.max if number > 0 else -sys.float_info.max
 
 
 def _product(a: tuple[int, int], b: tuple[int, int]) -> tuple[int, int]:
     (low, high), (least, most) = a, b
     if low < 0 < high or least < 0 < most:
-        ends = [p * q for p in a for q in b]
-        return min(ends), max(ends)
+        p, q, r, s = low * least, low * most, high * least, high * most
+        return min(p, q, r, s), max(p, q, r, s)
     # of either sign all through: two products say it, and half of the time of a check goes into products
     if low >= 0:
         return (low * least, high * most) if least >= 0 else (high * least, low * most)
@@ -102,6 +110,8 @@ ZERO, ONE, HALF, J = real(0), real(1), real(0.5), Number(0, 0, (1 << BITS, 1 << 
 STEP = Number(1, 1)
 #: 0 and 1 to the rounding of the data; the former for both parts of a direction
 SPECK = Number(-real(DATA).high, real(DATA).high)
+#: goals that count what counterweights cost
+COSTS = ("mass", "pieces", "sizes")
 ABOUT_ONE, BLUR = ONE + SPECK, SPECK + J * SPECK
 PI = int("314159265358979323846264338327950288419716939937510582097494459230781640628620899")  # 10^80 times, cut off
 
@@ -150,7 +160,8 @@ KNOWN = (
     " moment_ceiling_x_Nm moment_ceiling_y_Nm least_mass orders relative_gap unbalances x_kg_m y_kg_m"
     " catalogue masses_kg mass_step_kg angle_step_deg max_part_numbers max_counterweights catalogue_masses_kg"
     " hole_angles_deg fixed angle_deg radius_m web_groups mirror max_centrifugal_force_N min_fitted_mass_kg"
-    " overspeed_rpm parts motion centre_of_mass_m length_m alternatives "
+    " overspeed_rpm parts motion centre_of_mass_m length_m alternatives"
+    " envelope shape inner_radius_m outer_radius_m thickness_m density_kg_m3 max_half_angle_deg "
 )
 IDLE = (
     " name description throw friction flywheel bearings cylinder cylinders rotation_torque_Nm"

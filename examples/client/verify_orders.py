@@ -23,9 +23,10 @@ _FIGURES: Dict[str, Callable[[Number, Number], Number]] = {
 
 def first_order(claim: str, place: Place, responses: Responses) -> Claims:
     """Both ellipses."""
-    for name, pair in responses.items():
+    for name, unit in NAMES.items():
+        pair = responses[name]
         for figure, evaluate in _FIGURES.items():
-            said = place / name / f"{figure}_{NAMES[name]}"
+            said = place / name / f"{figure}_{unit}"
             if said:
                 yield near(claim, said, evaluate(*pair))
         axis, product = place / name / "major_axis_deg", pair[0] * pair[1]

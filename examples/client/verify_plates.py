@@ -11,7 +11,7 @@ doubles, to 1e-9.
 from __future__ import annotations
 
 from math import acos, asin, cos, pi, radians, sin
-from typing import NamedTuple
+from typing import NamedTuple, Tuple
 
 from verify_numbers import Place
 
@@ -55,13 +55,27 @@ class Plate(NamedTuple):
         cubes, squares = self.outer**3 - self.inner**3, self.outer**2 - self.inner**2
         return 2 / 3 * cubes / squares * cos(angle)
 
-    def worth(self, price: float, cost: float) -> float:
-        """At most what price * U - cost * m(U) comes to."""
-        if price <= 0:
-            return 0.0
-        angle = min(acos(min(cost / (price * self.lever(0.0)), 1.0)), self.most)
-        size = price * self.unbalance(self.most) + cost * self.mass(self.most)
-        return max(price * self.unbalance(angle) - cost * self.mass(angle), 0.0) + 1e-12 * size
+    def up_to(self, limit: float) -> float:
+        """The largest opening of a mass up to a limit, by halving."""
+        if self.mass(self.most) <= limit:
+            return self.most
+        low, high = 0.0, self.most
+        for _ in range(60):
+            middle = (low + high) / 2
+            low, high = (middle, high) if self.mass(middle) < limit else (low, middle)
+        return high
+
+    def opening(self, price: float, cost: float) -> float:
+        """Up to which one more kilogram metre is worth what it costs."""
+        return min(acos(min(cost / max(price * self.lever(0.0), 1e-300), 1.0)), self.most)
+
+    def worth(self, price: float, cost: float, limit: float) -> Tuple[float, float]:
+        """What price * U - cost * m(U) comes to at most, of masses up to a limit: between two figures."""
+        most = self.up_to(limit)
+        angle = min(self.opening(price, cost), most)
+        off = 1e-12 * (price * self.unbalance(most) + cost * self.mass(most))
+        found = max(price * self.unbalance(angle) - cost * self.mass(angle), 0.0)
+        return max(found - off, 0.0), found + off
 
 
 def _excess(angle: float) -> float:

@@ -8,19 +8,14 @@ from typing import Dict, Iterator, List, NamedTuple, Sequence, Tuple
 
 from verify_answer import Fitted
 from verify_claims import Claims
-from verify_machine import NAMES, Machine, Mass
-from verify_numbers import BITS, ONE, NotCovered, Number, Place, real
-from verify_program import CEILINGS, Statement
+from verify_machine import ON_FRAME, Machine, Mass
+from verify_numbers import ONE, NotCovered, Place, real
+from verify_program import CEILINGS, Statement, weighed
 
 FIGURE = 1e-9  # share of a figure in doubles, of all that it is made of
 WORTH = 1e-6  # share of the objective without counterweights: what a whole limit has to be worth to be listed
 ACROSS = 1e-3  # rad: by which what pulls at a web may be off a right angle to the edge of its sector
 UNITS = {"max_mass": "kg", "max_total_mass": "kg", "envelope": "(kg m)", "max_centrifugal_force": "N", "sector": "deg"}
-
-
-def double(number: Number) -> complex:
-    """The middle."""
-    return complex((number.low + number.high) / (1 << BITS + 1), (number.y[0] + number.y[1]) / (1 << BITS + 1))
 
 
 # ---- where weights are off
@@ -34,9 +29,11 @@ def sensitivity(statement: Statement, turning: Sequence[Mass], said: Place) -> C
     webs = [mass for mass, web in zip(turning, machine.webs) if web.fixed is None]
     sums: Dict[str, List[float]] = {row: [float(floor)] * 3 for row, floor in statement.floor.items()}
     for term in statement.terms.values():
-        arms = [ONE if term.moves == "force" else mass.position - machine.plane for mass in webs]
-        vectors = [double(mass.product * mass.co * arm * term.factor * machine.square) for mass, arm in zip(webs, arms)]
-        start = double(term.start)
+        arms = [machine.arm(term.moves, mass.position) for mass in webs]
+        vectors = [
+            (mass.product * mass.co * arm * term.factor * machine.square).middle() for mass, arm in zip(webs, arms)
+        ]
+        start = term.start.middle()
         worst = worst_by_angle(start, vectors, radians(1)), worst_by_mass(start, vectors, 0.01)
         sums[term.row] = [one + more for one, more in zip(sums[term.row], (abs(start + sum(vectors)), *worst))]
         # where what is there cancels, its rounding is that of what cancels
@@ -106,18 +103,22 @@ def prices(statement: Statement, request: Place, answer: Place, there: Fitted, c
     if chosen or machine.groups or not gap:
         yield "shadow_prices", place, -ONE if told else ONE, ONE
         return
-    weight, unit = (goal / "force_weight").double(1.0), "N"
-    if weight <= 0:
-        weight, unit = (goal / "moment_weight").double(float(ONE / machine.span)), "N m"
+    if machine.budget is not None and any(web.plate for web in machine.webs):
+        # the price at which the budget is spent is another one there
+        raise NotCovered(place)
+    # of the first response that is weighed
+    weights = ((float(weight), ON_FRAME[name].unit) for name, weight in weighed(goal, machine).items())
+    weight, unit = next((each for each in weights if each[0] > 0), (0.0, "N"))
+    unit = unit.replace("Nm", "N m")
     multipliers = proof / "multipliers" / "objective"
     touched = {(one.text()) for one in answer / "active_limits"}
     slopes, ceilings = slope(statement, multipliers)
-    arms = [1 + abs(double(web.position - machine.plane)) for web in machine.webs]
-    widest = max((abs(double(web.radius)) * arm for web, arm in zip(machine.webs, arms)), default=0.0)
+    arms = [1 + abs((web.position - machine.plane).middle()) for web in machine.webs]
+    widest = max((abs(web.radius.middle()) * arm for web, arm in zip(machine.webs, arms)), default=0.0)
     lengths = (abs(complex((one / "x").double(), (one / "y").double())) for one in multipliers / "terms")
-    factor = max((abs(double(term.factor)) for term in statement.terms.values()), default=0.0)
-    dust = 1e-12 * widest * double(machine.square).real * (sum(lengths) * factor + sum(ceilings.values()))
-    stated = list(_stated(machine, answer / "counterweights", slopes, multipliers, "max_total_mass" in touched))
+    factor = max((abs(term.factor.middle()) for term in statement.terms.values()), default=0.0)
+    dust = 1e-12 * widest * machine.square.middle().real * (sum(lengths) * factor + sum(ceilings.values()))
+    stated = list(stated_limits(machine, answer / "counterweights", slopes, multipliers, "max_total_mass" in touched))
     for name, length in ceilings.items():
         field = CEILINGS[name]
         limit = field.rpartition("_")[0]
@@ -161,26 +162,27 @@ def listed_prices(
 
 def slope(statement: Statement, proof: Place) -> Tuple[List[complex], Dict[str, float]]:
     """What the bound falls by per kg m on each web, and the lengths of the multipliers of ceilings."""
-    machine, slopes = statement.machine, dict.fromkeys(NAMES, 0j)
+    machine, slopes = statement.machine, dict.fromkeys(ON_FRAME, 0j)
     lengths: Dict[str, float] = dict.fromkeys(statement.caps, 0.0)
     for one in proof / "terms":
         key = (one / "response").text(), (one / "part").text("co", "counter")
         if key not in statement.terms or one / "angle_deg" or one / "scenario":
             raise NotCovered(one)
         term, y = statement.terms[key], complex((one / "x").double(), (one / "y").double())
-        slopes[term.moves] += y * double(term.factor)
+        slopes[term.moves] += y * term.factor.middle()
     for one in proof / "ceilings":
         name, y = (one / "response").text(), complex((one / "x").double(), (one / "y").double())
         if name not in lengths or one / "angle_deg" or one / "scenario":
             raise NotCovered(one)
         slopes[name.partition(":")[0]] += y
         lengths[name] += abs(y)
-    square, plane = double(machine.square).real, double(machine.plane).real
-    arms = [double(web.position).real - plane for web in machine.webs]
-    return [-(slopes["force"] + slopes["moment"] * arm) * square for arm in arms], lengths
+    square = machine.square.middle().real
+    sums = [sum(by * machine.arm(name, web.position).middle().real for name, by in slopes.items())
+            for web in machine.webs]  # fmt: skip
+    return [-one * square for one in sums], lengths
 
 
-def _stated(
+def stated_limits(
     machine: Machine, fitted: Place, pulls: Sequence[complex], proof: Place, budget_touched: bool
 ) -> Iterator[Priced]:
     """Every limit of webs and of the total mass."""
@@ -189,15 +191,21 @@ def _stated(
         if web.fixed is not None:
             continue
         names = {each.text() for each in one / "active_limits"}
-        radius = (one / "radius_m").double() if web.plate else double(web.radius).real
+        plate, sizes = web.plate, {name: float(most) for name, most in web.limits}
+        radius = (one / "radius_m").double() if plate else web.radius.middle().real
         worth = max(radius * _support(pull, web.sector) - beta, 0.0)
-        sizes = {name: float(most) for name, most in web.limits}
+        if plate is not None:
+            # of what one more kilogram metre is worth, its mass takes the price of the budget
+            worth = max(_support(pull, web.sector) - beta / plate.lever(plate.most), 0.0)
+            sizes["envelope"] = plate.unbalance(plate.most)
         least = min(sizes.values(), default=0.0)
         for name, most in sizes.items():
             binds = worth if most <= least * (1 + 1e-12) else 0.0
             per = 1.0
+            if plate is not None and len(sizes) > 1:
+                raise NotCovered(one)
             if name == "max_centrifugal_force":
-                per = radius * double(machine.fastest).real
+                per = radius * machine.fastest.middle().real
             yield Priced(name, web.name, binds / per, most * per, UNITS[name], name in names)
         if web.sector is not None:
             centre, half = web.sector
@@ -208,7 +216,7 @@ def _stated(
             edge = abs(off - pi / 2) < ACROSS
             yield Priced("sector", web.name, radians(u * opening), half, "deg", "sector" in names, edge)
     if machine.budget is not None:
-        yield Priced("max_total_mass", "", beta, double(machine.budget).real, "kg", budget_touched)
+        yield Priced("max_total_mass", "", beta, machine.budget.middle().real, "kg", budget_touched)
 
 
 def _support(pull: complex, sector: object) -> float:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from math import inf
 from typing import Dict, Iterable, NamedTuple, Optional, Sequence, Tuple
 
-from verify_machine import NAMES, Machine, Responses, Web
+from verify_machine import NAMES, ON_FRAME, Machine, Responses, Web
 from verify_numbers import (
+    ABOUT_ONE,
     BITS,
     HALF,
     ONE,
@@ -16,15 +18,24 @@ from verify_numbers import (
     Place,
     direction,
     largest,
+    real,
     total,
 )
+from verify_plates import Plate
 
 #: ceilings by the response that they limit, a component of it as force:x
 CEILINGS = {
-    f"{name}:{axis}" if axis else name: f"{name}_ceiling_{axis}_{unit}" if axis else f"{name}_ceiling_{unit}"
-    for name, unit in NAMES.items()
+    f"{name}:{axis}" if axis else name: f"{name}_ceiling_{axis}_{one.unit}" if axis else f"{name}_ceiling_{one.unit}"
+    for name, one in ON_FRAME.items()
     for axis in ("", "x", "y")
 }
+
+
+def weighed(goal: Place, machine: Machine) -> dict[str, Number]:
+    """Weights of all responses on the frame: of the moment one over the span where none is said, of the others 0."""
+    usual = {"force": ONE, "moment": ONE / machine.span}
+    places = {name: goal / f"{name}_weight" for name in ON_FRAME}
+    return {name: one.number(least=0) if one else usual.get(name, ZERO) for name, one in places.items()}
 
 
 def phasors(responses: Responses, name: str) -> tuple[Number, Number]:
@@ -39,16 +50,20 @@ Key = Tuple[str, str]
 
 
 class Term(NamedTuple):
-    """A length |start + factor f| in a row, or one that a ceiling limits; f is what counterweights add."""
+    """A length |start + factor f| in a row, or one that a ceiling limits; f is what counterweights add.
+
+    Where balance shafts turn backwards their conjugate has a factor of its own.
+    """
 
     row: str
     response: str
     start: Number
     factor: Number
+    backwards: Number = ZERO  # of what balance shafts add that turn backwards
 
     @property
     def moves(self) -> str:
-        """What counterweights add to it: force or moment."""
+        """The response that counterweights add to."""
         return self.response.partition(":")[0]
 
 
@@ -62,8 +77,15 @@ class Bound(NamedTuple):
 class Statement:
     """Rows, which are sums of weighted peaks, and ceilings; they go by their names in the answer."""
 
-    def __init__(self, machine: Machine, goal: Place, rows: dict[str, dict[str, Number]], capped: bool = True) -> None:
-        self.machine, self.rows = machine, rows
+    def __init__(
+        self,
+        machine: Machine,
+        goal: Place,
+        rows: dict[str, dict[str, Number]],
+        capped: bool = True,
+        backwards: bool = False,
+    ) -> None:
+        self.machine, self.rows, self.backwards = machine, rows, backwards
         self.x, self.y = ((goal / "direction_weights" / name).number(1.0, least=0) for name in ("x", "y"))
         self.floor: dict[str, Number] = dict.fromkeys(rows, ZERO)
         self.terms: dict[Key, Term] = {}
@@ -81,27 +103,29 @@ class Statement:
         """What a ceiling is measured by; if nothing is there and nothing allowed, what the rows call for does to it."""
         if size.low > 0:
             return size
-        arms = [abs(web.position - self.machine.plane) for web in self.machine.webs]
-        most = {"force": ONE, "moment": largest(ZERO, *arms)}
+        webs = self.machine.webs
+        most = {n: largest(ZERO, *(abs(self.machine.arm(n, web.position)) for web in webs)) for n in ON_FRAME}
         most = {response: arm if arm.low > 0 else ONE for response, arm in most.items()}
         moving = [one for one in self.terms.values() if abs(one.factor).low > 0]
         called = [abs(one.start) / (abs(one.factor) * most[one.moves]) for one in moving]
         size = most[name.partition(":")[0]] * largest(ZERO, *called)
         return size if size.low > 0 else self.machine.square
 
-    def peak(self, response: tuple[Number, Number], weight: Number) -> tuple[Number, dict[str, tuple[Number, Number]]]:
-        """A floor, and vectors whose lengths it adds; each with the factor of the phasor with the shaft in it."""
+    def peak(self, response: tuple[Number, Number], weight: Number) -> tuple[Number, dict[str, tuple[Number, ...]]]:
+        """A floor, and vectors whose lengths it adds; each with the factors of the phasors in it, forwards first."""
         p, q, f, b = weight * (self.x + self.y) * HALF, weight * (self.x - self.y) * HALF, *response
-        if self.x.low == self.y.low:
+        if self.x.low == self.y.low and not self.backwards:
             return p * abs(b), {"co": (f * p, p)}
-        return ZERO, {"co": (f * p + b.conjugate() * q, p), "counter": (f * q + b.conjugate() * p, q)}
+        if self.x.low == self.y.low:
+            return ZERO, {"co": (f * p, p), "counter": (b.conjugate() * p, ZERO, p)}
+        return ZERO, {"co": (f * p + b.conjugate() * q, p, q), "counter": (f * q + b.conjugate() * p, q, p)}
 
     def values(self, responses: Responses) -> dict[str, Number]:
         """Of every row."""
         found = dict.fromkeys(self.rows, ZERO)
         for row, name, weight in ((r, name, weight) for r, each in self.rows.items() for name, weight in each.items()):
             floor, lengths = self.peak(phasors(responses, name), weight)
-            found[row] = found[row] + floor + total(abs(vector) for vector, _ in lengths.values())
+            found[row] = found[row] + floor + total(abs(vector) for vector, *_ in lengths.values())
         return found
 
     def bound(self, proof: Place, implied: Place, slack: dict[str, Number], cost: Number, believed: bool) -> Bound:
@@ -117,7 +141,9 @@ class Statement:
             return Bound(None, rows)
         machine = self.machine
         price = cost + ((proof / "budget").number(0.0, least=0) if machine.left is not None else ZERO)
-        free = {w.name: w for w in machine.webs if not believed and (w.limit is None or implied / w.name)}
+        free = {
+            w.name: w for w in machine.webs if not believed and (w.limit is None or implied / w.name) and not w.plate
+        }
         if price.high == 0:
             grouped = {machine.webs[k].name for group in machine.groups for k, _, _ in group}
             free = self._balance(y, terms, [w for w in free.values() if w.sector is None and w.name not in grouped])
@@ -128,14 +154,20 @@ class Statement:
         least, slope = total(rows[name] * self.floor[name] for name in rows if self.floor), dict.fromkeys(NAMES, ZERO)
         for key, term in terms.items():
             least = least + y[key].along(term.start) * share
-            slope[term.moves] = slope[term.moves] + y[key] * term.factor * share
+            machine.add(slope, term.moves, y[key] * term.factor * share)
         for name, _ in limits:
             least = least - most[name, "ceiling"] * (self.caps[name] + slack.get(name, ZERO))
-        gains = self._gains(slope)
+        pulls = self._pulls(slope)
+        gains = {web.name: web.radius * pulls[web.name] for web in machine.webs}
         # where a kilogram has a price, what has no limit must gain no more: all multipliers are shortened alike
         share = _share((price, gains[name]) for name in free if price.low > 0 and machine.left is None)
         least = least * share
+        if machine.left is not None and any(web.plate for web in machine.webs):
+            price = cost + spent(machine, pulls, share, cost)
         for web in machine.webs:
+            if web.plate is not None:
+                least = least - of_plate(web, web.plate, pulls[web.name] * share, price)
+                continue
             gain = gains[web.name] * share - price
             if gain.high > 0 and (web.name not in free or (machine.left is not None and price.high > 0)):
                 limit = self.reach(web, implied if believed else Place(None))
@@ -146,12 +178,12 @@ class Statement:
             least = least - (price - cost) * machine.left
         return Bound(least, {name: row * share for name, row in rows.items()})
 
-    def _gains(self, slope: dict[str, Number]) -> dict[str, Number]:
-        """What a kilogram on each web takes off at most."""
+    def _pulls(self, slope: dict[str, Number]) -> dict[str, Number]:
+        """What a kilogram metre on each web takes off at most."""
         machine = self.machine
         arms = [web.position - machine.plane for web in machine.webs]
         pulls = machine.together([-(slope["force"] + slope["moment"] * arm) * machine.square for arm in arms])
-        return {web.name: web.radius * support(pull, web.sector) for web, pull in zip(machine.webs, pulls)}
+        return {web.name: support(pull, web.sector) for web, pull in zip(machine.webs, pulls)}
 
     def _multipliers(self, proof: Place, terms: Iterable[Key]) -> tuple[dict[str, Number], dict[Key, Number]]:
         """Of the rows and of the terms, those that are not 0 and those that are to be given."""
@@ -176,8 +208,8 @@ class Statement:
         slope = dict.fromkeys(NAMES, ZERO)
         chosen: dict[str, Key] = {}
         for key, one in terms.items():
-            slope[one.moves] = slope[one.moves] + y[key] * one.factor
-            if one.factor.low > 0:
+            self.machine.add(slope, one.moves, y[key] * one.factor)
+            if one.factor.low > 0 and one.moves in NAMES:
                 chosen.setdefault(one.moves, key)
         arms = {web.position.low: web.position - self.machine.plane for web in webs}
         if len(arms) == 1 and "force" in chosen:
@@ -192,14 +224,16 @@ class Statement:
     def reach(self, web: Web, implied: Place) -> Number | None:
         """Largest mass of a web: its limit, the budget or what the answer says that they imply; None without."""
         said = (implied / web.name).number(least=0) if implied / web.name else None
-        limits = [limit for limit in (web.limit, self.machine.left, said) if limit is not None]
+        cut = real(web.plate.mass(web.plate.most)) * ABOUT_ONE if web.plate else None
+        limits = [limit for limit in (web.limit, self.machine.left, said, cut) if limit is not None]
         return min(limits, key=lambda one: one.high) if limits else None
 
     def change(self, web: Web, row: str) -> Number:
         """What a kilogram on a web adds to a row at most."""
-        arms = {"force": ONE, "moment": abs(web.position - self.machine.plane)}
+        arms = {name: abs(self.machine.arm(name, web.position)) for name in ON_FRAME}
         does = total(abs(one.factor) * arms[one.moves] for one in self.terms.values() if one.row == row)
-        return does * web.radius * self.machine.square
+        radius = real(web.plate.lever(0.0)) * ABOUT_ONE if web.plate else web.radius
+        return does * radius * self.machine.square
 
     def reachable(self, implied: Place) -> Number | None:
         """What all that the limits allow adds to the rows at most; None where there is no limit."""
@@ -216,6 +250,36 @@ class Statement:
         most = {row: largest(ZERO, *(self.change(web, row) for web in webs)) for row in self.rows}
         found = [sizes[row] / does for row, does in most.items() if does.low > 0 and sizes[row].low > 0]
         return min(found, key=lambda one: one.high, default=None)
+
+
+def spent(machine: Machine, pulls: dict[str, Number], share: Number, cost: Number) -> Number:
+    """A price of the budget beside plates, at which it is spent: any price proves something, this one most.
+
+    What is worth more than it is made in full, of a plate up to the opening that is worth no more. By halving.
+    """
+    assert machine.left is not None
+    worth = {web.name: max((pulls[web.name] * share).middle().real, 0.0) for web in machine.webs}
+    levers = {web.name: web.plate.lever(0.0) if web.plate else float(web.radius) for web in machine.webs}
+    low, high, least = 0.0, max((worth[name] * lever for name, lever in levers.items()), default=0.0), float(cost)
+    for _ in range(100):
+        middle, mass = (low + high) / 2, 0.0
+        for web in machine.webs:
+            limit = inf if web.limit is None else float(web.limit)
+            if web.plate is not None:
+                mass += min(web.plate.mass(web.plate.opening(worth[web.name], middle + least)), limit)
+            elif worth[web.name] * levers[web.name] > middle + least:
+                mass += limit
+        low, high = (middle, high) if mass > float(machine.left) else (low, middle)
+    return real(high)
+
+
+def of_plate(web: Web, plate: Plate, pull: Number, price: Number) -> Number:
+    """What is cut from a plate takes off at most, of what a kilogram metre takes off."""
+    if pull.high <= 0 or (web.limit is not None and web.limit.high <= 0):
+        return ZERO
+    limit = inf if web.limit is None else float(web.limit)
+    low, high = plate.worth(max(pull.middle().real, 0.0), max(price.middle().real, 0.0), limit)
+    return Number(real(low).low, real(high).high)
 
 
 def _share(pairs: Iterable[tuple[Number, Number]]) -> Number:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from verify_answer import Fitted, after, before, fitted, gaps
+from verify_bearings import curves
 from verify_claims import Claims, covered, same
 from verify_first import infeasible, optimum
 from verify_form import form
@@ -20,17 +21,19 @@ def single(request: Place, answer: Place, whole: bool = True) -> Claims:
         yield from form(answer)
     asked = request / "machine"
     status = (answer / "status").text("optimal", "inaccurate", "infeasible")
-    machine = Machine(asked, answer / "reference_plane_m", asked / "max_total_mass_kg")
+    machine = Machine(asked, request / "objective", answer / "reference_plane_m", asked / "max_total_mass_kg")
     yield from before(request, machine, answer)
     turn = looks_at_the_turn(request)
     if status == "infeasible":
         yield from _nothing(answer)
         budget, why = asked / "max_total_mass_kg", answer / "infeasibility"
+        yield from covered(curves(request, machine, answer, None))
         yield from covered((unreachable if turn else infeasible)(request, answer, budget, why))
         return
     yield "status", answer / "infeasibility", -ONE if answer / "infeasibility" else ONE, ONE
     there: Fitted = yield from fitted(request, machine, answer / "counterweights", answer / "balance_shafts", whole)
     yield from after(request, machine, answer, there)
+    yield from covered(curves(request, machine, answer, there))
     mass = there.mass + there.on_shafts_mass if there.on_shafts else there.mass
     yield from gaps(request, answer, mass)
     yield from covered((over_turn if turn else optimum)(request, answer, machine, there))

@@ -1,24 +1,26 @@
 """Goals over the whole turn: what their cuts prove.
 
 Of bearing loads, bending moments, and force and moment of all orders, the multipliers prove a bound by cuts: each is
-the response at one shaft angle, which is evaluated here from rods and masses. That no angle between is worse is not
-covered, nor are gas, friction, root mean squares, roll, continuous shafts, goals in their order, balance shafts,
-scenarios and tolerances.
+the response at one shaft angle, which is evaluated here from rods and masses. Gas and friction where loads count, roll
+and balance shafts are not covered.
 """
 
 from __future__ import annotations
 
-from typing import Dict, List, Optional, Tuple
+from typing import Dict, List, Optional, Sequence, Tuple
 
 from verify_answer import Fitted, closest
 from verify_cases import FIELDS as CASES
-from verify_cases import cases, goals, nominal, peak, scatter
-from verify_claims import EVIDENCE, Claims, near
-from verify_cuts import FIELDS, Group, Part, Term
-from verify_first import ceilings, near_the_bound, searched, smallest
-from verify_machine import NAMES, NOTHING, Machine, Mass, over
+from verify_cases import cases, goals, scatter
+from verify_claims import EVIDENCE, Claims, covered, near
+from verify_costs import costs
+from verify_cuts import FIELDS, SHAFTS, Group, Part, Term
+from verify_first import near_the_bound, searched, smallest
+from verify_goals import Program as Asked
+from verify_goals import values
+from verify_machine import FRAME_FIELDS, NAMES, NOTHING, ON_FRAME, Machine, Web, over
+from verify_misplacement import misplacement
 from verify_numbers import (
-    ABOUT_ONE,
     ONE,
     SPECK,
     STEP,
@@ -31,7 +33,7 @@ from verify_numbers import (
     real,
     total,
 )
-from verify_program import CEILINGS, support
+from verify_program import CEILINGS, of_plate, support, weighed
 
 #: components on the frame, of which the real part alone counts
 ALONG = [name for name in CEILINGS if ":" in name]
@@ -44,9 +46,9 @@ MOST = 30_000
 class Pulls:
     """What multipliers prove before counterweights, and what they pull at every web with, and scatter it by."""
 
-    def __init__(self, least: Number, machine: Machine) -> None:
+    def __init__(self, least: Number, webs: Sequence[Web]) -> None:
         self.least = least
-        self.slopes, self.spread = [ZERO for _ in machine.webs], [ZERO for _ in machine.webs]
+        self.slopes, self.spread = [ZERO for _ in webs], [ZERO for _ in webs]
 
 
 class Program:
@@ -56,19 +58,20 @@ class Program:
         goal = request / "objective"
         self.machine, self.off, self.named = machine, scatter(request), goals(request)
         self.scattered = self.off.share.high > 0 or self.off.besides.high > 0
-        weights = {"force": (goal / "force_weight").number(1.0, least=0), "moment": ONE / machine.span}
-        if goal / "moment_weight":
-            weights["moment"] = (goal / "moment_weight").number(least=0)
-        weights = {name: weight for name, weight in weights.items() if weight.high > 0}
-        for kind in ("bearing", "bending"):
+        weights = {name: weight for name, weight in weighed(goal, machine).items() if weight.high > 0}
+        for kind in ("bearing", "bending", "roll"):
             weights[kind] = (goal / f"{kind}_weight").number(0.0, least=0)
-        external = {name: weights[name] for name in NAMES if name in weights}
+        external = {name: weights[name] for name in ON_FRAME if name in weights}
         together = (goal / "combine").text("sum", "max", default="sum") == "sum"
         self.rows = {"sum": external} if together else {name: {name: weight} for name, weight in external.items()}
         every = cases(request, machine, answer / "reference_plane_m")
         self.parts = {case.name: Part(case, weights, self.named) for case in every}
         self.first = next(iter(self.parts.values()))
-        self.levels = [(one / "limit").number() for one in answer / "certificate" / "goals"]
+        self.webs = [*machine.webs, *(one.web for one in self.first.geared)]
+        #: of the last bound: what it rises by per kg m on each web
+        self.slopes: List[Number] = []
+        listed = answer / "certificate" / "goals"
+        self.levels = [(one / "limit").number() for one in listed if (one / "goal").text() in self.named[:-1]]
         if answer and len(self.levels) != len(self.named) - 1:
             raise NotCovered(answer / "certificate" / "goals")
 
@@ -81,18 +84,22 @@ class Program:
     def terms(self, proof: Place) -> List[Term]:
         """Terms of the objective with their multipliers."""
         found, size = list(proof / "terms"), self.first
-        if len(found) * (len(size.turn.rows) + len(self.machine.masses) + len(self.machine.webs)) > MOST:
+        if len(found) * (len(size.turn.rows) + len(self.machine.masses) + len(self.webs)) > MOST:
             raise NotCovered(proof / "terms")
         return [self._part(one).term(one) for one in found]
 
-    def reached(self, terms: List[Term], weights: List[Mass]) -> Number:
+    def reached(self, terms: List[Term], fitted: Fitted) -> Number:
         """What counterweights come to of the last goal, at the angles of the cuts."""
         rows: Dict[Tuple[Group, str], Number] = {}
-        sizes = [weight.product for weight in weights]
+        # what is fixed is in the start of every cut
+        own = [ZERO if web.fixed else one.product * one.co for one, web in zip(fitted.turning, self.machine.webs)]
+        vectors = [*own, *(one.vector(mass) for one, (_, mass) in zip(self.first.geared, fitted.on_shafts))]
+        sizes = [abs(one) for one in vectors]
         for one in terms:
             moved = one.start
-            for weight, factor in zip(weights, one.factors):
-                moved = moved + weight.product * weight.co * factor
+            for vector, factor in zip(vectors, one.factors):
+                moved = moved + vector * factor
+            moved = moved.parts()[0] if one.scalar else moved
             before = rows.get((one.group, one.row), one.floor)
             rows[one.group, one.row] = before + abs(moved) + self.off.of(one.factors, sizes)
         groups = {group for group, _ in rows if group[1] == len(self.named) - 1}
@@ -113,19 +120,18 @@ class Program:
             return None, False
         share, charge = self._shares(sums, cost, most, proof)
         floors = {one.row: one.floor for one in terms}
-        pulls = Pulls(total(value * share[group_of[name]] * floors[name] for name, value in rows.items()), self.machine)
+        pulls = Pulls(total(value * share[group_of[name]] * floors[name] for name, value in rows.items()), self.webs)
         pulls.least = pulls.least - charge
         for one in terms:
             if one.row in rows:
                 self._add(pulls, one, rows[one.row], share[one.group])
         self._add_ceilings(pulls, proof)
+        self.slopes = pulls.slopes
         return self._within_limits(pulls, proof, implied, cost)
 
     def conflict(self, proof: Place, implied: Place) -> Tuple[Optional[Number], bool]:
         """What the ceilings are exceeded by at least, each by its price, and whether implied limits are believed."""
-        if self.scattered or None not in self.parts:
-            raise NotCovered(proof)
-        pulls = Pulls(ZERO, self.machine)
+        pulls = Pulls(ZERO, self.webs)
         self._add_ceilings(pulls, proof)
         lengths: Dict[str, Number] = {}
         for one in proof / "ceilings":
@@ -136,15 +142,23 @@ class Program:
             name, _, case = (row / "name").text().partition(" in ")
             part = self.parts.get(case or None)
             cap = part.exact.caps.get(name) if part else None
-            if cap is not None and cap.high < 0:
-                # below what turns against the shaft: the more is paid for it the more is proven
+            if part is None or cap is None:
+                continue
+            factors = part.of_ceiling(name)
+            cap = cap - self.off.besides * total(map(abs, factors))
+            if cap.high < 0:
+                # below what turns against the shaft, or what is off: the more is paid for it the more is proven
                 more = (row / "value").number(least=0) - lengths.get((row / "name").text(), ZERO)
-                pulls.least = pulls.least - largest(more, ZERO) * cap
+                more = largest(more, ZERO)
+                pulls.least = pulls.least - more * cap
+                grown = more * self.off.share
+                pulls.spread = [old + grown * abs(factor) for old, factor in zip(pulls.spread, factors)]
         return self._within_limits(pulls, proof, implied, ZERO)
 
     def _add(self, pulls: Pulls, one: Term, allowed: Number, share: Number) -> None:
         """A term with its multiplier; |y| <= lambda holds by shortening."""
-        size = abs(one.y)
+        y = one.y.parts()[0] if one.scalar else one.y
+        size = abs(y)
         if self.scattered:
             grown = allowed * share
             pulls.spread = [
@@ -154,27 +168,39 @@ class Program:
         if size.low > 0:
             shorter = share * (allowed / size if size.high > allowed.low else ONE)
             shorter = Number(min(shorter.low, share.low), min(shorter.low, share.low))
-            pulls.least = pulls.least + one.y.along(one.start) * shorter
-            pulls.slopes = [slope + factor * one.y * shorter for slope, factor in zip(pulls.slopes, one.factors)]
+            pulls.least = pulls.least + y.along(one.start) * shorter
+            pulls.slopes = [
+                slope + factor.conjugate() * y * shorter for slope, factor in zip(pulls.slopes, one.factors)
+            ]
 
     def _add_ceilings(self, pulls: Pulls, proof: Place) -> None:
         for limit in proof / "ceilings":
             p = (limit / "x").number() + J * (limit / "y").number()
             if abs(p).high <= 0:
                 continue
-            if self.scattered or None not in self.parts:
-                raise NotCovered(limit)
-            start, factors, cap = self._part(limit).capped(limit)
+            part = self._part(limit)
+            start, factors, cap = part.capped(limit)
+            if part.case.name is not None:
+                # all are of programs over the square of the speed of the machine as it is
+                p = p * (self.machine.square / part.machine.square)
             if limit / "angle_deg" and (limit / "response").text() in ALONG:
-                p = (limit / "x").number()
+                p = p.parts()[0]
             pulls.least = pulls.least + p.along(start) - abs(p) * cap
-            pulls.slopes = [slope + factor * p for slope, factor in zip(pulls.slopes, factors)]
+            if self.scattered:
+                # what is off by itself has to keep the ceiling too
+                grown = abs(p) * self.off.share
+                pulls.spread = [old + grown * abs(factor) for old, factor in zip(pulls.spread, factors)]
+                pulls.least = pulls.least + abs(p) * self.off.besides * total(map(abs, factors))
+            pulls.slopes = [slope + factor.conjugate() * p for slope, factor in zip(pulls.slopes, factors)]
 
     def _within_limits(self, pulls: Pulls, proof: Place, implied: Place, cost: Number) -> Tuple[Optional[Number], bool]:
         """Less what counterweights take off at most."""
         machine, least, believed = self.machine, pulls.least, False
-        beta = (proof / "budget").number(0.0, least=0) if machine.budget else ZERO
-        for web, pull, wide in zip(machine.webs, machine.together([-one for one in pulls.slopes]), pulls.spread):
+        beta = (proof / "budget").number(0.0, least=0) if machine.left is not None else ZERO
+        for web, pull, wide in zip(self.webs, machine.together([-one for one in pulls.slopes]), pulls.spread):
+            if web.plate is not None:
+                least = least - of_plate(web, web.plate, support(pull, web.sector) - wide, cost + beta)
+                continue
             gain = web.radius * (support(pull, web.sector) - wide) - cost - beta
             if gain.high <= 0:
                 continue
@@ -184,7 +210,7 @@ class Program:
             if carries is None:
                 return None, True
             least = least - Number(max(gain.low, 0), gain.high) * carries
-        return least - (beta * machine.budget if machine.budget else ZERO), believed
+        return least - (beta * machine.left if machine.left else ZERO), believed
 
     def _shares(
         self, sums: Dict[Group, Number], cost: Number, most: Number, proof: Place
@@ -215,56 +241,54 @@ def looks_at_the_turn(request: Place) -> bool:
     goal = request / "objective"
     loads = any((goal / name).value not in (None, 0) for name in FIELDS.split()[1:])
     several = list(request / "scenarios") or request / "tolerances" or list(goal / "priorities")
-    return loads or (goal / "orders").value == "all" or bool(several)
+    shafts = list(request / "machine" / "balance_shafts")
+    return loads or (goal / "orders").value == "all" or bool(several) or bool(shafts)
 
 
 def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> Claims:
     """The proof of the answer to one request whose objective looks at the whole turn."""
-    request.known(FIELDS + CASES)
-    asked, proof, found = request / "machine", answer / "certificate", fitted.turning
-    for web, one in zip(machine.webs, asked / "webs"):
-        if web.fixed is not None:
-            # the curves of the shaft are evaluated without it
-            raise NotCovered(one / "fixed")
+    request.known(f"{FIELDS}{CASES}{SHAFTS}{FRAME_FIELDS}")
+    asked, proof = request / "machine", answer / "certificate"
     program = Program(request, machine, answer)
-    optimal = (answer / "status").text() == "optimal"
-    if None in program.parts and not program.scattered:
-        yield from ceilings(program.first.exact, found, answer / "counterweights", optimal)
-    elif program.first.exact.caps:
-        yield "ceilings", answer / "counterweights", None, ONE
-    if program.first.limited:
-        yield "ceilings", answer / "counterweights", None, ONE
     objective, lowest, implied = proof / "objective", proof / "lower_bound", proof / "implied_max_mass_kg"
     chosen = yield from searched(asked, answer / "counterweights", proof)
     of_any_mass = proof / "continuous_lower_bound" if chosen else lowest
     multipliers, value = proof / "multipliers", objective.number(0.0)
     noise = SPECK * (abs(value) + abs(lowest.number(0.0)))
-    # not below what is there at the angles of the cuts; whether anything is above it is not told here
+    # not below what is there at the angles of the cuts
     terms = program.terms(multipliers / "objective")
-    reached = program.reached(terms, found)
+    reached = program.reached(terms, fitted)
     yield "cuts", proof, value + noise + real(NOTHING) - reached if objective else None, largest(value, reached)
-    yield from _exactly(request, answer, program, found)
     of_objective = multipliers / "objective"
     yield from _proven("lower_bound", of_any_mass, program.bound(of_objective, terms, implied), implied, of_objective)
+    slopes = program.slopes
     least = proof / "mass_lower_bound_kg"
-    if least and multipliers / "mass" and least.number().high > 0:
+    if least and (least.number() - machine.fixed).high <= 0:
+        yield "mass_lower_bound", least, machine.fixed - least.number(), ONE
+        yield EVIDENCE, multipliers / "mass", None, ONE
+    elif least and multipliers / "mass":
         limit, of_mass = (proof / "mass_objective_limit").number(), multipliers / "mass"
         found_least = program.bound(of_mass, program.terms(of_mass), implied, ONE, limit)
-        yield from _proven("mass_lower_bound", least, found_least, implied, of_mass)
+        yield from _proven("mass_lower_bound", least, found_least, implied, of_mass, machine.fixed)
         yield "mass_lower_bound", proof / "mass_objective_limit", limit + noise - value, abs(value)
-    size = proof / "mass_yardstick_kg"
-    if size and size.double() == answer.value.get("total_mass_kg"):
-        yield near("yardstick", size, fitted.mass)
+    size, mass = proof / "mass_yardstick_kg", fitted.mass + fitted.on_shafts_mass
+    if size and abs(size.number() - mass).low <= (mass * SPECK).high:
+        yield near("yardstick", size, mass)
+    goals_of = Asked([*program.parts.values()], program.named, program.off, machine, program.rows)
+    yield from covered(values(request, answer, goals_of, fitted))
+    if slopes:
+        yield from covered(costs(request, answer, machine, program.first, terms, slopes))
+    yield from covered(misplacement(goals_of.parts, program.named[-1], fitted, answer / "sensitivity"))
 
 
 def unreachable(request: Place, answer: Place, budget: Place, said: Place) -> Claims:
     """No counterweights keep the ceilings, at the angles of the cuts."""
-    request.known(FIELDS + CASES)
+    request.known(f"{FIELDS}{CASES}{SHAFTS}{FRAME_FIELDS}")
     goal, proofs, implied = request / "objective", said / "multipliers", said / "implied_max_mass_kg"
-    machine = Machine(request / "machine", answer / "reference_plane_m", budget)
+    machine = Machine(request / "machine", goal, answer / "reference_plane_m", budget)
     given = [field for field in (*CEILINGS.values(), *LOADED) if goal / field]
-    named = [one.text(*given) for one in said / "conflict"]
-    yield from (("conflict", one, ONE, ONE) for one in said / "conflict")
+    named = [one.text() for one in said / "conflict"]
+    yield from (("conflict", one, ONE if one.value in given else -ONE, ONE) for one in said / "conflict")
     if not named or len({*named}) < len(named):
         yield "conflict", said / "conflict", -ONE, ONE
     program = Program(request, machine, Place(None))
@@ -285,34 +309,19 @@ def unreachable(request: Place, answer: Place, budget: Place, said: Place) -> Cl
             yield from near_the_bound(f"smallest_{name}", found, lowest, machine, name)
 
 
-def _exactly(request: Place, answer: Place, program: Program, found: List[Mass]) -> Claims:
-    """Values of goals of the first order; that no angle of the turn is worse is not told."""
-    proof, worst, price = answer / "certificate", answer / "worst_case", answer / "price_of_robustness"
-    if program.first.loads or len(program.named) > 1:
-        yield "objective", proof / "objective", None, ONE
-        return
-    sizes, nothing = [mass.product for mass in found], [ZERO for _ in found]
-    parts = [(part, part.machine.responses(found)) for part in program.parts.values()]
-    value = largest(ZERO, *(part.value(responses, program.off, sizes) for part, responses in parts))
-    rest = largest(ZERO, *(part.value(part.machine.laden, program.off, nothing) for part, _ in parts))
-    yield near("objective", proof / "objective", value)
-    yield near("before", proof / "objective_without_counterweights", rest)
-    if worst:
-        yield near("worst_case", worst / "objective", value * ABOUT_ONE)
-        for name, unit in NAMES.items():
-            peaks = [peak(part.machine, responses, name, program.off, sizes) for part, responses in parts]
-            yield near("worst_case", worst / f"{name}_peak_{unit}", largest(*peaks) * ABOUT_ONE)
-    if price:
-        responses = program.machine.responses(found)
-        as_given = nominal(program.machine, request / "objective", program.rows, responses)
-        yield near("price", price / "nominal", as_given)
-
-
-def _proven(claim: str, said: Place, found: Tuple[Optional[Number], bool], implied: Place, proof: Place) -> Claims:
+def _proven(
+    claim: str,
+    said: Place,
+    found: Tuple[Optional[Number], bool],
+    implied: Place,
+    proof: Place,
+    besides: Number = ZERO,
+) -> Claims:
+    """``besides``: what is there in any case."""
     least, believed = found
     if believed:
         yield "reach", implied, None, ONE
-    room = None if least is None or not said else least - said.number()
+    room = None if least is None or not said else least + besides - said.number()
     yield claim, said, room, largest(abs(said.number(0.0)), abs(least or ZERO))
     if room is not None:
         yield EVIDENCE, proof, None, ONE

@@ -41,7 +41,8 @@ def counterweights(machine: Machine, place: Place, asked: Place = _NOWHERE) -> C
         yield from _crank(cranks.get(web.name), one) if asked else ()
         total_mass = total_mass + (one / "mass_kg").number()
         turning.append(turns)
-    yield from _alike(machine, by_name)
+    if all(web.name in by_name for web in machine.webs):
+        yield from _alike(machine, by_name)
     if machine.budget is not None:
         yield "max_total_mass", place, machine.budget * real(1 + MASS) - total_mass, machine.budget
     return turning, total_mass * machine.wide

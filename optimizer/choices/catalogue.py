@@ -6,7 +6,7 @@ import numpy as np
 
 from optimizer.choices.catalogue_options import Stock
 from optimizer.choices.discrete.search import Known, search
-from optimizer.choices.feasible_set import Choice, Subproblem
+from optimizer.choices.feasible_set import Choice, SearchResult, Subproblem
 from optimizer.formulation.counterweights import unbalance
 from optimizer.numerics.arrays import Real
 from optimizer.program.statement import Statement
@@ -43,5 +43,9 @@ class Catalogue:
             subproblem.time_limit_s,
             Known(known, subproblem.below),
         )
-        mass, angle = self.stock.fitted(found.chosen)
+        return self.picked(found.chosen, found)
+
+    def picked(self, chosen: np.ndarray, found: SearchResult) -> Choice:
+        """Options (K,) as a choice."""
+        mass, angle = self.stock.fitted(chosen)
         return Choice(mass, angle, unbalance(mass, angle, self.radius), found)

@@ -1,26 +1,31 @@
 """The responses that an objective can weigh and limit.
 
-The only place that translates the fields of the contract that name responses; everything after it goes by name.
+What they are called is in :mod:`schemas.base.responses`; how each is made of force and moment stands here, and
+everything after it goes by name.
 Fields may hold columns, as in :func:`optimizer.mechanics.layout.layout`.
 """
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Literal, NamedTuple
 
 import numpy as np
 
 from optimizer.formulation.limits import limits
 from optimizer.mechanics.balance_shafts import first_order_responses
+from optimizer.mechanics.frame import FORCE, MOMENT, Shares, first_order, shaking
 from optimizer.mechanics.inertia import Wrench
 from optimizer.mechanics.layout import Layout, stacked
+from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.numerics.arrays import SMALLEST, Reals
 from optimizer.numerics.memoization import remembered
 from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.statement import Statement
+from optimizer.responses.curve import TurnResponse
 from optimizer.responses.response import Response
-from schemas.answer.limits import CeilingField, MachineLimit
+from schemas.base.responses import PAIR, CeilingFields, ResponseFields
+from schemas.base.responses import RESPONSES as FIELDS
+from schemas.base.responses import counted as fields_that_count
+from schemas.base.responses import limited as limited_fields
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.objective import Objective
@@ -39,111 +44,91 @@ def span(machine: Machine) -> Reals:
     return np.where(length <= SMALLEST, 1.0, length)[()]
 
 
-Axis = Literal["x", "y"]
-
-
-@dataclass(frozen=True)
-class Ceiling:
-    """A hard limit on a peak."""
-
-    name: str  # of the response that it limits
-    unit: str  # of the response
-    allowed: Callable[[Objective], float | None]  # [unit of the response]; a number or a column
-    field: CeilingField  # of the request
-    limit: MachineLimit  # what it is called where it is touched
-    axis: Axis | None = None  # of the component that it limits; None is the whole vector
-
-
-class Component(NamedTuple):
-    """A component of a response that an objective can limit."""
-
-    axis: Axis
-    ceiling: Callable[[Objective], float | None]  # [unit of the response]; a number or a column
-    ceiling_field: CeilingField  # of the request
-    limit: MachineLimit  # what a touched ceiling is called
-
-
 @dataclass(frozen=True)
 class Weighable:
-    """A response that an objective can weigh and limit."""
+    """A response on the frame that an objective can weigh, limit and trade.
 
-    name: str  # of the response
-    unit: str  # of the response
-    response: Callable[[Layout, Wrench], Response]  # from the first order without counterweights
-    weight: Callable[[Machine, Objective], Reals]  # [1/unit of the response]; a number or a column
-    ceiling: Callable[[Objective], float | None]  # [unit of the response]; a number or a column
-    ceiling_field: CeilingField  # of the request
-    limit: MachineLimit  # what a touched ceiling is called
-    components: tuple[Component, ...] = ()  # that have ceilings of their own
+    fields : what it is called.
+    shares : what it has of force and moment; fields of the objective may be columns.
+    """
 
-    @cached_property
-    def limits(self) -> tuple[Ceiling, ...]:
-        """Its ceilings, that of the whole vector first."""
-        return (
-            Ceiling(self.name, self.unit, self.ceiling, self.ceiling_field, self.limit),
-            *(
-                Ceiling(f"{self.name}:{axis}", self.unit, ceiling, field, limit, axis)
-                for axis, ceiling, field, limit in self.components
-            ),
-        )
+    fields: ResponseFields
+    shares: Callable[[Layout, Objective], Shares]
 
+    @property
+    def name(self) -> str:
+        return self.fields.name
 
-FORCE = Weighable(
-    name="force",
-    unit="N",
-    response=lambda layout, baseline: first_order_responses(layout, baseline)[0],
-    weight=lambda machine, objective: objective.force_weight,
-    ceiling=lambda objective: objective.force_ceiling_N,
-    ceiling_field="force_ceiling_N",
-    limit="force_ceiling",
-    components=(
-        Component("x", lambda objective: objective.force_ceiling_x_N, "force_ceiling_x_N", "force_ceiling_x"),
-        Component("y", lambda objective: objective.force_ceiling_y_N, "force_ceiling_y_N", "force_ceiling_y"),
-    ),
-)
-MOMENT = Weighable(
-    name="moment",
-    unit="N m",
-    response=lambda layout, baseline: first_order_responses(layout, baseline)[1],
-    weight=lambda machine, objective: (
-        1.0 / span(machine) if objective.moment_weight is None else objective.moment_weight
-    ),
-    ceiling=lambda objective: objective.moment_ceiling_Nm,
-    ceiling_field="moment_ceiling_Nm",
-    limit="moment_ceiling",
-    components=(
-        Component("x", lambda objective: objective.moment_ceiling_x_Nm, "moment_ceiling_x_Nm", "moment_ceiling_x"),
-        Component("y", lambda objective: objective.moment_ceiling_y_Nm, "moment_ceiling_y_Nm", "moment_ceiling_y"),
-    ),
-)
-#: what can be weighed, in the order of the answer; one more is one more entry
-RESPONSES: dict[str, Weighable] = {each.name: each for each in (FORCE, MOMENT)}
+    @property
+    def unit(self) -> str:
+        return self.fields.unit
+
+    def weight(self, machine: Machine, objective: Objective) -> Reals:
+        """Its weight, 1/unit; a number or a column."""
+        weight: Reals | None = getattr(objective, self.fields.weight)
+        return 1.0 / span(machine) if weight is None else weight
 
 
-def responses(layout: Layout, baseline: Wrench) -> tuple[Response, ...]:
-    """All responses to the unbalance of the counterweights.
+#: how each comes about; one more is one more entry here and in :mod:`schemas.base.responses`
+SHARES: dict[str, Callable[[Layout, Objective], Shares]] = {
+    "force": lambda layout, objective: FORCE,
+    "moment": lambda layout, objective: MOMENT,
+    # beside these two
+}
+#: in the order of the answer
+RESPONSES: dict[str, Weighable] = {name: Weighable(fields, SHARES[name]) for name, fields in FIELDS.items()}
+
+
+def counted(objective: Objective) -> tuple[Weighable, ...]:
+    """Force and moment, and of the others those that an objective weighs or limits."""
+    return tuple(RESPONSES[each.name] for each in fields_that_count(objective))
+
+
+def added(objective: Objective) -> tuple[Weighable, ...]:
+    """Those that count beside force and moment."""
+    return tuple(each for each in counted(objective) if each.name not in PAIR)
+
+
+def responses(layout: Layout, baseline: Wrench, objective: Objective) -> tuple[Response, ...]:
+    """Responses that count to the unbalance of the counterweights, force and moment first.
 
     Parameters
     ----------
     baseline : first-order force and moment without counterweights.
     """
-    return tuple(each.response(layout, baseline) for each in RESPONSES.values())
+    force, moment = first_order_responses(layout, baseline)
+    return tuple(
+        first_order(each.name, each.unit, each.shares(layout, objective), force, moment) for each in counted(objective)
+    )
+
+
+def of_all_orders(turn: WholeTurn, layout: Layout, objective: Objective) -> tuple[TurnResponse, ...]:
+    """The same of all orders, of one machine."""
+    named = {each.name: (each.unit, each.shares(layout, objective)) for each in counted(objective)}
+    return shaking(turn, layout, named)
 
 
 def weights(machine: Machine, objective: Objective) -> Mapping[str, Reals]:
-    """Weight of each response, by name: w_F [1/N] and w_M [1/(N m)]."""
+    """Weight of each response, by name: 1/N and 1/(N m)."""
     return {each.name: each.weight(machine, objective) for each in RESPONSES.values()}
 
 
 def with_weights_of(machine: Machine, objective: Objective) -> Objective:
     """The objective with the weights given that a machine decides by default."""
-    return objective.model_copy(update={"moment_weight": float(MOMENT.weight(machine, objective))})
+    fields = (each.fields.weight for each in RESPONSES.values())
+    usual = {field: 1.0 / float(span(machine)) for field in fields if getattr(objective, field) is None}
+    return objective.model_copy(update=usual) if usual else objective
 
 
-def given_ceilings(objective: Objective) -> list[tuple[Ceiling, float]]:
+def weighing(objective: Objective, weights: Mapping[str, float], **update: object) -> Objective:
+    """The objective that weighs these responses on the frame and no others."""
+    wanted = {each.fields.weight: weights.get(each.name, 0.0) for each in RESPONSES.values()}
+    return objective.model_copy(update=wanted | update)
+
+
+def given_ceilings(objective: Objective) -> list[tuple[CeilingFields, float]]:
     """Hard limits on the peaks that an objective gives, with the largest peaks allowed: N and N m."""
-    all_of = ((each, each.allowed(objective)) for response in RESPONSES.values() for each in response.limits)
-    return [(each, allowed) for each, allowed in all_of if allowed is not None]
+    return [(each, getattr(objective, each.field)) for each in limited_fields(objective)]
 
 
 def limited(responses: Sequence[Response], objective: Objective) -> list[tuple[Response, float]]:
@@ -152,10 +137,10 @@ def limited(responses: Sequence[Response], objective: Objective) -> list[tuple[R
     return [(_of(by_name, ceiling), allowed) for ceiling, allowed in given_ceilings(objective)]
 
 
-def _of(responses: Mapping[str, Response], ceiling: Ceiling) -> Response:
+def _of(responses: Mapping[str, Response], ceiling: CeilingFields) -> Response:
     if ceiling.axis is None:
-        return responses[ceiling.name]
-    return responses[ceiling.name.removesuffix(f":{ceiling.axis}")].along(ceiling.axis)
+        return responses[ceiling.response]
+    return responses[ceiling.response.removesuffix(f":{ceiling.axis}")].along(ceiling.axis)
 
 
 def shape_facts(machine: Machine, objective: Objective) -> tuple[np.ndarray, ...]:

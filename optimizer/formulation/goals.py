@@ -13,13 +13,13 @@ from typing import Literal
 import numpy as np
 
 from optimizer.errors import MissingInput
-from optimizer.formulation.formulate import RESPONSES, Ceiling, given_ceilings, weights
+from optimizer.formulation.formulate import given_ceilings, of_all_orders, weights
 from optimizer.formulation.formulate import limited as limited_responses
 from optimizer.formulation.limits import limits
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.roll import mirrored, roll
 from optimizer.mechanics.shaft import INFLUENCES, bearing_places
-from optimizer.mechanics.shaft_curves import bearing_loads, bending_moments, shaking
+from optimizer.mechanics.shaft_curves import bearing_loads, bending_moments
 from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.numerics.arrays import Real, Reals
 from optimizer.program.cuts.cut import EXACT, Quantity, Scatter
@@ -32,9 +32,10 @@ from optimizer.responses.curve import TurnResponse
 from optimizer.responses.response import Response
 from schemas.answer.limits import CeilingField, MachineLimit
 from schemas.base.model import FieldProblem
+from schemas.base.responses import CeilingFields
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import ReciprocatingMachine
-from schemas.request.objective import Objective
+from schemas.request.objective import COSTS, Objective
 from schemas.request.scene import Fidelity
 
 #: of responses that no shaft takes part in
@@ -201,7 +202,7 @@ class _Asked:
         # of many programs of one shape all weigh it, or none
         weighs = [name for name, weight in wanted.items() if np.all(np.asarray(weight) > 0)]
         if self.objective.orders == "all":
-            places = zip(RESPONSES, self._of_shaking(), strict=True)
+            places = [(self.quantities[q].response.name, q) for q in self._of_shaking()]
             weighed = [Weighed(q, float(wanted[name])) for name, q in places if name in weighs]
             return tuple(Group(weighed=(each,)) for each in weighed)
         variants = [
@@ -246,17 +247,19 @@ class _Asked:
                 yield self._limited("bending_ceiling_Nm", "bending_ceiling", q, self.objective.bending_ceiling_Nm)
 
     def _of_shaking(self) -> range:
-        """Force and moment of all orders."""
-        return self._placed("shaking", lambda: [self._quantity(each) for each in shaking(*self.turn)])
+        """Responses on the frame of all orders."""
+        return self._placed(
+            "shaking", lambda: [self._quantity(each) for each in of_all_orders(*self.turn, self.objective)]
+        )
 
-    def _of_frame_under(self, ceiling: Ceiling) -> int:
-        """What a ceiling limits of force or moment of all orders: all of it, or its component."""
-        name, _, axis = ceiling.name.partition(":")
-        whole = self._of_shaking()[list(RESPONSES).index(name)]
+    def _of_frame_under(self, ceiling: CeilingFields) -> int:
+        """What a ceiling limits of a response of all orders: all of it, or its component."""
+        name, _, axis = ceiling.response.partition(":")
+        (whole,) = (q for q in self._of_shaking() if self.quantities[q].response.name == name)
         if not axis:
             return whole
         response, sense = self.quantities[whole].response, float(self.turn[1].sense)
-        return self._placed(ceiling.name, lambda: [self._quantity(component(response, axis, sense))])[0]
+        return self._placed(ceiling.response, lambda: [self._quantity(component(response, axis, sense))])[0]
 
     def _of_roll(self) -> range:
         def moment() -> list[Quantity]:
@@ -333,10 +336,14 @@ def _in_order(objective: Objective, groups: dict[str, list[tuple[Group, ...]]]) 
     ----------
     groups : of every goal those of each case.
     """
-    order = [priority for priority in objective.priorities if priority.goal != "mass"]
-    if order:
+    *earlier, last = objective.priorities or [None]
+    if last is not None:
+        # nothing uses what the very last allows
+        order = [*earlier, last.model_copy(update={"allowance": 0.0})]
         return tuple(
-            _largest(priority.goal, groups[priority.goal])._replace(allowance=priority.allowance) for priority in order
+            _largest(priority.goal, groups[priority.goal])._replace(allowance=priority.allowance)
+            for priority in order
+            if priority.goal not in COSTS
         )
     every = [tuple(group for one in of_case for group in one) for of_case in zip(*groups.values(), strict=True)]
     # several goals in their order are never combined: their quantities are of one kind

@@ -9,17 +9,21 @@ from typing import Any
 import numpy as np
 
 from optimizer.effects.registry import Simulated, closure, simulate
-from optimizer.formulation.formulate import responses
+from optimizer.formulation.formulate import added, responses
 from optimizer.mechanics.balance_shafts import of_balance_shafts
 from optimizer.mechanics.cylinders import cycle_turns
 from optimizer.mechanics.fixed_weights import laden
+from optimizer.mechanics.frame import Shares
 from optimizer.mechanics.inertia import Wrench, counterweights, reciprocating, rotating
 from optimizer.mechanics.layout import Layout, layout, spread
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.responses.response import Response
+from schemas.base.responses import ResponseFields
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.machine.scroll_machine import ScrollMachine
+from schemas.request.objective import Objective
+from schemas.request.requests import OptimizeRequest
 from schemas.request.scene import Scene
 
 
@@ -82,10 +86,20 @@ class Prepared:
     @cached_property
     def responses(self) -> tuple[Response, ...]:
         """What can be weighed, as responses to the unbalance of the counterweights that are chosen."""
-        plan = self.laden
+        plan, goal = self.laden, self.objective
         if plan is self.layout:
-            return responses(plan, self.simulated.first_order)
-        return responses(plan, rotating(plan).plus(reciprocating(plan, 1)))
+            return responses(plan, self.simulated.first_order, goal)
+        return responses(plan, rotating(plan).plus(reciprocating(plan, 1)), goal)
+
+    @property
+    def objective(self) -> Objective:
+        """What is to be small; the usual where nothing is asked."""
+        return self.request.objective if isinstance(self.request, OptimizeRequest) else Objective()
+
+    @cached_property
+    def added(self) -> tuple[tuple[ResponseFields, Shares], ...]:
+        """Responses that count beside force and moment, with what they have of both."""
+        return tuple((each.fields, each.shares(self.layout, self.objective)) for each in added(self.objective))
 
     @property
     def first_turn_deg(self) -> Real:

@@ -65,19 +65,18 @@ def _widened(response: Response, shafts: BalanceWebs, arm: Real) -> Response:
     )
 
 
-def with_balance_shafts(layout: Layout, response: TurnResponse, plane: Real | None) -> TurnResponse:
-    """Force or, about a plane, moment of all orders on the frame, with the webs of balance shafts behind the others.
+def with_balance_shafts(layout: Layout, response: TurnResponse, arm: Real) -> TurnResponse:
+    """A response of all orders on the frame, with the webs of balance shafts behind the others.
 
     What a shaft adds turns, as the crankshaft sees it, s (rho - 1) times while that turns once.
 
     Parameters
     ----------
-    plane : () m, of the moment; None of the force.
+    arm : (webs,) what a unit of force in the plane of each web of the shafts adds to the response.
     """
     shafts = layout.balance
     if shafts is None:
         return response
-    arm = np.ones_like(shafts.position) if plane is None else shafts.position - plane
     turning = layout.sense * (shafts.ratio - 1.0)
     return replace(
         response,

@@ -1,4 +1,4 @@
-"""Loads of the main bearings, bending moments of the shaft, and what it shakes with, over the whole turn.
+"""Loads of the main bearings and bending moments of the shaft over the whole turn.
 
 All of them are responses to counterweights.
 
@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from optimizer.mechanics.balance_shafts import beside, with_balance_shafts
+from optimizer.mechanics.balance_shafts import beside
 from optimizer.mechanics.bearings import bending_moment
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.row_series import Reading
@@ -82,21 +82,6 @@ def bending_moments(turn: WholeTurn, layout: Layout, places: Real, influence: In
         some[..., 0] = True
     names = [f"bending:{station!r}" for station in corners[some].tolist()]
     return beside(layout, shaft_curves(turn, layout, moment[some]).responses(names, "N m"))
-
-
-def shaking(turn: WholeTurn, layout: Layout) -> tuple[TurnResponse, TurnResponse]:
-    """Force [N] and moment [N m] of all orders on the frame, seen from the shaft, which leaves their size alone.
-
-    Gas and friction are internal forces and no part of them.
-
-    Parameters
-    ----------
-    turn, layout : of one machine.
-    """
-    arms = planes(layout) - layout.reference_plane
-    (force,) = shaft_curves(turn, layout, np.ones((1, arms.size)), "on_frame").responses(["force"], "N")
-    (moment,) = shaft_curves(turn, layout, arms[None], "on_frame").responses(["moment"], "N m")
-    return with_balance_shafts(layout, force, None), with_balance_shafts(layout, moment, layout.reference_plane)
 
 
 def stations(layout: Layout, places: Real) -> Real:

@@ -5,8 +5,10 @@ from functools import cache
 
 import numpy as np
 
+from optimizer.formulation.formulate import RESPONSES
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.balance_shafts import shaft_arms
+from optimizer.mechanics.frame import phasors
 from optimizer.mechanics.inertia import Wrench, reciprocating
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic, acceleration_harmonic_order_2
@@ -14,9 +16,10 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.phasors import orders_of, vectors_of
 from optimizer.responses.response import Phasors
-from schemas.answer.first_order import FirstOrder, Floor, Residual
+from schemas.answer.first_order import FirstOrder, Floor, Residual, ResponseChange, ResponsePeak
 from schemas.answer.outputs import Hodograph, Hodographs
 from schemas.answer.proof import BoundMultipliers
+from schemas.base.responses import PAIR
 
 #: x and y
 _AXES = np.array([1.0, 1j]).reshape(2, 1, 1)
@@ -44,6 +47,41 @@ def floor(layout: Layout, wrench: Wrench) -> Floor:
 def peaks(wrench: Wrench) -> dict[str, Real]:
     """Peaks of force [N] and moment [N m] as columns (...)."""
     return {"force_peak_N": wrench.force.peak, "moment_peak_Nm": wrench.moment.peak}
+
+
+def added_peaks(scene: Prepared, wrench: Wrench) -> tuple[ResponsePeak, ...]:
+    """Peaks of the responses of one machine that count beside force and moment."""
+    return tuple(
+        ResponsePeak(
+            response=fields.name, label=fields.label, unit=fields.unit, peak=float(phasors(shares, wrench).peak)
+        )
+        for fields, shares in scene.added
+    )
+
+
+def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
+    wrench = scene.first_order(unbalance)
+    # a response that counts in some designs has its column in all
+    return peaks(wrench) | {
+        each.fields.peak: phasors(each.shares(scene.layout, scene.objective), wrench).peak
+        for each in RESPONSES.values()
+        if each.name not in PAIR
+    }
+
+
+def _changes(scene: Prepared, shown: Sequence[Wrench]) -> tuple[ResponseChange, ...]:
+    """The same before and after; the latter is missing where there are no counterweights to show."""
+    before, *after = (added_peaks(scene, wrench) for wrench in shown)
+    return tuple(
+        ResponseChange(
+            response=was.response,
+            label=was.label,
+            unit=was.unit,
+            before=was.peak,
+            after=after[0][k].peak if after else None,
+        )
+        for k, was in enumerate(before)
+    )
 
 
 def smallest_peaks(value: Mapping[str, float], bound: Mapping[str, float]) -> dict[str, float]:
@@ -77,6 +115,7 @@ def residual(scene: Prepared, unbalance: Complex | None) -> Residual:
                 "before": (first[0], twice[0] if twice else None),
                 "after": None if unbalance is None else (first[1], twice[-1] if twice else None),
             },
+            "responses": _changes(scene, shown),
         }
     )
 
@@ -146,6 +185,6 @@ RESIDUAL = Output(
     "first-order force and moment, before and after",
     FIRST_ORDER_EFFECTS,
     residual,
-    Columns(lambda scene, unbalance: peaks(scene.first_order(unbalance))),
+    Columns(_columns),
 )
 HODOGRAPH = Output("hodograph", "first-order force and moment over a revolution", FIRST_ORDER_EFFECTS, hodographs)

@@ -9,6 +9,7 @@ from optimizer.pins.contact import Contact
 from optimizer.pins.energy import compared, pitch_energy
 from optimizer.pins.loads import PeriodicTable, at_dead_point, degrees_of_freedom, gas_torques, levers, peaks
 from optimizer.pins.pattern import Pattern, pattern_of
+from schemas.base.mappings import or_mapping
 from schemas.scroll.over_turn import ForceTable, TorqueTable
 from schemas.scroll.pin_loads import (
     DegreesOfFreedom,
@@ -28,6 +29,7 @@ _GRID_DEG = 0.5
 _REFINEMENTS, _PARTS = 8, 16
 
 
+@or_mapping(PinLoadsRequest)
 def pin_loads(request: PinLoadsRequest) -> PinLoadsAnswer:
     """What every pin carries over a turn, and whether that holds the scroll at every instant."""
     pattern = pattern_of(request)

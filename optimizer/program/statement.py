@@ -15,7 +15,7 @@ from optimizer.numerics.arrays import Complex, Real, mapped
 from optimizer.program.ceilings import Ceilings
 from optimizer.program.compiled_evaluation import Flat, flat
 from optimizer.program.limits import Limits
-from optimizer.program.norms import Norms
+from optimizer.program.norms import Norms, scalars
 
 #: of a sum, in units of the sum of the magnitudes of its terms
 _ROUNDING = 4 * np.finfo(float).eps
@@ -145,6 +145,36 @@ class Statement:
         size = np.add.reduce(np.abs(self.norms.influence) * np.abs(u)[..., None, :], axis=(-2, -1))
         size = (1.0 + self.norms.scatter) * size
         return _ROUNDING * (size + np.add.reduce(np.abs(self.norms.constant), axis=-1))
+
+    def spelled(self) -> "Statement":
+        """One program in which nothing scatters: what a row grows by for a web is a term |s sum |H_jk| u_k| of its own.
+
+        It is the same program: a term of one web is as large as what scatters with that web. Its ceilings do not
+        scatter, as a ceiling is on one term.
+        """
+        norms = self.norms
+        if not norms.scatter:
+            return self
+        assert not (self.ceilings.names and self.ceilings.norms.scatter)
+        size = norms.scatter * (self.membership @ np.abs(norms.influence))
+        rows, webs = np.nonzero(size)
+        row = np.concatenate([self.row, rows])
+        order = np.argsort(row, kind="stable")
+        own = np.zeros((rows.size, size.shape[-1]))
+        own[np.arange(rows.size), webs] = size[rows, webs]
+        first = np.searchsorted(self.row, rows)
+        terms = (*self.names.terms, *(self.names.terms[n] for n in first.tolist()))
+        scalar = (*scalars(norms), *(False for _ in first))
+        return replace(
+            self,
+            norms=Norms(
+                np.concatenate([norms.constant, np.zeros(rows.size)])[order],
+                np.concatenate([norms.influence, own])[order],
+                scalar=tuple(scalar[n] for n in order.tolist()),
+            ),
+            row=row[order],
+            names=self.names._replace(terms=tuple(terms[n] for n in order.tolist())),
+        )
 
     def mass(self, u: Complex) -> Real:
         """Total counterweight mass, kg."""

@@ -16,11 +16,13 @@ from optimizer.rating.design import StageDesign, design, suction_per_capacity
 from optimizer.rating.loads import gas_loads, rod_loads, tandem_loads
 from optimizer.rating.power import indicated_power, motor_power, shaft_power, suction_flow
 from optimizer.rating.ratios import discharge_temperature
+from schemas.base.mappings import or_mapping
 from schemas.machine.cylinder import Cylinder
 from schemas.rating.answer import CoefficientSources, RatingAnswer, StageRating
 from schemas.rating.request import CompressionStage, RatingRequest
 
 
+@or_mapping(RatingRequest)
 def rate(request: RatingRequest) -> RatingAnswer:
     """Size the cylinders of a compressor for a capacity, and say what the built machine delivers and needs.
 

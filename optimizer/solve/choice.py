@@ -5,36 +5,42 @@ The searches of one machine take the statement with finitely many cuts, and begi
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
 
 from optimizer.choices.construction import feasible_set
 from optimizer.choices.discrete.options import EQUAL
-from optimizer.choices.feasible_set import Choice
+from optimizer.choices.feasible_set import Choice, FeasibleSet
 from optimizer.formulation.balance_shafts import chosen
 from optimizer.formulation.demand import demand, of_any_mass
 from optimizer.formulation.goals import Goals
 from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.fixed_weights import fixed_masses
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex
 from optimizer.program.cuts.optimum import Found, Reached, Unkept, next_goal, over_turn, semicontinuous_limits
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.limits import Limits
 from optimizer.program.reference.solver import Solver
-from optimizer.solve.cutting_plane_rounds import Ended, in_rounds
+from optimizer.solve.costs import NO_CAPS, Caps, Costs, cost
+from optimizer.solve.cutting_plane_rounds import Ended, Start, in_rounds
 from optimizer.solve.design import certified_one
 from optimizer.solve.infeasibility import out_of_reach, unreachable
-from optimizer.solve.outcome import Outcome
+from optimizer.solve.outcome import Outcome, finite_or_null
 from optimizer.solve.search_claims import told_status
-from optimizer.solve.uncertain_program import Robust
+from optimizer.solve.uncertain_program import MOST_ROUNDS, Robust
 from optimizer.solve.whole_turn import Candidate, SearchProof, told
 from optimizer.solve.worst_case import certified_any_mass, with_worst_case
+from schemas.answer.answers import GoalReached
+from schemas.request.objective import COSTS, Cost
 from schemas.request.requests import OptimizeRequest
 
 #: width of the brackets by which choices are told apart, as a share of goals
 _CLOSE = 1e-10
+#: by which products of shares are rounded, relative
+_ROUNDING = 1e-12
 
 
 def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver, in_full: bool = True) -> Outcome:
@@ -57,12 +63,19 @@ def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver, 
             return free
     any_mass = of_any_mass(request)
     robust = Robust(request, scene, any_mass)
+    for _ in range(MOST_ROUNDS):
+        asked = robust.asked()
+        first = _of_any_mass(asked.program, any_mass.relative_gap, robust)
+        if isinstance(first, Unkept):
+            return out_of_reach(request, scene, asked, first)
+        course = _in_order(request, robust, asked, first, solver)
+        stages, picked = course.stages, course.known
+        if picked is None or not robust.learnt(picked.unbalance) or robust.left_s == 0.0:
+            break
+    # judged by all changes of masses that are known, of which those before have proven no less
     asked = robust.asked()
-    first = _of_any_mass(asked.program, any_mass.relative_gap, robust)
-    if isinstance(first, Unkept):
-        return out_of_reach(request, scene, asked, first)
-    stages = _in_order(request, robust, asked, first, solver)
-    last, picked = stages[-1], stages[-1].picked
+    assert picked is not None  # a choice is there after the first goal
+    last = stages[-1]
     found = last.found
     best = replace(last.best, contradicted=last.best.contradicted or any(stage.contradicted for stage in stages))
     if not found.kept and found.lower_bound == np.inf:
@@ -83,7 +96,8 @@ def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver, 
         _nodes(stages),
         sum(stage.found.rounds for stage in stages),
         [stage.found.lower_bound for stage in stages[:-1]],
-        all(stage.closed for stage in stages),
+        course.closed,
+        course.levels,
     )
     answer = told(request, scene, asked, Candidate(picked.mass, picked.angle, best), judged, proof, in_full)
     if request.robust:
@@ -97,7 +111,6 @@ class _Stage(NamedTuple):
     best: Found  # of any masses at any angles, under the same
     picked: Choice
     found: Ended
-    closed: bool  # the gap is the asked one
     contradicted: bool  # the choice comes to less than any is proven to
 
 
@@ -106,34 +119,104 @@ def _of_any_mass(program: Problem, gap: float, robust: Robust) -> Found | Unkept
     return over_turn(program.changed(goals=program.goals[:1]), gap, False, robust.left_s)
 
 
-def _in_order(request: OptimizeRequest, robust: Robust, asked: Goals, best: Found, solver: Solver) -> list[_Stage]:
+def _in_order(request: OptimizeRequest, robust: Robust, asked: Goals, best: Found, solver: Solver) -> "_Course":
     """The goals one after the other, each with the most that those before it may come to."""
-    program, gap, stages = asked.program, robust.wanted.relative_gap, list[_Stage]()
-    reached: list[Reached] = []
-    for n, goal in enumerate(program.goals):
-        so_far = program.changed(goals=program.goals[: n + 1])
-        if stages:
-            best = next_goal(so_far, reached, stages[-1].picked.unbalance, gap, robust.left_s)
-        size, later = float(program.units[n]), len(program.goals) - n - 1
+    course = _Course(request, robust, asked.program, best, solver)
+    order = list(request.objective.priorities)
+    if order and order[-1].goal == "mass" and asked.program.goals[-1].allowance == 0.0:
+        # of equal choices the lightest is taken anyhow
+        order.pop()
+    costs = any(priority.goal in COSTS for priority in order)
+    for i, priority in enumerate(order or [None]):
+        later = max(len(order), 1) - i - 1
         kept_back = robust.left_s * later / (later + 1)
-        known = stages[-1].picked if stages else None
-        limits = _limits(request, so_far, best, reached, known)
-        choices, asked_gap = feasible_set(request, limits, solver), request.accuracy.relative_gap
-        assert choices is not None  # else there would be nothing to search
-        closed = asked_gap * size
-        left_s = _left(robust, kept_back)
-        picked, found = in_rounds(so_far, replace(best, limits=limits), choices, asked_gap, size, left_s, known)
+        if priority is not None and priority.goal in COSTS:
+            course.cheapest(priority.goal, priority.allowance, kept_back)
+        elif not course.smallest(later, kept_back):
+            # counterweights that keep no ceilings are told by what any masses come to
+            break
+    return course if costs else replace(course, levels=[])
+
+
+@dataclass
+class _Course:
+    """Goals one after the other."""
+
+    request: OptimizeRequest
+    robust: Robust
+    program: Problem
+    first: Found  # of any masses, the first goal that is no cost by itself
+    solver: Solver
+    stages: list[_Stage] = field(default_factory=list)
+    levels: list[GoalReached] = field(default_factory=list)
+    caps: Caps = NO_CAPS
+    known: Choice | None = None  # that keeps all so far
+    closed: bool = True  # the gaps of all goals are the asked ones
+    _reached: list[Reached] = field(default_factory=list)
+
+    def smallest(self, later: int, kept_back: float) -> bool:
+        """Make the next goal small that is no cost; whether a choice was found that keeps the ceilings."""
+        n, program, gap = len(self.stages), self.program, self.robust.wanted.relative_gap
+        goal, known = program.goals[n], self.known
+        so_far = self._so_far(n + 1)
+        best = self.first
+        if n > 0:
+            assert known is not None  # else it would have ended
+            best = next_goal(so_far, self._reached, known.unbalance, gap, self.robust.left_s)
+        size = float(program.units[n])
+        limits = self.caps.within(_limits(self.request, so_far, best, self._reached, known))
+        asked_gap, left_s = self.request.accuracy.relative_gap, _left(self.robust, kept_back)
+        choices = self.caps.of(self._choices(limits))
+        picked, found = in_rounds(so_far, replace(best, limits=limits), choices, asked_gap, size, left_s, Start(known))
         value = float(so_far.values(picked.unbalance, _CLOSE).goals[-1])
         left = value - found.lower_bound
         contradicted = found.kept and left < -EQUAL * size
-        stages.append(_Stage(best, picked, found, left <= max(closed, EQUAL * size), contradicted))
-        if later and not found.kept:
-            # counterweights that keep no ceilings are told by what any masses come to
-            break
+        self.stages.append(_Stage(best, picked, found, contradicted))
+        self.closed &= left <= max(asked_gap * size, EQUAL * size)
         # choices that are this near are equal, which leaves room for the brackets by which they are judged
         most = max(value, found.lower_bound + goal.allowance * size) + EQUAL * size if later else value
-        reached.append(Reached(goal.name, value, best.proof, most))
-    return stages
+        self._reached.append(Reached(goal.name, value, best.proof, most))
+        if self.request.objective.priorities and found.kept:
+            self._told(goal.name, value, found.lower_bound, most)
+        self.known = picked
+        return found.kept
+
+    def _told(self, name: str, value: float, bound: float, most: float) -> None:
+        square = self.robust.scene.omega_squared
+        least = finite_or_null(min(bound, value) * square)
+        self.levels.append(GoalReached(goal=name, value=value * square, lower_bound=least, limit=most * square))
+
+    def cheapest(self, kind: Cost, allowance: float, kept_back: float) -> None:
+        """Make a cost small."""
+        n = max(len(self.stages) - 1, 0)
+        best, size = self.stages[n].best if self.stages else self.first, float(self.program.units[n])
+        costs = Costs(self._so_far(n + 1), best, self._reached[:-1], self._choices, self.solver, self.caps, size)
+        if self.known is not None:
+            costs.offer(self.known)
+        level = self._reached[-1].most if self._reached else np.inf
+        choice, bound = costs.least(kind, level, max(self.robust.left_s - kept_back, 0.0))
+        if choice is None:
+            # that there is none is told of the goal after it
+            self.closed = False
+            return
+        value = cost(choice, kind)
+        most = value * (1.0 + allowance) if kind == "mass" else np.floor(value * (1.0 + allowance) * (1.0 + _ROUNDING))
+        gap = self.request.accuracy.relative_gap * value if kind == "mass" else 0.0
+        self.closed &= value - bound <= gap
+        self.caps, self.known = self.caps.lower(kind, most), choice
+        fixed = float(np.sum(fixed_masses(self.request.machine))) if kind == "mass" else 0.0
+        limits = {"value": value + fixed, "lower_bound": min(bound, value) + fixed, "limit": most + fixed}
+        self.levels.append(GoalReached(goal=kind, **limits))
+
+    def _so_far(self, count: int) -> Problem:
+        """The program of so many goals under what costs may come to."""
+        limits = self.caps.within(self.program.limits)
+        return self.program.changed(goals=self.program.goals[:count], limits=limits)
+
+    def _choices(self, limits: Limits) -> FeasibleSet:
+        choices = feasible_set(self.request, limits, self.solver)
+        assert choices is not None  # else there would be nothing to search
+        return choices
 
 
 def _limits(
@@ -182,7 +265,7 @@ def _nominal_choice(
     if left_s == 0.0:
         return None, True
     accuracy = request.accuracy.model_copy(update={"time_limit_s": left_s})
-    alone = request.model_copy(update={"scenarios": (), "accuracy": accuracy})
+    alone = request.model_copy(update={"scenarios": (), "tolerances": None, "accuracy": accuracy})
     if alone.objective.over_the_turn:
         of_turn = certified_choice(alone, scene, solver, in_full=False)
         return of_turn.chosen if of_turn.status == "optimal" else None, of_turn.status == "inaccurate"

@@ -5,8 +5,9 @@ No choice comes to less than its cuts: what is proven of all choices by these ho
 cuts are known is not found again for less than it comes to, so that rounds end with the gap that is asked.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -51,6 +52,19 @@ class Ended:
     cuts: int
 
 
+class Start(NamedTuple):
+    """What rounds begin with, and where they may end."""
+
+    known: Choice | None = (
+        None  # that keeps ceilings and goals; where goals come first and are solved there has to be one
+    )
+    level: float = -np.inf  # once it is told whether any comes to no more, no more is asked; -inf asks for the best
+    hints: Sequence[Complex] = ()  # (K,) kg m, near which good choices may be
+
+
+_NOTHING = Start()
+
+
 def in_rounds(
     program: Problem,
     best: Found,
@@ -58,7 +72,7 @@ def in_rounds(
     relative_gap: float,
     size: float,
     left_s: Callable[[], float],
-    known: Choice | None = None,
+    start: Start = _NOTHING,
 ) -> tuple[Choice, Ended]:
     """The best choice, and what is proven of all that may be chosen.
 
@@ -69,8 +83,8 @@ def in_rounds(
     relative_gap : that is asked.
     size : what gaps are relative to, in units of the goal.
     left_s : what is left of the time limit.
-    known : a choice that keeps ceilings and goals; there has to be one where goals come first.
     """
+    known, level, hints = start
     gap, resolution = relative_gap * size, EQUAL * size
     pool, points, case_of = Pool(_known(program), program.scatter), best.point.unbalance[None], program.case_of
     most = np.array([goal.most for goal in best.goals[:-1]])
@@ -79,6 +93,7 @@ def in_rounds(
     if known is not None:
         points = np.concatenate([points, known.unbalance[None]])
         least = float(program.values(known.unbalance, _CLOSE).goals[-1])
+    points = np.concatenate([points, *(hint[None] for hint in hints)])
     for point in points:
         _learn(program, pool, point)
     at_rest, nodes, rounds = float(program.at_rest.goals[-1]), 0, 0
@@ -89,7 +104,7 @@ def in_rounds(
 
     while True:
         rounds += 1
-        posed = replace(program.outer(pool.cuts), limits=best.limits)
+        posed = replace(program.outer(pool.cuts), limits=best.limits).spelled()
         recent = points[[0, *range(max(1, len(points) - _RECENT), len(points))]]
         loose = in_discs(under_levels(posed, program, most, bound, _STEEP), choices.reach, inside=False)
         below = single_group(loose, case_of, recent, FEW, kinds)
@@ -113,7 +128,7 @@ def in_rounds(
         value, kept = float(values.goals[-1]), bool(np.all(values.goals[:-1] <= most))
         if kept and values.excess <= CEILING_TOLERANCE and value <= least + resolution:
             least, chosen = min(value, least), last
-        closed = least - bound <= max(gap, resolution)
+        closed = least - bound <= max(gap, resolution) or least <= level or -np.inf < level < bound
         learnt = _learn(program, pool, last.unbalance)
         if most.size:
             # levels are told apart the better the closer both are

@@ -123,7 +123,7 @@ def _infeasible(
 ) -> dict[str, object]:
     """Which ceilings conflict, and what can be reached: each peak by itself, and the best compromise."""
     machine, square, given = request.machine, best.omega_squared, given_ceilings(request.objective)
-    components = {ceiling.name for ceiling, _ in given} - {each.name for each in scene.responses}
+    components = {ceiling.response for ceiling, _ in given} - {each.name for each in scene.responses}
     alone_too = [each for each, _ in limited(scene.responses, request.objective) if each.name in components]
     peaks = {each.name: smallest_peak(each.spread(square.shape), machine) for each in (*scene.responses, *alone_too)}
 
@@ -154,5 +154,5 @@ def _infeasible(
         )
         for name, (peak, found) in alone.items()
     }
-    ceilings = [StatedCeiling(each.name, each.field, allowed, each.name in components) for each, allowed in given]
+    ceilings = [StatedCeiling(each.response, each.field, allowed) for each, allowed in given]
     return report(scene, fitted, ceilings, ceilings, smallest, implied_max_mass(machine, most)[0], against)

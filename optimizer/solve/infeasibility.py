@@ -12,7 +12,7 @@ from optimizer.formulation.formulate import RESPONSES, given_ceilings
 from optimizer.formulation.formulate import limited as limited_responses
 from optimizer.formulation.goals import Goals
 from optimizer.formulation.simulation import Prepared
-from optimizer.outputs.first_order import first_order, smallest_peaks, smallest_proofs
+from optimizer.outputs.first_order import added_peaks, first_order, smallest_peaks, smallest_proofs
 from optimizer.program.cuts.dominance import Group, Weighed
 from optimizer.program.cuts.optimum import METHOD, Found, Unkept, over_turn
 from optimizer.program.cuts.semi_infinite import Goal, Problem
@@ -24,6 +24,7 @@ from optimizer.solve.proof import implied_max_mass, named_excess
 from schemas.answer.infeasibility import Closest, Infeasibility, SmallestPeak
 from schemas.answer.limits import CeilingField
 from schemas.answer.proof import BoundMultipliers, InfeasibilityMultipliers
+from schemas.base.responses import PAIR
 from schemas.request.requests import OptimizeRequest
 
 #: relative gap of the smallest peaks by themselves
@@ -48,7 +49,12 @@ class StatedCeiling(NamedTuple):
     response: str
     field: CeilingField
     allowed: float  # [unit of the response]
-    listed: bool  # with what its response comes to at least, for which the answer has no other field
+    over_turn: bool = False  # on a response over the whole turn
+
+    @property
+    def listed(self) -> bool:
+        """With what its response comes to at least, for which the answer has no other field."""
+        return self.over_turn or self.response not in PAIR
 
 
 def report(
@@ -71,7 +77,7 @@ def report(
     implied : largest masses that the proofs count with, by web, kg.
     """
     impossible = [each for each in ceilings if least[each.response].lower_bound > each.allowed]
-    closest = first_order(replace(scene, shafts=shown.on_shafts).first_order(shown.on_crank))
+    left = replace(scene, shafts=shown.on_shafts).first_order(shown.on_crank)
     return {
         "counterweights": (),
         "total_mass_kg": None,
@@ -84,20 +90,23 @@ def report(
             ),
             smallest=tuple(
                 SmallestPeak(
-                    response=name,
-                    ceiling_field=field,
-                    ceiling=allowed,
-                    smallest=least[name].value,
-                    lower_bound=least[name].lower_bound,
-                    multipliers=least[name].multipliers,
+                    response=each.response,
+                    ceiling_field=each.field,
+                    ceiling=each.allowed,
+                    smallest=least[each.response].value,
+                    lower_bound=least[each.response].lower_bound,
+                    multipliers=least[each.response].multipliers,
                 )
-                for name, field, allowed, listed in dict.fromkeys(ceilings)
-                if listed
+                for each in dict.fromkeys(ceilings)
+                if each.listed
             ),
             implied_max_mass_kg=implied,
             scenarios=scenarios,
             closest=Closest(
-                counterweights=shown.counterweights, balance_shafts=shown.balance_shafts, first_order=closest
+                counterweights=shown.counterweights,
+                balance_shafts=shown.balance_shafts,
+                first_order=first_order(left),
+                responses=added_peaks(scene, left),
             ),
             multipliers=InfeasibilityMultipliers(
                 conflict=conflict, **smallest_proofs({name: each.multipliers for name, each in least.items()})
@@ -143,9 +152,9 @@ def unreachable(
     }
     # of all orders the ceilings are among what is limited over the turn
     given = given_ceilings(request.objective) if request.objective.orders == "first" else []
-    exact = [StatedCeiling(each.name, each.field, allowed, each.name not in RESPONSES) for each, allowed in given]
+    exact = [StatedCeiling(each.response, each.field, allowed) for each, allowed in given]
     both = [
-        StatedCeiling(name, each.field, each.ceiling, True)
+        StatedCeiling(name, each.field, each.ceiling, over_turn=True)
         for each in asked.limited
         for name in [alone.quantities[each.quantity].name]
         if name in limited
@@ -208,7 +217,7 @@ def _under_ceilings(request: OptimizeRequest, asked: Goals) -> list[str]:
     """Responses that have a ceiling, the first of them."""
     given = given_ceilings(request.objective) if request.objective.orders == "first" else ()
     limited = (asked.program.quantities[each.quantity].name for each in asked.limited)
-    return list(dict.fromkeys((*(each.name for each, _ in given), *limited)))[:_MOST_AT_FAULT]
+    return list(dict.fromkeys((*(each.response for each, _ in given), *limited)))[:_MOST_AT_FAULT]
 
 
 def _least(program: Problem, group: Group) -> Found:

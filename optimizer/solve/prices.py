@@ -12,6 +12,7 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.sensitivity import ShadowPrices
 from optimizer.responses.response import Response
 from schemas.answer.limits import CeilingField, MachineLimit, PriceUnit, ShadowPrice, WebLimit
+from schemas.base.responses import ceilings
 from schemas.machine.machine import Machine
 from schemas.request.objective import Objective
 
@@ -23,7 +24,7 @@ _UNIT_OF: Mapping[CeilingField, str] = {
     "bearing_ceiling_N": "N",
     "specific_load_ceiling_Pa": "Pa",
     "bending_ceiling_Nm": "N m",
-    **{ceiling.field: ceiling.unit for response in RESPONSES.values() for ceiling in response.limits},
+    **{ceiling.field: ceiling.unit for ceiling in ceilings()},
 }
 
 

@@ -1,15 +1,17 @@
 """Force and moment of all orders on the frame, where they are what the objective looks at."""
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
 
+from optimizer.formulation.formulate import of_all_orders
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.layout import Layout
-from optimizer.mechanics.shaft_curves import shaking
-from optimizer.mechanics.whole_turn import WholeTurn
-from optimizer.numerics.arrays import Complex
-from optimizer.responses.curve import peaks
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.responses.curve import TurnResponse, peaks
 from optimizer.solve.whole_turn import whole_turn_of
 from schemas.answer.first_order import Residual, TurnPeaks, TurnResidual
+from schemas.base.responses import PAIR, RESPONSES
 
 #: relative width of the brackets
 _WIDTH = 1e-8
@@ -23,14 +25,28 @@ def with_turn(residual: Residual, scene: Prepared, unbalance: Complex | None) ->
     unbalance : (K + S,) kg m, of the counterweights that were chosen and, behind them, on the balance shafts; None
         where there are none to show.
     """
-    turn = whole_turn_of(scene)
-    after = None if unbalance is None else _peaks(turn, scene.laden, unbalance)
-    return residual.model_copy(update={"turn": TurnResidual(before=_peaks(turn, scene.layout), after=after)})
+    turn, goal = whole_turn_of(scene), scene.objective
+    before = _peaks(of_all_orders(turn, scene.layout, goal), scene.layout)
+    after = None if unbalance is None else _peaks(of_all_orders(turn, scene.laden, goal), scene.laden, unbalance)
+    changes = tuple(
+        each.model_copy(
+            update={
+                "turn_before": before[each.response],
+                "turn_after": None if after is None else after[each.response],
+            }
+        )
+        for each in residual.responses
+    )
+    pair = TurnResidual(before=_pair(before), after=None if after is None else _pair(after))
+    return residual.model_copy(update={"turn": pair, "responses": changes})
 
 
-def _peaks(turn: WholeTurn, layout: Layout, unbalance: Complex | None = None) -> TurnPeaks:
-    """Of one machine with the weights that are in its layout."""
-    responses = shaking(turn, layout)
+def _pair(peak: Mapping[str, float]) -> TurnPeaks:
+    return TurnPeaks.model_validate({RESPONSES[name].peak: peak[name] for name in PAIR})
+
+
+def _peaks(responses: Sequence[TurnResponse], layout: Layout, unbalance: Complex | None = None) -> dict[str, float]:
+    """Of one machine with the weights that are in its layout, by name."""
     u = np.zeros(responses[0].influence.shape, complex) if unbalance is None else unbalance
-    force, moment = (peaks(responses, u, _WIDTH).lower * layout.omega**2).tolist()
-    return TurnPeaks(force_peak_N=force, moment_peak_Nm=moment)
+    found: Real = peaks(responses, u, _WIDTH).lower * layout.omega**2
+    return dict(zip((each.name for each in responses), found.tolist(), strict=True))

@@ -15,7 +15,7 @@ import numpy as np
 
 from optimizer.errors import MissingInput
 from optimizer.formulation.demand import Demand
-from optimizer.formulation.formulate import RESPONSES, given_ceilings, responses, weights
+from optimizer.formulation.formulate import counted, given_ceilings, responses, weights
 from optimizer.formulation.goals import Case, Goals, formulate
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.scatter import changed, row_parts, weighted, worst_signs
@@ -35,7 +35,7 @@ from schemas.request.scenarios import Tolerances, machine_of
 #: a corner that is worse by less than this share is as good as known
 _ALIKE = 1e-12
 #: times that corners are added before it ends with what is proven
-_MOST_ROUNDS = 60
+MOST_ROUNDS = 60
 
 
 class Measure(NamedTuple):
@@ -75,7 +75,8 @@ class Machine:
     @cached_property
     def parts(self) -> tuple[Phasors, ...]:
         """What every row adds to the responses, (rows,) each."""
-        return tuple(each.baseline for each in responses(self.scene.layout, row_parts(self.scene.layout)))
+        plan = self.scene.layout
+        return tuple(each.baseline for each in responses(plan, row_parts(plan), self.request.objective))
 
     @property
     def scatters(self) -> bool:
@@ -169,7 +170,7 @@ class Robust:
     def solved(self) -> tuple[Goals, Found | Unkept]:
         """The program with all changes of masses that matter, and its proof."""
         gap, least = self.wanted.relative_gap, self.wanted.least_mass
-        for _ in range(_MOST_ROUNDS):
+        for _ in range(MOST_ROUNDS):
             asked = self.asked()
             found = over_turn(asked.program, gap, least, self.left_s)
             if isinstance(found, Unkept) or found.timed_out or not self.learnt(found.point.unbalance):
@@ -197,10 +198,10 @@ def _measures(request: OptimizeRequest) -> Iterator[Measure]:
     if objective.orders == "all":
         return
     across, wanted = objective.direction_weights, weights(request.machine, objective)
-    for r, name in enumerate(RESPONSES):
+    names = [each.name for each in counted(objective)]
+    for r, name in enumerate(names):
         if wanted[name] > 0:
             yield Measure(r, across.x, across.y)
-    names = list(RESPONSES)
     for ceiling, _ in given_ceilings(objective):
-        response = names.index(ceiling.name.partition(":")[0])
+        response = names.index(ceiling.response.partition(":")[0])
         yield Measure(response, float(ceiling.axis != "y"), float(ceiling.axis != "x"))

@@ -39,9 +39,10 @@ _CLOSE = 1e-10
 #: the same where goals are kept whose price may be high
 _CLOSER = 1e-12
 _EARLIER = (
-    "The last goal is within the requested gap. The search for an earlier goal ended with a larger gap, which `goals`"
+    "The last goal is within the requested gap. The search for another goal ended with a larger gap, which `goals`"
     " of the certificate states."
 )
+_IN_ORDER = "Proven optimal: every goal is certified in its order, and keeps what those before it allow."
 
 
 class Candidate(NamedTuple):
@@ -60,6 +61,7 @@ class SearchProof(NamedTuple):
     rounds: int  # likewise
     bounds: Sequence[float] | None  # of the goals before it, over omega^2; None: of goals in order nothing is proven
     closed: bool  # the gaps of all goals are the asked ones
+    levels: Sequence[GoalReached] = ()  # all goals in their order, where some are what castings cost
 
     @property
     def lower_bound(self) -> float:
@@ -129,7 +131,9 @@ def told(
     values = program.values(u, _CLOSE if len(program.goals) == 1 else _CLOSER)
     found = found.counting(float(values.goals[-1]))
     claimed = _claim(wanted, program, found, u, values, mass, -np.inf if search is None else search.lower_bound)
-    judged = verdict(claimed, wanted.relative_gap)
+    # what the last goal allows is for the mass, and for what castings cost, after it
+    allowance = program.goals[-1].allowance
+    judged = verdict(claimed, wanted.relative_gap + allowance)
     status, reason, gap = str(judged.status), str(judged.reason), float(judged.gap[0])
     if found.timed_out and status != "optimal" and reason != CONTRADICTED:
         reason = f"The time limit of {wanted.time_limit_s:g} s ended the search. {reason}"
@@ -158,10 +162,22 @@ def told(
             any_mass = np.minimum(max(found.proof.bound, 0.0), judged.lower_bound[0]) * square
             rounds, cuts = found.rounds + search.rounds, search.ended.cuts
             printed |= {"continuous_lower_bound": any_mass, "rounds": rounds, "cuts": cuts}
-            # above what it comes to by no more than rounding
-            bounds = [min(bound, goal.value) for bound, goal in zip(search.bounds, found.goals, strict=False)]
+            bounds = [*search.bounds]
         if status == "optimal" and not search.closed:
             status, reason = "inaccurate", _EARLIER
+    if status == "optimal" and (allowance > 0.0 or (search is not None and search.levels)):
+        reason = _IN_ORDER
+    if search is None and allowance > 0.0:
+        bounds.append(found.proof.bound)
+    # above what it comes to by no more than rounding
+    bounds = [min(bound, goal.value) for bound, goal in zip(bounds, found.goals, strict=False)]
+    levels = tuple(_levels(found, bounds, square))
+    if search is None and allowance > 0.0:
+        levels += (_mass_level(found, float(np.sum(there)), printed["mass_lower_bound_kg"]),)
+    if search is not None and search.levels:
+        levels = tuple(search.levels)
+    if judged.reason == CONTRADICTED:
+        levels = tuple(each.model_copy(update={"lower_bound": None}) for each in levels)
     return Outcome(
         status,
         reason,
@@ -186,18 +202,24 @@ def told(
                     objective=multipliers_of(found.proof, square),
                     mass=None if found.mass_proof is None else multipliers_of(found.mass_proof, square, "mass"),
                 ),
-                tuple(
-                    GoalReached(
-                        goal=goal.goal,
-                        value=goal.value * square,
-                        lower_bound=None if judged.reason == CONTRADICTED else finite_or_null(bound * square),
-                        limit=goal.most * square,
-                    )
-                    for goal, bound in zip(found.goals, bounds, strict=False)
-                ),
+                levels,
             ),
         },
     )
+
+
+def _levels(found: Found, bounds: Sequence[float], omega_squared: float) -> Iterator[GoalReached]:
+    """What goals came to in their order, as far as there are bounds of them."""
+    for goal, bound in zip(found.goals, bounds, strict=False):
+        least = finite_or_null(bound * omega_squared)
+        value, limit = goal.value * omega_squared, goal.most * omega_squared
+        yield GoalReached(goal=goal.goal, value=value, lower_bound=least, limit=limit)
+
+
+def _mass_level(found: Found, kilograms: float, least: object) -> GoalReached:
+    """The minimum mass after goals that allow something for it."""
+    bound = None if found.mass_proof is None else finite_or_null(np.asarray(least))
+    return GoalReached(goal="mass", value=kilograms, lower_bound=bound, limit=kilograms)
 
 
 def _prices(
@@ -272,7 +294,7 @@ def _bound(proof: Proof, u: Complex, excess: float) -> tuple[float, float]:
 def _touched(request: OptimizeRequest, asked: Goals, values: Values) -> Iterator[MachineLimit]:
     """Ceilings that are touched, in any case."""
     program = asked.program
-    called = {each.name: each.limit for each, _ in given_ceilings(request.objective)}
+    called = {each.response: each.limit for each, _ in given_ceilings(request.objective)}
     limits = [*(called[each.name] for each, _ in program.ceilings), *(each.limit for each in asked.limited)]
     caps = np.array([cap for _, cap in (*program.ceilings, *program.limited)])
     for limit, over in zip(limits, values.over * program.sizes + TOUCHED * caps, strict=True):

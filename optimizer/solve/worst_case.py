@@ -7,10 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 from optimizer.formulation.demand import demand
-from optimizer.formulation.formulate import RESPONSES
+from optimizer.formulation.formulate import added, counted, of_all_orders
 from optimizer.formulation.goals import Goals, bearing_responses, formulate
 from optimizer.formulation.simulation import Prepared
-from optimizer.mechanics.shaft_curves import shaking
 from optimizer.numerics.arrays import Complex
 from optimizer.program.cuts.brackets import Brackets
 from optimizer.program.cuts.cut import Quantity
@@ -21,6 +20,7 @@ from optimizer.solve.outcome import Outcome
 from optimizer.solve.uncertain_program import Machine, Measure, Robust
 from optimizer.solve.whole_turn import certified_turn, fitted
 from schemas.answer.answers import Certificate
+from schemas.answer.first_order import ResponsePeak
 from schemas.answer.robust import PriceOfRobustness, WorstCase
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.requests import OptimizeRequest
@@ -90,15 +90,20 @@ def nothing_off(request: OptimizeRequest, scene: Prepared, u: Complex, objective
 
 def _worst_case(robust: Robust, u: Complex, objective: float) -> WorstCase:
     """Peaks in the worst case, each by itself, with counterweights (K,) kg m."""
-    force, moment = (
-        max(_external(robust, machine, response, u) for machine in robust.machines)
-        for response in range(len(RESPONSES))
-    )
+    on_frame = counted(robust.request.objective)
+    peaks = {
+        each.name: max(_external(robust, machine, k, u) for machine in robust.machines)
+        for k, each in enumerate(on_frame)
+    }
     bearings = robust.machines if robust.request.objective.of_the_shaft else []
     loads = [_peak(robust, machine, list(_bearing_responses(machine)), u) for machine in bearings]
     return WorstCase(
-        force_peak_N=force,
-        moment_peak_Nm=moment,
+        force_peak_N=peaks["force"],
+        moment_peak_Nm=peaks["moment"],
+        responses=tuple(
+            ResponsePeak(response=each.name, label=each.fields.label, unit=each.unit, peak=peaks[each.name])
+            for each in added(robust.request.objective)
+        ),
         bearing_peak_N=max(loads) if loads else None,
         objective=objective,
     )
@@ -107,7 +112,8 @@ def _worst_case(robust: Robust, u: Complex, objective: float) -> WorstCase:
 def _external(robust: Robust, machine: Machine, response: int, u: Complex) -> float:
     """A peak on the frame: of the first order, or of all where these count."""
     if robust.request.objective.orders == "all":
-        return _peak(robust, machine, [shaking(machine.turn, machine.scene.laden)[response]], u)
+        every = of_all_orders(machine.turn, machine.scene.laden, robust.request.objective)
+        return _peak(robust, machine, every[response : response + 1], u)
     measure = Measure(response, 1.0, 1.0)
     off = robust.scatter.of(machine.nominal[response].influence, u)
     return (float(np.max(machine.sizes(measure, machine.corners(measure), u))) + off) * machine.scene.omega_squared

@@ -42,8 +42,10 @@ class BalanceRate(Model):
 class GoalReached(Model):
     """One of several goals that were met one after the other."""
 
-    goal: Literal["external", "bearings", "bending"] = Field(description="the goal", examples=["external"])
-    value: float = Field(description="what it came to by itself", examples=[30345.0])
+    goal: Literal["external", "bearings", "bending", "mass", "pieces", "sizes"] = Field(
+        description="the goal", examples=["external"]
+    )
+    value: float = Field(description="what it came to by itself; mass in kg, without those fixed", examples=[30345.0])
     lower_bound: float | None = Field(
         description="certified: under the goals before it nothing is smaller; null if nothing is proven",
         examples=[30344.97],
@@ -109,7 +111,9 @@ class Certificate(Model):
     )
     goals: tuple[GoalReached, ...] = Field(
         (),
-        description="goals before the last, in their order; the certificate is that of the last one under them",
+        description="goals before the last, in their order; the certificate is that of the last one under them. Where"
+        " the last of external, bearings and bending leaves an allowance to mass, pieces or sizes, or these stand"
+        " elsewhere, all goals are here; the gap of the certificate then holds what was used of the allowance",
         examples=[[]],
     )
     multipliers: Multipliers = Field(

@@ -3,6 +3,7 @@
 from pydantic import Field
 
 from schemas.answer.outputs import Order
+from schemas.answer.proof import ResponseName
 from schemas.base.model import Model
 from schemas.base.quantities import (
     Degrees,
@@ -53,6 +54,35 @@ class FirstOrder(Model):
     )
 
 
+class ResponsePeak(Model):
+    """The peak of a response on the frame other than force and moment."""
+
+    response: ResponseName = Field(description="the response, as its fields name it", examples=["moment"])
+    label: str = Field(description="what it is called", examples=["moment"])
+    unit: str = Field(description="unit of its peaks", examples=["N m"])
+    peak: float = Field(description="its largest value", examples=[20110.0])
+
+
+class ResponseChange(Model):
+    """The same without and with counterweights, of the first order and of all."""
+
+    response: ResponseName = Field(description="the response, as its fields name it", examples=["moment"])
+    label: str = Field(description="what it is called", examples=["moment"])
+    unit: str = Field(description="unit of its peaks", examples=["N m"])
+    before: float = Field(description="peak of the first order without counterweights", examples=[20110.0])
+    after: float | None = Field(
+        description="with the counterweights; null where there are none to show (infeasible)", examples=[6970.1]
+    )
+    turn_before: float | None = Field(
+        None,
+        description="peak of all orders without counterweights; null where the objective looks at the first alone",
+        examples=[None],
+    )
+    turn_after: float | None = Field(
+        None, description="with the counterweights; null likewise, and where there are none to show", examples=[None]
+    )
+
+
 class ResidualOrders(Model):
     """Orders 1 and 2 without and with counterweights, which change the first alone; closed forms."""
 
@@ -91,6 +121,9 @@ class Residual(Model):
         examples=[{"force": {"peak_N": 4997.4}}],
     )
     orders: ResidualOrders = Field(description="orders 1 and 2 as phasors", examples=[{"before": [{"order": 1}, None]}])
+    responses: tuple[ResponseChange, ...] = Field(
+        (), description="responses that are weighed or limited beside force and moment", examples=[[]]
+    )
     turn: TurnResidual | None = Field(
         None,
         description="peaks of all orders; null where the objective looks at the first alone",

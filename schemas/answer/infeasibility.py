@@ -3,7 +3,7 @@
 from pydantic import Field
 
 from schemas.answer.counterweights import Counterweight, FittedShaft
-from schemas.answer.first_order import FirstOrder
+from schemas.answer.first_order import FirstOrder, ResponsePeak
 from schemas.answer.limits import CeilingField
 from schemas.answer.proof import BoundMultipliers, InfeasibilityMultipliers, ResponseName
 from schemas.base.model import Model
@@ -23,6 +23,9 @@ class Closest(Model):
         (), description="unbalances of the balance shafts with them", examples=[[]]
     )
     first_order: FirstOrder = Field(description="what they leave", examples=[{"force": {"peak_N": 4997.4}}])
+    responses: tuple[ResponsePeak, ...] = Field(
+        (), description="the same of responses that are weighed or limited beside force and moment", examples=[[]]
+    )
 
 
 class SmallestPeak(Model):

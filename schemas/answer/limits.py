@@ -1,6 +1,6 @@
 """What limits are called, and what each costs."""
 
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from pydantic import Field
 
@@ -8,6 +8,7 @@ from schemas.base.model import Model
 from schemas.base.quantities import (
     Name,
 )
+from schemas.base.responses import ceilings
 
 WebLimit = Literal[
     "max_mass",
@@ -17,18 +18,21 @@ WebLimit = Literal[
 ]
 
 
-CeilingField = Literal[
-    "force_ceiling_N", "force_ceiling_x_N", "force_ceiling_y_N",
-    "moment_ceiling_Nm", "moment_ceiling_x_Nm", "moment_ceiling_y_Nm",
-    "bearing_ceiling_N", "specific_load_ceiling_Pa", "bending_ceiling_Nm",
-]  # fmt: skip
-
-
-MachineLimit = Literal[
-    "max_total_mass", "force_ceiling", "force_ceiling_x", "force_ceiling_y",
-    "moment_ceiling", "moment_ceiling_x", "moment_ceiling_y",
-    "bearing_ceiling", "specific_load_ceiling", "bending_ceiling",
-]  # fmt: skip
+if TYPE_CHECKING:
+    CeilingField = str
+    MachineLimit = str
+else:
+    #: of the responses on the frame, and inside the shaft
+    CeilingField = Literal[
+        *(each.field for each in ceilings()), "bearing_ceiling_N", "specific_load_ceiling_Pa", "bending_ceiling_Nm"
+    ]
+    MachineLimit = Literal[
+        "max_total_mass",
+        *(each.limit for each in ceilings()),
+        "bearing_ceiling",
+        "specific_load_ceiling",
+        "bending_ceiling",
+    ]
 
 
 PriceUnit = Literal[

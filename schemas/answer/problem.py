@@ -9,7 +9,8 @@ class FieldError(Model):
     """What is wrong with one field."""
 
     pointer: str = Field(
-        description="JSON pointer to the field in the request body", examples=["/machine/throws/0/crank_radius_m"]
+        description="JSON pointer to the field in the request body; of a parameter, below /query or /path",
+        examples=["/machine/throws/0/crank_radius_m"],
     )
     message: str = Field(description="what is wrong", examples=["must be at least 1e-12"])
 

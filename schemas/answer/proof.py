@@ -6,12 +6,15 @@ from pydantic import Field, StringConstraints
 
 from schemas.base.model import Model
 from schemas.base.quantities import Degrees, Kilograms, Name
+from schemas.base.responses import RESPONSES
 
-#: force, moment, a component of them as force:x, roll, bearing:name, bending:plane
+_ON_FRAME = "|".join(RESPONSES)
+#: a response on the frame, a component of it as force:x, roll, bearing:name, bending:plane
 ResponseName = Annotated[
     str,
     StringConstraints(
-        max_length=80, pattern=r"^((force|moment)(:[xy])?|roll|bearing:[^\x00-\x1f\x7f]+|bending:[-+.e0-9]+)$"
+        max_length=80,
+        pattern=rf"^(({_ON_FRAME})(:[xy])?|roll|bearing:[^\x00-\x1f\x7f]+|bending:[-+.e0-9]+)$",
     ),
 ]
 #: a row of the objective: of a cut the response and the angle

@@ -4,6 +4,7 @@ from typing import Annotated
 
 from pydantic import Field
 
+from schemas.answer.first_order import ResponsePeak
 from schemas.base.model import Model
 from schemas.base.quantities import NewtonMetres, Newtons
 from schemas.base.units import Unit
@@ -33,6 +34,9 @@ class WorstCase(Model):
         description="largest peak force; of the first order, or of all where orders are all", examples=[5120.4]
     )
     moment_peak_Nm: NewtonMetres = Field(description="largest peak moment, likewise", examples=[20110.0])
+    responses: tuple[ResponsePeak, ...] = Field(
+        (), description="responses that are weighed or limited beside them, likewise", examples=[[]]
+    )
     bearing_peak_N: Newtons | None = Field(
         description="largest peak load of a main bearing; null where neither bearings nor bending count",
         examples=[None],

@@ -6,7 +6,12 @@ A model that is built on another one has the headings of that one as well, behin
 
 from collections.abc import Iterable
 
+from schemas.base.responses import RESPONSES, ceilings
+
 Groups = dict[str, tuple[str, ...]]
+
+_WEIGHTS = tuple(field for each in RESPONSES.values() for field in (each.weight, *each.parameters))
+_CEILINGS = tuple(each.field for each in sorted(ceilings(), key=lambda each: each.axis is not None))
 
 _ROTOR: Groups = {
     "Machine": ("kind", "name", "description"),
@@ -83,12 +88,11 @@ GROUPS: dict[str, Groups] = {
     },
     "Objective": {
         "Force and moment": (
-            "combine", "force_weight", "moment_weight", "direction_weights", "orders", "roll_weight",
+            "combine", *_WEIGHTS, "direction_weights", "orders", "roll_weight",
         ),
         "Inside the shaft": ("bearing_weight", "bearing_measure", "bending_weight"),
         "Ceilings": (
-            "force_ceiling_N", "moment_ceiling_Nm", "force_ceiling_x_N", "force_ceiling_y_N", "moment_ceiling_x_Nm",
-            "moment_ceiling_y_Nm", "bearing_ceiling_N", "specific_load_ceiling_Pa", "bending_ceiling_Nm",
+            *_CEILINGS, "bearing_ceiling_N", "specific_load_ceiling_Pa", "bending_ceiling_Nm",
         ),
         "Among equals": ("priorities", "least_mass", "symmetric"),
     },

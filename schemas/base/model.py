@@ -7,7 +7,7 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from schemas.base.form_hints import hinted
-from schemas.base.notebook import shown
+from schemas.base.notebook import line, shown
 from schemas.base.version import package_version
 
 
@@ -31,16 +31,26 @@ class Model(BaseModel):
         return made
 
 
-class Answer(Model):
+class Shown(Model):
+    """What an answer consists of, or an answer: short in a terminal, tables in a notebook."""
+
+    def __repr__(self) -> str:
+        return line(self)
+
+    def __str__(self) -> str:
+        return line(self)
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows."""
+        return shown(self)
+
+
+class Answer(Shown):
     """An answer of a computation, which says who computed it."""
 
     version: str = Field(
         default_factory=package_version, description="version of the package that answered", examples=["0.2.0"]
     )
-
-    def _repr_html_(self) -> str:
-        """What a notebook shows."""
-        return shown(self)
 
 
 class NotEmpty:

@@ -1,4 +1,7 @@
-"""An answer as HTML for a notebook: figures in a table, lists of things as tables below, series by their length."""
+"""An answer for a person: a line of its figures, and HTML for a notebook.
+
+In HTML figures stand in a table, lists of things as tables below, series by their length.
+"""
 
 from collections.abc import Iterator
 from html import escape
@@ -6,8 +9,26 @@ from itertools import chain
 
 from pydantic import BaseModel
 
+#: figures of a line, and the longest text in it
+_FIGURES, _TEXT = 8, 40
 #: things of a list that are shown; more are counted
 _MOST = 50
+
+
+def line(model: BaseModel) -> str:
+    """The answer on one line: its first figures and words, and of lists how much they hold."""
+    told = [f"{name}={_short(value)}" for name, value in _given(model)]
+    return f"{type(model).__name__}({', '.join([*told[:_FIGURES], *(['...'] if len(told) > _FIGURES else [])])})"
+
+
+def _short(value: object) -> str:
+    if isinstance(value, BaseModel):
+        return f"{type(value).__name__}(...)"
+    if isinstance(value, tuple | dict):
+        return f"[{len(value)}]"
+    if isinstance(value, str):
+        return repr(value if len(value) <= _TEXT else f"{value[:_TEXT]}...")
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
 def shown(model: BaseModel) -> str:

@@ -5,7 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from schemas.answer.counterweights import Counterweight
-from schemas.base.model import Model
+from schemas.base.model import Model, Shown
 from schemas.base.quantities import Kilograms, NewtonMetres, Newtons
 
 Counted = Literal["weights", "part_numbers"]
@@ -62,7 +62,7 @@ class CountPoint(Model):
     method: str = Field(description="what found it", examples=["exhaustion in halves"])
 
 
-class CountFront(Model):
+class CountFront(Shown):
     """The same for every number, under one limit of the total mass."""
 
     max_total_mass_kg: Kilograms | None = Field(

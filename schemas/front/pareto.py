@@ -11,14 +11,13 @@ from schemas.answer.first_order import FirstOrder, Floor
 from schemas.answer.infeasibility import Infeasibility
 from schemas.answer.limits import MachineLimit
 from schemas.answer.proof import EndMultipliers, Multipliers
-from schemas.base.model import Answer, Model, NotEmpty
+from schemas.base.model import Answer, Model, NotEmpty, Shown
 from schemas.base.quantities import Count, Flag, Kilograms, Mass, Metres, Name, NewtonMetres, Newtons
 from schemas.base.rules import Rule, first_of
 from schemas.base.units import Unit, between
 from schemas.front.counts import CountFront, CountTrade
 from schemas.front.trade import MAX_TRADED_POINTS, TradedFront, TradedNames
 from schemas.machine.reciprocating import no_balance_shafts
-from schemas.machine.rotor import no_catalogue
 from schemas.request.requests import OptimizeRequest
 
 MAX_POINTS = 201
@@ -84,8 +83,6 @@ class ParetoRequest(OptimizeRequest):
         if self.counts is not None or self.responses is not None:
             # but for force and moment alone
             yield from self.envelope_rules("such a front is of counterweights of a known radius: sweep a ceiling")
-        if self.responses is not None:
-            yield from no_catalogue(self.machine, ("machine",), "a front of named responses: sweep a ceiling of one")
         if self.counts is not None:
             yield from self._count_rules(self.counts)
         elif self.chosen:
@@ -123,9 +120,6 @@ class ParetoRequest(OptimizeRequest):
                 yield Rule(True, ("objective", name), message)
             return
         yield Rule(bool(self.objective.priorities), ("objective", "priorities"), _NO_ORDER)
-        for k, web in enumerate(self.machine.webs):
-            fixed = web.fixed is not None
-            yield Rule(fixed, ("machine", "webs", k, "fixed"), "remove it: only the front of force and moment takes it")
         for index, name in enumerate(self.responses):
             yield Rule(name in self.responses[:index], ("responses", index), "this response is in the list already")
         yield Rule(self.multipliers, ("multipliers",), "remove it: only the front of force and moment takes it")
@@ -254,7 +248,7 @@ class Ends(Model):
     )
 
 
-class ParetoFront(Model):
+class ParetoFront(Shown):
     """The front under one limit of the total mass."""
 
     max_total_mass_kg: Kilograms | None = Field(

@@ -1,15 +1,20 @@
 """The trade-off of any two or three responses: what is answered about each point of it."""
 
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field
 
 from schemas.answer.counterweights import Counterweight
 from schemas.answer.infeasibility import Infeasibility
-from schemas.base.model import Model
+from schemas.base.model import Model, Shown
 from schemas.base.quantities import Kilograms, NewtonMetres, Newtons
+from schemas.base.responses import RESPONSES
 
-Traded = Literal["force", "moment", "bearings", "bending", "mass"]
+if TYPE_CHECKING:
+    Traded = str
+else:
+    #: of the responses on the frame, inside the shaft, and the mass
+    Traded = Literal[*RESPONSES, "bearings", "bending", "mass"]
 TradedNames = Annotated[tuple[Traded, ...], Field(min_length=2, max_length=3)]
 #: points of all fronts of one request
 MAX_TRADED_POINTS = 100
@@ -90,7 +95,7 @@ class TradedPoint(Model):
     certificate: TradedCertificate = Field(description="the proof", examples=[{"relative_gap": 3e-7}])
 
 
-class TradedFront(Model):
+class TradedFront(Shown):
     """The trade-off under one limit of the total mass."""
 
     max_total_mass_kg: Kilograms | None = Field(

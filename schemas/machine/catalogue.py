@@ -1,10 +1,12 @@
 """What there is to fit: masses, angles, how many counterweights and of how many part numbers."""
 
 from collections.abc import Iterator, Sequence
+from math import isfinite
 from typing import Annotated, Any
 
-from pydantic import Field
+from pydantic import ConfigDict, Field
 
+from schemas.base.presence import conditions, either
 from schemas.base.quantities import Angle, Count, Mass
 from schemas.base.rules import Path, Rule, Ruled
 from schemas.base.units import Unit, positive
@@ -21,6 +23,8 @@ Holes = Annotated[tuple[Angle, ...], Field(max_length=MAX_HOLES)]
 
 class Catalogue(Ruled):
     """What counterweights are chosen from; every web may also be left without one."""
+
+    model_config = ConfigDict(json_schema_extra=conditions(either("masses_kg", "mass_step_kg")))
 
     masses_kg: Masses | None = Field(
         None, description="masses that there are, for webs without a list of their own", examples=[[5, 10, 20]]
@@ -43,9 +47,15 @@ class Catalogue(Ruled):
         both = self.masses_kg is not None and self.mass_step_kg is not None
         yield Rule(both, ("mass_step_kg",), "give either the masses or their step")
         if self.angle_step_deg is not None:
-            steps = 360 / self.angle_step_deg
-            broken = abs(steps - round(steps)) > 1e-9 * steps
-            yield Rule(broken, ("angle_step_deg",), "360 degrees must be a whole number of steps")
+            yield from angle_step_rules(("angle_step_deg",), self.angle_step_deg)
+
+
+def angle_step_rules(path: Path, angle_step_deg: float) -> Iterator[Rule]:
+    """What a step of angles has to hold."""
+    steps = 360 / angle_step_deg
+    # of the smallest numbers there are infinitely many
+    broken = not isfinite(steps) or abs(steps - round(steps)) > 1e-9 * steps
+    yield Rule(broken, path, "360 degrees must be a whole number of steps")
 
 
 def in_sector(angle_deg: Any, centre_deg: float, half_angle_deg: float) -> Any:

@@ -3,9 +3,10 @@
 from collections.abc import Iterator
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, Strict
+from pydantic import ConfigDict, Field, Strict
 
 from schemas.base.model import Model
+from schemas.base.presence import conditions, either, together
 from schemas.base.quantities import Area, Length, Name, Pressure
 from schemas.base.rules import Rule, Ruled
 from schemas.base.units import Unit, between, non_negative
@@ -41,6 +42,8 @@ class GasState(Model):
 
 class Cylinder(GasState, Ruled):
     """One cylinder; ``head`` and ``crank`` replace the common data for one side."""
+
+    model_config = ConfigDict(json_schema_extra=conditions(either("bore_m", "head_area_m2", "crank_area_m2")))
 
     bore_m: Annotated[Length | None, Unit("m")] = Field(None, description="cylinder bore", examples=[0.73])
     piston_rod_diameter_m: Annotated[float | None, non_negative(1e9), Unit("m")] = Field(
@@ -108,6 +111,10 @@ class Cylinder(GasState, Ruled):
 
 class RowCylinder(Cylinder):
     """One of several cylinders on a piston rod. The chamber of a step is a side with its ring as area, the other 0."""
+
+    model_config = ConfigDict(
+        json_schema_extra=conditions(either("bore_m", "head_area_m2", "crank_area_m2"), together("from_m", "to_m"))
+    )
 
     name: Name | None = Field(None, description="name of the cylinder, unique on its row", examples=["I"])
     head_area_m2: Annotated[PistonArea | None, Unit("m2")] = Field(

@@ -3,9 +3,10 @@
 from collections.abc import Iterator
 from typing import Annotated
 
-from pydantic import Field, Strict
+from pydantic import ConfigDict, Field, Strict
 
 from schemas.base.model import Model
+from schemas.base.presence import absent, conditions, exactly_one, given, when
 from schemas.base.quantities import Force, Fraction, Length, Moment, Name, Position
 from schemas.base.rules import Rule, Ruled
 from schemas.base.units import Unit, between, non_negative
@@ -16,6 +17,16 @@ MAX_BEARINGS = 500
 
 class Friction(Ruled):
     """Mechanical losses: from the efficiency, or given as forces."""
+
+    model_config = ConfigDict(
+        json_schema_extra=conditions(
+            when(
+                given("mechanical_efficiency"),
+                absent("reciprocating_force_N", "rotating_torque_Nm"),
+                {**absent("indicated_power_W"), "anyOf": [given("reciprocating_force_N"), given("rotating_torque_Nm")]},
+            )
+        )
+    )
 
     mechanical_efficiency: Annotated[float, Strict(), between(0.01, 1.0)] | None = Field(
         None, description="indicated power over shaft power; the losses follow from it", examples=[0.94]
@@ -53,6 +64,8 @@ class Friction(Ruled):
 
 class FlywheelData(Ruled):
     """What is known of the turning inertia: the irregularity to be held, or the inertia."""
+
+    model_config = ConfigDict(json_schema_extra=conditions(exactly_one("irregularity", "inertia_kg_m2")))
 
     irregularity: Annotated[float, Strict(), between(1e-6, 2.0)] | None = Field(
         None, description="range of the speed over its mean that is allowed", examples=[0.01]

@@ -6,6 +6,7 @@ from typing import Annotated
 from pydantic import ConfigDict, Field
 
 from schemas.base.model import Model
+from schemas.base.presence import conditions, exactly_one, given, when
 from schemas.base.quantities import Angle, Length, Mass, Name, Position
 from schemas.base.rules import REQUIRED, Rule, Ruled
 from schemas.base.units import Unit
@@ -29,7 +30,10 @@ class GivenCounterweight(_Weight, Ruled):
     """A counterweight on a web of the machine, at its radius or at one of its own, or in a plane of its own."""
 
     model_config = ConfigDict(
-        json_schema_extra={"anyOf": [{"required": ["web"]}, {"required": ["position_m", "radius_m"]}]}
+        json_schema_extra={
+            "anyOf": [{"required": ["web"]}, {"required": ["position_m", "radius_m"]}],
+            **conditions(exactly_one("web", "position_m"), when(given("position_m"), given("radius_m"))),
+        }
     )
 
     web: Name | None = Field(

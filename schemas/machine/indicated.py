@@ -4,8 +4,9 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import ConfigDict, Field
 
+from schemas.base.presence import absent, conditions, given, when
 from schemas.base.quantities import Angle, Pressure
 from schemas.base.rules import Path, Rule, Ruled, first_of
 from schemas.base.units import Unit, between
@@ -70,6 +71,8 @@ class PressureTrace(Ruled):
 
 class IndicatedPressure(Ruled):
     """Pressures of the sides of a piston over a cycle, in place of the cycle of four processes."""
+
+    model_config = ConfigDict(json_schema_extra=conditions(when(absent("head"), given("crank"))))
 
     head: PressureTrace | None = Field(
         None,

@@ -135,6 +135,10 @@ class Rotor(Ruled):
             yield Rule(slower, ("overspeed_rpm",), "must be at least speed_rpm")
         if self.discrete:
             yield from catalogue_rules(self.catalogue or Catalogue(), self.webs)
+            sizes, most = self.catalogue.max_part_numbers if self.catalogue else None, self.max_counterweights
+            if sizes is not None and most is not None:
+                message = "more sizes than counterweights: max_counterweights is smaller"
+                yield Rule((most >= 1) & (sizes > most), ("catalogue", "max_part_numbers"), message)
         yield from self._group_rules()
         fixed = sum((web.fixed.mass_kg for web in self.webs if web.fixed is not None), 0.0)
         if self.max_total_mass_kg is not None:

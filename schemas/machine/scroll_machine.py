@@ -3,9 +3,10 @@
 from collections.abc import Iterator
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import ConfigDict, Field
 
 from schemas.base.model import Model
+from schemas.base.presence import conditions, either
 from schemas.base.quantities import Angle, Count, Length, Mass, Position
 from schemas.base.rules import Rule
 from schemas.machine.rotor import Rotor
@@ -36,6 +37,8 @@ class CrankPins(Model):
 
 class ScrollMachine(Rotor):
     """A scroll compressor or expander; the eccentric points along +x at shaft angle 0."""
+
+    model_config = ConfigDict(json_schema_extra=conditions(either("rotation_torque_Nm", "tangential_gas_force_N")))
 
     kind: Literal["scroll"] = Field(description="kind of machine", examples=["scroll"])
     orbit_radius_m: Length = Field(description="radius of the orbit", examples=[0.005])

@@ -6,6 +6,7 @@ from typing import Annotated, Any
 from pydantic import ConfigDict, Field
 
 from schemas.base.model import Model
+from schemas.base.presence import conditions, given, when
 from schemas.base.quantities import Angle, Fraction, Length, Mass, Name, Position
 from schemas.base.rules import REQUIRED, Rule, Ruled
 from schemas.base.units import Unit
@@ -22,6 +23,20 @@ _CUSTOMARY_SHARE = 1 / 3
 
 class ConnectingRod(Ruled):
     """The connecting rod of a row; its mass is shared between crosshead and crank pin."""
+
+    model_config = ConfigDict(
+        json_schema_extra=conditions(
+            when(
+                given("centre_of_mass_m"),
+                {
+                    "properties": {
+                        "length_m": {"not": {"type": "null"}},
+                        "reciprocating_share": {"const": _CUSTOMARY_SHARE},
+                    }
+                },
+            )
+        )
+    )
 
     length_m: Annotated[Length | None, Unit("m")] = Field(
         description="length between centres; null is an infinite rod (scotch yoke, Oldham ring)", examples=[0.7]

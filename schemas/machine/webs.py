@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 from pydantic import ConfigDict, Field
 
 from schemas.base.model import Model, NotEmpty
+from schemas.base.presence import absent, conditions, given, when
 from schemas.base.quantities import Angle, Count, Flag, Length, Mass, MaxMass, Name, Position
 from schemas.base.rules import REQUIRED, Rule, Ruled
 from schemas.base.units import Unit, between, positive
@@ -19,6 +20,8 @@ MAX_GROUPED = 500
 _CHOSEN = (
     "envelope", "sector", "catalogue_masses_kg", "hole_angles_deg", "max_centrifugal_force_N", "min_fitted_mass_kg",
 )  # fmt: skip
+#: what follows from an envelope, or is limited by it
+_OF_ENVELOPES = ("max_mass_kg", "max_centrifugal_force_N", "min_fitted_mass_kg")
 
 
 class Sector(Model):
@@ -98,7 +101,18 @@ class Web(Ruled):
                 {"required": ["counterweight_radius_m", "max_mass_kg"]},
                 {"required": ["envelope"]},
                 {"required": ["fixed"]},
-            ]
+            ],
+            **conditions(
+                when(given("fixed"), absent(*_CHOSEN)),
+                when(given("envelope"), absent("counterweight_radius_m", *_OF_ENVELOPES)),
+                when(
+                    absent("fixed", "envelope"),
+                    {
+                        "required": ["max_mass_kg", "counterweight_radius_m"],
+                        "properties": {"counterweight_radius_m": {"not": {"type": "null"}}},
+                    },
+                ),
+            ),
         }
     )
 

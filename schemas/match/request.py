@@ -6,7 +6,9 @@ from typing import Annotated
 from pydantic import ConfigDict, Field, Strict
 
 from schemas.base.model import Model
+from schemas.base.presence import conditions, empty, filled, when
 from schemas.base.quantities import Count, Flag, Mass, Name
+from schemas.base.responses import ceilings
 from schemas.base.rules import Path, Rule, Ruled
 from schemas.base.units import Unit
 from schemas.machine.fitted import FittedCounterweight, fitted_rules
@@ -19,10 +21,6 @@ MAX_CLASSES = 8
 _LARGEST = 1e15
 #: what is refused of a match, and the way round
 _MATCHED_FIRST = "a match: optimise with the rows of its answer"
-_CEILINGS = (
-    "force_ceiling_N", "moment_ceiling_Nm", "force_ceiling_x_N", "force_ceiling_y_N", "moment_ceiling_x_Nm",
-    "moment_ceiling_y_Nm",
-)  # fmt: skip
 
 
 class RowPlace(Model):
@@ -75,6 +73,16 @@ class MatchAccuracy(Model):
 
 class MatchRequest(Ruled):
     """Which weighed part goes on which row, each once?"""
+
+    model_config = ConfigDict(
+        json_schema_extra=conditions(
+            when(empty("parts"), filled("balance_nuts_kg")),
+            when(
+                {"properties": {"choose_counterweights": {"const": True}}, "required": ["choose_counterweights"]},
+                empty("counterweights"),
+            ),
+        )
+    )
 
     machine: ReciprocatingMachine = Field(
         description="the machine; the parts are not in its reciprocating masses",
@@ -161,9 +169,9 @@ class MatchRequest(Ruled):
             yield Rule(fixed, ("machine", "webs", k, "fixed"), message)
         for name in self.objective.over_the_turn:
             yield Rule(True, ("objective", name), "remove it: parts are matched for first-order force and moment")
-        for name in _CEILINGS:
-            given = getattr(self.objective, name) is not None
-            yield Rule(given, ("objective", name), "remove it: parts are matched without ceilings")
+        for ceiling in ceilings():
+            given = getattr(self.objective, ceiling.field) is not None
+            yield Rule(given, ("objective", ceiling.field), "remove it: parts are matched without ceilings")
 
 
 def _parts_rules(path: Path, parts: Parts, rows: tuple[RowPlace, ...]) -> Iterator[Rule]:

@@ -4,9 +4,10 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import Annotated, Literal
 
-from pydantic import Field, Strict
+from pydantic import ConfigDict, Field, Strict
 
 from schemas.base.model import Model, NotEmpty
+from schemas.base.presence import absent, conditions, exactly_one, filled, when
 from schemas.base.quantities import Count, Fraction, Name
 from schemas.base.rules import Rule, Ruled
 from schemas.base.units import Unit
@@ -48,6 +49,8 @@ StageNumber = Annotated[int, Strict(), Field(ge=1, le=MAX_STAGES)]
 
 class CompressionStage(Ruled):
     """One stage: its cylinders, which are all alike, and what is known of its losses."""
+
+    model_config = ConfigDict(json_schema_extra=conditions(exactly_one("leakage_coefficient", "relative_leaks")))
 
     name: Name | None = Field(None, description="name of the stage, unique in the machine", examples=["I"])
     cylinders: Annotated[Count, Field(ge=1, le=100)] = Field(
@@ -129,6 +132,8 @@ class CompressionStage(Ruled):
 
 class RatingRequest(Ruled):
     """Size the cylinders of a compressor, and say what they deliver and need."""
+
+    model_config = ConfigDict(json_schema_extra=conditions(when(filled("motors"), absent("installed_motor_power_W"))))
 
     name: Name | None = Field(None, description="name of the machine", examples=["2D12-90/2-20"])
     capacity_m3_per_min: Capacity = Field(

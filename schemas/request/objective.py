@@ -1,12 +1,20 @@
 """What is to be small, and what is limited."""
 
 from collections.abc import Iterable, Iterator
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, get_args
 
 from pydantic import Field
 
 from schemas.base.model import Model
-from schemas.base.quantities import Flag, Force, Fraction, Moment, Pressure, Weight
+from schemas.base.quantities import (
+    Flag,
+    Force,
+    Fraction,
+    Moment,
+    Pressure,
+    Weight,
+)
+from schemas.base.responses import RESPONSES
 from schemas.base.rules import Rule, Ruled
 from schemas.base.units import Unit
 
@@ -21,18 +29,24 @@ class DirectionWeights(Ruled):
         yield Rule((self.x == 0) & (self.y == 0), ("y",), "only one of the two direction weights may be 0")
 
 
+#: goals that count what counterweights cost, and not what they do
+Cost = Literal["mass", "pieces", "sizes"]
+COSTS: tuple[Cost, ...] = get_args(Cost)
+
+
 class Priority(Model):
     """One of several goals that are met one after the other."""
 
-    goal: Literal["external", "bearings", "bending", "mass"] = Field(
+    goal: Literal["external", "bearings", "bending", "mass", "pieces", "sizes"] = Field(
         description="external: force, moment and roll as they are weighed and combined; bearings, bending: the largest"
-        " of their kind; mass: the minimum total mass, always the last",
+        " of their kind; mass: the minimum total mass; pieces: the fewest counterweights; sizes: the fewest different"
+        " masses. Pieces and sizes need a catalogue; without one the mass is the last",
         examples=["external"],
     )
     allowance: Fraction = Field(
         0.0,
-        description="what the goals after it may use of it, as a share of its value without counterweights; at least"
-        " 1e-6 is left to them",
+        description="what the goals after it may use of it, as a share of its value without counterweights, at least"
+        " 1e-6; of mass, pieces and sizes as a share of what they come to",
         examples=[0.001],
     )
 
@@ -133,7 +147,7 @@ class Objective(Ruled):
     )
     priorities: tuple[Priority, ...] = Field(
         (),
-        max_length=4,
+        max_length=6,
         description="goals to meet one after the other, in place of their sum or the largest; each keeps what was"
         " reached before it but for the allowance",
         examples=[[{"goal": "external", "allowance": 0.001}, {"goal": "bearings"}, {"goal": "mass"}]],
@@ -164,7 +178,9 @@ class Objective(Ruled):
         return tuple(name for name in self.over_the_turn if name != "priorities")
 
     def rules(self) -> Iterator[Rule]:
-        external = (self.force_weight != 0) | (self.moment_weight != 0) | (self.roll_weight != 0)
+        external = self.roll_weight != 0
+        for each in RESPONSES.values():
+            external = external | (getattr(self, each.weight) != 0)
         some = external | (self.bearing_weight != 0) | (self.bending_weight != 0)
         yield Rule(some == 0, ("moment_weight",), "one of the weights must be above 0")
         across = self.direction_weights
@@ -175,8 +191,8 @@ class Objective(Ruled):
         for i, goal in enumerate(named):
             path = ("priorities", i, "goal")
             yield Rule(goal in named[:i], path, "this goal is named already")
-            yield Rule(goal == "mass" and i + 1 < len(named), path, "the mass comes last")
-            yield Rule(named == ["mass"], path, "a goal has to come before the mass")
+            message = f"give a goal beside {goal}: external, bearings or bending"
+            yield Rule(goal in COSTS and not set(named) - set(COSTS), path, message)
             yield Rule(weighed.get(goal, True) == 0, path, "this goal has no weight")
         for name, has in weighed.items():
             missing = bool(named) and name not in named

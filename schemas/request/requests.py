@@ -16,6 +16,7 @@ from pydantic_core import CoreSchema
 
 from schemas.base.model import Model
 from schemas.base.quantities import Fraction
+from schemas.base.responses import limited
 from schemas.base.rules import Rule, Ruled
 from schemas.base.units import Unit
 from schemas.machine.catalogue import DISCRETE_GAP
@@ -127,6 +128,7 @@ class OptimizeRequest(Scene, Ruled):
         yield from self._shaft_rules()
         yield from self._alternative_rules()
         yield from self._catalogue_rules()
+        yield from self._cost_rules()
         yield from self._fitted_rules()
         if self.tolerances is not None and self.objective.over_the_turn:
             squares = self.objective.bearing_weight > 0 and self.objective.bearing_measure == "rms"
@@ -165,10 +167,8 @@ class OptimizeRequest(Scene, Ruled):
             path,
             "give a catalogue too: cheaper choices are listed for counterweights from a catalogue only",
         )
-        beyond = bool(self.objective.over_the_turn) or self.robust
-        message = "cheaper choices are listed for one goal of the first order only: remove them or {}"
-        also = "scenarios and tolerances" if self.robust else f"objective.{(*self.objective.over_the_turn, '')[0]}"
-        yield Rule(listed and beyond, path, message.format(also))
+        message = "cheaper choices are listed beside one goal: remove them, or let a cost be the last goal"
+        yield Rule(listed and bool(self.objective.priorities), path, message)
 
     def _catalogue_rules(self) -> Iterator[Rule]:
         """What does not go with discrete choices."""
@@ -184,7 +184,28 @@ class OptimizeRequest(Scene, Ruled):
 
     def _choice_rules(self, what: str) -> Iterator[Rule]:
         """What does not go with either."""
-        yield Rule(self.tolerances is not None, ("tolerances",), f"does not go with {what}: {_FIX_THE_CHOICE}")
+        tolerances, goal = self.tolerances, self.objective
+        if tolerances is None:
+            return
+        limited = any(getattr(goal, name) is not None for name in type(goal).model_fields if "_ceiling_" in name)
+        also = "a ceiling" if limited else f"objective.{(*goal.over_the_turn, '')[0]}"
+        for name in ("mass_relative", "angle_deg"):
+            beyond = (getattr(tolerances, name) > 0) and (limited or bool(goal.over_the_turn))
+            message = f"not with {what} and {also}: {_FIX_THE_CHOICE}"
+            yield Rule(beyond, ("tolerances", name), message)
+
+    def _cost_rules(self) -> Iterator[Rule]:
+        """What counts castings needs some to choose from."""
+        order = self.objective.priorities
+        for i, priority in enumerate(() if self.machine.discrete else order):
+            path = ("objective", "priorities", i, "goal")
+            message = (
+                "give a catalogue too: of any masses at any angles a counterweight may be next to nothing, and their"
+                " number says little"
+            )
+            yield Rule(priority.goal in ("pieces", "sizes"), path, message)
+            message = "without a catalogue the mass comes last: the minimum mass leaves no choice to goals after it"
+            yield Rule(priority.goal == "mass" and i + 1 < len(order), path, message)
 
     def _fitted_rules(self) -> Iterator[Rule]:
         """What does not go with a least mass of what is fitted."""
@@ -224,8 +245,8 @@ class OptimizeRequest(Scene, Ruled):
             message = "balance shafts alone change the roll moment, and the machine has none"
             yield Rule(goal.roll_weight != 0, ("objective", "roll_weight"), message)
         if any(shaft.speed_ratio == -1 for shaft in shafts):
-            for name in ("force_ceiling_N", "moment_ceiling_Nm"):
-                whole = (getattr(goal, name) is not None) & (goal.orders == "first")
+            for name in (each.field for each in limited(goal) if each.axis is None):
+                whole = goal.orders == "first"
                 message = "with a shaft that turns backwards the ceilings of the first order are those along x and y"
                 yield Rule(whole, ("objective", name), message)
 

@@ -42,12 +42,17 @@ class SweepState(Answer):
     )
     bytes: int = Field(description="room that the sweep takes on disk now", examples=[30000000])
     seed: int = Field(description="seed of the designs", examples=[0])
-    eta_s: Seconds | None = Field(description="estimate of the seconds left; null where unknown", examples=[42.0])
+    eta_s: Seconds | None = Field(
+        description="estimate of the seconds left, at the rate of the last chunks without outages; null where unknown,"
+        " and when it has ended",
+        examples=[42.0],
+    )
     created_at: str = Field(description="when it was accepted, ISO 8601, UTC", examples=["2026-01-31T12:00:00Z"])
     started_at: str | None = Field(description="when the first chunk began", examples=["2026-01-31T12:00:01Z"])
     finished_at: str | None = Field(description="when it ended", examples=[None])
     message: str | None = Field(
-        description="why it failed, or why there is no selection; null otherwise", examples=[None]
+        description="why it failed, or why there is no selection and where the rows are; null otherwise",
+        examples=[None],
     )
     links: SweepLinks = Field(description="where to go from here", examples=[{"self": "/v1/sweeps/5f0c"}])
 
@@ -76,8 +81,9 @@ class SweepEstimate(Answer):
         examples=[45.0],
     )
     workers: int = Field(description="processes that would compute it, as they are set", examples=[4])
-    wall_s: Seconds = Field(
-        description="rough time until it is done, if each worker has a core to itself and nobody else asks",
-        examples=[12.0],
+    wall_s: Seconds = Field(description="rough time until it is done, under what `assumption` states", examples=[12.0])
+    assumption: str = Field(
+        description="what `wall_s` assumes",
+        examples=["4 workers with a core each and no other work, at measured rates: within a factor of three or so"],
     )
     columns: tuple[SweepColumn, ...] = Field(description="columns of the result", examples=[[{"name": "index"}]])

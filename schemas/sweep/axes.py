@@ -3,9 +3,10 @@
 from collections.abc import Iterator
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import ConfigDict, Field
 
 from schemas.base.model import NotEmpty
+from schemas.base.presence import absent, conditions, given, when
 from schemas.base.quantities import Count
 from schemas.base.rules import Rule, Ruled
 from schemas.base.target import Value
@@ -15,6 +16,10 @@ MAX_DESIGNS = 10_000_000
 
 class Axis(Ruled):
     """One field of the base request and the values that take its place: a list, or a range."""
+
+    model_config = ConfigDict(
+        json_schema_extra=conditions(when(given("values"), absent("start", "stop", "count"), given("start", "stop")))
+    )
 
     path: Annotated[str, Field(max_length=512)] = Field(
         description="JSON pointer (RFC 6901) of a numeric field of machine, objective or counterweights in the base",

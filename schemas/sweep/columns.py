@@ -3,9 +3,10 @@
 from collections.abc import Iterator, Sequence
 
 from schemas.answer.outputs import COLUMNS_OF_EACH, OUTPUT_COLUMNS, Column, labels
+from schemas.base.responses import PAIR, counted
 from schemas.base.target import Target, pointer
 from schemas.machine.machine import Machine
-from schemas.request.objective import Objective
+from schemas.request.objective import COSTS, Objective
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep.details import detail_columns
 
@@ -65,9 +66,10 @@ def result_columns(
 
 
 def goal_columns(objective: Objective) -> Iterator[Column]:
-    """What the goals before the last come to, where there are several in their order."""
-    goals = [priority.goal for priority in objective.priorities if priority.goal != "mass"]
-    for goal in goals[:-1]:
+    """What goals before the last, and numbers of castings, come to, where there are several in their order."""
+    goals = [priority.goal for priority in objective.priorities if priority.goal not in COSTS]
+    counted = [priority.goal for priority in objective.priorities if priority.goal in ("pieces", "sizes")]
+    for goal in (*goals[:-1], *counted):
         yield Column(f"goal_value.{goal}", "number", None, f"what the goal {goal} comes to in the end")
         yield Column(f"goal_lower_bound.{goal}", "number", None, "proven of what it comes to at least")
         yield Column(f"goal_limit.{goal}", "number", None, "what the goals after it may let it come to")
@@ -83,7 +85,7 @@ def _columns(
     yield from _ALWAYS
     optimizes = isinstance(base, OptimizeRequest)
     if optimizes or "residual" in base.outputs:
-        yield from _RESIDUAL
+        yield from _residual(base, targets)
         if details:
             yield from detail_columns(base.machine, "residual")
     yield _TOTAL_MASS
@@ -104,6 +106,16 @@ def _columns(
             if web.envelope is not None:
                 meaning = "half of the opening of what is cut from its plate"
                 yield Column(f"half_angle_deg.{web.name}", "number", "deg", meaning, path)
+
+
+def _residual(base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target]) -> Iterator[Column]:
+    """Peaks of force and moment, and of the other responses that count in some design."""
+    yield from _RESIDUAL
+    varied = {str(target.path[1]): 1.0 for target in targets if target.path[0] == "objective"}
+    for each in counted(base.objective.model_copy(update=varied)) if isinstance(base, OptimizeRequest) else ():
+        if each.name not in PAIR:
+            meaning = f"peak of the first-order {each.label} with the counterweights"
+            yield Column(each.peak, "number", each.unit, meaning)
 
 
 def _of_each(machine: Machine, output: str) -> Iterator[Column]:

@@ -9,6 +9,7 @@ from pydantic import Field, PrivateAttr, ValidationInfo, field_validator
 from schemas.answer.outputs import OUTPUT_COLUMNS, Column
 from schemas.base.model import FieldProblem, Model
 from schemas.base.quantities import Angle, Count, Flag
+from schemas.base.responses import limited
 from schemas.base.rules import Path, Rule, Ruled
 from schemas.base.target import BadPointer, Target, find_target
 from schemas.machine.reciprocating import ReciprocatingMachine, no_balance_shafts
@@ -250,8 +251,8 @@ class SweepRequest(Ruled):
         if not isinstance(self.base, OptimizeRequest):
             return True
         goal = self.base.objective
-        along = (goal.force_ceiling_x_N, goal.force_ceiling_y_N, goal.moment_ceiling_x_Nm, goal.moment_ceiling_y_Nm)
-        return goal.direction_weights.x == goal.direction_weights.y and all(one is None for one in along)
+        along = any(ceiling.axis is not None for ceiling in limited(goal))
+        return goal.direction_weights.x == goal.direction_weights.y and not along
 
     def _axis_problems(self) -> Iterator[FieldProblem]:
         targets: dict[int, Target] = {}

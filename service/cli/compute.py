@@ -32,6 +32,12 @@ _OPTIONS: dict[str, Any] = {
             " `total_mass_budgets_kg` in the file; repeatable.",
         ),
     ],
+    "mass_step_kg": Annotated[
+        str | None, typer.Option("--mass-step", metavar="KG", help="In place of `mass_step_kg` in the file.")
+    ],
+    "angle_step_deg": Annotated[
+        str | None, typer.Option("--angle-step", metavar="DEG", help="In place of `angle_step_deg` in the file.")
+    ],
     "repeats": Annotated[int | None, typer.Option(help="Rounds of timing, in place of `repeats` in the file.")],
 }
 _Picture = Annotated[

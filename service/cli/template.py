@@ -8,7 +8,7 @@ import typer
 from service.cli.terminal import WORKBOOK, fail
 
 Target = Annotated[Path, typer.Argument(metavar="FILE.xlsx", help="Workbook to write.")]
-Example = Annotated[str, typer.Option("--example", metavar="NAME", help="Machine to begin with.")]
+Example = Annotated[str, typer.Option("--example", metavar="NAME", help="Machine to begin with, or empty.")]
 
 
 def template(to: Target, example: Example = "single-horizontal") -> None:

@@ -31,6 +31,7 @@ _MESSAGES = {
     "float_type": "must be a number",
     "int_type": "must be a whole number",
     "int_from_float": "must be a whole number",
+    "int_parsing": "must be a whole number",
     "bool_type": "must be true or false",
     "greater_than": "must be greater than {gt:g}",
     "greater_than_equal": "must be at least {ge:g}",
@@ -165,11 +166,11 @@ def _problems(body: object, details: Sequence[ErrorDetails]) -> Iterator[FieldPr
             for problem in context["problems"]:
                 yield FieldProblem((*path, *problem.path), problem.message)
         elif kind in ("union_tag_not_found", "union_tag_invalid"):
-            yield FieldProblem((*path, context["discriminator"].strip("'")), _message(detail))
+            yield FieldProblem((*path, context["discriminator"].strip("'")), message_of(detail))
         elif kind == "extra_forbidden":
             yield _unknown_field(path, str(loc[-1]))
         else:
-            yield FieldProblem(path, _message(detail))
+            yield FieldProblem(path, message_of(detail))
 
 
 def _unknown_field(path: Path, name: str) -> FieldProblem:
@@ -178,7 +179,8 @@ def _unknown_field(path: Path, name: str) -> FieldProblem:
     return FieldProblem(path, _MESSAGES["extra_forbidden"])
 
 
-def _message(detail: ErrorDetails) -> str:
+def message_of(detail: ErrorDetails) -> str:
+    """The rule that is broken, in our words."""
     known = _MESSAGES.get(detail["type"])
     if known is not None:
         return known.format_map(detail.get("ctx", {}))

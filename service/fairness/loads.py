@@ -7,12 +7,17 @@ from itertools import islice
 
 #: what was so long ago counts for a third of what is now [s]
 LATELY_S = 5.0
+#: who came so long ago is judged by what he had since [s]: in less nobody can ask for much
+_NEW_S = 1.0
 #: of which nothing is remembered
 _NOTHING = 0.001
 
 
 @dataclass(frozen=True)
 class _Load:
+    """An average that began with nothing, and since when [s]."""
+
+    since: float
     average: float
     turns: int
     at: float
@@ -20,9 +25,14 @@ class _Load:
     def now(self, at: float) -> float:
         return self.turns + (self.average - self.turns) * math.exp((self.at - at) / LATELY_S)
 
+    def corrected(self, at: float) -> float:
+        """The average without the nothing that it began with."""
+        return self.now(at) / -math.expm1(min(self.since - at, -_NEW_S) / LATELY_S)
+
 
 class Loads:
-    """Turns that owners had on the average of the last seconds, as systems tell how many processes run.
+    """Turns that owners had on the average of the last seconds, or since they came, as systems tell how many processes
+    run.
 
     Parameters
     ----------
@@ -37,13 +47,13 @@ class Loads:
     def of(self, owner: str) -> float:
         """The average of an owner, whoever it is."""
         load = self._loads.get(owner)
-        return 0.0 if load is None else load.now(self._clock())
+        return 0.0 if load is None else load.corrected(self._clock())
 
     def take(self, owner: str, turns: int) -> None:
         """Have an owner have so many turns more, or fewer."""
         at = self._clock()
-        load = self._loads.pop(owner, _Load(0.0, 0, at))
-        self._loads[owner] = _Load(load.now(at), load.turns + turns, at)
+        load = self._loads.pop(owner, _Load(at, 0.0, 0, at))
+        self._loads[owner] = _Load(load.since, load.now(at), load.turns + turns, at)
         # one comes at most, so they do not become many
         for name in tuple(islice(self._loads, 2)):
             if not self._loads[name].turns and self._loads[name].now(at) < _NOTHING:

@@ -1,6 +1,7 @@
 """Whose computation begins next: who has had least, so that nobody waits behind all that another one asks."""
 
 import asyncio
+import math
 import time
 from collections import Counter, OrderedDict, deque
 from collections.abc import Callable, Iterator
@@ -12,6 +13,8 @@ from service.fairness.table import Share
 
 #: whoever waits and has had no turn for so long is before all who have had less [s]
 PATIENCE_S = 2.0
+#: the second turn above the size is for who had less than this share of what anybody had who has a turn
+_LESS = 0.8
 
 
 class Full(Exception):
@@ -68,8 +71,10 @@ class FairQueue:
     ever, however many come who have had nothing. When as many wait as may, the owner of whom most wait gives up its
     last place to one of whom fewer wait.
 
-    Little is at most half of what somebody had who has a turn, and for the second one no more than anybody had who has
-    one: else owners who ask without end would always have them, and whoever asks now and then would wait for one.
+    Little is at most half of an equal share of the turns, among all owners who have one or wait; and for the second one
+    above the size less than anybody had who has one. Owners who ask without end have more than that on the average,
+    so they leave those to whoever asks now and then. What the busiest had is no measure: beside one whose computations
+    are long, all others would have had little.
 
     Parameters
     ----------
@@ -157,8 +162,10 @@ class FairQueue:
     def _had_little(self, owner: str) -> bool:
         if self._running[owner]:
             return False
-        had, others = self._loads.of(owner), tuple(map(self._loads.of, self._running))
-        return had <= 0.5 * max(others) and (not self._above or had <= min(others))
+        owners = {*self._running, *self._waiting, owner}
+        had = self._loads.of(owner)
+        least = min(map(self._loads.of, self._running)) if self._above else math.inf
+        return had <= min(_LESS * least, 0.5 * self.size / len(owners))
 
     def _is_free(self) -> bool:
         return self._running.total() - self._above < self.size

@@ -13,17 +13,26 @@ class FairScheduler:
     """At most one piece of work in each turn of an event loop.
 
     What is alone is done at once, so that it costs nothing where there is no haste. A client of whom one piece waits
-    comes next; those of whom more wait take turns that are further apart.
+    comes next; those of whom more wait take turns that are further apart, as long as anything else is done in between.
+    No turn in which nothing is done is waited for: a loop that runs through them computes, and keeps threads waiting.
 
     Parameters
     ----------
     call_soon : has something done in the next turn of the loop; that of the loop that runs if not given.
+    busy : whether anything else is to be done in this turn; likewise.
     """
 
-    def __init__(self, call_soon: Callable[[Work], object] | None = None) -> None:
+    def __init__(
+        self, call_soon: Callable[[Work], object] | None = None, busy: Callable[[], bool] | None = None
+    ) -> None:
         self._loop: asyncio.AbstractEventLoop | None = None
         self._own = call_soon is None
+        self._busy = busy or self._loop_is_busy
         self._begin(call_soon or _nothing)
+
+    def _loop_is_busy(self) -> bool:
+        # no loop says so in public. What is next here was handed to the loop first, so all else of the turn is to come
+        return bool(getattr(self._loop, "_ready", True))
 
     def _begin(self, call_soon: Callable[[Work], object]) -> None:
         self._call_soon = call_soon
@@ -75,9 +84,10 @@ class FairScheduler:
         if not (self._few or self._many):
             self._taken = False
             return
+        idle = not (self._few or self._busy())
         self._call_soon(self._next)
         self._since += 1
-        if self._many and self._since >= _APART:
+        if self._many and (idle or self._since >= _APART):
             self._since = 0
             client, own = self._many.popitem(last=False)
             work = own.popleft()

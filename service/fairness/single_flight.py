@@ -12,7 +12,9 @@ from service.fairness.quotas import holding
 from service.fairness.table import LOOKS
 
 Result = TypeVar("Result")
-#: after a look its client takes none for so many times what it computed
+#: after a look its client takes none for so many times what it computed; and, if it waits again, for as many times what
+#: it took for each other client that waits. Looks compute in the process of the event loop: all of them together must
+#: leave it most of its time, and leave a thread to whoever looks now and then
 _REST = 3.0
 
 
@@ -62,24 +64,30 @@ class SingleFlight:
     async def _taken(
         self, loop: asyncio.AbstractEventLoop, who: str, what: Hashable, look: Callable[[], Result]
     ) -> Result:
-        computed_s = 0.0
+        computed_s = took_s = 0.0
 
         def work() -> Result:
-            nonlocal computed_s
+            nonlocal computed_s, took_s
             # who asks from now on needs a later one
             del self._asked[who, what]
-            begun = time.thread_time()
+            begun, begun_at = time.thread_time(), time.monotonic()
             try:
                 return look()
             finally:
-                computed_s = time.thread_time() - begun
+                computed_s, took_s = time.thread_time() - begun, time.monotonic() - begun_at
 
         own = self._own.setdefault(who, asyncio.Semaphore(int(LOOKS.each)))
         await own.acquire()
         try:
             return await to_thread.run_sync(work, limiter=self._threads)
         finally:
-            loop.call_later(_REST * computed_s, self._go_on, who, own)
+            others = self._others(who)
+            loop.call_later(_REST * (computed_s + others * took_s), self._go_on, who, own)
+
+    def _others(self, who: str) -> int:
+        """How many other clients wait, if this one does too."""
+        waiting = {client for client, _ in self._asked}
+        return len(waiting - {who}) if who in waiting else 0
 
     def _go_on(self, who: str, own: asyncio.Semaphore) -> None:
         own.release()

@@ -6,7 +6,7 @@ from typing import Any
 from fastapi import Depends
 from starlette.datastructures import Headers
 from starlette.requests import Request
-from starlette.types import ASGIApp, Receive, Scope, Send
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from service.fairness.client import client_of_request
 from service.fairness.quotas import Holding, Quota
@@ -14,7 +14,7 @@ from service.fairness.table import Resource
 from service.guard.hosts import Hosts
 from service.guard.keys import ANYONE, NOBODY, PROBES, PUBLIC, PUBLIC_FOLDERS, Caller, Keys, caller_of
 from service.guard.keys import Scope as KeyScope
-from service.guard.rates import RateLimits, TooManyRequests
+from service.guard.rates import Rate, RateLimits, TooManyRequests
 from service.guard.refusals import BadHeader, Forbidden, ForeignHost, Unauthorized
 from service.guard.users import user_of
 
@@ -71,7 +71,8 @@ class Access:
             await self._app(scope, receive, send)
             return
         try:
-            caller = (await self._admitted(scope, self._keys)).acting_for(user_of(scope))
+            admitted, rate = await self._admitted(scope, self._keys)
+            caller = admitted.acting_for(user_of(scope))
         except (Unauthorized, ForeignHost, TooManyRequests, BadHeader) as error:
             await self._refused(error, scope["path"])(scope, receive, send)
             return
@@ -79,7 +80,7 @@ class Access:
         state = scope.setdefault("state", {})
         state.update(caller=caller, holding=holding, still_admitted=lambda: self._still_admitted(scope, caller))
         try:
-            await self._app(scope, receive, send)
+            await self._app(scope, receive, send if rate is None else _saying(rate, send))
         finally:
             holding.end()
             # it holds the scope that holds it, and with it all of the request until the next collection of garbage
@@ -91,23 +92,34 @@ class Access:
         now = self._keys.caller(_key(Headers(scope=scope)) or "")
         return now is not None and now.acting_for(user_of(scope)).owner == caller.owner
 
-    async def _admitted(self, scope: Scope, keys: Keys | None) -> Caller:
+    async def _admitted(self, scope: Scope, keys: Keys | None) -> tuple[Caller, Rate | None]:
         path = own_path(scope)
         if keys is None:
             # who asks for health comes by whatever address there is, and learns nothing else
             if path not in PROBES:
                 self._hosts.require(scope)
-            return ANYONE
+            return ANYONE, None
         if path in PUBLIC or path.startswith(PUBLIC_FOLDERS):
-            return NOBODY
+            return NOBODY, None
         given = _key(Headers(scope=scope))
         caller = None if given is None else keys.caller(given)
         if caller is None:
             if given is not None:
                 await self._limits.refused(client_of_request(scope, None))
             raise Unauthorized(given is not None)
-        await self._limits.asked(caller.key or "", caller.rate_limit)
-        return caller
+        return caller, await self._limits.asked(caller.key or "", caller.rate_limit)
+
+
+def _saying(rate: Rate, send: Send) -> Send:
+    """State with an answer what is left of the rate of its key."""
+    told = [(name.lower().encode(), value.encode()) for name, value in rate.headers.items()]
+
+    async def say(message: Message) -> None:
+        if message["type"] == "http.response.start":
+            message["headers"] = [*message.get("headers", ()), *told]
+        await send(message)
+
+    return say
 
 
 def own_path(scope: Scope) -> str:

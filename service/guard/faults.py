@@ -1,6 +1,6 @@
 """What is said to whom the guard refuses."""
 
-from service.common.problems import Fault, FaultTable, fixed, later_by_error
+from service.common.problems import Fault, FaultTable, fixed
 from service.guard.rates import TooManyRequests
 from service.guard.refusals import BadHeader, Forbidden, ForeignHost, Unauthorized
 
@@ -11,10 +11,15 @@ def _unauthorized(error: Unauthorized) -> Fault:
     return Fault(401, "Unauthorized", str(error), headers={"WWW-Authenticate": challenge})
 
 
+def _too_many(error: TooManyRequests) -> Fault:
+    again = {"Retry-After": str(error.rate.reset_s), **error.rate.headers}
+    return Fault(429, "Too many requests", str(error), headers=again)
+
+
 FAULTS: FaultTable = {
     Unauthorized: _unauthorized,
     Forbidden: fixed(403, "Forbidden"),
     ForeignHost: fixed(421, "Misdirected request"),
-    TooManyRequests: later_by_error(429, "Too many requests"),
+    TooManyRequests: _too_many,
     BadHeader: fixed(422, "Invalid header"),
 }

@@ -32,8 +32,8 @@ Scope = Literal["compute", "sweeps", "read", "metrics", "admin"]
 SCOPES: tuple[Scope, ...] = get_args(Scope)
 #: everything else needs a key, whether there is anything at the path or not
 PROBES = frozenset({"/healthz", "/readyz"})
-PUBLIC = PROBES | {"/", "/docs", "/openapi.json", "/favicon.ico"}
-PUBLIC_FOLDERS = ("/docs/assets/", "/portal/")
+PUBLIC = PROBES | {"/", "/docs", "/docs/guide", "/openapi.json", "/favicon.ico"}
+PUBLIC_FOLDERS = ("/docs/assets/", "/docs/guide/", "/portal/", "/problems/")
 
 _LOG = logging.getLogger(__name__)
 _KEY = re.compile(r"cw_([0-9a-f]{12})_([A-Za-z0-9_-]{43})")

@@ -2,6 +2,7 @@
 
 import math
 import time
+from dataclasses import dataclass
 
 from limits import RateLimitItem, parse
 from limits.aio.storage import MemoryStorage
@@ -10,12 +11,34 @@ from limits.aio.strategies import SlidingWindowCounterRateLimiter
 from service.settings import Settings
 
 
-class TooManyRequests(Exception):
-    """More requests than the limit allows; a retry helps after ``retry_after_s``."""
+@dataclass(frozen=True)
+class Rate:
+    """What is left of a limit.
 
-    def __init__(self, limit: RateLimitItem, retry_after_s: int) -> None:
-        self.retry_after_s = retry_after_s
-        super().__init__(f"More requests than {limit}.")
+    policy : what is counted, the requests of a key or the wrong keys of an address.
+    remaining : requests until there are more again, in ``reset_s``.
+    """
+
+    policy: str
+    limit: RateLimitItem
+    remaining: int
+    reset_s: int
+
+    @property
+    def headers(self) -> dict[str, str]:
+        """The same for a client, as draft-ietf-httpapi-ratelimit-headers-10 has it."""
+        return {
+            "RateLimit-Policy": f'"{self.policy}";q={self.limit.amount};w={self.limit.get_expiry()}',
+            "RateLimit": f'"{self.policy}";r={self.remaining};t={self.reset_s}',
+        }
+
+
+class TooManyRequests(Exception):
+    """More requests than the limit allows; a retry helps when the rate says so."""
+
+    def __init__(self, rate: Rate) -> None:
+        self.rate = rate
+        super().__init__(f"More requests than {rate.limit}.")
 
 
 class RateLimits:
@@ -32,14 +55,14 @@ class RateLimits:
         self._refusals = parsed(settings.refusal_limit)
         self._limiter = SlidingWindowCounterRateLimiter(MemoryStorage())
 
-    async def asked(self, key: str, rate: str | None) -> None:
-        """Count a request of a key, which may have a rate of its own.
+    async def asked(self, key: str, rate: str | None) -> Rate | None:
+        """Count a request of a key, which may have a rate of its own; None where there is no limit.
 
         Raises
         ------
         TooManyRequests
         """
-        await self._count("key", key, self._usual if rate is None else parsed(rate))
+        return await self._count("key", key, self._usual if rate is None else parsed(rate))
 
     async def refused(self, client: str) -> None:
         """Count a wrong key of a client.
@@ -50,11 +73,15 @@ class RateLimits:
         """
         await self._count("address", client, self._refusals)
 
-    async def _count(self, kind: str, name: str, limit: RateLimitItem | None) -> None:
-        if limit is None or await self._limiter.hit(limit, kind, name):
-            return
-        reset = (await self._limiter.get_window_stats(limit, kind, name)).reset_time
-        raise TooManyRequests(limit, max(1, math.ceil(reset - time.time())))
+    async def _count(self, kind: str, name: str, limit: RateLimitItem | None) -> Rate | None:
+        if limit is None:
+            return None
+        counted = await self._limiter.hit(limit, kind, name)
+        reset, remaining = await self._limiter.get_window_stats(limit, kind, name)
+        rate = Rate(kind, limit, int(remaining), max(1, math.ceil(reset - time.time())))
+        if not counted:
+            raise TooManyRequests(rate)
+        return rate
 
 
 def parsed(rate: str) -> RateLimitItem | None:

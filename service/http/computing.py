@@ -91,17 +91,19 @@ class Computing:
 
         Raises
         ------
-        NotAcceptable, NotReady, UnsupportedMedia, BodyTooLarge, BodyTooSlow, UnreadableBody, InvalidRequest, OverShare,
-        MissingInput, OutOfRange, OutOfMemory, Busy, TooSlow, WorkerDied, WorkersFailed, ClientGone
+        NotAcceptable, BadHeader, NotReady, UnsupportedMedia, BodyTooLarge, BodyTooSlow, UnreadableBody, InvalidRequest,
+        OverShare, MissingInput, OutOfRange, OutOfMemory, Busy, TooSlow, WorkerDied, WorkersFailed, ClientGone
             all of which have a row in the tables that :mod:`service.app` joins, as those of jobs have.
         """
         form = _form(request, asked_for)
+        # a key that is none is refused whether it counts here or not
+        key = idempotency_key(request) if asked_for.later else None
         self._readiness.require()
         workbook = announced(request, XLSX if asked_for.workbook else None) == XLSX
         body = await self._body(request)
 
         def accept() -> Response:
-            question, key = self.checked(asked_for.asks, body).model_dump_json().encode(), idempotency_key(request)
+            question = self.checked(asked_for.asks, body).model_dump_json().encode()
             return accepted(request, *desk_of(request).later(asked_for.name, question, key, body))
 
         # a job is asked for and answered in JSON; other forms are answered at once, as RFC 7240 allows

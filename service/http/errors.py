@@ -8,6 +8,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from service.common.problems import Fault, FaultTable
+from service.http.methods import Methods
 from service.wire.refusal import response
 
 
@@ -48,11 +49,14 @@ class ErrorAnswers:
         """What is said about an exception."""
         return next(self._faults[kind] for kind in type(error).__mro__ if kind in self._faults)(error)
 
-    def install(self, app: FastAPI) -> None:
-        """Answer every exception of the table with problem details."""
+    def install(self, app: FastAPI, methods: Methods) -> None:
+        """Answer every exception of the table with problem details, and name all methods of a path where one is not."""
 
         async def handle(request: Request, error: Exception) -> Response:
-            return self.answer(error, request.scope["path"])
+            answer = self.answer(error, request.scope["path"])
+            if answer.status_code == 405:
+                answer.headers["Allow"] = ", ".join(methods.of(request.scope))
+            return answer
 
         for kind in self._faults:
             app.add_exception_handler(kind, handle)

@@ -1,5 +1,6 @@
 """What is said about requests that are none, about routes, and where nobody foresaw what happened."""
 
+from collections.abc import Sequence
 from errno import EMFILE, ENFILE
 from http import HTTPStatus
 
@@ -7,9 +8,12 @@ from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
 
+from schemas.base.model import FieldProblem
 from service.common.problems import Fault, FaultTable, fixed
+from service.common.validation import message_of
 from service.http.accept import NotAcceptable
 from service.http.computing import ComputationFailed
+from service.http.parameters import UnknownParameter
 from service.http.request_body import BodyTooLarge, BodyTooSlow, UnsupportedMedia
 
 _HTTP_DETAILS = {
@@ -25,8 +29,13 @@ def _http(error: HTTPException) -> Fault:
 
 
 def _parameters(error: RequestValidationError) -> Fault:
-    names = ", ".join(sorted({str(detail["loc"][-1]) for detail in error.errors()}))
-    return Fault(422, "Invalid parameter", f"Wrong parameters of path or query: {names}.")
+    problems = [FieldProblem(tuple(detail["loc"]), message_of(detail)) for detail in error.errors()]
+    return _invalid_parameter([problem for problem in problems if len(problem.path) > 1])
+
+
+def _invalid_parameter(problems: Sequence[FieldProblem]) -> Fault:
+    names = ", ".join(sorted({str(problem.path[1]) for problem in problems}))
+    return Fault(422, "Invalid parameter", f"Wrong parameters of path or query: {names}.", problems)
 
 
 _internal = fixed(500, "Internal error", "The service failed; its log says why.")
@@ -46,6 +55,7 @@ FAULTS: FaultTable = {
     BodyTooLarge: fixed(413, "Body too large"),
     UnsupportedMedia: fixed(415, "Unsupported media type"),
     RequestValidationError: _parameters,
+    UnknownParameter: lambda error: _invalid_parameter(error.problems),
     HTTPException: _http,
     ComputationFailed: _internal,
     Exception: _unforeseen,

@@ -1,6 +1,5 @@
 """The jobs of whoever asks: taken in, looked up, ended, read."""
 
-import time
 from collections.abc import Callable, Collection, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -23,12 +22,13 @@ from service.jobs.files import Damaged, FilesUnavailable, JobFiles
 from service.jobs.fingerprints import fingerprint
 from service.jobs.job import Job, Order, Record
 from service.jobs.leases import Leases
+from service.jobs.rate import rows_per_second
 from service.jobs.retention import Retention
 from service.jobs.rows import UnknownJob
 from service.jobs.store import Store
 
-#: the rate is that of the last so many seconds
-_RATE_S = 60.0
+#: the rate is that of the last so many chunks
+_LAST_CHUNKS = 100
 
 
 class NotFinished(Exception):
@@ -223,20 +223,16 @@ class OwnerJobs:
             created_at=_moment(job.created),
             started_at=None if job.started is None else _moment(job.started),
             finished_at=None if job.ended is None else _moment(job.ended),
-            message=job.error,
+            message=job.error or _unselected(job),
             links=SweepLinks(self=here, results=f"{here}/results", events=f"{here}/events"),
         )
 
     def _seconds_left(self, job: Job) -> float | None:
         if not job.active or job.started is None:
-            return None if job.active else 0.0
-        now = time.time()
-        since = max(job.started, now - _RATE_S)
-        if since >= now:
-            # the clock went back
             return None
-        rows = self._parts.store.rows_since(job.id, since)
-        return (job.total - job.done) * (now - since) / rows if rows else None
+        finished = self._parts.store.last_finished(job.id, _LAST_CHUNKS)
+        rate = rows_per_second(finished, job.started if len(finished) < _LAST_CHUNKS else None)
+        return (job.total - job.done) / rate if rate else None
 
     # ---- results
 
@@ -345,6 +341,13 @@ class OwnerJobs:
         self._parts.leases.adopt(job.id, record, str(named.digest), named.bytes)
         self._parts.files.drop(job.id, record)
         return named
+
+
+def _unselected(job: Job) -> str | None:
+    """Why a selection holds nothing where its sweep was cancelled, and where its rows are."""
+    if job.state == "cancelled" and job.selects and job.selected < job.total:
+        return "The sweep was cancelled before its rows were selected: read the finished rows with select=all."
+    return None
 
 
 def _said(record: Record, reason: str) -> str:

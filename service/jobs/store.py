@@ -198,11 +198,12 @@ class Store:
             found = connection.execute(wanted.where(chunks.c.job == job, *conditions).order_by(chunks.c.start))
             return [Record(row.start, row.stop, row.digest, row.bytes) for row in found]
 
-    def rows_since(self, job: str, moment: float) -> int:
-        """Number of rows that were finished after a moment [s since 1970]."""
-        count = select(func.sum(chunks.c.stop - chunks.c.start))
+    def last_finished(self, job: str, most: int) -> list[tuple[float, int]]:
+        """When the last chunks were finished [s since 1970], and how many rows each of them has; the latest first."""
+        wanted = select(chunks.c.finished, chunks.c.stop - chunks.c.start).order_by(chunks.c.finished.desc())
+        those = wanted.where(chunks.c.job == job, chunks.c.finished.is_not(None)).limit(most)
         with self._database.read() as connection:
-            return int(connection.scalar(count.where(chunks.c.job == job, chunks.c.finished > moment)) or 0)
+            return [(float(moment), int(rows)) for moment, rows in connection.execute(those)]
 
     def cancel(self, job: str) -> Job:
         """Give out no more chunks; what is finished stays. An ended job stays as it is.

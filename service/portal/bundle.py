@@ -1,8 +1,8 @@
 """The modules of the page as one file, so that a first visit needs one request and not seventy.
 
 Every module becomes a function that returns what it exports, after those that it imports. Only what our modules use is
-understood, imports and exports by name, a line each; anything else is refused. Nothing else is changed: what a browser
-runs is what can be read in the folder.
+understood, imports and exports by name, a line each; anything else is refused. Comments stay in the folder, a seventh
+of what would be sent. Nothing else is changed: what a browser runs is what can be read there.
 """
 
 import re
@@ -14,6 +14,10 @@ _EXPORT = re.compile(r"^export (?=(?:const|class|(?:async )?function\*?) ([\w$]+
 _OTHER = re.compile(r"^(?:import|export)\b.*|\bimport\(.*", re.MULTILINE)
 # types are told to the checker alone
 _NOTE = re.compile(r"/\*\*.*?\*/", re.DOTALL)
+
+
+# lines that hold nothing else; after a statement a comment stays
+_COMMENT = re.compile(r"^[ \t]*(?://[^\n]*|/\*\*.*?\*/)[ \t]*\n", re.MULTILINE | re.DOTALL)
 
 
 class UnknownStatement(ValueError):
@@ -49,7 +53,7 @@ def _write(folder: Path, name: str, written: dict[str, str], around: tuple[str, 
         _write(folder, _beside(name, needed), written, (*around, name))
     numbers = {each: number for number, each in enumerate(written)}
     exported = _EXPORT.findall(text)
-    inside = _EXPORT.sub("", text)
+    inside = _EXPORT.sub("", _COMMENT.sub("", text))
     inside = _IMPORT.sub(
         lambda found: f"const {{ {found[1].replace(' as ', ': ')} }} = module{numbers[_beside(name, found[2])]};",
         inside,

@@ -160,6 +160,10 @@ def after(name: str, peak: float, minor: float, axis_deg: float) -> Ellipse:
     return Ellipse(name, peak, minor, axis_deg, AFTER, 2.0)
 
 
+def as_built(peak: float, minor: float, axis_deg: float) -> Ellipse:
+    return Ellipse("as built: peak", peak, minor, axis_deg, SERIES[3], 1.4, "9 3 2 3")
+
+
 def floor(radius: float) -> Ellipse:
     return Ellipse("floor", radius, radius, 0.0, INK, 1.0, "2 2")
 

@@ -14,9 +14,11 @@ from schemas.request.report import ReportRequest
 from schemas.request.requests import OptimizeRequest
 from service.report.blocks import Attachment, Chapter, Document, facts, table
 from service.report.chapters import balance, inputs, reproduction, verdict
+from service.report.chapters.alternatives import alternatives
 from service.report.chapters.answers import outputs
 from service.report.chapters.balance_quality import balance_quality
 from service.report.chapters.foundation import foundation_loads
+from service.report.chapters.order import workshop_order
 from service.report.chapters.versions import compared
 from service.report.chapters.workshop import sheets
 from service.report.chapters.worst_case import worst_case
@@ -118,6 +120,8 @@ def _chapters(
     built = as_built(request, answer)
     yield verdict.result(request, answer, built)
     yield balance.counterweights(request, answer, built)
+    yield from workshop_order(request.machine, answer)
+    yield from alternatives(answer)
     if answer.foundation_loads is not None:
         yield foundation_loads(answer.foundation_loads)
     yield balance.layout(request, answer, built)
@@ -127,7 +131,7 @@ def _chapters(
     yield from worth_knowing(answer)
     yield from worst_case(answer)
     yield from balance_quality(request.machine, answer)
-    yield balance.before_and_after(request, answer)
+    yield balance.before_and_after(request, answer, built)
     yield verdict.certificate(answer.certificate, answer.infeasibility)
     yield from balance.prices(request, answer)
     # of the first page

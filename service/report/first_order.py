@@ -11,7 +11,12 @@ _VISIBLE = 1e-3
 
 
 def hodographs(
-    machine: Machine, was: FirstOrder, left: FirstOrder | None, floor: Floor, label: str
+    machine: Machine,
+    was: FirstOrder,
+    left: FirstOrder | None,
+    floor: Floor,
+    label: str,
+    built: FirstOrder | None = None,
 ) -> tuple[Drawing, Drawing]:
     """Hodographs of force and moment, N and N m.
 
@@ -19,6 +24,7 @@ def hodographs(
     ----------
     left : with counterweights, if there are any.
     label : what these are.
+    built : with what is fitted, if anything is.
     """
     name = f"{label}: peak"
     force, moment = was.force, was.moment
@@ -28,6 +34,10 @@ def hodographs(
         force, moment = left.force, left.moment
         forces.append(charts.after(name, force.peak_N, force.minor_N, force.major_axis_deg))
         moments.append(charts.after(name, moment.peak_Nm, moment.minor_Nm, moment.major_axis_deg))
+    if built is not None:
+        force, moment = built.force, built.moment
+        forces.append(charts.as_built(force.peak_N, force.minor_N, force.major_axis_deg))
+        moments.append(charts.as_built(moment.peak_Nm, moment.minor_Nm, moment.major_axis_deg))
     length = float(span(machine)) or 1.0
     reach = _VISIBLE * (was.force.peak_N + was.moment.peak_Nm / length)
     forces.append(charts.floor(floor.force_N))

@@ -22,6 +22,7 @@ from service.report.front import front as drawn_front
 from service.report.indicator import indicators
 from service.report.side import side as drawn_side
 from service.report.stage_scheme import stage_scheme
+from service.tables.as_built import as_built
 
 #: what a picture without a page around it is written in
 _FONT = "sans-serif"
@@ -70,16 +71,20 @@ def styled(drawing: Drawing, style: PictureStyle) -> Drawing:
 
 
 def _front(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
-    return drawn_front(request.machine, shown(answer)[0])
+    built = as_built(request, answer)
+    return drawn_front(request.machine, shown(answer)[0], () if built is None else built.counterweights)
 
 
 def _side(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
-    return drawn_side(request.machine, shown(answer)[0], answer.reference_plane_m)
+    built = as_built(request, answer)
+    weights = () if built is None else built.counterweights
+    return drawn_side(request.machine, shown(answer)[0], answer.reference_plane_m, weights)
 
 
 def _hodograph(number: int, request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
-    left = shown(answer)[1]
-    return hodographs(request.machine, answer.residual.before, left, answer.floor, which(answer))[number]
+    left, built = shown(answer)[1], as_built(request, answer)
+    filed = None if built is None else built.left
+    return hodographs(request.machine, answer.residual.before, left, answer.floor, which(answer), filed)[number]
 
 
 def _bearings(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:

@@ -9,7 +9,7 @@ from schemas.answer.counterweights import Counterweight
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import ReciprocatingMachine
 from service.drawings.sheet import millimetres
-from service.drawings.svg import AFTER, FAINT, INK, MUTED, PAGE_WIDTH, SERIES, Anchor, Drawing, shortened
+from service.drawings.svg import AFTER, BEFORE, FAINT, INK, MUTED, PAGE_WIDTH, SERIES, Anchor, Drawing, shortened
 from service.report.blocks import typeset
 
 _LEFT, _RIGHT = 44.0, PAGE_WIDTH - 30.0
@@ -42,10 +42,19 @@ def facing_deg(machine: Machine) -> float:
     return machine.throws[0].crank_angle_deg if isinstance(machine, ReciprocatingMachine) else 0.0
 
 
-def side(machine: Machine, fitted: Sequence[Counterweight], reference_plane_m: float) -> Drawing:
+def side(
+    machine: Machine,
+    fitted: Sequence[Counterweight],
+    reference_plane_m: float,
+    built: Sequence[Counterweight] = (),
+) -> Drawing:
     """Throws, counterweights, bearings and the reference plane along the shaft.
 
     Heights are components along the direction of the first crank; a counterweight is as wide as its mass asks for.
+
+    Parameters
+    ----------
+    built : what is fitted in place of them, dashed.
     """
     drawing = Drawing(PAGE_WIDTH, _BOTTOM + 74, "layout from the side, with dimensions")
     planes = [position for position, _, _ in _planes(machine)] + [reference_plane_m]
@@ -56,7 +65,7 @@ def side(machine: Machine, fitted: Sequence[Counterweight], reference_plane_m: f
     view = _View(low - room, per_m, _ROOM / max(radii), facing_deg(machine))
     drawing.line([(_LEFT - 14, _MIDDLE), (_RIGHT + 14, _MIDDLE)], INK, 5.0)
     _reference(drawing, view, reference_plane_m)
-    _counterweights(drawing, view, machine, fitted)
+    _counterweights(drawing, view, machine, fitted, built)
     if isinstance(machine, ReciprocatingMachine):
         _throws(drawing, view, machine)
         _bearings(drawing, view, machine)
@@ -116,22 +125,25 @@ def _bearings(drawing: Drawing, view: _View, machine: ReciprocatingMachine) -> N
         drawing.area([(place, _MIDDLE + 3), (place - 6, _MIDDLE + 14), (place + 6, _MIDDLE + 14)], "white", stroke=INK)
 
 
-def _counterweights(drawing: Drawing, view: _View, machine: Machine, fitted: Sequence[Counterweight]) -> None:
+def _counterweights(
+    drawing: Drawing, view: _View, machine: Machine, fitted: Sequence[Counterweight], built: Sequence[Counterweight]
+) -> None:
     webs = {web.name: web for web in machine.webs}
     for web in machine.webs:
         drawing.line([(view.z(web.position_m), _MIDDLE - 5), (view.z(web.position_m), _MIDDLE + 5)], AFTER, 1.2)
-    heaviest = max((one.mass_kg for one in fitted), default=0.0)
-    for one in fitted:
-        if not one.mass_kg > 0:
+    heaviest = max((one.mass_kg for one in (*fitted, *built)), default=0.0)
+    for number, one in enumerate((*fitted, *built)):
+        # weights of balance shafts are not on this one
+        if not one.mass_kg > 0 or one.web not in webs:
             continue
-        web = webs[one.web]
-        place, half = view.z(web.position_m), 2.0 + 7.0 * one.mass_kg / heaviest
+        place, half = view.z(webs[one.web].position_m), 2.0 + 7.0 * one.mass_kg / heaviest
         end = view.y(view.height(one.radius_m, one.angle_deg))
-        drawing.area(
-            [(place - half, _MIDDLE), (place + half, _MIDDLE), (place + half, end), (place - half, end)],
-            AFTER, 0.16, AFTER, 1.2,
-        )  # fmt: skip
-        drawing.circle((place, end), 2.2, AFTER, AFTER)
+        around = [(place - half, _MIDDLE), (place + half, _MIDDLE), (place + half, end), (place - half, end)]
+        if number < len(fitted):
+            drawing.area(around, AFTER, 0.16, AFTER, 1.2)
+            drawing.circle((place, end), 2.2, AFTER, AFTER)
+        else:
+            drawing.area(around, "none", stroke=BEFORE, width=1.2, dash="5 3")
 
 
 def _axis(drawing: Drawing, view: _View, machine: Machine) -> None:

@@ -1,7 +1,5 @@
 """The computing routes, one for each entry of the table of computations."""
 
-from typing import Any
-
 from fastapi import APIRouter
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
@@ -10,7 +8,8 @@ from service.computations import COMPUTATIONS, Computation
 from service.guard.access import require
 from service.http.computing import computing_of
 from service.http.direct import Endpoint
-from service.http.openapi import BINARY, COMPUTE_PROBLEMS, example_body, problems, request_body
+from service.http.operations import of_computation
+from service.http.parameters import require_known
 
 
 def endpoints() -> dict[str, Endpoint]:
@@ -22,6 +21,7 @@ def router() -> APIRouter:
     """The routes of all computations, as they are documented; requests come to them by :mod:`service.http.direct`."""
     made = APIRouter()
     for one in COMPUTATIONS.values():
+        answers, about = of_computation(one)
         made.add_api_route(
             one.path,
             _endpoint(one),
@@ -32,8 +32,8 @@ def router() -> APIRouter:
             tags=[one.tag],
             response_model=one.answers,
             response_class=Response if one.answers is None else JSONResponse,
-            responses=_responses(one),
-            openapi_extra=request_body(one.asks, one.examples, one.workbook is not None),
+            responses=answers,
+            openapi_extra=about,
         )
     return made
 
@@ -41,19 +41,7 @@ def router() -> APIRouter:
 def _endpoint(one: Computation) -> Endpoint:
     async def endpoint(request: Request) -> Response:
         require(request, one.scope)
+        require_known(request)
         return await computing_of(request).answer(request, one)
 
     return endpoint
-
-
-def _responses(one: Computation) -> dict[int | str, dict[str, Any]]:
-    if one.answer is not None:
-        others = {form.media_type: BINARY for form in one.forms[1:]}
-        told: dict[int | str, dict[str, Any]] = {200: {"content": others}} if others else {}
-        return {**told, **problems(*COMPUTE_PROBLEMS)}
-    content = {form.media_type: {"schema": {"type": "string"}} for form in one.forms}
-    # no answer but JSON: the request itself
-    content |= example_body(one.asks)[200]["content"] if "application/json" in content else {}
-    # what there is in one form only is answered in that
-    more = (406,) if len(one.forms) > 1 else ()
-    return {200: {"description": "the document", "content": content}, **problems(*COMPUTE_PROBLEMS, *more)}

@@ -9,7 +9,7 @@ from starlette.responses import Response
 from optimizer.outputs.descriptions import catalogue
 from schemas.answer.effects import EffectCatalogue
 from service.http.kept import Kept
-from service.http.openapi import problems
+from service.http.operations import parameters, problems, unchanged
 
 router = APIRouter(tags=["counterweights"])
 
@@ -19,7 +19,8 @@ router = APIRouter(tags=["counterweights"])
     operation_id="list_effects",
     summary="All outputs and the effects behind them",
     response_model=EffectCatalogue,
-    responses=problems(),
+    responses={**unchanged(), **problems()},
+    openapi_extra={"parameters": parameters("If-None-Match")},
 )
 async def list_effects(request: Request) -> Response:
     """Only the effects that the outputs of a request need are simulated, and only their inputs are asked for."""

@@ -13,9 +13,10 @@ from service.documents.examples import Examples, catalogue, load
 from service.documents.template import template
 from service.fairness.threads import in_threads
 from service.http.kept import Kept
-from service.http.openapi import BINARY, example_body, problems
+from service.http.operations import BINARY, parameters, problems, ref, unchanged
 
 router = APIRouter(tags=["examples"])
+_KEPT = {"parameters": parameters("If-None-Match")}
 
 
 @router.get(
@@ -23,7 +24,8 @@ router = APIRouter(tags=["examples"])
     operation_id="list_examples",
     summary="All examples",
     response_model=Examples,
-    responses=problems(),
+    responses={**unchanged(), **problems()},
+    openapi_extra=_KEPT,
 )
 async def list_examples(request: Request) -> Response:
     return _listed(request.scope.get("root_path", "")).answer(request)
@@ -34,7 +36,8 @@ async def list_examples(request: Request) -> Response:
     operation_id="read_example",
     summary="An example, ready to be posted",
     response_class=Response,
-    responses={**example_body(OptimizeRequest), **problems(404)},
+    responses={**unchanged({"application/json": {"schema": ref(OptimizeRequest)}}), **problems(404)},
+    openapi_extra=_KEPT,
 )
 async def read_example(request: Request, name: str) -> Response:
     """The very body one can post to `/v1/optimize`."""
@@ -46,12 +49,15 @@ async def read_example(request: Request, name: str) -> Response:
     operation_id="read_template",
     summary="An example as a workbook, to be changed into one's own and posted",
     response_class=Response,
-    responses={200: {"description": "a workbook", "content": {XLSX: BINARY}}, **problems(404, 422)},
+    responses={**unchanged({XLSX: BINARY}, "Content-Disposition"), **problems(404, 422)},
+    openapi_extra=_KEPT,
 )
 @in_threads
 def read_template(
     request: Request,
-    example: Annotated[str, Query(description="name of the example", max_length=64)] = "single-horizontal",
+    example: Annotated[
+        str, Query(description="name of the example; `empty` has the heads of all tables alone", max_length=64)
+    ] = "single-horizontal",
 ) -> Response:
     """`POST /v1/optimize` takes it with its media type, and answers with one to who accepts that."""
     return _template(example).answer(request, **{"Content-Disposition": 'attachment; filename="machine.xlsx"'})

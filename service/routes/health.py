@@ -7,7 +7,7 @@ from pydantic import Field
 from starlette.requests import Request
 
 from schemas.base.model import Model
-from service.http.openapi import problems
+from service.http.operations import problems
 
 router = APIRouter(tags=["health"])
 

@@ -8,7 +8,7 @@ from starlette.responses import Response
 from service.fairness.quotas import holding
 from service.fairness.threads import threads_of
 from service.guard.access import needs
-from service.http.openapi import problems
+from service.http.operations import TEXT, problems
 
 router = APIRouter(tags=["health"])
 
@@ -19,7 +19,7 @@ router = APIRouter(tags=["health"])
     summary="Metrics for Prometheus",
     dependencies=[needs("metrics")],
     response_class=Response,
-    responses={200: {"description": "text format of Prometheus", "content": {"text/plain": {}}}, **problems()},
+    responses={200: {"description": "text format of Prometheus", "content": {"text/plain": TEXT}}, **problems()},
 )
 async def metrics(request: Request) -> Response:
     """Requests, times of computations by method, certified gaps, queue, workers, jobs and their rows."""

@@ -19,7 +19,17 @@ from service.guard.access import needs
 from service.guard.keys import still_admitted
 from service.http.accept import liked
 from service.http.computing import Computes
-from service.http.openapi import COMPUTE_PROBLEMS, problems, request_body
+from service.http.operations import (
+    COMPUTE_PROBLEMS,
+    accept,
+    content_of,
+    headers,
+    links,
+    on_disk,
+    parameters,
+    problems,
+    request_body,
+)
 from service.jobs.accepting import accepted, desk_of, idempotency_key, prefix
 from service.jobs.events import News, Watch, events, news
 from service.jobs.formats import FORMATS, Name
@@ -44,9 +54,11 @@ _ENDS = [needs("sweeps", "compute")]
 _STARTS = [needs("sweeps")]
 _BLOCK_BYTES = 262_144
 _NO_STORE = {"Cache-Control": "no-store"}
-_LOCATION = {"Location": {"description": "where the sweep is", "schema": {"type": "string"}}}
 _BY_MEDIA_TYPE: Mapping[str, Name] = {known.media_type.split(";")[0]: name for name, known in FORMATS.items()}
-_ROWS = {media_type: {"schema": {"type": "string"}} for media_type in _BY_MEDIA_TYPE}
+_ROWS = {
+    **{media_type: content_of(media_type) for media_type in _BY_MEDIA_TYPE},
+    "application/json": {"schema": {"type": "object"}},
+}
 
 
 @router.post(
@@ -58,10 +70,13 @@ _ROWS = {media_type: {"schema": {"type": "string"}} for media_type in _BY_MEDIA_
     response_model=SweepState,
     responses={
         200: {"description": "with `dry_run`: what the sweep would be", "model": SweepEstimate},
-        202: {"description": "the sweep is on disk and goes on by itself", "headers": _LOCATION},
+        **on_disk("the sweep is on disk and goes on by itself"),
         **problems(*COMPUTE_PROBLEMS, 409, 429),
     },
-    openapi_extra=request_body(SweepRequest, "sweeps"),
+    openapi_extra={
+        **request_body(SweepRequest, "sweeps"),
+        "parameters": parameters("Idempotency-Key", "Prefer"),
+    },
 )
 async def post_sweep(request: Request, computing: Computes, desk: Jobs) -> Response:
     """With the header `Idempotency-Key`, the same body sent again is the same sweep; another body is refused."""
@@ -84,7 +99,7 @@ async def post_sweep(request: Request, computing: Computes, desk: Jobs) -> Respo
     dependencies=_SEES,
     summary="All sweeps, newest first",
     response_model=SweepPage,
-    responses=problems(404, 422, 503),
+    responses={200: {"links": links("$response.body#/sweeps/0/id")}, **problems(404, 422, 503)},
 )
 async def list_sweeps(
     request: Request,
@@ -143,7 +158,7 @@ def delete_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A0
     summary="Go on with a sweep that was cancelled or has failed",
     status_code=202,
     response_model=SweepState,
-    responses=problems(404, 503),
+    responses={**on_disk("the sweep or job goes on by itself"), **problems(404, 503)},
 )
 @in_threads
 def resume_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A002
@@ -177,9 +192,14 @@ async def describe_sweep(request: Request, desk: Jobs, id: str) -> Response:  # 
     summary="The rows of a sweep, in the order of their index",
     response_class=Response,
     responses={
-        200: {"description": "rows, or the answer of another job", "content": _ROWS},
+        200: {
+            "description": "rows, or the answer of another job",
+            "content": _ROWS,
+            "headers": headers("Content-Disposition", "Link", "Sweep-Complete", "Sweep-State"),
+        },
         **problems(404, 409, 422, 503),
     },
+    openapi_extra={"parameters": [accept(*_BY_MEDIA_TYPE)]},
 )
 @in_threads
 def read_results(
@@ -251,8 +271,10 @@ def _blocks(opened: Callable[[], BinaryIO]) -> Iterator[bytes]:
     response_class=Response,
     responses={
         200: {"description": "events `progress` and `end`", "content": {"text/event-stream": {}}},
+        204: {"description": "nothing is newer than `Last-Event-ID`, and nothing will be"},
         **problems(404, 503),
     },
+    openapi_extra={"parameters": parameters("Last-Event-ID")},
 )
 async def watch_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A002
     """The data of an event is the state of the sweep; after `Last-Event-ID` only what is new is told."""

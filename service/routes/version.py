@@ -6,7 +6,7 @@ from fastapi import APIRouter
 from pydantic import Field
 
 from schemas.base.model import Answer
-from service.http.openapi import problems
+from service.http.operations import problems
 
 router = APIRouter(tags=["health"])
 

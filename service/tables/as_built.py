@@ -82,7 +82,7 @@ def as_built(request: OptimizeRequest, answer: OptimizeAnswer) -> AsBuilt | None
     assert found.residual.after is not None
     built, optimum = _every(found), _every(answer)
     pairs = tuple(_pairs(optimum, built))
-    return AsBuilt(built, found.residual.after, found.total_mass_kg, pairs, _tolerance(answer))
+    return AsBuilt(built, found.residual.after, found.total_mass_kg, pairs, tolerance(answer))
 
 
 def _every(answer: OptimizeAnswer | AnalyzeAnswer) -> tuple[Counterweight, ...]:
@@ -95,7 +95,8 @@ def _pairs(optimum: Sequence[Counterweight], built: Sequence[Counterweight]) -> 
         yield Pair(web, best.get(web), fitted.get(web))
 
 
-def _tolerance(answer: OptimizeAnswer) -> Tolerance:
+def tolerance(answer: OptimizeAnswer) -> Tolerance:
+    """What the counterweights of an answer bear, from its sensitivity."""
     rise, proof = answer.sensitivity, answer.certificate
     if rise is None or proof is None:
         return Tolerance(None, None)

@@ -10,6 +10,7 @@ from schemas.answer.outputs import OutputName
 from schemas.base.model import FieldProblem
 from schemas.request.requests import OptimizeRequest
 from service.tables import as_built, foundation, pins
+from service.tables import order as workshop
 from service.tables.lines import Lines
 
 
@@ -49,6 +50,11 @@ def _pin_loads(_request: OptimizeRequest, answer: OptimizeAnswer) -> Lines:
     return pins.lines(answer.pin_loads)
 
 
+def _order(_request: OptimizeRequest, answer: OptimizeAnswer) -> Lines:
+    return workshop.required(answer)
+
+
+order = Table((), _order)
 built = Table(("residual",), _as_built)
 foundation_loads = Table(("foundation_loads",), _foundation_loads)
 pin_loads = Table(("pin_loads",), _pin_loads)

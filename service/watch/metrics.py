@@ -28,6 +28,12 @@ class Metrics:
         requests = Counter(
             "counterweight_requests", "answered requests", ("method", "route", "status"), registry=self._registry
         )
+        refusals = Counter(
+            "counterweight_refusals",
+            "requests that were answered with a problem, by its kind",
+            ("route", "kind"),
+            registry=self._registry,
+        )
         request_seconds = Histogram(
             "counterweight_request_seconds",
             "time to the end of an answer [s]",
@@ -57,6 +63,7 @@ class Metrics:
             registry=self._registry,
         )
         # what belongs to some labels is looked for once: they are few
+        self._refused = cache(refusals.labels)
         self._counted, self._lasted = cache(requests.labels), cache(request_seconds.labels)
         self._took, self._solved = cache(computation_seconds.labels), cache(solve_seconds.labels)
         self._gap = cache(gaps.labels)
@@ -70,6 +77,10 @@ class Metrics:
         known = method if method in _METHODS else "other"
         self._counted(known, route, str(status)).inc()
         self._lasted(route).observe(seconds)
+
+    def refused(self, route: str, kind: str) -> None:
+        """A request was answered with a problem of a kind."""
+        self._refused(route, kind).inc()
 
     def computed(self, computation: str, answer: Answer) -> None:
         """A worker has answered."""

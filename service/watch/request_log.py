@@ -4,6 +4,7 @@ import logging
 import re
 import secrets
 import time
+from collections.abc import Callable
 from typing import Any
 
 from starlette.datastructures import Headers
@@ -20,6 +21,8 @@ _ID = re.compile(r"[A-Za-z0-9._-]{1,64}")
 _TRACEPARENT = re.compile(r"[0-9a-f]{2}-(?!0{32})([0-9a-f]{32})-(?!0{16})[0-9a-f]{16}-[0-9a-f]{2}(?:-.*)?")
 #: asked every few seconds by whoever looks after the service
 _PROBES = frozenset({"/healthz", "/readyz", "/metrics"})
+#: in the first bytes of problem details
+_KIND = re.compile(rb'"type":"/problems/([a-z-]+)"')
 #: as nginx says it
 _GONE = 499
 _LONGEST_PATH = 200
@@ -31,13 +34,17 @@ class RequestLog:
 
     Parameters
     ----------
+    template : the path of the route for a request that was refused before it came to one; None where there is none.
     bodies : whether the log quotes the bodies of requests.
     """
 
-    def __init__(self, app: ASGIApp, metrics: Metrics, tracing: Tracing, bodies: bool) -> None:
+    def __init__(
+        self, app: ASGIApp, metrics: Metrics, tracing: Tracing, template: Callable[[Scope], str | None], bodies: bool
+    ) -> None:
         self._app = app
         self._metrics = metrics
         self._tracing = tracing
+        self._template = template
         self._bodies = bodies
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -53,13 +60,17 @@ class RequestLog:
         method = "HEAD" if scope.get("head") else scope["method"]
         ids = {"request_id": request_id, "trace_id": traced[1] if traced else fresh[32:]}
         REQUEST.set(ids)
-        status = 0
+        status, refused, kind = 0, False, ""
 
         async def note(message: Message) -> None:
-            nonlocal status
+            nonlocal status, refused, kind
             if message["type"] == "http.response.start":
                 status = message["status"]
+                refused = status >= 400
                 message["headers"] = [*message.get("headers", ()), (b"x-request-id", request_id.encode())]
+            elif refused and not kind:
+                found = _KIND.search(message.get("body", b"")[:_LONGEST_PATH])
+                kind = found[1].decode() if found else "other"
             await send(message)
 
         with self._tracing.request(method, Headers(scope=scope)) as span:
@@ -71,7 +82,9 @@ class RequestLog:
             finally:
                 # who was told nothing has gone before
                 status = status or _GONE
-                route = _route(scope)
+                route = self._route(scope)
+                if kind:
+                    self._metrics.refused(route, kind)
                 seconds = time.perf_counter() - begun
                 if span is not None:
                     span.set_attribute("http.request.method", method)
@@ -79,6 +92,10 @@ class RequestLog:
                     span.set_attribute("http.response.status_code", status)
                 self._metrics.requested(method, route, status, seconds)
                 self._say(scope, method, route, status, seconds)
+
+    def _route(self, scope: Scope) -> str:
+        found = getattr(scope.get("route"), "path", None) or self._template(scope)
+        return "unmatched" if found is None else str(found)
 
     def _say(self, scope: Scope, method: str, route: str, status: int, seconds: float) -> None:
         level = logging.DEBUG if route in _PROBES and status < 500 else logging.INFO
@@ -98,8 +115,3 @@ class RequestLog:
         if self._bodies and "body" in state:
             about["body"] = bytes(state["body"][:_LONGEST_BODY]).decode("utf-8", "replace")
         _LOG.log(level, "%s %s %d", method, route, status, extra={**about, "about": about})
-
-
-def _route(scope: Scope) -> str:
-    found = getattr(scope.get("route"), "path", None)
-    return "unmatched" if found is None else str(found)

@@ -26,7 +26,7 @@ FIELDS = "machine"
 _FIELD_HEADS: tuple[Cell, ...] = ("field", "value")
 _THROWS = "throws"
 _ROWS = "rows"
-#: number of the throw that a row is on, from 0
+#: name of the throw that a row is on; its number from 0 where throws have no names, or some cell is no name of one
 _THROW = "throw"
 _TABLES = (_THROWS, _ROWS, "webs", "bearings", "unbalances")
 #: sheets of an answer, which say nothing of the machine
@@ -82,11 +82,23 @@ def written(body: Mapping[str, Any]) -> Sheets:
     """The sheets of a request."""
     machine = dict(body.get("machine", {}))
     throws = [dict(each) for each in machine.pop(_THROWS, ())]
-    rows = [{_THROW: number, **row} for number, throw in enumerate(throws) for row in throw.pop(_ROWS, ())]
+    names = _throw_names(throws)
+    rows = [
+        {_THROW: number if names is None else names[number], **row}
+        for number, throw in enumerate(throws)
+        for row in throw.pop(_ROWS, ())
+    ]
     tables = {_THROWS: throws, _ROWS: rows, **{name: machine.pop(name, []) for name in _TABLES[2:]}}
     fields: list[list[Cell]] = [list(_FIELD_HEADS)]
     fields += [[name, value] for name, value in flat({**body, "machine": machine})]
     return {FIELDS: fields, **{name: table(lines) for name, lines in tables.items() if lines}}
+
+
+def _throw_names(throws: Any) -> list[str] | None:
+    """Names of all throws, by which rows can be put on them; none where some have none, or share one."""
+    names = [throw.get("name") if isinstance(throw, Mapping) else None for throw in throws]
+    texts = [name for name in names if isinstance(name, str)]
+    return texts if texts and len(texts) == len(names) == len(set(texts)) else None
 
 
 def table(lines: Sequence[Mapping[str, Any]]) -> list[list[Cell]]:
@@ -204,15 +216,15 @@ class _Reader:
             if self.json_length > _MOST_JSON:
                 raise UnreadableJson(f"the cells up to here hold more than {_MOST_JSON} characters of it")
             return json_value(value)
-        if name == "name" and isinstance(value, int | float) and not isinstance(value, bool):
-            # a spreadsheet makes a number of a name such as 1
-            return f"{value:.15g}"
-        return value
+        # a spreadsheet makes a number of a name such as 1
+        return _text(value) if name == "name" else value
 
     def found(self) -> Read:
         lines: dict[Path, tuple[str, int]] = {}
         machine = self.body.setdefault("machine", {}) if self.tables else {}
         for sheet in _TABLES:
+            if sheet == _ROWS:
+                self._name_throws(machine)
             for number, item, places in self.tables.get(sheet, ()):
                 path = self._placed(machine, sheet, number, item)
                 if path is not None:
@@ -236,6 +248,15 @@ class _Reader:
         items.append(item)
         return "machine", sheet, len(items) - 1
 
+    def _name_throws(self, machine: Any) -> None:
+        """Numbers in place of the names of throws, if the rows have nothing but names."""
+        throws = machine.get(_THROWS) if isinstance(machine, dict) else None
+        names = _throw_names(throws) if isinstance(throws, list) else None
+        rows = [item for _, item, _ in self.tables.get(_ROWS, ())]
+        if names is not None and all(_text(row.get(_THROW)) in names for row in rows):
+            for row in rows:
+                row[_THROW] = names.index(_text(row[_THROW]))
+
     def _row_placed(self, throws: Any, number: int, item: dict[str, Any]) -> Path | None:
         """Put a row on its throw."""
         sheet, throw = _ROWS, item.pop(_THROW, None)
@@ -243,7 +264,10 @@ class _Reader:
             self._refuse(f"{sheet}, line {number}: the sheet {FIELDS} says {_THROWS} too")
             return None
         if not isinstance(throw, int | float) or throw not in range(len(throws)):
-            message = f"the number of its throw, from 0 to {len(throws) - 1}" if throws else "there are no throws"
+            names = _throw_names(throws)
+            numbers = f"the number of its throw, from 0 to {len(throws) - 1}"
+            message = numbers if names is None else f"the name of its throw: {', '.join(names[:_MOST_NAMED])}"
+            message = message if throws else "there are no throws"
             self._refuse(f"{sheet}, line {number}: {_THROW}: {message}")
             return None
         bearer = throws[int(throw)]
@@ -256,6 +280,11 @@ class _Reader:
 
 
 @lru_cache(512)
+def _text(value: Any) -> Any:
+    """A number as the text that it stands for."""
+    return f"{value:.15g}" if isinstance(value, int | float) and not isinstance(value, bool) else value
+
+
 @lru_cache(512)
 def _split(name: str) -> tuple[str, ...]:
     return tuple(name.split("."))

@@ -166,3 +166,8 @@ def ask(url: str, path: str, body: Any = None) -> Any:
 def cells(table: Locator) -> list[list[str]]:
     """The texts of a table, row by row, without its heads."""
     return [row.locator("th, td").all_inner_texts() for row in table.locator("tbody tr").all()]
+
+
+def number(text: str) -> float:
+    """A number as the page prints it: thousands apart, a true minus."""
+    return float("".join(text.split()).replace("\N{MINUS SIGN}", "-"))

@@ -36,6 +36,15 @@ def test_modules_stand_after_what_they_need_once_each(tmp_path: Path) -> None:
     assert not re.search("export|import", text)
 
 
+def test_comments_stay_in_the_folder(tmp_path: Path) -> None:
+    notes = "// why\n/** @type {a} */\n", "/**\n * more\n * @param b\n */\n  // within\n"
+    text = f'{notes[0]}const a = "// no comment";\n{notes[1]}const c = 1 / 2;\n'
+    assert bundle(_written(tmp_path, main=text), "main.js").splitlines()[2:4] == [
+        'const a = "// no comment";',
+        "const c = 1 / 2;",
+    ]
+
+
 @pytest.mark.parametrize(
     "statement",
     [

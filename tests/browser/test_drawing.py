@@ -7,7 +7,7 @@ import pytest
 
 from service.portal.assets import STATIC
 from service.portal.bundle import bundle
-from tests.browser.portal import Portal, ask, cells
+from tests.browser.portal import Portal, ask, cells, number
 
 #: in the page: pairs of names that overlap by more than a pixel, and names with a counterweight above them
 _HIDDEN = """(drawing) => {
@@ -85,7 +85,7 @@ def test_counterweights_come_first(portal: Portal, url: str) -> None:
     rows = cells(first)
     for row, one in zip(rows, answer["counterweights"], strict=True):
         assert row[0] == one["web"]
-        figures = [float(text.replace(",", "").replace("\N{MINUS SIGN}", "-")) for text in row[1:6]]
+        figures = [number(text) for text in row[1:6]]
         expected = [one["mass_kg"], 1e3 * one["position_m"], 1e3 * one["radius_m"], one["angle_from_crank_deg"]]
         assert figures == pytest.approx([*expected, one["angle_deg"]], rel=1e-4)
     assert [row[6].split(",")[0] for row in rows] == ["segment", "sector"]

@@ -101,6 +101,7 @@ def test_things_are_added_and_removed(portal: Portal) -> None:
     web = portal.page.locator("#form details[data-pointer='/machine/webs/4']")
     web.get_by_role("button", name="Add sector").click()
     portal.input("/machine/webs/4/sector/centre_deg").fill("170")
+    portal.input("/machine/webs/4/sector/half_angle_deg").fill("30")
     portal.unfold("/machine/throws", "/machine/throws/0")
     portal.page.locator("#form details[data-pointer='/machine/throws/0']").get_by_role(
         "button", name="Remove throw"
@@ -135,14 +136,27 @@ def test_rows_are_added_to_a_throw(portal: Portal) -> None:
     assert portal.page.locator("#answer .front .row line").count() == 3
 
 
-def test_another_kind_of_machine(portal: Portal) -> None:
+def test_another_kind_of_machine_holds_nothing_that_nobody_typed(portal: Portal) -> None:
+    portal.refusals = {422}
     portal.open("2d12")
     portal.input("/machine/kind").select_option("scroll")
-    portal.optimise()
+    portal.page.click("#optimise")
+    portal.page.locator("#form [aria-invalid='true']").first.wait_for()
     machine = portal.bodies("/v1/optimize")[-1]["machine"]
-    assert machine["kind"] == "scroll"
-    assert "throws" not in machine
+    # the webs of the machine before, and of the scroll its kind alone
+    assert set(machine) == {"kind", "name", "description", "speed_rpm", "webs"}
     assert len(machine["webs"]) == 4
+    assert "NaN" not in portal.page.locator("#drawings").inner_html()
+    values = {"orbit_radius_m": "5 mm", "orbiting_mass_kg": "1,2", "orbiting_position_m": "0"}
+    for name, value in values.items():
+        portal.input(f"/machine/{name}").fill(value)
+    device = "/machine/anti_rotation"
+    assert portal.input(f"{device}/type").input_value() == ""
+    portal.input(f"{device}/type").select_option("crank_pins")
+    for name, value in {"count": "3", "pin_circle_radius_m": "50 mm", "position_m": "0"}.items():
+        assert portal.input(f"{device}/{name}").input_value() == ""
+        portal.input(f"{device}/{name}").fill(value)
+    portal.optimise()
     portal.page.locator("#panel-sweep").wait_for()
 
 

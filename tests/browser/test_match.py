@@ -3,7 +3,7 @@
 import pytest
 from playwright.sync_api import Locator, expect
 
-from tests.browser.portal import Look, Portal, ask, cells
+from tests.browser.portal import Look, Portal, ask, cells, number
 from tests.browser.test_accessibility import SERIOUS, Axe
 
 _PASTED = """kind\tname\tmass (g)
@@ -54,7 +54,7 @@ def test_pasted_parts_are_matched(portal: Portal, url: str) -> None:
     assert parts[1][2] == "long (24.5 kg)"
     assert panel.get_by_text("Left over: short (8 kg).").is_visible()
     for row, (of, peak) in ((force, ("force", "peak_N")), (moment, ("moment", "peak_Nm"))):
-        found = [float(text.replace(",", "")) for text in row[1:3]]
+        found = [number(text) for text in row[1:3]]
         assert found == pytest.approx([answer[when][of][peak] for when in ("before", "after")], rel=1e-4)
     assert force[3].startswith("−")
     portal.screenshot("match-1280")

@@ -95,3 +95,74 @@ def test_two_machines_and_ten_thousand_lines_are_refused(portal: Portal) -> None
     said = portal.page.locator("#form .grid-web .said")
     expect(said).to_contain_text("10000 lines are more than the 500 webs that a machine may have: nothing was pasted.")
     assert _request(portal)["machine"] == before
+
+
+GERMAN = "Web;Position (mm);counterweight radius (mm);max mass\nA;-1.450,5;180;12,5\nB;1.450,5;180;12,5\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "positions"),
+    [
+        (GERMAN, ["-1450.5 mm", "1450.5 mm"]),
+        # a decimal comma anywhere in a table makes a point one that groups
+        ("Web;Position (mm);max mass\nA;-1.450;12,5\nB;1.450;12,5\n", ["-1450 mm", "1450 mm"]),
+        ("Web,Position (mm),max mass\nA,-1450.5,12.5\nB,1450.5,12.5\n", ["-1450.5 mm", "1450.5 mm"]),
+        ('Web,Position (mm),max mass\nA,"-1,450",12.5\nB,"1,450",12.5\n', ["-1450 mm", "1450 mm"]),
+    ],
+)
+def test_numbers_of_a_table_are_read_by_the_mark_that_it_has(portal: Portal, text: str, positions: list[str]) -> None:
+    portal.open("2d12")
+    portal.paste("body", text)
+    expect(portal.page.locator("#progress")).to_have_text("Pasted: 2 webs. Press Optimise.")
+    webs = _request(portal)["machine"]["webs"][:2]
+    assert [web["position_m"] for web in webs] == positions
+    assert [web["max_mass_kg"] for web in webs] == [12.5, 12.5]
+
+
+def test_a_comma_that_may_group_is_asked_about(portal: Portal) -> None:
+    portal.open("2d12")
+    portal.paste("body", "Web\tmax mass\nA\t1,125\nB\t1,250\n")
+    said = portal.page.locator("#form .grid-web .question")
+    expect(said).to_contain_text("max mass: 1,125 is read as 1.125.")
+    assert [web["max_mass_kg"] for web in _request(portal)["machine"]["webs"][:2]] == [1.125, 1.25]
+    said.get_by_role("button", name="1125 meant").click()
+    assert [web["max_mass_kg"] for web in _request(portal)["machine"]["webs"][:2]] == [1125, 1250]
+    # what the page prints it reads: thousands stand apart
+    portal.input("/machine/speed_rpm").fill("1\u202f125,5")
+    assert _request(portal)["machine"]["speed_rpm"] == 1125.5
+
+
+def test_an_empty_column_takes_nothing_away(portal: Portal) -> None:
+    portal.open("2d12")
+    before = portal.bodies("/v1/optimize")[-1]["machine"]["webs"]
+    portal.paste("#form .grid-web .wide", "Web\tmax mass\t\tcounterweight radius\nA\t12\t\t\nB\t13\t\t\n")
+    expect(portal.page.locator("#form .grid-web .said")).to_contain_text("Nothing stands under “counterweight radius”")
+    after = _request(portal)["machine"]["webs"]
+    assert [web["max_mass_kg"] for web in after[:2]] == [12, 13]
+    assert [web["counterweight_radius_m"] for web in after] == [web["counterweight_radius_m"] for web in before]
+
+
+def test_a_pressure_pasted_into_a_table_is_refused_with_its_place(portal: Portal) -> None:
+    portal.open("v60")
+    before = portal.bodies("/v1/optimize")[-1]["machine"]
+    portal.paste(
+        "#form .grid-web .wide", "angle\tpressure\n" + "".join(f"{20 * k}\t{1.5 + k % 3}\n" for k in range(18))
+    )
+    said = portal.page.locator("#form .grid-web .said")
+    expect(said).to_contain_text("This is a pressure over the angle: nothing was pasted here.")
+    said.get_by_role("button", name="Paste it into the indicated pressure").click()
+    expect(portal.page.locator("#form .gas .said")).to_contain_text("18 lines: one revolution, 1.5 to 3.5 bar")
+    assert _request(portal)["machine"] == before
+
+
+def test_a_table_is_dropped_as_a_file(portal: Portal) -> None:
+    portal.open("2d12")
+    portal.page.locator("body").evaluate(
+        """(node, text) => {
+          const dataTransfer = new DataTransfer();
+          dataTransfer.items.add(new File([text], "webs.csv", { type: "text/csv" }));
+          node.dispatchEvent(new DragEvent("drop", { dataTransfer, bubbles: true, cancelable: true }));
+        }""",
+        GERMAN,
+    )
+    expect(portal.page.locator("#progress")).to_have_text("Pasted: 2 webs. Press Optimise.")

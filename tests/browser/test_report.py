@@ -17,7 +17,10 @@ def test_the_head_and_the_versions_are_given_on_the_page(portal: Portal) -> None
     portal.optimise()
     head = portal.page.locator("#answer .document")
     head.locator("> summary").click()
-    for name, text in {"number": "K-1047", "revision": "B", "author": "M. Weber", "notes": "For approval."}.items():
+    office = {"company": "Weber Compressors", "customer": "Nordic Air", "approver": "L. Berg"}
+    revisions = "A; 2026-10-01; first issue; M. Weber\nB; 2026-11-23; counterweights as cast"
+    document = {"number": "K-1047", "revision": "B", "author": "M. Weber", "notes": "For approval."} | office
+    for name, text in (document | {"revisions": revisions}).items():
         head.locator(f"#document-{name}").fill(text)
     head.get_by_label("slow").check()
     expect(head.locator("> summary")).to_have_text("Its head: K-1047, revision B; compared with slow")
@@ -25,10 +28,13 @@ def test_the_head_and_the_versions_are_given_on_the_page(portal: Portal) -> None
         portal.page.locator("#answer").get_by_role("button", name="HTML").click()
     assert "K-1047" in download.value.suggested_filename
     content = Path(download.value.path()).read_text()
-    for words in ("M. Weber", "For approval.", "slow"):
+    for words in ("M. Weber", "For approval.", "slow", *office.values(), "counterweights as cast"):
         assert words in content
     (asked,) = portal.bodies("/v1/report")
     assert asked["document"]["revision"] == "B"
+    assert [one["revision"] for one in asked["document"]["revisions"]] == ["A", "B"]
+    # the day where the reader is
+    assert asked["document"]["date"] == portal.page.evaluate("new Date().toLocaleDateString('sv-SE')")
     (version,) = asked["versions"]
     assert (version["name"], version["machine"]["speed_rpm"] != 900) == ("slow", True)
     # of the tab: there after a reload, and said beside the buttons
@@ -44,4 +50,4 @@ def test_what_the_head_may_not_hold_is_said(portal: Portal) -> None:
     portal.page.locator("#answer .document > summary").click()
     portal.page.fill("#document-notes", "n" * 4001)
     portal.page.locator("#answer").get_by_role("button", name="PDF").click()
-    expect(portal.page.locator("#answer .report [role=status]")).to_contain_text("document notes: ")
+    expect(portal.page.locator("#answer .report [role=status]")).to_contain_text("notes: ")

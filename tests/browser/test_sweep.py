@@ -2,7 +2,10 @@
 
 from pathlib import Path
 
-from tests.browser.portal import Portal
+import pytest
+from playwright.sync_api import expect
+
+from tests.browser.portal import Portal, ask, number
 
 
 def _count(portal: Portal, *counts: str) -> None:
@@ -42,6 +45,25 @@ def test_a_latin_hypercube_becomes_points(portal: Portal) -> None:
     portal.page.get_by_role("button", name="Start the sweep").click()
     portal.page.wait_for_selector("#panel-sweep[data-swept]", timeout=60_000)
     assert portal.panel("sweep").locator(".scatterlayer .point").count() == 30
+
+
+def test_bearing_loads_over_the_speed_are_one_click(portal: Portal, url: str) -> None:
+    portal.open("inline-four-engine", ("sweep",))
+    panel = portal.panel("sweep")
+    panel.get_by_role("button", name="Bearing loads over the speed").click()
+    portal.page.wait_for_selector("#panel-sweep[data-swept]")
+    bearings = ask(url, "/v1/examples/inline-four-engine")["machine"]["bearings"]
+    expect(panel.locator(".scatterlayer .trace")).to_have_count(len(bearings))
+    asked = portal.bodies("/v1/sweeps")[-1]
+    assert asked["task"] == "analyze"
+    axis = asked["axes"][0]
+    # independent: the fastest speed by itself
+    base = asked["base"]
+    base["machine"]["speed_rpm"] = axis["stop"]
+    loads = ask(url, "/v1/analyze", base)["main_bearings"]["bearings"]
+    largest = max(one["after"]["peak_N"] for one in loads)
+    words = panel.locator("[role=img][aria-label*='Largest load']").get_attribute("aria-label") or ""
+    assert number(words.partition("up to ")[2].removesuffix(" N.")) == pytest.approx(largest, rel=1e-4)
 
 
 def test_a_wrong_range_is_refused_at_its_field(portal: Portal) -> None:

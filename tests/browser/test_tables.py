@@ -188,3 +188,40 @@ def test_the_keyboard_goes_through_a_table(portal: Portal) -> None:
     keyboard.press("ArrowUp")
     keyboard.type("14")
     assert [each["rotating_mass_kg"] for each in _machine(portal)["throws"]] == [11, 14, 13]
+
+
+def test_all_of_a_column_is_edited_at_once_and_filled_down(portal: Portal) -> None:
+    portal.open("2d12")
+    portal.page.locator("#form .grid-web .tools").get_by_role("button", name="sectors", exact=True).click()
+    heads = portal.page.locator("#form .grid-web thead th")
+    for name, value in (("max mass", "42,5"), ("sector half angle", "35"), ("counterweight radius", "310 mm")):
+        heads.filter(has_text=name).click()
+        portal.page.keyboard.press("Control+A")
+        portal.page.keyboard.type(value)
+    # the first cell is typed, the others take it
+    portal.input(f"{WEBS}/0/sector/centre_deg").fill("180")
+    portal.input(f"{WEBS}/0/sector/centre_deg").press("Control+d")
+    portal.input(f"{WEBS}/1/max_mass_kg").focus()
+    keyboard = portal.page.keyboard
+    for key in ("Shift+ArrowDown", "Shift+ArrowDown", "Shift+ArrowUp", "Control+A"):
+        keyboard.press(key)
+    keyboard.type("40")
+    webs = _machine(portal)["webs"]
+    assert [web["max_mass_kg"] for web in webs] == [42.5, 40, 40, 42.5]
+    assert [web["counterweight_radius_m"] for web in webs] == ["310 mm"] * 4
+    assert [web["sector"] for web in webs] == [{"centre_deg": 180, "half_angle_deg": 35}] * 4
+    # one step back each
+    portal.page.click("#undo")
+    assert portal.input(f"{WEBS}/1/max_mass_kg").input_value() == "42.5"
+
+
+def test_cylinders_of_a_compressor_are_columns_of_its_rows(portal: Portal) -> None:
+    portal.open("two-rows-180")
+    heads = ["bore (mm)", "suction pressure (bar)", "discharge pressure (bar)", "relative clearance"]
+    lines = ["\t".join(["throw", *heads]), "\t".join(["1", "730", "2,86", "8,52", "0,1"]), "2\t630\t2,86\t8,52\t0,12"]
+    _paste(portal, "row", "\n".join(lines))
+    rows = [throw["rows"][0]["cylinder"] for throw in _machine(portal)["throws"]]
+    assert [row["bore_m"] for row in rows] == ["730 mm", "630 mm"]
+    assert [row["relative_clearance"] for row in rows] == [0.1, 0.12]
+    assert rows[0]["suction_pressure_Pa"] == "2.86 bar"
+    assert portal.input(f"{THROWS}/1/rows/0/cylinder/discharge_pressure_Pa").input_value() == "8.52 bar"

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from tests.browser.portal import Portal, ask, cells
+from tests.browser.portal import Portal, ask, cells, number
 
 
 def _weigh(portal: Portal, **values: str) -> None:
@@ -39,7 +39,7 @@ def test_three_responses_are_traded_by_name(portal: Portal, url: str) -> None:
     points = ask(url, "/v1/pareto", body)["trades"][0]["points"]
     panel.locator("#pareto-point").press("Home")
     panel.get_by_role("heading", name=f"Point 1 of {len(points)}").wait_for()
-    shown = [_number(text) for text in cells(panel.locator(".picked table").first)[0][:3]]
+    shown = [number(text) for text in cells(panel.locator(".picked table").first)[0][:3]]
     assert shown == pytest.approx(points[0]["values"], rel=1e-4)
     portal.page.wait_for_url("**trade=force,moment,bearings*")
 
@@ -78,7 +78,7 @@ def test_versions_show_every_response_that_was_weighed(portal: Portal, url: str)
         ("peak bending moment, N m", lambda one: max(one["bending"]["after_Nm"])),
     ):
         values = [largest(answer["main_bearings"]) for answer in answers]
-        assert [_number(text.partition(" (")[0]) for text in rows[title]] == pytest.approx(values, rel=1e-4)
+        assert [number(text.partition(" (")[0]) for text in rows[title]] == pytest.approx(values, rel=1e-4)
         marks = [text.endswith("(best)") for text in rows[title]]
         assert marks == [value == min(values) for value in values]
 
@@ -116,7 +116,3 @@ def test_the_headline_says_what_rises_from_nothing(portal: Portal) -> None:
     assert answer["residual"]["after"]["force"]["peak_N"] > 100
     assert headline.startswith(f"{answer['total_mass_kg']:.5g} kg of counterweights: force 0 → ")
     assert "moment −" in headline
-
-
-def _number(text: str) -> float:
-    return float("".join(text.split()).replace(",", ""))

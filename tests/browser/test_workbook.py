@@ -9,18 +9,18 @@ from playwright.sync_api import expect
 from tests.browser.portal import Portal, ask
 
 
-def _template(portal: Portal, target: Path) -> Path:
+def _saved(portal: Portal, target: Path, button: str = "save-workbook", name: str = "2D12-90-2-20.xlsx") -> Path:
     portal.page.locator("#paste > summary").click()
     with portal.page.expect_download() as found:
-        portal.page.click("#template")
-    assert found.value.suggested_filename == "machine.xlsx"
+        portal.page.click(f"#{button}")
+    assert found.value.suggested_filename == name
     found.value.save_as(target)
     return target
 
 
 def test_a_workbook_is_optimised_and_comes_back_with_its_answer(portal: Portal, tmp_path: Path) -> None:
     portal.open("2d12")
-    file = _template(portal, tmp_path / "machine.xlsx")
+    file = _saved(portal, tmp_path / "machine.xlsx")
     with portal.page.expect_download() as found:
         portal.page.set_input_files("#workbook", file)
     found.value.save_as(tmp_path / "answer.xlsx")
@@ -79,7 +79,7 @@ def test_a_saved_workbook_is_opened_into_the_form(portal: Portal, tmp_path: Path
 def test_what_cannot_be_opened_is_named_by_its_cell_and_the_form_stays(portal: Portal, tmp_path: Path) -> None:
     portal.refusals = {422}
     portal.open("2d12")
-    file = _template(portal, tmp_path / "machine.xlsx")
+    file = _saved(portal, tmp_path / "machine.xlsx")
     book = openpyxl.load_workbook(file)
     (place,) = [row[1] for row in book["machine"].iter_rows() if row[0].value == "machine.speed_rpm"]
     place.value = "fast"
@@ -92,7 +92,7 @@ def test_what_cannot_be_opened_is_named_by_its_cell_and_the_form_stays(portal: P
 def test_what_is_wrong_is_named_by_its_cell(portal: Portal, tmp_path: Path) -> None:
     portal.refusals = {422}
     portal.open("2d12")
-    file = _template(portal, tmp_path / "machine.xlsx")
+    file = _saved(portal, tmp_path / "machine.xlsx")
     book = openpyxl.load_workbook(file)
     sheet = book["webs"]
     (column,) = [cell.column_letter for cell in sheet[1] if str(cell.value).startswith("max_mass_kg")]

@@ -51,7 +51,7 @@ def compose() -> dict[str, Any]:
 
 def manifests() -> dict[str, dict[str, Any]]:
     """The objects of Kubernetes by kind."""
-    files = sorted((DEPLOY / "kubernetes").iterdir())
+    files = sorted(file for file in (DEPLOY / "kubernetes").iterdir() if file.stem != "kustomization")
     found = [yaml.safe_load(file.read_text("utf-8")) for file in files]
     assert len({one["kind"] for one in found}) == len(found)
     return {one["kind"]: one for one in found}

@@ -10,7 +10,73 @@ import yaml
 
 from tests.deploy.files import DEPLOY, ROOT
 
-VERSION = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+VERSION = PROJECT["version"]
+#: programs that fetch packages by their names, and what follows in the line, as far as a quote of code goes
+_INSTALLS = re.compile(
+    r"\b(?:pip3? (?:install|download)|pipx (?:install|run)|uv (?:add|tool install)|uvx|conda install|poetry add)\s+"
+    r"([^`#|&;]*)"
+)
+#: options of pip whose value is no package
+_WITH_VALUE = {"--requirement", "-r", "--only-binary", "--target", "--index-url"}
+
+
+def packages(line: str) -> list[str]:
+    """What a line of a document or message installs, as pip is told it."""
+    found = []
+    for arguments in _INSTALLS.findall(line):
+        words = iter(re.sub(r"[\"']", " ", arguments).split())
+        for word in words:
+            if word in _WITH_VALUE:
+                next(words, None)
+            elif word == "beside":
+                # a message goes on
+                break
+            elif not word.startswith("-"):
+                found.append(word.rstrip(".,") or ".")
+    return found
+
+
+def is_ours(package: str) -> bool:
+    """Whether it is this folder, with extras that there are."""
+    found = re.fullmatch(r"\.(?:\[([a-z,]+)\])?", package)
+    return found is not None and set((found[1] or "").split(",")) - {""} <= PROJECT["optional-dependencies"].keys()
+
+
+@pytest.mark.parametrize(
+    ("line", "ours"),
+    [
+        ("pip install '.[dask]'   # beside", True),
+        ("bin/pip install --no-deps --requirement deploy/requirements.txt", True),
+        ("Install it with `pip install .`, then", True),
+        ("pip install 'counterweight[dask]'", False),
+        ("needs an extra: pip install counterweight-optimizer[dask] beside it", False),
+        ("pip install '.[cluster]'", False),
+        ("uv add counterweight", False),
+    ],
+)
+def test_an_installation_by_name_is_seen(line: str, ours: bool) -> None:
+    assert all(map(is_ours, packages(line))) is ours
+
+
+def test_nothing_that_is_read_installs_a_package_by_its_name() -> None:
+    """The public index has packages of others: `counterweight` is one of them, and whoever follows us would run it."""
+    listed = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    ends = (".md", ".py", ".sh", ".yaml", ".yml", ".js", ".html", ".toml", ".json", ".service", "Dockerfile")
+    installs = dict[str, list[str]]()
+    for name in listed.splitlines():
+        if name.endswith(ends) and not name.startswith("tests/") and (ROOT / name).is_file():
+            for line in (ROOT / name).read_text("utf-8").splitlines():
+                if found := packages(line):
+                    installs.setdefault(name, []).extend(found)
+    # of documents and messages
+    assert {"docs/sweeps.md", "service/jobs/engines.py", "service/jobs/database.py"} <= installs.keys()
+    assert {name: found for name, found in installs.items() if not all(map(is_ours, found))} == {}
+
+
+def test_the_distribution_is_not_called_as_the_one_of_another() -> None:
+    # a terminal framework on the public index
+    assert PROJECT["name"] not in ("counterweight", "optimizer", "service", "schemas")
 
 
 def test_changes_and_citation_name_the_version() -> None:

@@ -2,6 +2,7 @@
 
 import ast
 import re
+from functools import cache
 from pathlib import Path
 from statistics import median
 from typing import NamedTuple
@@ -31,6 +32,7 @@ _SENTENCE_END = re.compile(r"(?<=[.!?])[\")]*\s+(?=[\"(]*[A-Z0-9_])")
 _LABEL = 8
 #: a text in code with fewer words is a name
 _SPOKEN = 5
+_PACKAGES = {f"texts in {package}/": package for package in ("schemas", "optimizer", "service")}
 
 
 class Lengths(NamedTuple):
@@ -92,13 +94,11 @@ def literals(package: Path) -> str:
     """Texts of five words or more in the code of a package, as paragraphs; docstrings are for readers of the code."""
     found = []
     for path in sorted(package.rglob("*.py")):
-        tree = ast.parse(path.read_text())
+        nodes = list(ast.walk(ast.parse(path.read_text())))
         docstrings = {
-            id(node.value)
-            for node in ast.walk(tree)
-            if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+            id(node.value) for node in nodes if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
         }
-        joined = [node for node in ast.walk(tree) if isinstance(node, ast.JoinedStr)]
+        joined = [node for node in nodes if isinstance(node, ast.JoinedStr)]
         parts = {id(part) for node in joined for part in ast.walk(node) if part is not node}
         texts = [
             "".join(str(part.value) if isinstance(part, ast.Constant) else "`_`" for part in node.values)
@@ -107,29 +107,38 @@ def literals(package: Path) -> str:
         ]
         texts += [
             node.value
-            for node in ast.walk(tree)
+            for node in nodes
             if isinstance(node, ast.Constant) and isinstance(node.value, str) and not {id(node)} & (docstrings | parts)
         ]
         found += [text.strip() for text in texts if len(re.findall(r"[A-Za-z]+", text)) >= _SPOKEN and " " in text]
     return "\n\n".join(found)
 
 
-def texts() -> dict[str, str]:
-    """Every document by its path, and the texts in the code of each package."""
+def names() -> list[str]:
+    """Every document by its path, and the packages by what their texts are called; nothing of it is read."""
     documents = [ROOT / f"{name}.md" for name in ("README", "CHANGELOG", "CONTRIBUTING")]
     documents += sorted((ROOT / "docs").rglob("*.md"))
-    found = {str(path.relative_to(ROOT)): path.read_text() for path in documents}
+    return [*(str(path.relative_to(ROOT)) for path in documents), *_PACKAGES]
+
+
+@cache
+def text(name: str) -> str:
+    """The document of a name, or the texts in the code of a package."""
+    if name in _PACKAGES:
+        return literals(ROOT / _PACKAGES[name])
+    found = (ROOT / name).read_text()
     # the table of the style page quotes what it advises against
-    found["docs/style.md"] = re.sub(r"^\|.*$", "", found["docs/style.md"], flags=re.MULTILINE)
-    return found | {f"texts in {package}/": literals(ROOT / package) for package in ("schemas", "optimizer", "service")}
+    return re.sub(r"^\|.*$", "", found, flags=re.MULTILINE) if name == "docs/style.md" else found
 
 
 def main() -> None:
     """Print a row for each."""
     print(f"{'text':<58} sentences median p90 discouraged")
-    for name, text in texts().items():
-        found = lengths(sentences(text))
-        print(f"{name:<58} {found.sentences:9d} {found.median:6.1f} {found.p90:3.0f} {len(discouraged(text)):11d}")
+    for name in names():
+        found = lengths(sentences(text(name)))
+        print(
+            f"{name:<58} {found.sentences:9d} {found.median:6.1f} {found.p90:3.0f} {len(discouraged(text(name))):11d}"
+        )
 
 
 if __name__ == "__main__":

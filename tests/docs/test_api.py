@@ -17,19 +17,21 @@ from optimizer.program.kernel import finer_numbers
 from optimizer.rating.rate import rate
 from optimizer.studies.matching.match import match
 from optimizer.studies.pareto.pareto import pareto
+from optimizer.studies.rounding.round import round_weights
 from schemas.answer.outputs import OutputName
 from schemas.front.pareto import ParetoRequest
 from schemas.match.request import MatchRequest
 from schemas.rating.request import RatingRequest
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
+from schemas.request.rounding import RoundRequest
 from schemas.shaft.answer import DoubtCode
 from schemas.shaft.request import ShaftRequest
-from service.app import FAULTS, create_app
-from service.common.problems import problem
+from service.app import create_app
 from service.documents.examples import bodies
 from service.guard.keys import SCOPES
 from service.settings import Settings
 from tests.docs.reading import ROOT, agrees, blocks, document, section
+from tests.service.faults import emitted
 
 INDEX = document("docs/api.md")
 #: the pages by route in the order of the index: later calls go on from earlier ones
@@ -139,6 +141,11 @@ def test_the_matching() -> None:
     agrees(shown, match(MatchRequest.model_validate(request)).model_dump(mode="json"))
 
 
+def test_the_rounding() -> None:
+    request, shown = blocks(PAGES["round"])
+    agrees(shown, round_weights(RoundRequest.model_validate(request)).model_dump(mode="json"))
+
+
 def test_the_shaft() -> None:
     pages = blocks(PAGES["shaft"])
     for request, shown in zip(pages[::2], pages[1::2], strict=True):
@@ -167,15 +174,8 @@ def test_the_table_of_scopes_is_complete() -> None:
 def test_the_table_of_problems_is_complete() -> None:
     rows = re.findall(r"^\| (\d{3}) \| (.+?) \|", section("docs/api/service.md", "Errors"), re.MULTILINE)
     listed = {(int(status), kind) for status, kinds in rows for kind in re.findall(r"`(.+?)`", kinds)}
-    found = set()
-    for kind, describe in FAULTS.items():
-        error = kind.__new__(kind)
-        anything = {"problems": (), "more": False, "wrong": False, "retry": True, "retry_after_s": 1, "full": False}
-        vars(error).update(anything, status_code=404, detail="", headers=None, _errors=())
-        said = problem(describe(error), "")
-        found.add((said.status, said.type.removeprefix("/problems/")))
     # nobody reads the answer of a client that has gone; 500 stands below the table
-    assert found - {(499, "client-gone"), (500, "internal-error")} == listed - {(405, "method-not-allowed")}
+    assert emitted() - {(499, "client-gone"), (500, "internal-error")} == listed - {(405, "method-not-allowed")}
 
 
 def test_the_examples_that_hold_an_objective_are_named() -> None:

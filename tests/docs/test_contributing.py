@@ -137,8 +137,125 @@ request = SweepRequest.model_validate({"task": "optimize", "base": body, "axes":
 for row in run_chunk(request.model_dump_json().encode(), 0, 3).to_pylist():
     assert abs(row["objective"] - square * (1 - row[axis["path"]])) < 1.1e-6 * square, row
 """
+_RESPONDED = """
+import json
+from math import pi
+
+from optimizer.studies.sweep import run_chunk
+from schemas.sweep.request import SweepRequest
+from service.app import create_app
+from service.settings import Settings
+from starlette.testclient import TestClient
+
+# a rotating unbalance of 1 kg m in the plane 0, a web 0.2 m behind it, and a flange 0.7 m before it
+throw = {"position_m": 0, "crank_radius_m": 0.1, "crank_angle_deg": 30, "rotating_mass_kg": 10, "rows": []}
+web = {"name": "w", "position_m": -0.2, "counterweight_radius_m": 0.2, "max_mass_kg": 2}
+plain = {"kind": "reciprocating", "speed_rpm": 600, "throws": [throw], "webs": [web], "reference_plane_m": 0.1}
+free = {**plain, "webs": [web | {"max_mass_kg": 20}]}
+square, alone = (20 * pi) ** 2, {"force_weight": 0, "moment_weight": 0, "flange_position_m": 0.7}
+
+
+def near(found, expected, size=square):
+    assert abs(found - expected) < 2e-6 * size, (found, expected)
+
+
+with TestClient(create_app(Settings(), warm=False)) as client:
+
+    def ask(machine, objective, status="optimal", path="/v1/optimize", **more):
+        body = {"machine": machine, "objective": objective, **more}
+        answer = client.post(path, json=body)
+        assert answer.status_code == 200, answer.text
+        found = answer.json()
+        assert found["status"] == status, found
+        checked = client.post("/v1/verify", json={"request": body, "answer": found})
+        assert checked.status_code == 200, checked.text
+        claims = checked.json()
+        broken = [one for one in claims["claims"] if one["verdict"] == "broken"]
+        assert claims["verdict"] != "broken", broken
+        return found, claims["not_covered"]
+
+    # analytic: the couple about the flange is 0.7 kg m2 less 0.9 m times the counterweight, of 0.4 kg m here
+    found, missed = ask(plain, alone | {"flange_weight": 1})
+    near(found["certificate"]["objective"], 0.34 * square)
+    assert not missed, missed
+    (change,) = found["residual"]["responses"]
+    assert (change["response"], change["label"], change["unit"]) == ("flange", "couple about the flange", "N m")
+    near(change["before"], 0.7 * square)
+    near(change["after"], 0.34 * square)
+    limits = {one["limit"]: one for one in found["shadow_prices"]}
+    near(limits["max_mass"]["value"], 0.9 * 0.2 * square)
+    assert limits["max_mass"]["unit"] == "N m/kg", limits
+
+    # analytic: the force of 1 kg m is taken off as far as the couple may fall below 0, to -0.1
+    limited = {"moment_weight": 0, "flange_position_m": 0.7, "flange_ceiling_Nm": 0.1 * square}
+    found, missed = ask(free, limited)
+    near(found["certificate"]["objective"], square * (1 - 0.8 / 0.9))
+    near(found["residual"]["responses"][0]["after"], 0.1 * square)
+    assert (found["active_limits"], missed) == (["flange_ceiling"], []), (found["active_limits"], missed)
+
+    # analytic: the least that 0.4 kg m leave
+    found, missed = ask(plain, limited, "infeasible")
+    why = found["infeasibility"]
+    assert (why["conflict"], missed) == (["flange_ceiling_Nm"], []), (why, missed)
+    near(why["smallest"][0]["smallest"], 0.34 * square)
+    near(why["closest"]["responses"][0]["peak"], 0.34 * square)
+    for body in (limited, alone | {"flange_weight": 1}):
+        page = client.post(
+            "/v1/report", json={"machine": plain, "objective": body}, headers={"Accept": "text/html"}
+        )
+        assert page.status_code == 200 and "couple about the flange" in page.text, page.text[:500]
+    assert client.post("/v1/report", json={"machine": plain, "objective": limited}).status_code == 200
+
+    # metamorphic: of forces in one plane the couple about another is their sum times the distance
+    row = {"axis_deg": 90, "reciprocating_mass_kg": 8, "connecting_rod": {"length_m": 0.35}}
+    piston = {**free, "throws": [throw | {"rows": [row]}], "webs": [web | {"position_m": 0, "max_mass_kg": 20}]}
+    faster = [{"name": "faster", "changes": [{"path": "/machine/speed_rpm", "value": 700}]}]
+    for goal, more in (
+        ({"orders": "all"}, {}),
+        ({}, {"tolerances": {"mass_relative": 0.02, "angle_deg": 2}}),
+        ({}, {"tolerances": {"reciprocating_mass_relative": 0.1}}),
+        ({"orders": "all"}, {"tolerances": {"reciprocating_mass_relative": 0.1}}),
+        ({}, {"scenarios": faster}),
+        ({"direction_weights": {"x": 1, "y": 0.3}}, {}),
+    ):
+        couple, _ = ask(piston, alone | {"flange_weight": 1} | goal, **more)
+        force, _ = ask(piston, {"moment_weight": 0} | goal, **more)
+        one, other = (each["certificate"]["objective"] for each in (couple, force))
+        near(one, 0.7 * other, 3 * square)
+        if more:
+            (worst,) = couple["worst_case"]["responses"]
+            near(worst["peak"], 0.7 * couple["worst_case"]["force_peak_N"], 3 * square)
+        elif goal == {"orders": "all"}:
+            (change,) = couple["residual"]["responses"]
+            near(change["turn_after"], one, 3 * square)
+    couple, _ = ask(piston, alone | {"flange_weight": 1, "orders": "all", "flange_ceiling_Nm": 1}, "infeasible")
+    assert couple["infeasibility"]["conflict"] == ["flange_ceiling_Nm"], couple["infeasibility"]
+
+    # analytic: between no force at 1 kg m and no couple at 0.7/0.9 both rise and fall in proportion
+    front, _ = ask(
+        free, {"flange_position_m": 0.7}, path="/v1/pareto", points=3, responses=["force", "flange"]
+    )
+    (traded,) = front["trades"]
+    assert [each["response"] for each in traded["responses"]] == ["force", "flange"]
+    for point in traded["points"]:
+        force, couple = point["values"]
+        near(couple, 0.2 * square - 0.9 * force)
+
+axis = {"path": "/objective/flange_position_m", "values": [0.6, 0.7, 0.8]}
+base = {"machine": plain, "objective": alone | {"flange_weight": 1}}
+request = SweepRequest.model_validate({"task": "optimize", "base": base, "axes": [axis]})
+for row in run_chunk(request.model_dump_json().encode(), 0, 3).to_pylist():
+    left = square * (row[axis["path"]] - 0.4 * (row[axis["path"]] + 0.2))
+    near(row["objective"], left)
+    near(row["flange_peak_Nm"], left)
+limited = {"moment_weight": 0, "flange_position_m": 0.7}
+weighed = {"path": "/objective/flange_weight", "values": [0.0, 1.0]}
+request = SweepRequest.model_validate({"base": base | {"objective": limited}, "axes": [weighed]})
+for row in run_chunk(request.model_dump_json().encode(), 0, 2).to_pylist():
+    near(row["flange_peak_Nm"], 0.34 * square)
+"""
 _PACKAGES = ("schemas", "optimizer", "service")
-_ADDED = ("An effect", "An output", "A computation", "A limit")
+_ADDED = ("An effect", "An output", "A computation", "A limit", "A response")
 
 
 @pytest.fixture(scope="module")
@@ -201,6 +318,10 @@ def test_effect_output_computation_and_limit_are_answered_swept_and_reported(cop
     _run(copy, "-c", _SCRIPT + _COMPUTED + _LIMITED, str(tmp_path))
 
 
+def test_response_is_weighed_limited_traded_swept_reported_and_checked(copy: Path) -> None:
+    _run(copy, "-c", _RESPONDED)
+
+
 def test_the_output_is_shown_by_a_terminal(copy: Path) -> None:
     shown = _run(copy, "-m", "service", "analyze", "examples/2d12.json", "--output", "obliquity")
     assert "Lean of the rods" in shown
@@ -218,6 +339,19 @@ def test_the_computation_is_a_command(copy: Path, tmp_path: Path) -> None:
 def test_all_is_written_as_the_linter_wants_it(copy: Path) -> None:
     for check in (("check",), ("format", "--check")):
         _run(copy, "-m", "ruff", *check, "--no-cache", *_PACKAGES)
+
+
+def test_all_keeps_to_the_layers(copy: Path) -> None:
+    _run(copy, "-c", "from importlinter.cli import lint_imports_command; lint_imports_command()", "--no-cache")
+
+
+@pytest.mark.nightly
+def test_all_is_typed(copy: Path) -> None:
+    # half a minute of CPU where nothing is known of the packages yet: pytest tests/docs/test_contributing.py -m nightly
+    known = ROOT / ".mypy_cache"
+    if known.exists():
+        shutil.copytree(known, copy / ".mypy_cache")
+    _run(copy, "-m", "mypy", *_PACKAGES)
 
 
 def test_the_documents_have_a_row_for_it(copy: Path) -> None:

@@ -7,7 +7,7 @@ import pytest
 from tests.docs.reading import ROOT, agrees, blocks
 from tests.verification.checking import optimized
 
-TEXT = (ROOT / "docs" / "mathematics.md").read_text().split("### Checked by hand\n")[1].split("\n## ")[0]
+TEXT = (ROOT / "docs" / "mathematics" / "program.md").read_text().split("### Checked by hand\n")[1].split("\n## ")[0]
 
 
 def test_the_bound_that_is_checked_by_hand_is_that_of_the_answer() -> None:

@@ -43,6 +43,7 @@ def test_the_public_names() -> None:
         "pareto",
         "pin_loads",
         "rate",
+        "round_weights",
         "sweep_table",
     ]
     assert schemas.__all__ == [
@@ -61,6 +62,8 @@ def test_the_public_names() -> None:
         "RatingAnswer",
         "RatingRequest",
         "ReciprocatingMachine",
+        "RoundAnswer",
+        "RoundRequest",
         "ScrollMachine",
         "SweepRequest",
         "VerifyAnswer",

@@ -12,6 +12,7 @@ from schemas.front.pareto import ParetoRequest
 from schemas.match.request import MatchRequest
 from schemas.request.accuracy import AccuracyRequest
 from schemas.request.requests import OptimizeRequest
+from schemas.request.rounding import RoundRequest
 from schemas.sweep.request import SweepRequest
 from tests.docs.reading import ROOT, document
 
@@ -71,6 +72,7 @@ ASKED: dict[str, tuple[type[BaseModel], dict[str, Any]]] = {
     "front of named `responses`": (ParetoRequest, {"responses": ["force", "bearings"], "points": 3}),
     "front of `counts`": (ParetoRequest, {"counts": {"of": "weights", "least": "objective"}}),
     "`POST /v1/match`": (MatchRequest, {"parts": [PARTS]}),
+    "`POST /v1/round`": (RoundRequest, {"mass_step_kg": 1, "angle_step_deg": 15}),
     "`POST /v1/accuracy`": (AccuracyRequest, {}),
 }
 
@@ -105,6 +107,7 @@ def test_a_cell(row: str, column: str, cell: str) -> None:
         model, more = ASKED[row]
         if cell.endswith("with a catalogue"):
             chosen(machine)
-        went = taken(model, {"machine": machine, **more})
+        wrapped = {"request": {"machine": machine}} if model is RoundRequest else {"machine": machine}
+        went = taken(model, wrapped | more)
     # "no web of a group": the fixed web of this machine is in none
     assert went == cell.startswith(("yes", "as", "no web"))

@@ -14,7 +14,7 @@ from schemas.request.requests import OptimizeRequest
 from schemas.sweep.request import SweepRequest
 from service.common.validation import check
 from tests.dust import machines
-from tests.dust.need import is_needed
+from tests.dust.need import is_needed, is_needed_at
 from tests.hard.cases.case import Body
 
 Draw = Callable[[np.random.Generator], Body]
@@ -56,10 +56,12 @@ def of_request(body: Body) -> Iterator[Fitted]:
 
 
 def of_front(body: Body) -> Iterator[Fitted]:
-    answer = pareto(check(ParetoRequest, body))
+    request = check(ParetoRequest, body)
+    answer = pareto(request)
     for front in answer.fronts:
         for point in front.points:
-            yield Fitted(front.status, *_masses_and_openings(point.counterweights))
+            needs = partial(is_needed_at, request, front, point)
+            yield Fitted(front.status, *_masses_and_openings(point.counterweights), needs)
     for trade in answer.trades:
         for traded in trade.points:
             yield Fitted(trade.status, *_masses_and_openings(traded.counterweights))
@@ -182,6 +184,13 @@ def _priorities(rng: np.random.Generator) -> Body:
     return _turn(priorities=chosen, **asked)(rng)
 
 
+def _light(rng: np.random.Generator) -> Body:
+    """The mass with what the first order allows it."""
+    body = _first_order(_half(rng))(rng)
+    allowed = {"goal": "external", "allowance": float(rng.choice([1e-4, 1e-3, 0.02, 0.1]))}
+    return {**body, "objective": {**body["objective"], "priorities": [allowed, {"goal": "mass"}]}}
+
+
 def _front(rng: np.random.Generator) -> Body:
     return {"machine": machines.with_budget(rng, machines.crankshaft(rng, _half(rng))), "points": 5}
 
@@ -216,6 +225,7 @@ MODES: Mapping[str, Mode] = {
     "bearings": Mode(_bearings, of_request, 2),
     "bending": Mode(_bending, of_request, 2),
     "priorities": Mode(_priorities, of_request, 5),
+    "light": Mode(_light, of_request, 5),
     "front": Mode(_front, of_front, 5),
     "trade": Mode(_traded, of_front, 2),
     "rows": Mode(_rows, of_rows, 10),

@@ -16,10 +16,15 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.registry import prepare
 from optimizer.outputs.requirements import effects_of_objective
 from optimizer.program.cuts.semi_infinite import Goal, Problem
+from optimizer.program.methods.feasibility_phase import Unreachable
+from optimizer.program.methods.optima import optima
+from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import Row
 from optimizer.program.verdict import MASS_GAP
 from optimizer.solve.whole_turn import whole_turn_of
+from optimizer.studies.pareto.trade import trade
 from schemas.answer.answers import OptimizeAnswer
+from schemas.front.pareto import ParetoFront, ParetoPoint, ParetoRequest
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.requests import OptimizeRequest
 
@@ -29,6 +34,8 @@ _COARSE, _FINE = 48, 3600
 _ROUNDS = 6
 #: share of a figure that the solver may be off by
 _SOLVED = 1e-6
+#: share of the range of a front up to which peaks are those of a point
+_SHARPEST = 1e-9
 
 
 def is_needed(request: OptimizeRequest, answer: OptimizeAnswer, web: str) -> bool:
@@ -56,6 +63,36 @@ def is_needed(request: OptimizeRequest, answer: OptimizeAnswer, web: str) -> boo
         return True
     least = objective.least_mass and proof.mass_lower_bound_kg is not None
     return least and without.comes_to_more("mass", float(proof.mass_lower_bound_kg or 0.0) / (1.0 - MASS_GAP))
+
+
+def is_needed_at(request: ParetoRequest, front: ParetoFront, point: ParetoPoint, web: str) -> bool:
+    """Whether nothing without the web has the peaks of a point of a front, or one below them, and is as light as that
+    point may claim to be.
+
+    Not independent: bounds of the compiled method, which multipliers prove. The share of the range that tells webs of
+    a few milligrams apart is below what another solver resolves. Of fronts of several points, without choices
+    and budgets to vary.
+    """
+    machine = request.machine
+    if request.chosen or request.total_mass_budgets_kg is not None or not request.objective.least_mass:
+        return False
+    scene = prepare(request, ("residual",))
+    whole = trade(machine, request.objective, scene.responses, scene.omega_squared)
+    peaks = np.array([[each.weighted_force_peak_N, each.weighted_moment_peak_Nm] for each in front.points])
+    unit = np.ptp(peaks, axis=0) / float(scene.omega_squared)
+    if not np.all(unit > 0.0):
+        return False
+    here = np.array([point.weighted_force_peak_N, point.weighted_moment_peak_Nm]) / float(scene.omega_squared)
+    most = np.where([each.name == web for each in machine.webs], 0.0, whole.both.limits.max_mass)
+    program = whole.within(most, whole.known).along(here, unit)
+    # t is nothing at the point
+    target = _SHARPEST - whole.parameter(0.0, here, unit)
+    found = optima(program.alone(), _SHARPEST, False, Solver()).one()
+    if isinstance(found, Unreachable) or found.lower_bound > target:
+        return True
+    found = optima(program.alone(), target - found.lower_bound + _SHARPEST, True, Solver()).one()
+    assert not isinstance(found, Unreachable)
+    return found.mass_target >= target and found.mass_lower_bound > point.total_mass_kg / (1.0 - MASS_GAP)
 
 
 @dataclass

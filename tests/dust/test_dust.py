@@ -7,11 +7,13 @@ of one kind that differed by less than a thousandth of a degree.
 import pytest
 
 from optimizer.optimize import optimize
+from optimizer.studies.pareto.pareto import pareto
+from schemas.front.pareto import ParetoRequest
 from schemas.request.requests import OptimizeRequest
 from service.common.validation import check
 from tests.dust.judgement import body_of, judgement, seeds
 from tests.dust.modes import MODES
-from tests.dust.need import is_needed
+from tests.dust.need import is_needed, is_needed_at
 
 _MACHINES = 2_000
 
@@ -45,6 +47,21 @@ def test_needed_web_is_no_dust() -> None:
     """Independent: without a web of 1.3 g the bearings come to 0.35 N more than three goals in order allow."""
     found = judgement("priorities", 7)
     assert (found.dust, found.needed) == ((), 1)
+
+
+def test_needed_web_at_the_end_of_a_front_is_no_dust() -> None:
+    """At the smallest force a web of 23 mg saves more of another one than the proof of the mass allows."""
+    found = judgement("front", 206)
+    assert (found.dust, found.needed) == ((), 1)
+
+
+def test_web_that_a_point_lacks_is_not_needed() -> None:
+    """Analytic, as below."""
+    request = check(ParetoRequest, body_of("front", 365))
+    (front,) = pareto(request).fronts
+    empty = [(point, each.web) for point in front.points for each in point.counterweights if each.mass_kg == 0.0]
+    assert empty
+    assert not any(is_needed_at(request, front, point, web) for point, web in empty)
 
 
 def test_web_that_an_answer_lacks_is_not_needed() -> None:

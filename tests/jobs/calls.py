@@ -5,7 +5,8 @@ import io
 import json
 import random
 import time
-from collections.abc import Callable
+import uuid
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Literal
@@ -16,8 +17,9 @@ import pyarrow.parquet as pq
 
 from optimizer.studies.sweep import run_chunk
 from schemas.sweep.request import SweepRequest
-from tests.jobs.process import Service
+from tests.jobs.process import Service, send
 from tests.jobs.sweeps import analyses
+from tests.jobs.wire import Wire
 
 Action = Literal["submit", "state", "rows", "kept", "list", "end", "resume"]
 
@@ -34,6 +36,7 @@ class Call:
     rows : indices that were read.
     whole : whether all rows were asked for that there are.
     wrong : what cannot be right in this answer, whatever else was answered.
+    cut : whether the network kept its answer from the client, or is who asked a second time.
     """
 
     service: str
@@ -47,6 +50,7 @@ class Call:
     rows: frozenset[int] = frozenset()
     whole: bool = False
     wrong: str = ""
+    cut: bool = False
 
 
 @dataclass(frozen=True)
@@ -90,12 +94,14 @@ class Client:
     Parameters
     ----------
     services : by name, those that live now.
+    wires : by name, the network before each service.
     calls, known, gone : shared with other clients: all calls; the sweeps that were accepted, by id; those of them that
         were said to be gone.
     """
 
     name: str
     services: Callable[[], dict[str, Service]]
+    wires: Mapping[str, Wire]
     chance: random.Random
     calls: list[Call]
     known: dict[str, Sweep]
@@ -172,17 +178,20 @@ class Client:
         while not (services := self.services()):
             time.sleep(0.05)
         service = self.chance.choice(sorted(services))
-        headers = {"Idempotency-Key": subject} if action == "submit" else {}
+        wire, identity = self.wires[service], uuid.uuid4().hex
+        headers = {"X-Request-ID": identity, **({"Idempotency-Key": subject} if action == "submit" else {})}
         began = time.monotonic()
         try:
-            status, told, content = services[service].send(method, path, body, **headers)
+            status, told, content = send(wire.where, method, path, body, **headers)
         except (OSError, http.client.HTTPException):
-            found = Call(service, action, subject, began, time.monotonic())
+            found = Call(service, action, subject, began, time.monotonic(), cut=identity in wire.cut)
         else:
             ended = time.monotonic()
             about = _understood(action, status, told, content, sweep or self.known.get(subject), asked)
             found = Call(service, action, subject, began, ended, status, **about)
         self.calls.append(found)
+        if identity in wire.doubled:
+            self.calls.append(Call(service, action, subject, began, found.ended, cut=True))
         if action != "submit" and found.status in (204, 404):
             self.gone.add(subject)
         return found

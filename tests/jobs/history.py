@@ -1,9 +1,10 @@
 """Kill services and their database at random moments, and prove from what clients were told that nothing went wrong.
 
-Two services share a folder and a database, a PostgreSQL server or a file of SQLite. Clients submit, look, read, cancel,
-resume and delete, and write down every answer; meanwhile services, and the server with all of its processes, are ended
-by SIGKILL and started again. Then every sweep is computed to its end, and :mod:`tests.jobs.judge` looks for answers
-that contradict each other.
+Three services share a folder and a database, a PostgreSQL server or a file of SQLite. Clients submit, look, read,
+cancel, resume and delete, and write down every answer. Meanwhile services, and the server with all of its processes,
+are ended by SIGKILL and started again, and the network before each service delays, drops and duplicates
+(:mod:`tests.jobs.wire`). Then every sweep is computed to its end, and :mod:`tests.jobs.judge` looks for answers that
+contradict each other.
 
 ``python -m tests.jobs.history --kills 300`` kills as often as wanted, with ``--sqlite`` in a file; the tests kill a few
 times.
@@ -29,6 +30,7 @@ from tests.jobs.house import House
 from tests.jobs.judge import contradictions
 from tests.jobs.process import Service
 from tests.jobs.serving import TIDY
+from tests.jobs.wire import Wire
 
 CLIENTS = 3
 #: how long a chunk takes at least [s]
@@ -62,6 +64,11 @@ class Replica:
 
     def wait(self) -> None:
         self.living = self._service.wait()
+
+    def where(self) -> tuple[str, int] | None:
+        """Where it listens; None while it does not."""
+        living = self.living
+        return None if living is None else living.where
 
     def kill(self) -> None:
         self.living = None
@@ -157,26 +164,33 @@ def run(
         def begin() -> Service:
             return Service(folder, CHUNK_S, environment, sweep_workers="1", **settings)
 
-        replicas = {name: Replica(begin) for name in ("one", "two")}
+        replicas = {name: Replica(begin) for name in ("one", "two", "three")}
         for replica in replicas.values():
             stack.callback(replica.end)
+        wires = {name: Wire(replica.where, chance.random()) for name, replica in replicas.items()}
+        for wire in wires.values():
+            stack.callback(wire.close)
         killings = Killings(kills, {**mortals, **replicas}, chance)
         clients = _clients(
-            lambda: {name: it.living for name, it in replicas.items() if it.living is not None}, chance, most
+            lambda: {name: it.living for name, it in replicas.items() if it.living is not None}, wires, chance, most
         )
         _call_while_killed(clients, killings)
+        for wire in wires.values():
+            wire.calm()
         found = _finish(clients[0], clients)
         found += contradictions(clients[0].calls, killings.outages)
         found += _leftovers(House(folder, where), clients[0])
     found += [f"messages of nobody: {left.name}" for left in messages.glob("*/lock")]
-    return found, _summary(clients[0], killings)
+    return found, _summary(clients[0], killings, wires)
 
 
-def _clients(services: Callable[[], dict[str, Service]], chance: random.Random, most: int) -> list[Client]:
+def _clients(
+    services: Callable[[], dict[str, Service]], wires: dict[str, Wire], chance: random.Random, most: int
+) -> list[Client]:
     calls: list[Call] = []
     known, gone = {}, set()
     return [
-        Client(f"client-{number}", services, random.Random(chance.random()), calls, known, gone, most)
+        Client(f"client-{number}", services, wires, random.Random(chance.random()), calls, known, gone, most)
         for number in range(CLIENTS)
     ]
 
@@ -248,11 +262,14 @@ def _files_of_nobody(house: House) -> list[str]:
     return left
 
 
-def _summary(client: Client, killings: Killings) -> dict[str, object]:
+def _summary(client: Client, killings: Killings, wires: dict[str, Wire]) -> dict[str, object]:
     calls = client.calls
     away = sum(until - since for times in killings.outages.values() for since, until in times)
+    network = sum((wire.counts for wire in wires.values()), Counter[str]())
     return {
+        "faults": killings.counts.total() + network.total(),
         "kills": dict(killings.counts),
+        "network": dict(network),
         "away_s": round(away, 1),
         "sweeps": len(client.known),
         "deleted": len(client.gone),

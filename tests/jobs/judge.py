@@ -40,7 +40,8 @@ def _answers(calls: Sequence[Call], outages: Outages) -> Iterator[str]:
         if call.wrong:
             yield f"{what}: {call.wrong}"
         if call.status is None:
-            if not _away(call, outages.get(call.service, ())) and not _cut_by_removal(call, calls):
+            explained = call.cut or _away(call, outages.get(call.service, ())) or _cut_by_removal(call, calls)
+            if not explained:
                 yield f"{what}: not answered by a service that lived"
         elif call.status >= 500:
             if call.status != 503 or not _away(call, outages.get("database", ())):

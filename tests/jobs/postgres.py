@@ -80,13 +80,20 @@ def _port() -> int:
 
 
 class Server:
-    """A server that was made and runs; it may be killed at any moment."""
+    """A server that was made and runs; it may be killed at any moment.
 
-    def __init__(self, found: Path, home: Path, identity: dict[str, Any]) -> None:
-        self._programs, self._home, self._identity = found, home, identity
+    Parameters
+    ----------
+    options : of the server, besides those that every server of the tests has.
+    """
+
+    def __init__(self, found: Path, home: Path, identity: dict[str, Any], options: str = "") -> None:
+        self._programs, self._home, self._identity, self._options = found, home, identity, options
         self._port = _port()
         self.url = f"postgresql://tests@127.0.0.1:{self._port}/postgres"
-        self._run("initdb", "--username=tests", "--auth=trust", "--encoding=UTF8", "--locale=C", "--no-sync")
+        # what another server was restored into is there already
+        if not (home / "data").exists():
+            self._run("initdb", "--username=tests", "--auth=trust", "--encoding=UTF8", "--locale=C", "--no-sync")
         self.start()
 
     def _run(self, program: str, *arguments: str) -> None:
@@ -102,6 +109,7 @@ class Server:
         """Start it; it takes connections when this returns."""
         # the end of its processes undoes nothing that they have written, synchronised or not
         options = f"-c listen_addresses=127.0.0.1 -c port={self._port} -c unix_socket_directories= -c fsync=off"
+        options += self._options
         self._run("pg_ctl", "start", "--wait", "--timeout=120", "--log", str(self._home / "log"), "-o", options)
 
     def kill(self) -> None:
@@ -122,6 +130,36 @@ class Server:
     def stop(self) -> None:
         self._run("pg_ctl", "stop", "--mode=immediate")
 
+    def call(self, program: str, *arguments: str) -> None:
+        """Run one of the programs that come with the server, on this server, as its user."""
+        where = ("--host=127.0.0.1", f"--port={self._port}", "--username=tests", "--no-password")
+        command = [str(self._programs / program), *where, *arguments]
+        done = subprocess.run(command, cwd="/", capture_output=True, text=True, check=False, **self._identity)
+        assert done.returncode == 0, done.stderr
+
+    @property
+    def home(self) -> Path:
+        """A folder that the user of the server may write to."""
+        return self._home
+
+    @contextmanager
+    def restored(self, data: Path, settings: str) -> Iterator["Server"]:
+        """Another server on a copy of the data, which recovers as some settings say."""
+        home = self._home / f"restored-{data.name}"
+        home.mkdir()
+        data.rename(home / "data")
+        with (home / "data" / "postgresql.auto.conf").open("a") as file:
+            file.write(settings)
+        (home / "data" / "recovery.signal").touch()
+        if self._identity:
+            for path in (home, home / "data" / "recovery.signal"):
+                shutil.chown(path, self._identity["user"], self._identity["group"])
+        found = Server(self._programs, home, self._identity)
+        try:
+            yield found
+        finally:
+            found.stop()
+
 
 def _lives(process: psutil.Process) -> bool:
     try:
@@ -131,8 +169,8 @@ def _lives(process: psutil.Process) -> bool:
 
 
 @contextmanager
-def server(prefer_wheel: bool = False) -> Iterator[Server]:
-    """A server.
+def server(prefer_wheel: bool = False, options: str = "") -> Iterator[Server]:
+    """A server; in its options HOME is its folder.
 
     Raises
     ------
@@ -147,7 +185,7 @@ def server(prefer_wheel: bool = False) -> Iterator[Server]:
             folder.chmod(0o755)
             shutil.chown(home, user.pw_uid, user.pw_gid)
             identity = {"user": user.pw_uid, "group": user.pw_gid, "extra_groups": []}
-        running = Server(found, home, identity)
+        running = Server(found, home, identity, options.replace("HOME", str(home)))
         try:
             yield running
         finally:

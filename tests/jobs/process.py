@@ -55,11 +55,7 @@ class Service:
         return self
 
     def send(self, method: str, path: str, body: object = None, **headers: str) -> tuple[int, dict[str, str], bytes]:
-        with closing(http.client.HTTPConnection(*self.where, timeout=300)) as connection:
-            content = None if body is None else json.dumps(body)
-            connection.request(method, path, content, {"Content-Type": "application/json", **headers})
-            answer = connection.getresponse()
-            return answer.status, {key.lower(): value for key, value in answer.headers.items()}, answer.read()
+        return send(self.where, method, path, body, **headers)
 
     def read(self, path: str) -> Any:
         return json.loads(self.send("GET", path)[2])
@@ -84,6 +80,17 @@ class Service:
         self.process.wait(180)
         if self.process.stdout is not None:
             self.process.stdout.close()
+
+
+def send(
+    where: tuple[str, int], method: str, path: str, body: object = None, **headers: str
+) -> tuple[int, dict[str, str], bytes]:
+    """Status, headers and body of the answer to a request on a connection of its own."""
+    with closing(http.client.HTTPConnection(*where, timeout=300)) as connection:
+        content = None if body is None else json.dumps(body)
+        connection.request(method, path, content, {"Content-Type": "application/json", **headers})
+        answer = connection.getresponse()
+        return answer.status, {key.lower(): value for key, value in answer.headers.items()}, answer.read()
 
 
 @contextmanager

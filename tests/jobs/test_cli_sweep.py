@@ -177,6 +177,7 @@ def test_a_dry_run(tmp_path: Path) -> None:
     assert json.loads(here(file, "--dry-run", "--json", "--workers", "3").stdout)["workers"] == 3
     done = here(file, "--dry-run", "--workers", "3")
     assert "until it is done, 3 workers, about s" in done.stdout
+    assert "The time assumes 3 worker(s) with a core each" in done.stdout
     assert done.exit_code == 0
     assert "force_peak_N" in done.stdout
     assert [path.name for path in tmp_path.iterdir()] == ["sweep.json"]

@@ -14,13 +14,14 @@ JOB = "f" * 32
 
 
 def test_kills_of_services_and_of_their_database(tmp_path: Path) -> None:
-    # each of them once; three hundred: python -m tests.jobs.history
+    # each of them once; three hundred, and 1,700 faults of the network: python -m tests.jobs.history
     try:
-        found, done = run(tmp_path, kills=3, seed=3, most=3)
+        found, done = run(tmp_path, kills=4, seed=3, most=3)
     except postgres.Missing as missing:
         pytest.skip(str(missing))
     assert found == []
-    assert done["kills"] == {"one": 1, "two": 1, "database": 1}
+    assert done["kills"] == {"one": 1, "two": 1, "three": 1, "database": 1}
+    assert sum(done["network"].values()) > 0  # type: ignore[attr-defined]
     assert done["sweeps"] > 0  # type: ignore[operator]
     assert done["rows_read"] >= 1500  # type: ignore[operator]
 
@@ -90,6 +91,8 @@ def test_what_can_be_is_not_found() -> None:
         call("state", 16, 503),
         call("state", 18, 200, "done", 9),
         call("rows", 20, None, **overlapping),
+        # the network lost its answer
+        call("state", 20.5, None, cut=True),
         call("end", 22, 204, **overlapping),
         call("list", 23, ids=frozenset([JOB])),
         call("list", 31),

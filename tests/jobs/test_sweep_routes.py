@@ -2,6 +2,7 @@
 
 import io
 import json
+import re
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -37,6 +38,7 @@ def test_a_dry_run_starts_nothing(client: TestClient) -> None:
     # as the service is set
     assert answer.json()["workers"] == 2
     assert 0 < answer.json()["wall_s"] <= answer.json()["cpu_s"]
+    assert re.match(r"\d+ worker\(s\) with a core each", answer.json()["assumption"])
     assert client.get("/v1/sweeps").json() == before
 
 
@@ -86,6 +88,16 @@ def test_cancel_then_remove(client: TestClient) -> None:
         assert (answer.status_code, answer.json()["title"]) == (404, "Unknown sweep")
 
 
+def test_a_cancelled_sweep_that_selects_says_where_its_rows_are(client: TestClient) -> None:
+    asked = analyses(3000, 1000, pareto=["force_peak_N", "moment_peak_Nm"])
+    path = client.post("/v1/sweeps", json=asked).headers["location"]
+    assert client.get(path).json()["message"] is None
+    cancelled = client.delete(path).json()
+    assert (cancelled["state"], cancelled["eta_s"]) == ("cancelled", None)
+    assert "read the finished rows with select=all" in cancelled["message"]
+    assert client.get(f"{path}/results?select=all").status_code == 200
+
+
 def test_a_cancelled_sweep_can_go_on(client: TestClient) -> None:
     path = client.post("/v1/sweeps", json=analyses(100, 100)).headers["location"]
     # 204: it was done before it could be cancelled, and is removed
@@ -121,7 +133,7 @@ def test_events(client: TestClient, sweep: str) -> None:
     ids = [one[0] for one in events]
     assert ids == sorted(set(ids))
     assert [one[1] for one in events] == ["progress"] * (len(events) - 1) + ["end"]
-    assert (events[-1][2]["state"], events[-1][2]["done"], events[-1][2]["eta_s"]) == ("done", 20_000, 0)
+    assert (events[-1][2]["state"], events[-1][2]["done"], events[-1][2]["eta_s"]) == ("done", 20_000, None)
     # who comes late gets the last state, who has seen it is told not to come back
     late = client.get(f"{path}/events")
     assert told(late.text) == [events[-1]]

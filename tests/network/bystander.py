@@ -314,6 +314,7 @@ def main() -> int:
         **{name: (press, min(300, given.clients), 1) for name, press in PRESSES.items()},
         "a mix of all": (mixed, given.clients, 1),
         "a mix of four": (mixed, given.clients, 4),
+        "a mix of six": (mixed, given.clients, 6),
         **{f"{name}, {n}": (press, n, n) for name, press in COSTLY.items() for n in (1, 4, 6)},
     }
     if given.only is not None:

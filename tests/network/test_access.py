@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+import re
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -184,7 +185,24 @@ def test_a_key_has_a_rate_of_its_own(ask: Any) -> None:
     answer = ask("slow", "GET", "/v1/examples")
     assert 0 < int(answer.headers["retry-after"]) <= 3600
     assert answer.headers["content-type"] == "application/problem+json"
+    assert (answer.headers["ratelimit-policy"], answer.headers["ratelimit"][:11]) == ('"key";q=3;w=3600', '"key";r=0;t')
+    # another key has all of its own
     assert ask("alice", "GET", "/v1/examples").status_code == 200
+
+
+def test_an_answer_says_what_is_left_of_the_rate(made: tuple[Path, dict[str, str]]) -> None:
+    with TestClient(create_app(Settings(keys_file=made[0], rate_limit="5/minute"), warm=False)) as client:
+        told = [client.get("/v1/nothing", headers={"X-API-Key": made[1]["alice"]}) for _ in range(3)]
+        assert [one.status_code for one in told] == [404] * 3
+        assert {one.headers["ratelimit-policy"] for one in told} == {'"key";q=5;w=60'}
+        found = [re.fullmatch(r'"key";r=(\d+);t=(\d+)', one.headers["ratelimit"]) for one in told]
+        assert [one[1] for one in found if one] == ["4", "3", "2"]
+        assert all(0 < int(one[2]) <= 60 for one in found if one)
+        # nobody has a rate on a page for everybody, nor without a limit
+        assert "ratelimit" not in client.get("/healthz").headers
+        assert "ratelimit" not in client.get("/v1/nothing").headers
+    with TestClient(create_app(Settings(keys_file=made[0], rate_limit=""), warm=False)) as client:
+        assert "ratelimit" not in client.get("/v1/nothing", headers={"X-API-Key": made[1]["alice"]}).headers
 
 
 def test_those_who_guess_are_slowed_down(made: tuple[Path, dict[str, str]]) -> None:

@@ -2,6 +2,7 @@
 
 import asyncio
 import threading
+import time
 from collections.abc import Callable, Coroutine
 from typing import Any
 
@@ -101,6 +102,32 @@ def test_after_its_looks_a_client_is_forgotten() -> None:
         return len(looks._own), len(looks._asked)
 
     assert run(left) == (0, 0)
+
+
+def test_many_who_look_without_end_leave_the_process_most_of_its_time() -> None:
+    """Looks compute beside the event loop: those of eight clients take no more of it than those of one."""
+
+    def look() -> float:
+        begun = time.thread_time()
+        while (took := time.thread_time() - begun) < 0.002:
+            pass
+        return took
+
+    async def share(clients: int) -> float:
+        looks, end = SingleFlight(FairScheduler().turn), time.monotonic() + 0.4
+        taken: dict[str, list[float]] = {f"client {k}": [] for k in range(clients)}
+
+        async def ask(who: str, what: int) -> None:
+            while time.monotonic() < end:
+                taken[who].append(await looks.at(who, what, look))
+
+        # two of each, so that one waits while the other is answered
+        begun = time.monotonic()
+        await asyncio.gather(*(ask(who, what) for who in taken for what in range(2)))
+        return sum(map(sum, taken.values())) / (time.monotonic() - begun)
+
+    # analytic: a look of c and a rest of 3 c for each that waits; a busy machine makes it less
+    assert run(lambda: share(8)) < 0.4
 
 
 def test_the_looks_of_a_loop_that_has_ended_are_gone_with_it() -> None:

@@ -68,6 +68,46 @@ def test_of_whom_much_waits_something_is_done_however_much_others_ask() -> None:
     assert done.count("few") == 30 * (_APART - 1)
 
 
+def test_no_turn_goes_by_without_anything() -> None:
+    """Beside other work pieces of one client are turns apart; where nothing else is done they follow one another."""
+    pieces, turns, counts = 40, 0, list[int]()
+
+    async def story() -> None:
+        rounds, loop, end = FairScheduler(), asyncio.get_running_loop(), asyncio.Event()
+
+        def count() -> None:
+            nonlocal turns
+            turns += 1
+            if len(counts) < pieces // 2:
+                # something else in each turn
+                loop.call_soon(count)
+
+        def piece() -> None:
+            counts.append(turns)
+            if len(counts) == pieces // 2:
+                select = loop._selector.select  # type: ignore[attr-defined]
+
+                def counted(timeout: float | None) -> object:
+                    # each turn looks once for what has come
+                    count()
+                    return select(timeout)
+
+                loop._selector.select = counted  # type: ignore[attr-defined]
+            if len(counts) == pieces:
+                end.set()
+
+        loop.call_soon(count)
+        for _ in range(pieces):
+            rounds.ask("many", piece)
+        async with asyncio.timeout(180):
+            await end.wait()
+
+    asyncio.run(story())
+    half = pieces // 2
+    assert counts[half - 1] - counts[1] == (half - 2) * _APART
+    assert counts[-1] - counts[half] == half - 1
+
+
 def test_what_waited_in_a_loop_that_has_ended_is_gone_with_it() -> None:
     rounds, done = FairScheduler(), list[int]()
 

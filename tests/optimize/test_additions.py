@@ -14,7 +14,8 @@ import optimizer
 from optimizer.formulation.formulate import RESPONSES, Weighable, given_ceilings, smallest_peak
 from optimizer.formulation.goals import cone_program
 from optimizer.formulation.simulation import Prepared
-from optimizer.mechanics.inertia import Wrench, reciprocating
+from optimizer.mechanics.frame import Shares
+from optimizer.mechanics.inertia import reciprocating
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic
 from optimizer.outputs.registry import prepare
@@ -24,6 +25,9 @@ from optimizer.program.statement import Statement
 from optimizer.program.verdict import claim, verdict
 from optimizer.responses.response import Phasors, Response
 from optimizer.studies.sweep.counterweights import optimal
+from schemas.base.responses import RESPONSES as FIELDS
+from schemas.base.responses import ResponseFields
+from schemas.request.objective import Objective
 from schemas.request.requests import OptimizeRequest
 from tests.program.cases import optimum
 
@@ -52,7 +56,7 @@ REQUEST = OptimizeRequest.model_validate({"machine": MACHINE})
 #: where the pair of the contract may be named, and why
 NAMED_IN = {
     "mechanics/inertia.py": "makes them",
-    "mechanics/shaft_curves.py": "makes them, of all orders",
+    "mechanics/frame.py": "makes others of them",
     "formulation/formulate.py": "translates the fields of the contract",
     "outputs/first_order.py": "fields of the answer",
     "outputs/cautions.py": "warns of both",
@@ -65,8 +69,9 @@ NAMED_IN = {
     "studies/pareto/counts.py": "fields of the answer",
     "studies/pareto/pareto.py": "a front is of these two: fields of its answer",
     "studies/pareto/chosen_front.py": "weighs and limits one of these two: fields of its answer",
-    "studies/pareto/measures.py": "what a front trades by the names that the contract has for it",
+    "solve/worst_case.py": "fields of the answer",
     "studies/pareto/trades.py": "fields of the answer",
+    "studies/pareto/chosen_trades.py": "fields of the answer",
     # another force or torque altogether
     "effects/dynamics.py": "friction",
     "outputs/dynamics.py": "of the piston",
@@ -78,23 +83,19 @@ NAMED_IN = {
 }
 
 
-def _couple(layout: Layout, baseline: Wrench) -> Response:
-    """Couple about the plane: that about the reference plane, moved by the force."""
-    shift = layout.reference_plane - PLANE
-    return Response("couple", "N m", baseline.moment + baseline.force * shift, layout.webs.position - PLANE)
+class _Objective(Objective):
+    couple_weight: float = WEIGHT
+    couple_ceiling_Nm: float | None = None
 
 
-def _register(monkeypatch: pytest.MonkeyPatch, ceiling: float | None = None) -> None:
-    couple = Weighable(
-        name="couple",
-        unit="N m",
-        response=_couple,
-        weight=lambda machine, objective: WEIGHT,
-        ceiling=lambda objective: ceiling,
-        ceiling_field="moment_ceiling_Nm",
-        limit="moment_ceiling",
-    )
-    monkeypatch.setitem(RESPONSES, couple.name, couple)
+def _register(monkeypatch: pytest.MonkeyPatch, ceiling: float | None = None) -> OptimizeRequest:
+    """The request whose objective weighs, and limits, the couple about the plane."""
+    fields = ResponseFields("couple", "N m", "couple about a bearing")
+    monkeypatch.setitem(FIELDS, fields.name, fields)
+    # that about the reference plane, moved by the force
+    couple = Weighable(fields, lambda layout, objective: Shares(layout.reference_plane - PLANE, 1.0))
+    monkeypatch.setitem(RESPONSES, fields.name, couple)
+    return REQUEST.model_copy(update={"objective": _Objective(couple_ceiling_Nm=ceiling)})
 
 
 def _solved(request: OptimizeRequest) -> tuple[Prepared, Statement, Solution]:
@@ -131,17 +132,17 @@ def _by_hand(scene: Prepared, limit: float | None) -> float:
 
 @pytest.mark.parametrize("limited", [False, True])
 def test_a_response_is_weighed_limited_and_certified(monkeypatch: pytest.MonkeyPatch, limited: bool) -> None:
-    _register(monkeypatch)
-    scene, _, free = _solved(REQUEST)
+    request = _register(monkeypatch)
+    scene, _, free = _solved(request)
     limit = None
     if limited:
-        least = optimum(smallest_peak(scene.responses[2], REQUEST.machine), 1e-6, False)
+        least = optimum(smallest_peak(scene.responses[2], request.machine), 1e-6, False)
         assert isinstance(least, Solution)
         # half-way from what it is to what it can be
         limit = 0.5 * (float(scene.responses[2].to(free.unbalance).peak) + least.objective) * scene.omega_squared
-        _register(monkeypatch, limit)
-        assert [(each.name, most) for each, most in given_ceilings(REQUEST.objective)] == [("couple", limit)]
-    scene, program, found = _solved(REQUEST)
+        request = _register(monkeypatch, limit)
+        assert [(each.response, most) for each, most in given_ceilings(request.objective)] == [("couple", limit)]
+    scene, program, found = _solved(request)
     assert program.names.terms[2].response == "couple"
     mass = np.asarray(program.mass(found.unbalance))
     bound, of_mass = np.asarray(found.lower_bound), np.asarray(found.mass_lower_bound)
@@ -159,7 +160,7 @@ def test_a_response_is_weighed_limited_and_certified(monkeypatch: pytest.MonkeyP
         assert found.objective > free.objective - 1e-6 * rest / scene.omega_squared
 
 
-def _backwards(layout: Layout, baseline: Wrench) -> Response:
+def _backwards(layout: Layout) -> Response:
     """Second order of the force, which unbalances on a shaft that turns backwards at twice the speed can change.
 
     The vector that turns with that shaft is the one against the crank; (2 omega)^2 is 4 omega^2.
@@ -170,13 +171,18 @@ def _backwards(layout: Layout, baseline: Wrench) -> Response:
 
 def test_order_and_sense_say_how_a_response_turns(monkeypatch: pytest.MonkeyPatch) -> None:
     """Independent: force of the rows along their axes, and of the unbalances at -2 theta, sampled over the turn."""
-    second = Weighable("second", "N", _backwards, lambda *_: 1.0, lambda _: None, "force_ceiling_N", "force_ceiling")
-    monkeypatch.setattr("optimizer.formulation.formulate.RESPONSES", {"second": second})
+
+    monkeypatch.setattr("optimizer.formulation.goals.weights", lambda *_: {"second": 1.0})
     throws = [
         {**each, "rows": [{**row, "connecting_rod": {"length_m": 0.4}} for row in each["rows"]]}
         for each in MACHINE["throws"]
     ]
-    scene, program, found = _solved(OptimizeRequest.model_validate({"machine": {**MACHINE, "throws": throws}}))
+    request = OptimizeRequest.model_validate({"machine": {**MACHINE, "throws": throws}})
+    scene = prepare(request, ("residual",))
+    response = _backwards(scene.layout)
+    program = cone_program(request.machine, request.objective, (response,), scene.omega_squared)
+    found = optimum(program, 1e-6, True)
+    assert isinstance(found, Solution)
     assert found.gap <= 1e-6 * float(program.at_rest)
     turned = np.linspace(0.0, 2.0 * np.pi, 3_601)
     rows = scene.layout.reciprocating
@@ -184,16 +190,16 @@ def test_order_and_sense_say_how_a_response_turns(monkeypatch: pytest.MonkeyPatc
     size = rows.mass * rows.crank_radius * acceleration_harmonic(2, rows.rod_ratio)
     pushed = np.sum(size * np.exp(1j * axis) * np.cos(2.0 * (turned[:, None] + own)), axis=-1)
     force = pushed + 4.0 * np.sum(found.unbalance) * np.exp(-2j * turned)
-    np.testing.assert_allclose(scene.responses[0].over_turn(found.unbalance, turned), force, atol=1e-12)
+    np.testing.assert_allclose(response.over_turn(found.unbalance, turned), force, atol=1e-12)
     assert np.max(np.abs(force)) == pytest.approx(found.objective, rel=1e-5)
     # analytic: what turns with the crank at twice its speed is left
     assert found.objective == pytest.approx(abs(reciprocating(scene.layout, 2).force.co), abs=2e-6 * program.at_rest)
 
 
 def test_a_sweep_knows_the_response_as_well(monkeypatch: pytest.MonkeyPatch) -> None:
-    _register(monkeypatch)
-    scene, _, found = _solved(REQUEST)
-    columns, unbalance = optimal(REQUEST, 3, SOLVER)
+    request = _register(monkeypatch)
+    scene, _, found = _solved(request)
+    columns, unbalance = optimal(request, 3, SOLVER)
     assert columns["status"].tolist() == ["optimal"] * 3
     np.testing.assert_allclose(columns["objective"], found.objective * scene.omega_squared, rtol=1e-12)
     np.testing.assert_allclose(unbalance, np.tile(found.unbalance, (3, 1)), rtol=1e-9, atol=1e-12)

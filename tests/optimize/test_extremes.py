@@ -41,7 +41,7 @@ def test_weights_of_every_size(weights: tuple[float, float], combine: str) -> No
     assert found.status == "optimal"
 
 
-@pytest.mark.parametrize("number", range(200))
+@pytest.mark.parametrize("number", [*range(60), *(pytest.param(n, marks=pytest.mark.nightly) for n in range(60, 200))])
 def test_random_bodies_raise_nothing(number: int) -> None:
     tried(number)
 

@@ -4,7 +4,7 @@ A feature that a machine has no place for, as a row of a scroll, is not put on i
 later one counts; what does not go together is for the schema to say.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
 from tests.pairs.machines import at_rest, gas
@@ -83,6 +83,12 @@ def _chosen(subject: Subject) -> None:
 def _cheaper(subject: Subject) -> None:
     _chosen(subject)
     subject.body["alternatives"] = [0.02, 0.2]
+
+
+def _costs(subject: Subject, costs: Sequence[str]) -> None:
+    _chosen(subject)
+    order = [{"goal": "external", "allowance": 0.05}, *({"goal": cost} for cost in costs)]
+    _goal(subject, priorities=order)
 
 
 def _own_masses(subject: Subject) -> None:
@@ -242,6 +248,9 @@ FEATURES: Mapping[str, Feature] = {
     "ceilings out of reach": partial(_goal, force_ceiling_N=1.0, bending_ceiling_Nm=1e-3),
     "priorities": partial(_goal, bearing_weight=1.0, bending_weight=2.0, priorities=_ORDERED),
     "external, then mass": partial(_goal, priorities=[{"goal": "external", "allowance": 0.05}, {"goal": "mass"}]),
+    "light choices": partial(_costs, costs=("mass",)),
+    "few pieces": partial(_costs, costs=("pieces", "mass")),
+    "few sizes": partial(_costs, costs=("sizes", "pieces")),
     "least mass false": partial(_goal, least_mass=False),
     "symmetric false": partial(_goal, symmetric=False),
     "scenario of speed": _scenarios,

@@ -19,8 +19,10 @@ from service.documents.examples import bodies
 from service.drawings.bill import as_csv
 from service.drawings.drawn import drawings
 from service.drawings.sheet import sheet
-from service.report.blocks import Number, Paragraph, Table
+from service.report import pictures
+from service.report.blocks import Number, Paragraph, Table, digits, typeset
 from service.report.document import report
+from service.report.pictures import Picture
 from service.tables import as_built, tables
 from service.workbook.answers import answered
 from service.workbook.files import workbook_sheets
@@ -121,3 +123,21 @@ def test_drawings_are_of_what_is_built() -> None:
     said = sheet(part, drawn.built).svg()
     assert f"as built {place.mass_kg:.6g} kg; optimum {one.mass_kg:.6g} kg" in said
     assert "tolerance ±" in said
+
+
+@pytest.mark.parametrize("picture", [pictures.front, pictures.side, pictures.force, pictures.moment])
+def test_pictures_show_as_built_beside_the_optimum(picture: Picture) -> None:
+    alone = picture(OptimizeRequest.model_validate(bodies()["2d12"])).svg()
+    both = picture(OptimizeRequest.model_validate(request())).svg()
+    assert len(both) > len(alone)
+    dashes = "5 3" if picture in (pictures.front, pictures.side) else "9 3 2 3"
+    # three weights are fitted; a hodograph has a curve and its key
+    assert both.count(f'"{dashes}"') - alone.count(f'"{dashes}"') == (3 if dashes == "5 3" else 2)
+
+
+def test_the_hodograph_tells_the_peak_as_built() -> None:
+    alone = analyze(AnalyzeRequest.model_validate({"machine": request()["machine"], "counterweights": FITTED}))
+    assert alone.residual is not None
+    assert alone.residual.after is not None
+    drawn = pictures.force(OptimizeRequest.model_validate(request())).svg()
+    assert f"as built: peak {typeset(digits(alone.residual.after.force.peak_N))}" in drawn

@@ -146,7 +146,7 @@ def test_a_machine_without_a_place_for_counterweights(made: Make) -> None:
         ("overturning", "Overturning couple", 1),
         ("roll", "Roll moment", 1),
         ("main_bearings", "Main bearings", 4),
-        ("orders", "Orders", 3),
+        ("orders", "Orders", 1),
     ],
 )
 def test_every_output_asked_for_has_its_chapter(made: Make, output: str, title: str, figures: int) -> None:

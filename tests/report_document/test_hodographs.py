@@ -1,24 +1,41 @@
 """Hodographs of every order, from the phasors of an answer."""
 
 import json
+from collections.abc import Iterable
 
 import numpy as np
 import pytest
 
 from optimizer.optimize import optimize
+from schemas.answer.outputs import OrdersComparison
 from schemas.request.requests import OptimizeRequest
 from service.documents.examples import load
-from service.report.blocks import Figure
-from service.report.chapters.orders import _ellipse, orders
+from service.report.blocks import Block, Chapter, Figure, Paragraph, Table
+from service.report.chapters.orders import _ellipse, order_hodographs, orders
 
 
-def test_every_order_that_is_more_than_dust_is_drawn() -> None:
-    body = json.loads(load("2d12")) | {"outputs": ["orders"]}
-    found = optimize(OptimizeRequest.model_validate(body)).orders
+def _orders(name: str) -> tuple[OrdersComparison, Chapter]:
+    found = optimize(OptimizeRequest.model_validate(json.loads(load(name)) | {"outputs": ["orders"]})).orders
     assert found is not None
-    drawn = [block for block in orders(found).blocks if isinstance(block, Figure)]
-    assert [figure.caption.split(":")[0] for figure in drawn] == ["Order 1", "Order 2", "Order 4"]
-    assert [len(figure.drawings) for figure in drawn] == [2, 2, 2]
+    return found, orders(found)
+
+
+def test_orders_that_are_more_than_small_are_listed_and_ellipses_that_are_no_lines_drawn() -> None:
+    """Analytic: opposed rows move along one axis; orders above the first of a V do not."""
+    found, chapter = _orders("2d12")
+    (listed,) = [block for block in chapter.blocks if isinstance(block, Table)]
+    assert [row[0] for row in listed.rows] == ["1", "2", "4"]
+    assert [figure.caption.split(":")[0] for figure in _figures(chapter.blocks)] == ["Order 1"]
+    words = " ".join(block.text for block in chapter.blocks if isinstance(block, Paragraph))
+    assert "Of order 6 force and moment are below a thousandth of the largest." in words
+    assert "The vectors of order 2, 4 run along straight lines" in words
+    # the picture by itself has them all
+    assert [figure.caption.split(":")[0] for figure in order_hodographs(found)] == ["Order 1", "Order 2", "Order 4"]
+    assert len(_figures(_orders("v60")[1].blocks)) > 1
+
+
+def _figures(blocks: Iterable[Block]) -> list[Figure]:
+    return [block for block in blocks if isinstance(block, Figure)]
 
 
 def test_the_ellipse_is_where_the_vector_goes_analytic() -> None:

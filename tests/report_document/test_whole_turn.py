@@ -46,7 +46,7 @@ def test_what_goals_came_to_and_their_allowance_stand_in_the_report() -> None:
     goals = [{"goal": "external", "allowance": 0.01}, {"goal": "bearings"}]
     request = asked(inline_six(), bearing_weight=1, priorities=goals)
     document = html(report(of(request))).decode()
-    assert "Goals before the last, in their order" in document
+    assert "Goals in their order" in document
     assert "as the shaft sees them" in document
 
 

@@ -111,6 +111,14 @@ def test_no_number_can_be(path: tuple[str | int, ...], value: str) -> None:
         assert [key for key in error["loc"] if key in path or isinstance(key, int)][: len(path)] == list(path)
 
 
+@pytest.mark.parametrize("step", [5e-324, 1e-310, 7.0])
+def test_no_step_of_angles_is_too_small_to_be_counted(step: float) -> None:
+    body = copy.deepcopy(BODY)
+    body["machine"]["catalogue"] = {"angle_step_deg": step}
+    with pytest.raises(ValidationError, match="360 degrees must be a whole number of steps"):
+        OptimizeRequest.model_validate(body)
+
+
 @pytest.mark.parametrize("path", NUMBERS, ids=IDS)
 @pytest.mark.parametrize("value", [10**400, -(10**400), 1e300, -1e300, 5e31])
 def test_no_number_can_be_so_large_that_the_arithmetic_overflows(path: tuple[str | int, ...], value: float) -> None:

@@ -39,6 +39,8 @@ def test_404(client: TestClient, path: str) -> None:
         ("OPTIONS", "/v1/analyze", "POST"),
         ("POST", "/v1/examples", "GET"),
         ("DELETE", "/healthz", "GET"),
+        ("PATCH", "/v1/sweeps", "GET, POST"),
+        ("PUT", "/v1/sweeps/5f0c", "DELETE, GET"),
         ("BREW", "/docs", "GET"),
     ],
 )
@@ -156,6 +158,21 @@ def test_422_of_numbers_that_are_none(post: Post, body: dict[str, Any], text: st
     body["machine"]["webs"][2]["max_mass_kg"] = "?"
     found = problem(post("/v1/optimize", json.dumps(body).replace('"?"', text)), 422)
     assert [error.pointer for error in found.errors] == ["/machine/webs/2/max_mass_kg"]
+
+
+@pytest.mark.parametrize("key", ["", "a b", "é".encode("latin-1"), "x" * 256])
+def test_422_of_a_key_that_is_none(post: Post, body: dict[str, Any], key: Any) -> None:
+    """Whether a job is asked for or not."""
+    found = problem(post("/v1/optimize", json.dumps(body), Idempotency_Key=key), 422)
+    assert (found.type, found.errors) == ("/problems/invalid-header", ())
+
+
+@pytest.mark.parametrize("value", ["true", 1, 0, None, []])
+def test_422_of_a_flag_that_is_none(post: Post, body: dict[str, Any], value: Any) -> None:
+    found = problem(post("/v1/pictures/front", json.dumps({**body, "picture": {"transparent": value}})), 422)
+    assert [(error.pointer, error.message) for error in found.errors] == [
+        ("/picture/transparent", "must be true or false")
+    ]
 
 
 @pytest.mark.parametrize("output", ["orders", "stages"])

@@ -2,13 +2,16 @@
 
 import json
 import re
+from pathlib import Path
 from typing import Any
 
 import pytest
 from jsonschema import Draft202012Validator
 from starlette.testclient import TestClient
 
-from service.app import create_app
+from service.app import CORS, create_app
+from service.computations import COMPUTATIONS
+from service.guard.keys import make, write
 from service.settings import Settings
 
 OPERATIONS = {
@@ -18,12 +21,14 @@ OPERATIONS = {
     ("post", "/v1/pareto"): "pareto",
     ("post", "/v1/rating"): "rating",
     ("post", "/v1/match"): "match",
+    ("post", "/v1/round"): "round",
     ("post", "/v1/shaft"): "shaft",
     ("post", "/v1/report"): "report",
     ("post", "/v1/drawings"): "drawings",
     ("post", "/v1/tables/pin_loads"): "table_pin_loads",
     ("post", "/v1/pictures/pin_loads"): "picture_pin_loads",
     ("post", "/v1/tables/built"): "table_built",
+    ("post", "/v1/tables/order"): "table_order",
     ("post", "/v1/tables/foundation_loads"): "table_foundation_loads",
     ("post", "/v1/pictures/front"): "picture_front",
     ("post", "/v1/pictures/side"): "picture_side",
@@ -45,6 +50,7 @@ OPERATIONS = {
     ("get", "/v1/sweeps/{id}/results"): "read_sweep_results",
     ("get", "/v1/sweeps/{id}/events"): "watch_sweep",
     ("get", "/v1/effects"): "list_effects",
+    ("get", "/problems/{kind}"): "read_problem",
     ("get", "/v1/examples"): "list_examples",
     ("get", "/v1/examples/{name}"): "read_example",
     ("get", "/v1/template.xlsx"): "read_template",
@@ -53,8 +59,14 @@ OPERATIONS = {
     ("get", "/readyz"): "readyz",
     ("get", "/metrics"): "metrics",
 }
+#: components that operations refer to
+PARTS = ("schemas", "headers", "parameters")
 KEYED = {"200", "401", "403", "429", "default"}
 COMPUTED = KEYED | {"400", "408", "413", "415", "422", "503"}
+#: may be answered later, as a job
+LATER = COMPUTED | {"202", "409"}
+#: documents that are sent once
+UNCHANGED = KEYED | {"304"}
 PHYSICAL = re.compile(r"_(m|m2|m3|m3_per_min|m_s|m_s2|kg|kg_m|kg_m2|deg|rpm|N|Nm|Pa|K|W|J|ms)$")
 
 
@@ -83,6 +95,11 @@ def test_names_that_clients_depend_on(document: dict[str, Any]) -> None:
     assert found == OPERATIONS
     assert document["openapi"].startswith("3.1")
     assert all(operation["summary"] and operation["tags"] for operation in operations(document))
+    described = [tag["name"] for tag in document["tags"] if tag["description"]]
+    assert len(set(described)) == len(described)
+    assert {tag for operation in operations(document) for tag in operation["tags"]} == set(described)
+    assert document["servers"] == [{"url": "/"}]
+    assert document["info"]["contact"]["name"]
 
 
 def test_it_is_the_same_every_time(document: dict[str, Any]) -> None:
@@ -92,20 +109,21 @@ def test_it_is_the_same_every_time(document: dict[str, Any]) -> None:
 @pytest.mark.parametrize(
     ("path", "statuses"),
     [
-        ("/v1/optimize", COMPUTED),
+        ("/v1/optimize", LATER),
         ("/v1/analyze", COMPUTED),
-        ("/v1/accuracy", COMPUTED),
-        ("/v1/pareto", COMPUTED),
+        ("/v1/accuracy", LATER),
+        ("/v1/pareto", LATER),
         ("/v1/rating", COMPUTED),
-        ("/v1/match", COMPUTED),
+        ("/v1/match", LATER),
+        ("/v1/round", LATER),
         ("/v1/shaft", COMPUTED),
         ("/v1/verify", COMPUTED),
         ("/v1/convert", COMPUTED | {"406"}),
         ("/v1/scroll/pin-loads", COMPUTED),
         ("/v1/sweeps/{id}/metadata", KEYED | {"404", "503"}),
-        ("/v1/effects", KEYED),
-        ("/v1/examples", KEYED),
-        ("/v1/examples/{name}", KEYED | {"404"}),
+        ("/v1/effects", UNCHANGED),
+        ("/v1/examples", UNCHANGED),
+        ("/v1/examples/{name}", UNCHANGED | {"404"}),
         ("/metrics", KEYED),
         ("/healthz", {"200", "default"}),
         ("/readyz", {"200", "503", "default"}),
@@ -115,7 +133,7 @@ def test_errors_are_problems(document: dict[str, Any], path: str, statuses: set[
     for operation in document["paths"][path].values():
         assert set(operation["responses"]) == statuses
         for status, response in operation["responses"].items():
-            if status != "200":
+            if status not in ("200", "202", "304"):
                 schema = response["content"]["application/problem+json"]["schema"]
                 assert schema == {"$ref": "#/components/schemas/Problem"}
                 assert response["description"]
@@ -128,6 +146,7 @@ def test_answers_and_bodies_have_schemas(document: dict[str, Any]) -> None:
         ("/v1/pareto", "Pareto"),
         ("/v1/rating", "Rating"),
         ("/v1/match", "Match"),
+        ("/v1/round", "Round"),
         ("/v1/shaft", "Shaft"),
         ("/v1/verify", "Verify"),
         ("/v1/scroll/pin-loads", "PinLoads"),
@@ -152,7 +171,8 @@ def test_every_reference_leads_somewhere(document: dict[str, Any]) -> None:
             return own.union(*map(references, node.values()))
         return set().union(*map(references, node)) if isinstance(node, list) else set()
 
-    assert references(document) == {f"#/components/schemas/{name}" for name in known}
+    expected = {f"#/components/{kind}/{name}" for kind in PARTS for name in document["components"][kind]}
+    assert references(document) == expected
     assert not {"HTTPValidationError", "ValidationError"} & set(known)
 
 
@@ -166,7 +186,7 @@ def test_every_field_is_described_with_examples_and_its_unit(document: dict[str,
 
 
 def test_errors_of_sweeps_are_problems(document: dict[str, Any]) -> None:
-    expected = {"start_sweep": COMPUTED | {"202", "409"}}
+    expected = {"start_sweep": LATER}
     for path, methods in document["paths"].items():
         for operation in methods.values() if path.startswith("/v1/sweeps") else ():
             statuses = set(operation["responses"])
@@ -184,6 +204,7 @@ def test_errors_of_sweeps_are_problems(document: dict[str, Any]) -> None:
         ("/v1/analyze", 11),
         ("/v1/rating", 2),
         ("/v1/match", 2),
+        ("/v1/round", 1),
         ("/v1/shaft", 2),
         ("/v1/scroll/pin-loads", 2),
         ("/v1/sweeps", 2),
@@ -217,3 +238,53 @@ def test_the_prefix_of_a_proxy_is_told() -> None:
     assert client.get("/openapi.json").json()["servers"] == [{"url": "/cw"}]
     links = client.get("/v1/examples").json()["examples"][0]["links"]
     assert links["self"].startswith("/cw/v1/examples/")
+
+
+def names(listed: list[dict[str, Any]]) -> set[str]:
+    """Parameters by name, their own or that of a reference."""
+    return {one.get("name") or one["$ref"].rpartition("/")[2] for one in listed}
+
+
+def test_jobs_are_described_where_they_can_be_asked_for(document: dict[str, Any]) -> None:
+    for one in COMPUTATIONS.values():
+        operation = document["paths"][one.path]["post"]
+        listed = names(operation.get("parameters", []))
+        assert ({"Prefer", "Idempotency-Key"} <= listed) is one.later, one.name
+        assert ({"202", "409"} <= set(operation["responses"])) is one.later, one.name
+        assert ("Accept" in listed) is (len(one.forms) > 1), one.name
+        content = operation["responses"]["200"]["content"]
+        assert {form.media_type for form in one.forms} == set(content), one.name
+    for path in ("/v1/optimize", "/v1/sweeps"):
+        told = document["paths"][path]["post"]["responses"]["202"]
+        assert {"Location", "Preference-Applied", "Idempotency-Replayed"} <= set(told["headers"])
+
+
+def test_headers_of_answers_are_described(document: dict[str, Any], client: TestClient) -> None:
+    """All that pages of other origins may read, and what comes with every answer."""
+    shared = set(CORS["expose_headers"])
+    assert shared | {"WWW-Authenticate"} == set(document["components"]["headers"])
+    answers = [answer for one in operations(document) for answer in one["responses"].values()]
+    assert {name for answer in answers for name in answer["headers"]} == set(document["components"]["headers"])
+    for path, methods in document["paths"].items():
+        if "get" not in methods or "{" in path:
+            continue
+        answer = client.get(path)
+        operation = methods["get"]
+        told = operation["responses"][str(answer.status_code)]["headers"]
+        sent = {name for name in document["components"]["headers"] if name in answer.headers}
+        assert sent <= set(told), path
+        required = {name for name in told if document["components"]["headers"][name].get("required")}
+        assert required <= sent, path
+        # what has a tag is answered once
+        again = client.get(path, headers={"If-None-Match": answer.headers.get("ETag", "none")})
+        assert (again.status_code == 304) is ("304" in operation["responses"]), path
+        assert ("If-None-Match" in names(operation.get("parameters", []))) is (again.status_code == 304), path
+
+
+def test_a_key_is_optional_where_nobody_needs_one(document: dict[str, Any], tmp_path: Path) -> None:
+    file = tmp_path / "keys.jsonl"
+    write(file, [make("portal", ("compute",))[1]])
+    keyed = create_app(Settings(keys_file=file)).openapi()
+    assert document["paths"]["/v1/optimize"]["post"]["security"] == [{"bearer": []}, {"key": []}, {}]
+    assert keyed["paths"]["/v1/optimize"]["post"]["security"] == [{"bearer": []}, {"key": []}]
+    assert document["paths"]["/healthz"]["get"]["security"] == keyed["paths"]["/healthz"]["get"]["security"] == []

@@ -92,3 +92,9 @@ def test_a_wrong_value_names_its_variable_or_option(monkeypatch: pytest.MonkeyPa
     with pytest.raises(ValidationError) as refused:
         Settings(lease_s=1)
     assert "COUNTERWEIGHT_PORT" in {message.partition(":")[0] for message in wrong_values(refused.value, {})}
+    # names are read in small letters too, and told as they are written
+    monkeypatch.delenv("COUNTERWEIGHT_PORT")
+    monkeypatch.setenv("counterweight_port", "0.5")
+    with pytest.raises(ValidationError) as refused:
+        Settings(lease_s=1)
+    assert "counterweight_port" in {message.partition(":")[0] for message in wrong_values(refused.value, {})}

@@ -11,7 +11,7 @@ from tests.verification.falsified import numbers
 _SOME = 12
 
 
-@pytest.mark.parametrize("name", [one for one in names() if one != "matching"][::3])
+@pytest.mark.parametrize("name", [one for one in names() if one != "matching"][::5])
 def test_some_of_the_table(name: str) -> None:
     request, answer = pair(name)
     found, missed = tally(request, answer, max(1, len(list(numbers(answer))) // _SOME))

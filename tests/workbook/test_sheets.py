@@ -9,9 +9,12 @@ import openpyxl
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from pydantic import ValidationError
 
 from schemas.base.model import FieldProblem
+from schemas.request.requests import OptimizeRequest
 from service.documents.examples import bodies
+from service.documents.template import EMPTY, template
 from service.workbook.files import workbook, workbook_sheets
 from service.workbook.sheets import Misplaced, Sheets, read, written
 
@@ -76,9 +79,11 @@ def test_where_a_field_stands_or_is_missing() -> None:
         ({"throws": [["rows"], [3]], "rows": [["throw"], [0]]}, "rows, line 2: its throw is no object"),
         (
             {"throws": [["name"], ["a"]], "rows": [["throw"], [1]]},
-            "rows, line 2: throw: the number of",
+            "rows, line 2: throw: the name of its throw: a",
         ),
-        ({"throws": [["name"], ["a"]], "rows": [["name"], ["b"]]}, "rows, line 2: throw: the number"),
+        ({"throws": [["name"], ["a"]], "rows": [["name"], ["b"]]}, "rows, line 2: throw: the name of its throw: a"),
+        ({"throws": [["position_m"], [0]], "rows": [["throw"], [1]]}, "rows, line 2: throw: the number of its throw"),
+        ({"throws": [["name"], ["a"], ["a"]], "rows": [["throw"], ["a"]]}, "rows, line 2: throw: the number of"),
     ],
 )
 def test_what_says_nothing_of_a_machine_is_named(sheets: Sheets, said: str) -> None:
@@ -90,3 +95,59 @@ def test_what_says_nothing_of_a_machine_is_named(sheets: Sheets, said: str) -> N
 def test_the_example_of_plates_comes_back() -> None:
     body = json.loads(Path("examples/drawings/2d12-plates.json").read_text())
     assert read(workbook_sheets(workbook(written(body)))).body == body
+
+
+@pytest.mark.parametrize(
+    ("names", "cells", "places"),
+    [
+        # names of a machine that counts its throws from 1, which a spreadsheet makes numbers of
+        (("1", "2"), (1, 2), [0, 1]),
+        (("drive end", "free end"), ("free end", "drive end"), [1, 0]),
+        # workbooks of before hold numbers from 0
+        (("1", "2"), (0, 1), [0, 1]),
+        (("drive end", "free end"), (0, 1), [0, 1]),
+        ((None, None), (0, 1), [0, 1]),
+    ],
+)
+def test_rows_stand_on_throws_by_name(names: tuple[str | None, ...], cells: tuple[Any, ...], places: list[int]) -> None:
+    throws = [["name", "position_m"], *([name, 0] for name in names)]
+    sheets: Sheets = {"throws": throws, "rows": [["throw", "name"], *([cell, str(cell)] for cell in cells)]}
+    found = read(sheets).body["machine"]["throws"]
+    assert [each["rows"] for each in found] == [[{"name": str(cells[places.index(at)])}] for at in range(len(names))]
+
+
+def test_rows_of_a_machine_name_their_throws() -> None:
+    rows = written(bodies()["2d12"])["rows"]
+    names = [throw["name"] for throw in bodies()["2d12"]["machine"]["throws"]]
+    assert [line[rows[0].index("throw")] for line in rows[1:]] == names
+
+
+def test_the_empty_workbook_holds_heads_that_the_schema_has() -> None:
+    sheets = workbook_sheets(template(EMPTY))
+    assert read(sheets).body == {"machine": {"kind": "reciprocating"}}
+    machine: dict[str, Any] = {"kind": "reciprocating"}
+    for sheet in ("throws", "webs", "bearings"):
+        machine[sheet] = [_with(heads) for heads in sheets[sheet]]
+    machine["throws"][0]["rows"] = [_with([head for head in sheets["rows"][0] if head != "throw"])]
+    assert _unknown(machine) == []
+    machine["webs"][0]["wings"] = "x"
+    assert _unknown(machine) == ["wings"]
+
+
+def _with(heads: Any) -> dict[str, Any]:
+    """A thing that has all of these fields, none of them with a value."""
+    made: dict[str, Any] = {}
+    for head in heads:
+        *around, last = head.split(".")
+        place = made
+        for name in around:
+            place = place.setdefault(name, {})
+        place[last] = "no value of any field"
+    return made
+
+
+def _unknown(machine: dict[str, Any]) -> list[Any]:
+    """Fields that the schema does not have."""
+    with pytest.raises(ValidationError) as refused:
+        OptimizeRequest.model_validate({"machine": machine})
+    return [one["loc"][-1] for one in refused.value.errors() if one["type"] == "extra_forbidden"]

@@ -72,7 +72,7 @@ def offer_light_sets(incumbent: Incumbent, relaxed: Complex, enough: Callable[[]
         options, chosen = incumbent.options, incumbent.chosen
         assert chosen is not None
         about = (options.unbalance[slot, chosen[slot]], light[slot])
-        near = [_near(options, slot, complex(each), _CLOSE) for each in about]
+        near = [near_options(options, slot, complex(each), _CLOSE) for each in about]
         return np.unique(np.concatenate([*near, _light(options, slot, _CLOSE // 2)]))
 
     _improve(incumbent, incumbent.options, close, enough, clock)
@@ -142,7 +142,7 @@ def _lightest(incumbent: Incumbent, relaxed: Complex) -> Complex:
     return stages.unbalance[0] if stages.certified[0] else relaxed
 
 
-def _near(options: Options, slot: int, about: complex, count: int) -> np.ndarray:
+def near_options(options: Options, slot: int, about: complex, count: int) -> np.ndarray:
     """Nothing, and the options of a slot that are nearest to an unbalance."""
     off = np.where(options.exists[slot], np.abs(options.unbalance[slot] - about), np.inf)
     nearest = np.argsort(off, kind="stable")[: min(count, int(np.sum(options.exists[slot])))]
@@ -173,7 +173,7 @@ def neighbourhoods(options: Options, light: Complex, near: int, many: int) -> It
         for trims in others:
             which = [np.array([option]) for option in base]
             for k in slots:
-                which[k] = _near(options, k, light[k], near)
+                which[k] = near_options(options, k, light[k], near)
             for k in trims:
                 which[k] = _light(options, k, many)
             yield which

@@ -136,17 +136,18 @@ def over_turn(
         course.keep(last, course.smallest(last, _ENOUGH * relative_gap * size), 0.0)
         course.margin[-1] = _TARGET_MARGIN * _SHARPNESS[0] * relative_gap * size
         return course.found(None, np.inf, course.goals[last].lower_bound + (1.0 - _RESERVE) * relative_gap * size)
+    allowed = program.goals[last].allowance * size
     # a little is kept for the rounding of masses and angles
     share = (1.0 - _RESERVE) * min(OPTIMUM_SHARE, relative_gap) * size
     proof: Proof | None = None
     tried: list[Found] = []
     for sharpness in _SHARPNESS:
         proof = course.smallest(last, sharpness * share, proof)
-        course.keep(last, proof, share)
-        target = course.goals[last].value + share
+        course.keep(last, proof, max(share, allowed))
+        target = max(course.goals[last].value, course.goals[last].most if allowed > share else 0.0) + share
         mass_proof = course.lightest(target, _TARGET_MARGIN * sharpness * share)
         tried.append(course.found(mass_proof, target))
-        if tried[-1].mass_gap <= _LIGHT or course.timed_out:
+        if tried[-1].mass_gap <= _LIGHT or course.timed_out or allowed > share:
             break
     # what is sought more sharply may be found less so
     best = min(tried, key=lambda found: found.mass_gap)
@@ -189,7 +190,10 @@ class _Course:
         """Make a goal small under those before it."""
         so_far = self.program.changed(goals=self.program.goals[: n + 1])
         self.inside, most = _again(so_far, self.inside), self._most(n)
-        self.so_far = _bounded(so_far, self.inside, most)
+        # the least mass after the last goal may be where that comes to more
+        last = n + 1 == len(self.program.goals)
+        room = self.program.goals[n].allowance * float(self.program.units[n]) if last else 0.0
+        self.so_far = _bounded(so_far, self.inside, most, room)
         margin = _TARGET_MARGIN * _SHARPNESS[0] * OPTIMUM_SHARE * self.program.units[:n]
         found = self._run(Levels(margin, most - _RESERVED * self.program.units[:n], most), enough)
         assert found is not None  # rest proves something of every objective
@@ -318,10 +322,11 @@ def _level(program: Problem, most: Real) -> float:
     return 2.0 * float(np.sum((most / program.units)[program.goal_of_case]))
 
 
-def _bounded(program: Problem, inside: Point, most: Real) -> Problem:
-    """The program with a finite limit for every web (reach.py), proven for all that is no larger than a point."""
+def _bounded(program: Problem, inside: Point, most: Real, room: float = 0.0) -> Problem:
+    """The program with a finite limit for every web (reach.py), proven for all that is no larger than a point, or by so
+    much in the last goal."""
     statement = _telling(program)
     if not np.any(far_limits(statement)):
         return program
-    levels = np.append(most, inside.values.goals[most.size])
+    levels = np.append(most, inside.values.goals[most.size] + room)
     return program.changed(limits=bounded(statement, _level(program, levels)).limits)

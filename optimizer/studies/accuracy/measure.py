@@ -25,6 +25,7 @@ from optimizer.studies.accuracy.ladder import LADDER_S, Clock, Trial, frontier, 
 from optimizer.studies.accuracy.methods import POSITIONS, Task, methods
 from optimizer.studies.accuracy.peaks import peaks_ladder
 from optimizer.studies.accuracy.rivals.sampled import OverTheTurn, WeightedResponse
+from schemas.base.mappings import or_mapping
 from schemas.base.version import package_version
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.accuracy import (
@@ -45,6 +46,7 @@ _ROUNDING = 1e-13
 _PACKAGES = ("numpy", "numba", "scipy", "clarabel", "cvxpy")
 
 
+@or_mapping(AccuracyRequest)
 def accuracy(request: AccuracyRequest) -> AccuracyAnswer:
     """The ladders of methods and of simulations for a machine; least mass is off, whatever was asked."""
     start = time.perf_counter()

@@ -43,7 +43,7 @@ class Chosen:
         machine = with_masses(self.request.machine, row_mass)
         leading = row_mass.shape[:-1]
         plan = spread(layout(machine), leading)
-        base = responses(plan, rotating(plan).plus(reciprocating(plan, 1)))
+        base = responses(plan, rotating(plan).plus(reciprocating(plan, 1)), self.request.objective)
         return cone_program(machine, self.request.objective, base, np.ones(leading))
 
     def _minorants(self, program: Statement, multipliers: Multipliers, mass: Real) -> Minorants:

@@ -25,6 +25,7 @@ from optimizer.studies.matching.problem import Minorants, Problem, stated
 from optimizer.studies.matching.search import searched
 from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer, Timing
 from schemas.answer.first_order import FirstOrder, Residual
+from schemas.base.mappings import or_mapping
 from schemas.machine.fitted import GivenCounterweight
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.match.answer import Assignment, MatchAnswer, MatchCertificate, Matched, MatchedRow, Spare
@@ -42,6 +43,7 @@ _LEFT = (
 )
 
 
+@or_mapping(MatchRequest)
 def match(request: MatchRequest) -> MatchAnswer:
     """The rows that weighed parts go on, each once, so that the weighted peaks are small; with a certified bound."""
     start = time.perf_counter()
@@ -226,7 +228,7 @@ def _evaluated(request: MatchRequest, machine: ReciprocatingMachine) -> _Evaluat
         given = tuple(GivenCounterweight(**one.model_dump()) for one in request.counterweights)
         answer = analyze(AnalyzeRequest(machine=machine, counterweights=given))
     plan = layout(machine)
-    first = responses(plan, rotating(plan).plus(reciprocating(plan, 1)))
+    first = responses(plan, rotating(plan).plus(reciprocating(plan, 1)), goal)
     square = plan.omega**2
     program = cone_program(machine, goal, first, square)
     fitted = answer.counterweights

@@ -125,8 +125,8 @@ def stated(request: MatchRequest, fitted: Real, angle_deg: Real) -> Problem:
     plan = layout(machine)
     u = unbalance(fitted, angle_deg, plan.webs.radius)
     wanted, across = weights(machine, goal), goal.direction_weights
-    base = responses(plan, rotating(plan).plus(reciprocating(plan, 1)))
-    one = responses(plan, reciprocating(_of_one_kilogram(plan), 1))
+    base = responses(plan, rotating(plan).plus(reciprocating(plan, 1)), goal)
+    one = responses(plan, reciprocating(_of_one_kilogram(plan), 1), goal)
     weighed = [k for k, each in enumerate(base) if wanted[each.name] > 0]
     p, q = 0.5 * (across.x + across.y), 0.5 * (across.x - across.y)
     start, of_row, start_size, size_of_row, terms, row = [], [], [], [], [], []

@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from optimizer.formulation.formulate import weighing
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.scatter import weighted
 from optimizer.numerics.arrays import Complex, Real
@@ -22,6 +23,7 @@ from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.solve.prices import touched_limits
 from schemas.answer.answers import OptimizeAnswer
 from schemas.answer.infeasibility import Infeasibility
+from schemas.base.responses import PAIR
 from schemas.front.pareto import CornerCertificate, Ends, ParetoPoint, ParetoRequest, Reason, Scale
 from schemas.machine.machine import Machine
 from schemas.request.objective import Objective
@@ -204,7 +206,7 @@ class _Search:
     def _peaks(self, u: Complex) -> Real:
         """Weighted peak force and moment (2,) with unbalances (K,)."""
         across = self.request.objective.direction_weights
-        vectors = (each.to(u) for each in self.scene.responses)
+        vectors = (each.to(u) for each in self.scene.responses if each.name in PAIR)
         return np.array([float(weighted(each, across.x, across.y).peak) for each in vectors]) * self.scene.omega_squared
 
     def _point(self, optimum: _Optimum, size: Real) -> ParetoPoint:
@@ -253,15 +255,13 @@ _Goal = Callable[[Objective], Objective]
 
 def _only(axis: int, ceilings: Mapping[str, float] | None = None) -> _Goal:
     """One of both peaks alone, the force (0) or the moment (1), under ceilings that are given by field."""
-    update = {"force_weight": float(axis == 0), "moment_weight": float(axis == 1), "combine": "sum", **(ceilings or {})}
-    return lambda objective: objective.model_copy(update=update)
+    return lambda objective: weighing(objective, {PAIR[axis]: 1.0}, combine="sum", **(ceilings or {}))
 
 
 def _larger(weights: Real) -> _Goal:
     """The larger of both peaks, weighed (2,) in 1/N and 1/(N m)."""
-    force, moment = weights.tolist()
-    update = {"force_weight": force, "moment_weight": moment, "combine": "max"}
-    return lambda objective: objective.model_copy(update=update)
+    pair = dict(zip(PAIR, weights.tolist(), strict=True))
+    return lambda objective: weighing(objective, pair, combine="max")
 
 
 def _undominated(optima: Sequence[_Optimum]) -> list[_Optimum]:

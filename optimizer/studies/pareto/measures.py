@@ -6,37 +6,35 @@ from functools import cached_property
 
 import numpy as np
 
-from optimizer.formulation.formulate import RESPONSES
+from optimizer.formulation.formulate import RESPONSES, weighing
 from optimizer.formulation.goals import Case, formulate
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.whole_turn import WholeTurn
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import SMALLEST, Complex, Real
 from optimizer.program.cuts.dominance import Group, Weighed
 from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.norms import Norms
 from optimizer.program.rows import Row, total_mass
+from optimizer.program.solution import OPTIMUM_SHARE
 from schemas.front.trade import Traded
 from schemas.request.objective import Objective
 from schemas.request.requests import OptimizeRequest
 
 #: width of the brackets by which the counterweights of an answer are judged, as a share of what is traded
 _CLOSE = 1e-10
-#: quantities over the turn, by what stands before the colon in their names
-_OF: dict[str, Traded] = {"force": "force", "moment": "moment", "bearing": "bearings", "bending": "bending"}
+#: quantities over the turn, by what stands before the colon in their names, where that is not what is traded
+_OF: dict[str, Traded] = {"bearing": "bearings"}
 
 
 def alone(objective: Objective, names: Sequence[Traded]) -> Objective:
     """The objective that is the largest of some responses, each as it is."""
-    weight = {name: 1.0 if name in names else 0.0 for name in ("force", "moment", "bearings", "bending")}
-    return objective.model_copy(
-        update={
-            "combine": "max",
-            "priorities": (),
-            "force_weight": weight["force"],
-            "moment_weight": weight["moment"],
-            "bearing_weight": weight["bearings"],
-            "bending_weight": weight["bending"],
-        }
+    return weighing(
+        objective,
+        dict.fromkeys(names, 1.0),
+        combine="max",
+        priorities=(),
+        bearing_weight=float("bearings" in names),
+        bending_weight=float("bending" in names),
     )
 
 
@@ -117,13 +115,30 @@ def measures(request: OptimizeRequest, names: tuple[Traded, ...], scene: Prepare
                 each
                 for group in program.groups
                 for each in group.weighed
-                if _OF[program.quantities[each.quantity].name.partition(":")[0]] == name
+                if _traded(program.quantities[each.quantity].name) == name
             ),
         )
         for name in names
         if name != "mass"
     }
     return Measures(names, program, tuple(groups[name] for name in names))
+
+
+def _traded(quantity: str) -> Traded:
+    """What a quantity over the turn belongs to."""
+    kind = quantity.partition(":")[0]
+    return _OF.get(kind, kind)
+
+
+def sizes(at_rest: Real, gross: Real) -> Real:
+    """What gaps are relative to (D,): what is there without counterweights; where that is nothing, what they do.
+
+    Parameters
+    ----------
+    gross : (D,) the most that counterweights do one by one, summed.
+    """
+    known = np.where(at_rest > OPTIMUM_SHARE * gross, at_rest, gross)
+    return np.where(known > SMALLEST, known, 1.0)
 
 
 def unit_of(name: Traded, objective: Objective) -> str:

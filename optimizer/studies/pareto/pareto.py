@@ -28,6 +28,7 @@ from optimizer.studies.pareto.trade import Trade, trade
 from optimizer.studies.pareto.trades import needed, traded_front
 from schemas.answer.answers import Timing
 from schemas.answer.proof import EndMultipliers, Multipliers
+from schemas.base.mappings import or_mapping
 from schemas.front.pareto import (
     CornerCertificate,
     Ends,
@@ -47,6 +48,7 @@ _STRAIGHT = 1e-4
 _WORST: tuple[Status, ...] = ("optimal", "inaccurate", "infeasible")
 
 
+@or_mapping(ParetoRequest)
 def pareto(request: ParetoRequest, solver: Solver | None = None) -> ParetoAnswer:
     """The certified fronts of peak force and peak moment, one for each budget of the total mass.
 

@@ -14,6 +14,7 @@ from optimizer.program.norms import Norms
 from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.statement import Statement
 from optimizer.responses.response import Response
+from schemas.base.responses import PAIR
 from schemas.machine.machine import Machine
 from schemas.request.objective import Objective
 
@@ -109,7 +110,8 @@ def trade(machine: Machine, objective: Objective, responses: Sequence[Response],
     """The trade of a machine: direction weights and ceilings count, the weights of force and moment do not."""
     across = objective.direction_weights
     caps = [(each, np.asarray(allowed / omega_squared)) for each, allowed in limited(responses, objective)]
-    force, moment = (weighted_peak(each, np.ones(()), np.asarray(across.x), np.asarray(across.y)) for each in responses)
+    pair = (each for each in responses if each.name in PAIR)
+    force, moment = (weighted_peak(each, np.ones(()), np.asarray(across.x), np.asarray(across.y)) for each in pair)
     bounds = limits(machine)
     return Trade(
         both=statement(combined([force, moment], "max"), caps, bounds),

@@ -7,13 +7,15 @@ are evenly apart on the chord, or in the triangle, between the ends (normal-boun
 """
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from optimizer.errors import MissingInput
 from optimizer.formulation.counterweights import counterweights, masses_and_angles, unbalance
 from optimizer.formulation.simulation import Prepared
-from optimizer.numerics.arrays import SMALLEST, Complex, Real
+from optimizer.mechanics.fixed_weights import beside, fixed_masses
+from optimizer.numerics.arrays import Complex, Real
 from optimizer.optimize import optimize
 from optimizer.outputs.requirements import missing
 from optimizer.program.certificate import ceiling_allowance
@@ -22,7 +24,8 @@ from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.program.verdict import Claim, mass_resolution, verdict
 from optimizer.solve.outcome import finite_or_null
 from optimizer.solve.whole_turn import whole_turn_of
-from optimizer.studies.pareto.measures import Measures, alone, measures, unit_of
+from optimizer.studies.pareto.chosen_trades import chosen_trades
+from optimizer.studies.pareto.measures import Measures, alone, measures, sizes, unit_of
 from schemas.front.pareto import ParetoRequest
 from schemas.front.trade import Traded, TradedCertificate, TradedFront, TradedPoint, TradedResponse
 from schemas.machine.machine import Machine
@@ -54,6 +57,10 @@ def traded_front(request: ParetoRequest, machine: Machine, scene: Prepared) -> T
     """The front of the responses that a request names, for one limit of the total mass."""
     names = request.responses or ()
     asked = needed(request, names).model_copy(update={"machine": machine, "accuracy": request.accuracy})
+    # what is traded counts, whatever the objective weighs
+    scene = replace(scene, request=asked)
+    if machine.discrete or machine.semicontinuous:
+        return chosen_trades(asked, names, [*_places(len(names), request.points)], scene)
     turn = whole_turn_of(scene) if asked.objective.of_the_revolution else None
     traded = measures(asked, names, scene, turn)
     found = _ends(traded)
@@ -77,7 +84,7 @@ def traded_front(request: ParetoRequest, machine: Machine, scene: Prepared) -> T
         points = [front.point(place @ ends, unit) for place in places]
     told = _told(points)
     close = np.all(smallest[:, 0] - smallest[:, 1] <= max(request.accuracy.relative_gap, OPTIMUM_SHARE) * size)
-    square = front.square
+    square, there = front.square, front.there
     return TradedFront(
         max_total_mass_kg=machine.max_total_mass_kg,
         status="optimal" if close and all(point.status == "optimal" for point in told) else "inaccurate",
@@ -86,9 +93,9 @@ def traded_front(request: ParetoRequest, machine: Machine, scene: Prepared) -> T
             TradedResponse(
                 response=name,
                 unit=unit_of(name, asked.objective),
-                without_counterweights=float((traded.at_rest * square)[i]),
-                smallest=float(smallest[i, 0] * square[i]),
-                lower_bound=float(smallest[i, 1] * square[i]),
+                without_counterweights=float((traded.at_rest * square + there)[i]),
+                smallest=float(smallest[i, 0] * square[i] + there[i]),
+                lower_bound=float(smallest[i, 1] * square[i] + there[i]),
                 yardstick=float(size[i] * square[i]),
             )
             for i, name in enumerate(names)
@@ -112,9 +119,7 @@ def _ends(traded: Measures) -> tuple[Real, Real, Real] | None:
             ends.append(traded.values(found.point.unbalance))
             gross = np.maximum(gross, traded.one_by_one(found.point.unbalance))
             smallest.append((found.goals[0].value, found.goals[0].proof.bound))
-        # what is nothing without counterweights is measured by what they do one by one
-        known = np.where(traded.at_rest > OPTIMUM_SHARE * gross, traded.at_rest, gross)
-        known = np.where(known > SMALLEST, known, 1.0)
+        known = sizes(traded.at_rest, gross)
         if np.all(known == size):
             break
         size = known
@@ -139,6 +144,9 @@ class _Front:
     def __init__(self, request: ParetoRequest, machine: Machine, scene: Prepared, traded: Measures, size: Real) -> None:
         self.request, self.machine, self.scene, self.traded, self.size = request, machine, scene, traded, size
         self.square = np.array([1.0 if name == "mass" else scene.omega_squared for name in traded.names])
+        self.fixed = float(np.sum(fixed_masses(machine)))
+        #: what is there whatever is chosen, in the units of the answer (D,)
+        self.there = np.array([self.fixed if name == "mass" else 0.0 for name in traded.names])
 
     def point(self, anchor: Real, unit: Real) -> TradedPoint:
         """The first attainable point on a line."""
@@ -168,19 +176,20 @@ class _Front:
             ),
             asked,
         )
-        plain = self.scene.first_order(u)
+        on_crank = beside(self.machine, masses, angles)
+        plain = self.scene.first_order(unbalance(*on_crank, found.limits.radius))
         return TradedPoint(
             status="optimal" if judged.status == "optimal" else "inaccurate",
             status_reason=str(judged.reason),
-            values=tuple((values * self.square).tolist()),
+            values=tuple((values * self.square + self.there).tolist()),
             force_peak_N=float(plain.force.peak),
             moment_peak_Nm=float(plain.moment.peak),
-            total_mass_kg=mass,
-            counterweights=counterweights(self.machine, masses, angles),
+            total_mass_kg=mass + self.fixed,
+            counterweights=counterweights(self.machine, *on_crank),
             certificate=TradedCertificate(
-                corner=tuple(finite_or_null(each) for each in judged.lower_bound * self.square),
+                corner=tuple(finite_or_null(each) for each in judged.lower_bound * self.square + self.there),
                 relative_gap=finite_or_null(judged.relative_gap),
-                mass_lower_bound_kg=finite_or_null(judged.mass_lower_bound) if least else None,
+                mass_lower_bound_kg=finite_or_null(judged.mass_lower_bound + self.fixed) if least else None,
                 mass_relative_gap=finite_or_null(judged.mass_gap) if least else None,
                 cuts=found.cuts,
                 rounds=found.rounds,

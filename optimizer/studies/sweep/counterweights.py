@@ -38,7 +38,7 @@ def optimal(request: OptimizeRequest, count: int, solver: Solver, multipliers: b
     layout = laden(layout_of(request.machine), request.machine)
     baseline = rotating(layout).plus(reciprocating(layout, 1))
     square = np.broadcast_to(layout.omega**2, (count,))
-    machine, objective, every = request.machine, request.objective, responses(layout, baseline)
+    machine, objective, every = request.machine, request.objective, responses(layout, baseline, request.objective)
     return columns_of(request, certified(machine, objective, every, square, demand(request), solver), multipliers)
 
 

@@ -29,7 +29,8 @@ def optimal_alone(request: OptimizeRequest, solver: Solver, multipliers: bool) -
     """
     plan = laden(layout(request.machine), request.machine)
     baseline = rotating(plan).plus(reciprocating(plan, 1))
-    asked, best = certified_one(request, responses(plan, baseline), np.atleast_1d(plan.omega**2), solver)
+    every = responses(plan, baseline, request.objective)
+    asked, best = certified_one(request, every, np.atleast_1d(plan.omega**2), solver)
     columns, unbalance = columns_of(asked, best, multipliers)
     return columns | _openings(asked, best), unbalance
 

@@ -90,6 +90,8 @@ class Plan:
             cpu_s=self.cpu_s,
             workers=workers,
             wall_s=self.cpu_s * -(-self.chunks // workers) / self.chunks if self.chunks else 0.0,
+            assumption=f"{workers} worker(s) with a core each and no other work, at measured rates: within a factor of"
+            " three or so",
             columns=tuple(SweepColumn(**column._asdict()) for column in self.columns),
         )
 

@@ -5,9 +5,11 @@ import pyarrow as pa
 from optimizer.studies.sweep.chunk import blocks, run_chunk
 from optimizer.studies.sweep.plan import plan
 from optimizer.studies.sweep.reduce import reducer
+from schemas.base.mappings import or_mapping
 from schemas.sweep.request import SweepRequest
 
 
+@or_mapping(SweepRequest)
 def sweep_table(request: SweepRequest) -> pa.Table:
     """The rows of a sweep, one for each design, or those that ``top`` or ``pareto`` keep.
 

@@ -18,7 +18,7 @@ export function showAnswer(place, request, answer, outputs) {
     h("h2", { class: `status ${answer.status}` }, headline(request, answer)),
     ...(fitted.length ? [order(fitted, null, title)] : []),
     ...(shafts ?? []).map((shaft) => order(shaft.counterweights, shaft.name, title)),
-    h("div", { class: "drawings", id: "drawings" }, pair(request.machine, fitted, answer.reference_plane_m)),
+    h("div", { class: "drawings", id: "drawings" }, pair(request.machine, fitted, answer.reference_plane_m, request.fitted ?? [])),
     h("div", { class: "proof" }, proof(request, answer).map((sentence) => h("p", {}, sentence))),
     h("div", { class: "cautions" }, (answer.warnings ?? []).map((warning) => h("p", {}, warning.message))),
     ...comparison(request, answer),
@@ -33,7 +33,7 @@ const found = (answer) => (answer.counterweights.length ? answer : answer.infeas
 function headline(request, answer) {
   const { status, total_mass_kg: mass } = answer;
   if (status === "infeasible") return "No counterweights meet these ceilings";
-  const changes = responses(request, answer).map(change).filter(Boolean).join(", ");
+  const changes = responses(request, answer, { grown: true }).map(change).filter(Boolean).join(", ");
   return `${figure(mass)} kg of counterweights: ${changes || "nothing changes"}`;
 }
 
@@ -41,7 +41,7 @@ function headline(request, answer) {
 function proof(request, { status, certificate, infeasibility, floor, timing, residual, total_mass_kg: mass }) {
   if (infeasibility) return refusal(request, infeasibility);
   const { objective, lower_bound: bound, relative_gap: gap, objective_without_counterweights: bare } = certificate;
-  const how = weighed(request.objective);
+  const how = weighed(request.objective, residual.responses);
   const small = 1e-6 * bare;
   const sentences = [];
   if (bare === 0) sentences.push("Nothing of first order is out of balance: no counterweights are needed.");
@@ -51,7 +51,10 @@ function proof(request, { status, certificate, infeasibility, floor, timing, res
     sentences.push(`No counterweights within these limits can bring ${how} below ${figure(bound, 8)}; `
       + `these come to ${figure(objective, 8)}. The gap is ${gap === null ? "not known" : share(Math.max(0, gap))}. Without counterweights it is ${figure(bare, 8)}.`);
   }
-  if (status === "inaccurate") sentences.push("That gap is wider than was asked for: take the figure as it stands, not as the optimum.");
+  const costs = (certificate.goals ?? []).filter((one) => ["mass", "pieces", "sizes"].includes(one.goal));
+  if (costs.length) sentences.push("The gap holds what the goals before leave to those after them; the table below says what is proven of each.");
+  if (status === "inaccurate" && costs.length) sentences.push("One of the goals is not proven as closely as was asked.");
+  else if (status === "inaccurate") sentences.push("That gap is wider than was asked for: take the figure as it stands, not as the optimum.");
   if (certificate.mass_lower_bound_kg > 0) {
     sentences.push(`Of all that are as good, none weighs less than ${figure(certificate.mass_lower_bound_kg, 7)} kg; these weigh ${figure(mass, 7)} kg.`);
   }

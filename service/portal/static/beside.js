@@ -1,14 +1,32 @@
 // What stands beside the answer: what goals came to in their order, and what happens where things are off.
 
 import { table } from "./dom.js";
-import { figure, number } from "./format.js";
+import { figure, number, share } from "./format.js";
 
-const GOALS = { external: "force and moment", bearings: "bearing loads", bending: "bending moment" };
+const GOALS = { external: "force and moment", bearings: "bearing loads", bending: "bending moment", mass: "total mass, kg", pieces: "counterweights", sizes: "different masses" };
+const LEAST = { mass: "least mass", pieces: "fewest counterweights", sizes: "fewest different masses" };
 
-export function beside({ certificate, worst_case: worst, price_of_robustness: price, sensitivity }) {
-  const found = [];
+// the best choice and the cheaper ones, each with what it gives up of the objective
+function decision({ alternatives, certificate, counterweights, total_mass_kg: mass }) {
+  const best = certificate.objective;
+  const masses = counterweights.filter((one) => one.mass_kg > 0 && !one.fixed).map((one) => one.mass_kg);
+  const counted = (value) => ({ number: true, text: String(value) });
+  const rows = alternatives.map((one) => {
+    const own = { mass: one.total_mass_kg, pieces: one.pieces, sizes: one.sizes }[one.minimised];
+    const proven = one.lower_bound !== null && one.lower_bound >= own * (1 - 1e-9) ? "proven" : one.lower_bound === null ? "found"
+      : `found; none is below ${figure(one.lower_bound)}`;
+    return [`${LEAST[one.minimised]} within ${share(one.allowance)}`, number(one.objective), number(one.total_mass_kg), counted(one.pieces), counted(one.sizes),
+      { number: true, text: best > 0 ? `+${share(Math.max(one.objective / best - 1, 0))}` : "–" }, proven];
+  });
+  return table("The best choice, and cheaper ones", ["option", "objective", "kg", "pieces", "sizes", "difference", "cheapest"],
+    [["best objective", number(best), number(mass), counted(masses.length), counted(new Set(masses).size), { number: true, text: "–" }, "–"], ...rows]);
+}
+
+export function beside(answer) {
+  const { certificate, worst_case: worst, price_of_robustness: price, sensitivity } = answer;
+  const found = answer.alternatives?.length ? [decision(answer)] : [];
   if (certificate?.goals?.length) {
-    found.push(table("Goals in their order, before the last", ["goal", "value", "lower bound", "allowance", "kept below"],
+    found.push(table("Goals in their order", ["goal", "value", "lower bound", "allowance", "kept below"],
       certificate.goals.map((one) => [GOALS[one.goal], number(one.value), number(one.lower_bound), number(one.limit - one.value), number(one.limit)])));
   }
   if (worst) {

@@ -4,12 +4,14 @@ const SUFFIX = /_(m|kg|deg|rpm|N|Nm|Pa|kg_m2|kg_m|m2|W|J|N_per_m|mm_s|ms|s)$/;
 
 // a minus is as wide as a plus, and no hyphen at which a line breaks
 const MINUS = "\u2212";
+// thousands stand apart as they do in the report: a comma would be read back as decimal
+const NARROW = "\u202f";
 
 export function figure(value, digits = 5) {
   if (value === null || value === undefined) return "–";
   if (value === 0) return "0";
   const size = Math.abs(value);
-  const written = size < 1e-5 || size >= 1e9 ? value.toExponential(2).replace("e+", "e") : value.toLocaleString("en", { maximumSignificantDigits: digits });
+  const written = size < 1e-5 || size >= 1e9 ? value.toExponential(2).replace("e+", "e") : value.toLocaleString("en", { maximumSignificantDigits: digits }).replaceAll(",", NARROW);
   return written.replaceAll("-", MINUS);
 }
 

@@ -141,6 +141,14 @@ function listen() {
   byId("save").addEventListener("click", save);
   document.addEventListener("keydown", keys);
   document.addEventListener("paste", (event) => opening.pasted(event));
+  // a file that is dropped anywhere is opened
+  document.addEventListener("dragover", (event) => event.dataTransfer?.types.includes("Files") && event.preventDefault());
+  document.addEventListener("drop", (event) => {
+    const [file] = event.dataTransfer?.files ?? [];
+    if (!file) return;
+    event.preventDefault();
+    opening.file(file);
+  });
   addEventListener("beforeunload", (event) => work.unsaved && parent === self && event.preventDefault());
   // before anything is written: what comes later would be written into the place that was gone to
   addEventListener("popstate", () => {

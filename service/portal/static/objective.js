@@ -11,8 +11,11 @@ export const CEILINGS = {
   specific_load_ceiling_Pa: "specific bearing loads", bending_ceiling_Nm: "bending moment",
 };
 
+// what a ceiling is of; an answer names the responses that count beside force and moment
+export const limited = (field, others = []) => CEILINGS[field] ?? others.find(({ response }) => field.startsWith(`${response}_ceiling`))?.label ?? field;
+
 // the objective of the certificate in words
-export function weighed(objective = {}) {
+export function weighed(objective = {}, others = []) {
   const { combine, orders, force_weight: force = 1, moment_weight: moment = null, bearing_measure: measure,
     bearing_weight: bearing = 0, bending_weight: bending = 0, roll_weight: roll = 0, priorities = [] } = objective;
   const all = orders === "all" ? " of all orders" : "";
@@ -23,10 +26,12 @@ export function weighed(objective = {}) {
     return words.length > 1 ? `${words.at(-1)}, after ${words.slice(0, -1).join(" and ")},` : words[0];
   }
   const parts = [...(force === 0 ? [] : ["peak force"]), ...(moment === 0 ? [] : ["peak moment"])].map((part) => `${part}${all}`);
+  const more = others.filter(({ response }) => objective[`${response}_weight`]).map(({ label }) => `peak ${label}${all}`);
+  parts.push(...more);
   if (roll) parts.push("the roll moment");
   if (bearing) parts.push(bearings);
   if (bending) parts.push(GOALS.bending);
-  if (!bearing && !bending && !roll && parts.length === 2 && !all) {
+  if (!bearing && !bending && !roll && !more.length && parts.length === 2 && !all) {
     return combine === "max" ? "the larger of the weighted peaks" : "the weighted sum of peak force and peak moment";
   }
   if (parts.length === 1) return parts[0].replace(/^peak/, "the peak");
@@ -49,7 +54,7 @@ export function ofTheShaft({ main_bearings: found }) {
 // which ceilings cannot be met, and how far what is limited can come down
 export function refusal({ objective }, { conflict, smallest, smallest_force_N: force, smallest_moment_Nm: moment, closest }) {
   const { force: nearForce, moment: nearMoment } = closest.first_order;
-  const names = conflict.map((field) => CEILINGS[field]);
+  const names = conflict.map((field) => limited(field, closest.responses));
   const [mostForce, mostMoment] = [objective?.force_ceiling_N, objective?.moment_ceiling_Nm];
   const asked = [mostForce == null ? null : `${written(mostForce, "N")} of force`, mostMoment == null ? null : `${written(mostMoment, "N m")} of moment`].filter(Boolean);
   // what has no ceiling is not computed
@@ -61,7 +66,7 @@ export function refusal({ objective }, { conflict, smallest, smallest_force_N: f
     ...(smallest ?? []).map((one) => {
       // a specific load is told as the load of its bearing
       const unit = one.ceiling_field.endsWith("_Nm") ? "N m" : "N";
-      return `By itself the ${one.response.replace(":", " ")} can come down to ${figure(one.smallest)} ${unit}; the ceiling of the ${CEILINGS[one.ceiling_field]} asks for ${figure(one.ceiling)} ${unit}.`;
+      return `By itself the ${one.response.replace(":", " ")} can come down to ${figure(one.smallest)} ${unit}; the ceiling of the ${limited(one.ceiling_field, closest.responses)} asks for ${figure(one.ceiling)} ${unit}.`;
     }),
     `Drawn is the closest compromise: ${figure(nearForce.peak_N)} N and ${figure(nearMoment.peak_Nm)} N m of first order.`,
   ];

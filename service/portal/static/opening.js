@@ -45,9 +45,14 @@ export class Opening {
     }
   }
 
-  // a workbook, or a text
+  // a workbook, tables, or a text
   async file(file) {
     const wanted = this.#last();
+    if (/\.(csv|tsv|txt)$/i.test(file.name)) {
+      const text = await file.text();
+      if (wanted()) await this.sheet(text);
+      return;
+    }
     if (!/\.xlsx$/i.test(file.name)) {
       const text = await file.text();
       if (wanted()) this.text(byId("json").value = text);

@@ -17,15 +17,39 @@ const SPELT = {
 // thousands may stand apart: 1 234,5 or 1'234.5, but 500 1/min is 500
 const WRITTEN = /^([+-]?(?=[.,]?\d)(?:\d{1,3}(?:[\s'\u2019]\d{3})+(?!\d)|\d*)(?:[.,]\d*)*(?:e[+-]?\d+)?)\s*(.*)$/i;
 
-// digits as JSON knows them; of points and commas the last one is decimal, and what stands more than once groups
-function decimal(text) {
+// The rule, for a number by itself: of points and commas the last one is decimal, and what stands more than once groups.
+// `mark` is the decimal one where a table tells it: then the other one groups.
+function decimal(text, mark = null) {
   const bare = text.replace(/[\s'\u2019]/g, "");
-  const last = Math.max(bare.lastIndexOf("."), bare.lastIndexOf(","));
-  if (last < 0) return bare;
-  const mark = bare[last];
-  const grouping = bare.indexOf(mark) !== last;
+  const last = mark ? bare.indexOf(mark) : Math.max(bare.lastIndexOf("."), bare.lastIndexOf(","));
+  if (last < 0) return mark ? bare.replace(/[.,]/g, "") : bare;
+  const grouping = bare.indexOf(bare[last]) !== last || bare.indexOf(bare[last], last + 1) >= 0;
   const [whole, part] = grouping ? [bare, ""] : [bare.slice(0, last), bare.slice(last + 1)];
-  return `${whole.replace(/[.,]/g, "")}${part ? `.${part}` : ""}`;
+  return `${whole.replace(/[.,]/g, "")}${part ? `.${part.replace(/[.,]/g, "")}` : ""}`;
+}
+
+// 1,125 may be one and a bit, or more than a thousand; 0,125 and 12,5 cannot be
+const EITHER = /^([+\-\u2212]?[1-9]\d{0,2}),(\d{3})(?!\d)\s*([^\d.,].*)?$/;
+const SINGLE = /^[+\-\u2212]?\d*([.,])(\d*)(?!\d)\s*([^\d.,].*)?$/;
+const MIXED = /^[+\-\u2212]?\d{1,3}(?:([.,])\d{3})+([.,])\d*/;
+
+// The decimal mark that cells of one table share, null where none of them tells it: all of a table was written in one place.
+export function decimalMark(cells) {
+  const marks = new Set();
+  for (const cell of cells) {
+    const text = cell.trim();
+    const [, group, last] = MIXED.exec(text) ?? [];
+    const [, mark, part] = SINGLE.exec(text) ?? [];
+    if (last && last !== group) marks.add(last);
+    else if (mark && (part.length !== 3 || /^[+\-\u2212]?0?[.,]/.test(text))) marks.add(mark);
+  }
+  return marks.size === 1 ? [...marks][0] : null;
+}
+
+// a cell as a number by itself is written, by the mark of its table
+export function settled(text, mark) {
+  const [, digits, rest] = (mark && WRITTEN.exec(text.trim().replaceAll("\u2212", "-"))) || [];
+  return digits === undefined ? text : `${decimal(digits, mark)}${rest ? ` ${rest}` : ""}`;
 }
 
 // how the service spells a unit, where it is one of those of the field
@@ -63,4 +87,15 @@ const LARGEST_PLACE_M = 50;
 export function meant(value, unit, name) {
   const largest = /position|plane/.test(name) ? LARGEST_PLACE_M : LARGEST_M;
   return unit === "m" && typeof value === "number" && Math.abs(value) >= largest ? `${value} mm` : null;
+}
+
+/**
+ * What may be meant otherwise by a number as it was typed, null where nothing may.
+ * @returns {{ words: string, other: string } | null}
+ */
+export function doubt(value, unit, name, text = "") {
+  const other = meant(value, unit, name);
+  if (other) return { words: `${value} m?`, other };
+  const [, whole, part, rest] = EITHER.exec(text.trim()) ?? [];
+  return whole ? { words: `${text.trim()} is read as ${whole}.${part}.`, other: `${whole}${part}${rest ? ` ${rest}` : ""}` } : null;
 }

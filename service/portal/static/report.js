@@ -3,11 +3,17 @@
 import { ask } from "./api.js";
 import { h } from "./dom.js";
 import { named, save } from "./files.js";
+import { complaint } from "./naming.js";
 import { versions } from "./versions.js";
 
 const REPORTS = { html: "text/html", pdf: "application/pdf" };
 const PLACE = "counterweight-document";
-const HEAD = { project: "Project", number: "Number", revision: "Revision", author: "Author", checker: "Checked by", drawing: "Drawing", notes: "Notes" };
+const HEAD = { company: "Company", customer: "Customer", project: "Project", number: "Number", revision: "Revision", date: "Date", author: "Author", checker: "Checked by",
+  approver: "Approved by", drawing: "Drawing", revisions: "Revisions, a line each: B; 2026-11-23; what changed; who", notes: "Notes" };
+const LINES = { revisions: 3, notes: 2 };
+// what a line of the table of revisions holds
+const REVISION = ["revision", "date", "change", "author"];
+const LOGO = "logo";
 
 // of this tab: another machine is a step away, and what its report would say stands beside the buttons
 const head = remembered();
@@ -17,18 +23,28 @@ let open = false;
 function remembered() {
   try {
     const found = JSON.parse(sessionStorage.getItem(PLACE) ?? "{}");
-    return Object.fromEntries(Object.keys(HEAD).filter((name) => typeof found?.[name] === "string").map((name) => [name, found[name]]));
+    return Object.fromEntries([...Object.keys(HEAD), LOGO].filter((name) => typeof found?.[name] === "string").map((name) => [name, found[name]]));
   } catch {
     return {};
   }
 }
 
+// the day where the office is
+function today() {
+  const now = new Date();
+  return [now.getFullYear(), now.getMonth() + 1, now.getDate()].map((part) => String(part).padStart(2, "0")).join("-");
+}
+
+const table = (text) => text.split("\n").filter((line) => line.trim()).map((line) => Object.fromEntries(
+  line.split(/[;\t]/).map((cell, index) => [REVISION[index], cell.trim()]).filter(([name, cell]) => name && cell)));
+
 // what a report of this request asks for
 function asked(request, outputs) {
-  const document = Object.fromEntries(Object.entries(head).map(([name, text]) => [name, text.trim()]).filter(([, text]) => text));
+  const { revisions, ...texts } = Object.fromEntries(Object.entries(head).map(([name, text]) => [name, text.trim()]).filter(([, text]) => text));
+  const document = { date: today(), ...texts, ...(revisions ? { revisions: table(revisions) } : {}) };
   const others = versions().filter((one) => compared.has(one.name))
     .map((one) => ({ name: one.name, machine: one.request.machine, ...(one.request.objective ? { objective: one.request.objective } : {}) }));
-  return { ...request, outputs, ...(Object.keys(document).length ? { document } : {}), ...(others.length ? { versions: others } : {}) };
+  return { ...request, outputs, document, ...(others.length ? { versions: others } : {}) };
 }
 
 // Buttons for the report, with everything that the machine has data for.
@@ -43,7 +59,7 @@ export function reports(request, outputs) {
       save(await answer.blob(), named(answer) ?? `counterweights.${format}`);
       said.textContent = "";
     } catch (error) {
-      said.textContent = [error.message, ...(error.errors ?? []).map((one) => `${one.pointer.slice(1).replaceAll("/", " ")}: ${one.message}.`)].join(" ");
+      said.textContent = [error.message, ...(error.errors ?? []).map((one) => `${complaint(request, one)}.`)].join(" ");
     } finally {
       button.disabled = false;
     }
@@ -67,10 +83,22 @@ function details() {
     told();
   };
   const field = ([name, title]) => {
-    const given = { id: `document-${name}`, value: head[name] ?? "", input: typed(name) };
+    const given = { id: `document-${name}`, value: head[name] ?? "", input: typed(name), placeholder: name === "date" ? today() : null };
     return h("div", { class: "field" }, h("label", { for: given.id }, title),
-      name === "notes" ? h("textarea", { ...given, rows: 2 }) : h("input", { ...given, type: "text", autocomplete: "off", maxlength: 120 }));
+      LINES[name] ? h("textarea", { ...given, rows: LINES[name] }) : h("input", { ...given, type: "text", autocomplete: "off", maxlength: 120 }));
   };
+  const logo = h("input", { id: "document-logo", type: "file", accept: "image/png", change: () => {
+    const [file] = logo.files;
+    if (!file) return;
+    const reader = new FileReader();
+    reader.onload = () => {
+      head[LOGO] = String(reader.result);
+      sessionStorage.setItem(PLACE, JSON.stringify(head));
+      picked.textContent = file.name;
+    };
+    reader.readAsDataURL(file);
+  } });
+  const picked = h("span", {}, head[LOGO] ? "a logo" : "");
   // versions come and go in their panel meanwhile
   const list = () => {
     const all = versions();
@@ -88,5 +116,6 @@ function details() {
   return h("details", { class: "document", open, toggle: (event) => {
     open = event.target.open;
     if (open) list();
-  } }, summary, h("div", { class: "fields" }, Object.entries(HEAD).map(field)), choice);
+  } }, summary, h("div", { class: "fields" }, Object.entries(HEAD).map(field)),
+  h("p", {}, h("label", { class: "button", for: "document-logo" }, "Logo (PNG)", logo), " ", picked), choice);
 }

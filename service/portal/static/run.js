@@ -5,6 +5,7 @@ import { post, Problem } from "./api.js";
 import { beginning } from "./beginning.js";
 import { showChecked } from "./checked.js";
 import { byId, h } from "./dom.js";
+import { complaint } from "./naming.js";
 
 const STEP = { step_deg: 2 };
 
@@ -97,9 +98,11 @@ export class Run {
     const homeless = blame ? blame.say(errors) : errors;
     // where the eye is after the button: above it, and beside it
     const [first] = errors;
-    byId("trouble").textContent = first ? `${first.pointer.slice(1).replaceAll("/", " ")}: ${blame ? blame.meant(first.pointer, first.message) : first.message}` : error.message;
+    const { request } = this.page.work;
+    const worded = ({ pointer, message }) => complaint(request, { pointer, message: blame ? blame.meant(pointer, message) : message });
+    byId("trouble").textContent = first ? worded(first) : error.message;
     byId("progress").textContent = errors.length > 1 ? `Not computed: ${errors.length} fields are wrong.` : "Not computed.";
     byId("problem").replaceChildren(h("h2", {}, error.title ?? "Something went wrong"), h("p", {}, error.message),
-      homeless.length ? h("ul", {}, homeless.map((one) => h("li", {}, `${one.pointer}: ${one.message}`))) : "");
+      homeless.length ? h("ul", {}, homeless.map((one) => h("li", {}, complaint(request, one)))) : "");
   }
 }

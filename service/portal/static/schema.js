@@ -91,24 +91,20 @@ export class Schema {
     return items.kind === "number" ? { kind: "numbers", items } : { kind: "list", items, most: node.maxItems ?? Infinity };
   }
 
-  // the least that a new thing needs; examples stand for what has no default
+  // what a new thing holds before anybody has typed: its kind and empty lists, undefined where there is nothing to hold
   blank(description) {
     const { kind } = description;
     if (kind === "constant") return description.value;
     if (kind === "list") return [];
-    if (kind === "variants") return typeof description.example === "number" ? description.example : 0;
-    if (kind === "union") {
-      const [tag, object] = [...description.options][0];
-      return { [description.tag]: tag, ...this.filled(object) };
-    }
-    if (kind === "object") return this.filled(description, description.example);
-    return description.example ?? null;
+    if (kind === "union") return {};
+    return kind === "object" ? this.filled(description) : undefined;
   }
 
-  filled({ properties, required }, example) {
-    const fields = Object.entries(properties).filter(([name]) => required.has(name));
-    const made = fields.map(([name, node]) => [name, example?.[name] ?? this.blank(this.describe(node))]);
-    return { ...Object.fromEntries(made), ...(fields.length ? {} : example) };
+  // a required choice of several kinds is the reader's
+  filled({ properties, required }) {
+    const made = Object.entries(properties).filter(([name]) => required.has(name)).map(([name, node]) => [name, this.describe(node)])
+      .filter(([, description]) => description.kind !== "union").map(([name, description]) => [name, this.blank(description)]);
+    return Object.fromEntries(made.filter(([, value]) => value !== undefined));
   }
 }
 

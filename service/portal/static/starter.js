@@ -1,24 +1,10 @@
 // A machine of one's own from a few questions, or a blank one. Nothing in it comes from an example.
 
 import { h, s } from "./dom.js";
-import { meant, quantity, read } from "./quantity.js";
-
-// directions of the rows on one throw, and the usual angles of the cranks
-const evenly = (count) => Array.from({ length: count }, (_, index) => (360 * index) / count);
-// opposed throws come in pairs
-const paired = (count) => Array.from({ length: count }, (_, index) => {
-  const pairs = Math.max(1, count / 2);
-  return Math.floor(index / 2) * ((pairs % 2 ? 360 : 180) / pairs) + 180 * (index % 2);
-});
-const single = (count) => (count === 4 ? [0, 90, 270, 180] : evenly(count));
-/** @type {{ [name: string]: { title: string, drawn: number[], axes: (throw_: number) => number[], cranks: (count: number) => number[] } }} */
-const ARRANGEMENTS = {
-  vertical: { title: "in line, vertical", drawn: [90], axes: () => [90], cranks: single },
-  horizontal: { title: "in line, horizontal", drawn: [0], axes: () => [0], cranks: single },
-  opposed: { title: "opposed, in turn", drawn: [0, 180], axes: (index) => [index % 2 ? 180 : 0], cranks: paired },
-  v: { title: "V of 90°", drawn: [45, 135], axes: () => [45, 135], cranks: evenly },
-  w: { title: "W of 60°", drawn: [30, 90, 150], axes: () => [30, 90, 150], cranks: evenly },
-};
+import { Answers } from "./start/answers.js";
+import { ARRANGEMENTS, SCROLL } from "./start/arrangements.js";
+import { reciprocating } from "./start/reciprocating.js";
+import { scroll } from "./start/scroll.js";
 
 function picture(axes) {
   const end = (angle, length) => [24 + length * Math.cos((angle * Math.PI) / 180), 24 - length * Math.sin((angle * Math.PI) / 180)];
@@ -26,101 +12,126 @@ function picture(axes) {
     axes.map((angle) => {
       const [[x1, y1], [x2, y2]] = [end(angle, 5), end(angle, 20)];
       return s("line", { x1, y1, x2, y2 });
-    }), s("circle", { cx: 24, cy: 24, r: 5 }));
+    }), s("circle", { cx: 24, cy: 24, r: 5 }), axes.length ? null : s("circle", { cx: 28, cy: 24, r: 15, class: "orbiting" }));
 }
 
-const QUESTIONS = [
-  ["throws", "Throws", "4", ""], ["cranks", "Crank angles", "", "deg"], ["pitch", "Distance of the throws", "", "m"], ["stroke", "Stroke", "", "m"],
-  ["speed", "Speed", "", "rpm"], ["reciprocating", "Reciprocating mass of a row", "", "kg"], ["rotating", "Rotating mass of a throw", "", "kg"],
-  ["rod", "Length of the rods, if known", "", "m"],
+// [name, title, unit, what an empty answer stands for]
+const ROWS = [
+  ["throws", "Throws"], ["angle", "Angle of the V", "deg", "90"], ["split", "Split of the pins, second row later", "deg", "none"], ["offset", "Distance of the rods on a pin", "m", "0"],
+  ["cranks", "Crank angles", "deg", ""], ["pitch", "Distance of the throws", "m"], ["stroke", "Stroke", "m"], ["speed", "Speed", "rpm"],
+  ["reciprocating", "Reciprocating mass of a row", "kg", null, "one value, or one for each: 31; 30; 30; 31"], ["rotating", "Rotating mass of a throw", "kg", null, "one value, or one for each"],
+  ["rod", "Length of the rods", "m", "not known"],
 ];
+const ORBIT = [["scrollSpeed", "Speed", "rpm"], ["orbit", "Orbit radius", "m"], ["orbiting", "Orbiting mass", "kg"], ["plane", "Plane of the orbiting scroll", "m"]];
+const DEVICES = {
+  crank_pins: [["pins", "Number of pins"], ["circle", "Radius of the pin circle", "m"], ["eccentric", "Eccentric mass of a pin", "kg", "0"], ["torque", "Torque that turns the scroll", "N m", "none"]],
+  oldham: [["ring", "Mass of the ring", "kg"], ["axis", "Direction in which it slides", "deg"]],
+};
+const BALANCE = [["planes", "Planes of the counterweights", "m", "none yet", "one or more: -110 mm; 50 mm"], ["scrollRadius", "Their radius", "m"], ["scrollMost", "Largest mass of one", "kg", "no limit"]];
 const RULES = [["two", "two to a throw, beside it"], ["ends", "two, outside the outermost throws"], ["none", "none yet"]];
-const LIMITS = [["radius", "Radius of the counterweights", "m"], ["most", "Largest mass of one", "kg"]];
+const LIMITS = [["radius", "Radius of the counterweights", "m"], ["most", "Largest mass of one", "kg", "no limit"]];
 const ENVELOPE = [["inner", "Hub radius", "m"], ["outer", "Radius that is free", "m"], ["thickness", "Thickness", "m"]];
+const SHAFTS = [["", "none"], ["counter", "one, against the crankshaft at its speed"], ["double", "two, at twice its speed (Lanchester)"]];
+const ON_SHAFTS = [["shaftRadius", "Radius on the balance shafts", "m"], ["shaftMost", "Largest mass there", "kg", "no limit"]];
 
 export const blank = () => ({ machine: { kind: "reciprocating", throws: [], webs: [] } });
 
-// Opens the questions; `begin` gets the request, and "" with the empty one.
-export function starter(begin) {
-  const given = {};
-  const ask = (question) => {
-    const [name, title, value, unit] = question;
-    const input = h("input", { type: "text", id: `start-${name}`, value: value ?? "", autocomplete: "off", required: name !== "rod" && name !== "cranks" });
-    given[name] = input;
+// The questions, those that the choices leave open in view.
+class Questions {
+  /** @type {{ [name: string]: any }} inputs and selects by name */
+  given = {};
+
+  constructor() {
+    const fields = (questions, more) => h("div", { class: "fields", ...more }, questions.map((one) => this.ask(one)));
+    this.shapes = h("fieldset", { class: "arrangements" }, h("legend", {}, "Arrangement"),
+      Object.entries({ ...ARRANGEMENTS, [SCROLL]: { title: "scroll", drawn: [] } }).map(([name, { title, drawn }], index) => h("label", {},
+        h("input", { type: "radio", name: "arrangement", value: name, checked: index === 0, change: () => this.show() }), picture(drawn), title)));
+    this.plates = h("input", { type: "checkbox", id: "start-plates", change: () => this.show() });
+    this.bearings = h("input", { type: "checkbox", id: "start-bearings" });
+    this.mass = fields(LIMITS);
+    this.plate = fields(ENVELOPE);
+    this.limits = h("div", {}, h("p", {}, this.plates, h("label", { for: "start-plates" }, " cut from plates within an envelope")), this.mass, this.plate);
+    this.shafts = h("div", {}, this.choice("shafts", "Balance shafts", SHAFTS));
+    this.onShafts = fields(ON_SHAFTS);
+    this.reciprocating = h("div", {}, fields(ROWS), this.choice("rule", "Webs for counterweights", RULES), this.limits,
+      h("p", {}, this.bearings, h("label", { for: "start-bearings" }, " main bearings between the throws and at both ends")), this.shafts, this.onShafts);
+    this.device = this.choice("device", "What keeps it from turning", [["", "choose"], ["crank_pins", "crank pins"], ["oldham", "Oldham ring"]]);
+    this.devices = Object.entries(DEVICES).map(([name, questions]) => fields(questions, { dataset: { device: name } }));
+    this.scroll = h("div", {}, fields(ORBIT), this.device, this.devices, fields([["devicePlane", "Plane of that device", "m", "of the scroll"]]), fields(BALANCE));
+    this.element = h("div", {}, this.shapes, this.reciprocating, this.scroll);
+    this.given.throws.addEventListener("input", () => this.usual());
+    this.show();
+  }
+
+  ask([name, title, unit, empty, hint]) {
+    const input = h("input", { type: "text", id: `start-${name}`, autocomplete: "off", placeholder: empty || null, title: hint ?? null, "aria-required": empty === undefined || empty === null ? "true" : null });
+    this.given[name] = input;
     return h("div", { class: "field" }, h("label", { for: input.id }, title, unit ? h("span", { class: "unit" }, ` ${unit}`) : null), input);
-  };
-  const shapes = h("fieldset", { class: "arrangements" }, h("legend", {}, "Arrangement"),
-    Object.entries(ARRANGEMENTS).map(([name, { title, drawn }], index) => h("label", {},
-      h("input", { type: "radio", name: "arrangement", value: name, checked: index === 0, change: () => usual() }), picture(drawn), title)));
-  const rule = h("select", { id: "start-rule", change: () => limits.hidden = rule.value === "none" }, RULES.map(([name, title]) => h("option", { value: name }, title)));
-  const plates = h("input", { type: "checkbox", id: "start-plates", change: () => {
-    mass.hidden = plates.checked;
-    plate.hidden = !plates.checked;
-  } });
-  const mass = h("div", { class: "fields" }, LIMITS.map(([name, title, unit]) => ask([name, title, "", unit])));
-  const plate = h("div", { class: "fields", hidden: true }, ENVELOPE.map(([name, title, unit]) => ask([name, title, "", unit])));
-  const limits = h("div", {}, h("p", {}, plates, h("label", { for: "start-plates" }, " cut from plates within an envelope")), mass, plate);
-  const questions = h("div", { class: "fields" }, QUESTIONS.map(ask));
-  const chosen = () => ARRANGEMENTS[box.querySelector("input[name=arrangement]:checked").value];
-  const usual = () => { given.cranks.placeholder = chosen().cranks(Number(given.throws.value) || 1).map((angle) => Math.round(angle % 360)).join(" "); };
-  const error = h("p", { class: "error", role: "alert" });
-  const box = h("dialog", { class: "starter", "aria-labelledby": "starter-title", close: () => box.remove() },
-    h("form", { method: "dialog", submit: (event) => {
-      const answers = Object.fromEntries(Object.entries(given).map(([name, input]) => [name, input.closest("[hidden]") ? "" : input.value]));
-      const { request, wrong, doubts } = made(chosen(), answers, rule.value, plates.checked);
-      if (event.submitter?.value === "blank") return begin(blank(), "");
-      if (!wrong.length && !doubts.length) return begin(request);
-      event.preventDefault();
-      const titled = (name) => box.querySelector(`label[for=start-${name}]`).textContent;
-      error.textContent = [...(wrong.length ? [`Needed, or not understood: ${wrong.map(titled).join(", ")}.`] : []),
-        ...doubts.map(({ name, value, other }) => `${titled(name)}: ${value} m? Write ${other} if that is meant.`)].join(" ");
-      given[[...wrong, ...doubts.map(({ name }) => name)][0]].focus();
-      return undefined;
-    } },
-    h("h2", { id: "starter-title" }, "A machine of your own"), h("p", { class: "about" }, "From a few questions, or paste its tables here."), shapes, questions,
-    h("div", { class: "field" }, h("label", { for: "start-rule" }, "Webs for counterweights"), rule), limits, error,
-    h("div", { class: "buttons" }, h("button", { class: "primary", value: "begin" }, "Begin"),
-      h("button", { value: "blank", formnovalidate: true }, "Begin with an empty machine"),
-      h("button", { type: "button", click: () => box.close() }, "Cancel"))));
-  box.firstElementChild.noValidate = true;
-  given.throws.addEventListener("input", usual);
-  document.body.append(box);
-  usual();
-  box.showModal();
+  }
+
+  choice(name, title, options) {
+    const select = h("select", { id: `start-${name}`, change: () => this.show() }, options.map(([value, words]) => h("option", { value }, words)));
+    this.given[name] = select;
+    return h("div", { class: "field" }, h("label", { for: select.id }, title), select);
+  }
+
+  get arrangement() {
+    return this.shapes.querySelector("input:checked").value;
+  }
+
+  show() {
+    const { arrangement, given } = this;
+    const asks = ARRANGEMENTS[arrangement]?.asks ?? [];
+    this.reciprocating.hidden = arrangement === SCROLL;
+    this.scroll.hidden = arrangement !== SCROLL;
+    for (const name of ["angle", "split", "offset"]) given[name].parentElement.hidden = !asks.includes(name);
+    this.limits.hidden = given.rule.value === "none";
+    this.mass.hidden = this.plates.checked;
+    this.plate.hidden = !this.plates.checked;
+    this.shafts.hidden = !asks.includes("shafts");
+    this.onShafts.hidden = this.shafts.hidden || !given.shafts.value;
+    for (const box of this.devices) box.hidden = box.dataset.device !== given.device.value;
+    this.usual();
+  }
+
+  // the usual cranks stand for an empty answer
+  usual() {
+    const angles = ARRANGEMENTS[this.arrangement]?.cranks(Number(this.given.throws.value) || 1) ?? [];
+    this.given.cranks.placeholder = angles.map((angle) => Math.round(angle % 360)).join(" ");
+  }
+
+  // the request, and what it cannot be made from
+  made() {
+    const typed = Object.fromEntries(Object.entries(this.given).map(([name, input]) => [name, input.closest("[hidden]") ? "" : input.value]));
+    const answers = new Answers(typed);
+    const request = this.arrangement === SCROLL ? scroll(answers, typed.device)
+      : reciprocating(ARRANGEMENTS[this.arrangement], answers, { rule: typed.rule, plates: this.plates.checked, bearings: this.bearings.checked, shafts: typed.shafts });
+    // in the order of the questions
+    return { request, wrong: [...this.element.querySelectorAll("[id^=start-]")].map(({ id }) => id.slice("start-".length)).filter((name) => answers.wrong.has(name)), doubts: [...answers.doubts].filter(([name]) => !answers.wrong.has(name)) };
+  }
 }
 
-/** The request from the answers, and the questions whose answers it cannot be made from. */
-function made({ axes, cranks }, answers, rule, plates) {
-  const wrong = [];
-  const doubts = [];
-  const number = (name, unit, needed = true) => {
-    const typed = read(answers[name], unit);
-    const value = quantity(typed, unit);
-    const other = meant(typed, unit, name === "pitch" ? "position" : name);
-    if (other) doubts.push({ name, value, other });
-    if (!Number.isFinite(value) && (needed || answers[name].trim())) wrong.push(name);
-    return Number(value.toPrecision(12));
+// Opens the questions; `begin` gets the request, and "" with the empty one.
+export function starter(begin) {
+  const questions = new Questions();
+  const error = h("p", { class: "error", role: "alert" });
+  const titled = (name) => box.querySelector(`label[for=start-${name}]`).textContent;
+  const submit = (event) => {
+    if (event.submitter?.value === "blank") return begin(blank(), "");
+    const { request, wrong, doubts } = questions.made();
+    if (!wrong.length && !doubts.length) return begin(request);
+    event.preventDefault();
+    error.textContent = [...(wrong.length ? [`Needed, or not understood: ${wrong.map(titled).join(", ")}.`] : []),
+      ...doubts.map(([name, text]) => `${titled(name)}: ${text}.`)].join(" ");
+    questions.given[[...wrong, ...doubts.map(([name]) => name)][0]].focus();
+    return undefined;
   };
-  const count = number("throws", "");
-  if (!(Number.isInteger(count) && count >= 1 && count <= 60)) wrong.push("throws");
-  const angles = answers.cranks.trim() ? answers.cranks.trim().split(/[\s;]+/).map((one) => quantity(read(one, "deg"), "deg")) : cranks(count || 1);
-  if (angles.length !== count || !angles.every(Number.isFinite)) wrong.push("cranks");
-  const [pitch, stroke, speed] = [number("pitch", "m"), number("stroke", "m"), number("speed", "rpm")];
-  const [reciprocating, rotating, rod] = [number("reciprocating", "kg"), number("rotating", "kg"), number("rod", "m", false)];
-  const rounded = (value) => Number(value.toPrecision(12));
-  const place = (index) => rounded((index - (count - 1) / 2) * pitch);
-  const room = plates ? { envelope: { shape: "segment", inner_radius_m: number("inner", "m", rule !== "none"), outer_radius_m: number("outer", "m", rule !== "none"), thickness_m: number("thickness", "m", rule !== "none") } }
-    : { counterweight_radius_m: number("radius", "m", rule !== "none"), max_mass_kg: number("most", "kg", rule !== "none") };
-  const throws = Array.from({ length: Math.max(0, count) || 0 }, (_, index) => ({
-    name: String(index + 1), position_m: place(index), crank_radius_m: rounded(stroke / 2), crank_angle_deg: ((angles[index] % 360) + 360) % 360, rotating_mass_kg: rotating,
-    rows: axes(index).map((axis_deg) => ({ axis_deg, reciprocating_mass_kg: reciprocating, ...(rod ? { connecting_rod: { length_m: rod } } : {}) })),
-  }));
-  const beside = (position_m, name) => ({ name, position_m: rounded(position_m), ...room });
-  /** @type {{ [rule: string]: () => any[] }} */
-  const webs = {
-    two: () => throws.flatMap((each) => [beside(each.position_m - pitch / 4, `${each.name}a`), beside(each.position_m + pitch / 4, `${each.name}b`)]),
-    ends: () => [beside(place(0) - pitch / 4, "front"), beside(place(count - 1) + pitch / 4, "rear")],
-    none: () => [],
-  };
-  return { wrong: [...new Set(wrong)], doubts, request: { machine: { kind: "reciprocating", speed_rpm: speed, throws, webs: webs[rule]() } } };
+  const box = h("dialog", { class: "starter", "aria-labelledby": "starter-title", close: () => box.remove() },
+    h("form", { method: "dialog", novalidate: true, submit }, h("h2", { id: "starter-title" }, "A machine of your own"),
+      h("p", { class: "about" }, "From a few questions, or paste its tables here."), questions.element,
+      h("div", { class: "buttons" }, error, h("button", { class: "primary", value: "begin" }, "Begin"),
+        h("button", { value: "blank" }, "Begin with an empty machine"),
+        h("button", { type: "button", click: () => box.close() }, "Cancel"))));
+  document.body.append(box);
+  box.showModal();
 }

@@ -3,7 +3,7 @@
 
 import { ask, post } from "./api.js";
 import { byId } from "./dom.js";
-import { named, save } from "./files.js";
+import { fileName, save } from "./files.js";
 
 const XLSX = "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet";
 
@@ -15,25 +15,25 @@ export const requestIn = (file) => post("v1/convert", typed(file));
 // errors of a workbook name their cells
 export const told = (error) => [error.message, ...(error.errors ?? []).map((one) => one.message)].join(" ");
 
-async function fetched(said, method, path, body) {
+async function fetched(said, name, method, path, body) {
   said.textContent = "";
   try {
     const answer = await ask(method, path, { body, headers: { Accept: XLSX } });
-    save(await answer.blob(), named(answer) ?? "answer.xlsx");
+    save(await answer.blob(), fileName(name, "xlsx"));
   } catch (error) {
     said.textContent = told(error);
   }
 }
 
-/** @param {{ example: string | null, request: any }} work the template holds its example; without one it is the first */
+/** @param {{ example: string | null, request: any }} work */
 export function workbooks(work) {
   const said = byId("json-error");
-  byId("template").addEventListener("click", () => fetched(said, "GET", `v1/template.xlsx?example=${encodeURIComponent(work.example || "2d12")}`));
+  byId("template").addEventListener("click", () => fetched(said, "machine", "GET", "v1/template.xlsx?example=empty"));
   // an answer stands in a workbook behind its request
-  byId("save-workbook").addEventListener("click", () => fetched(said, "POST", "v1/optimize", work.request));
+  byId("save-workbook").addEventListener("click", () => fetched(said, work.request.machine?.name ?? work.example, "POST", "v1/optimize", work.request));
   byId("workbook").addEventListener("change", async (event) => {
     const [file] = event.target.files;
-    if (file) await fetched(said, "POST", "v1/optimize", typed(file));
+    if (file) await fetched(said, `${file.name.replace(/\.xlsx$/i, "")}-answer`, "POST", "v1/optimize", typed(file));
     event.target.value = "";
   });
 }

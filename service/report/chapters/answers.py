@@ -14,6 +14,7 @@ from service.report.chapters.balance_quality import balance_quality
 from service.report.chapters.dynamics import OVER_THE_TURN
 from service.report.chapters.foundation import foundation_loads
 from service.report.chapters.loads import loads
+from service.report.chapters.order import workshop_order
 from service.report.chapters.orders import orders, two_orders
 from service.report.chapters.pins import pin_loads
 from service.report.chapters.roll import roll
@@ -50,11 +51,12 @@ def optimized(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Chap
     built = as_built(request, answer)
     yield verdict.result(request, answer, built)
     yield balance.counterweights(request, answer, built)
+    yield from workshop_order(request.machine, answer)
     yield from alternatives(answer)
     yield from worth_knowing(answer)
     yield from worst_case(answer)
     yield from balance_quality(request.machine, answer)
-    yield balance.before_and_after(request, answer)
+    yield balance.before_and_after(request, answer, built)
     yield verdict.certificate(answer.certificate, answer.infeasibility)
     yield from balance.prices(request, answer)
     if answer.stages is not None:

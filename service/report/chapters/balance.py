@@ -8,11 +8,13 @@ from schemas.answer.counterweights import Counterweight
 from schemas.answer.first_order import FirstOrder, Floor
 from schemas.answer.outputs import Hodographs, Stage
 from schemas.base.model import FieldProblem
+from schemas.base.responses import ceilings
 from schemas.machine.machine import Machine
 from schemas.request.requests import OptimizeRequest
 from service.common.validation import pointer
 from service.report.blocks import (
     Block,
+    Cell,
     Chapter,
     Equation,
     Figure,
@@ -55,12 +57,7 @@ _LIMITS = {
     "max_centrifugal_force": "largest centrifugal force",
     "sector": "sector",
     "max_total_mass": "largest total mass",
-    "force_ceiling": "ceiling of the force",
-    "force_ceiling_x": "ceiling of the force along x",
-    "force_ceiling_y": "ceiling of the force along y",
-    "moment_ceiling": "ceiling of the moment",
-    "moment_ceiling_x": "ceiling of the horizontal couple",
-    "moment_ceiling_y": "ceiling of the vertical couple",
+    **{each.limit: f"ceiling of the {each.label}" for each in ceilings()},
     "bearing_ceiling": "ceiling of the bearing loads",
     "specific_load_ceiling": "ceiling of the specific bearing loads",
     "bending_ceiling": "ceiling of the bending moments",
@@ -78,6 +75,22 @@ def shown(answer: OptimizeAnswer) -> tuple[Sequence[Counterweight], FirstOrder |
         closest = answer.infeasibility.closest
         return closest.counterweights, closest.first_order
     return answer.counterweights, answer.residual.after
+
+
+def added(answer: OptimizeAnswer) -> Iterator[tuple[str, float, Cell, str]]:
+    """Peaks of the responses that count beside force and moment: without counterweights, with those that are shown."""
+    why = answer.infeasibility
+    closest = {} if why is None else {each.response: each.peak for each in why.closest.responses}
+    for each in answer.residual.responses:
+        after = closest.get(each.response, each.after)
+        yield f"peak {each.label}, {each.unit}", each.before, settled(after, each.before), ""
+        if each.turn_before is not None:
+            yield (
+                f"peak {each.label} of all orders, {each.unit}",
+                each.turn_before,
+                settled(each.turn_after, each.turn_before),
+                "",
+            )
 
 
 def which(answer: OptimizeAnswer) -> str:
@@ -101,11 +114,15 @@ def layout(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | No
                 + ("" if built is None else " As built: dashed, orange."),
             ),
             Figure(
-                (side(request.machine, fitted, answer.reference_plane_m),),
+                (
+                    side(
+                        request.machine, fitted, answer.reference_plane_m, () if built is None else built.counterweights
+                    ),
+                ),
                 "Side view along the shaft, heights along the direction of the first crank, width of a counterweight "
                 "after its mass; the reference plane of the moments green and dash-dotted. Below: places z and "
                 "distances of the webs in mm; R is the radius of a centre of mass. Along and across the shaft the "
-                "scales differ.",
+                "scales differ." + ("" if built is None else " As built: dashed, orange."),
             ),
         ),
     )
@@ -277,15 +294,22 @@ def limits(names: Sequence[str]) -> str:
     return ", ".join(_LIMITS[name] for name in names)
 
 
-def before_and_after(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
-    """First-order force and moment, and what the counterweights leave."""
+def before_and_after(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | None) -> Chapter:
+    """First-order force and moment, what the counterweights leave, and what those that are fitted do."""
     _, left = shown(answer)
     shown_orders = two_orders(answer.residual.orders)
-    return first_order(request.machine, answer.residual.before, left, answer.floor, which(answer), shown_orders)
+    filed = None if built is None else built.left
+    return first_order(request.machine, answer.residual.before, left, answer.floor, which(answer), shown_orders, filed)
 
 
 def first_order(
-    machine: Machine, was: FirstOrder, left: FirstOrder | None, floor: Floor, label: str, beside: Table
+    machine: Machine,
+    was: FirstOrder,
+    left: FirstOrder | None,
+    floor: Floor,
+    label: str,
+    beside: Table,
+    built: FirstOrder | None = None,
 ) -> Chapter:
     """First-order force and moment: ellipses as figures and as hodographs.
 
@@ -294,6 +318,7 @@ def first_order(
     left : with counterweights, if there are any.
     label : what these are.
     beside : the second order.
+    built : with what is fitted, if anything is.
     """
     scales = {"force": was.force.peak_N, "moment": was.moment.peak_Nm}
     floors = {"peak_N": floor.force_N, "peak_Nm": floor.moment_Nm}
@@ -313,7 +338,7 @@ def first_order(
             table("", ["quantity", "#without counterweights", f"#{label}", "#floor"], rows),
             beside,
             Figure(
-                hodographs(machine, was, left, floor, label),
+                hodographs(machine, was, left, floor, label, built),
                 "Hodographs: the tips of first-order force and moment run along these ellipses once a revolution. No "
                 "counterweight on the shaft brings a peak below the floor circle. Moments are couples in the plane of "
                 "the forces about the reference plane.",
@@ -325,7 +350,7 @@ def first_order(
 def hodograph(found: Hodographs) -> Chapter:
     """Between which values force and moment run over the turn; the answer itself holds every sample."""
     rows = [
-        (name, min(force), max(force), min(moment), max(moment))
+        (name, settled(min(force), max(force)), max(force), settled(min(moment), max(moment)), max(moment))
         for name, one in (("without counterweights", found.before), ("with counterweights", found.after))
         if one is not None
         for force in [list(map(math.hypot, one.force_x_N, one.force_y_N))]

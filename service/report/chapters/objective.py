@@ -1,7 +1,9 @@
 """What was asked to be small."""
 
 from optimizer.formulation.formulate import given_ceilings, weights
-from schemas.request.objective import Priority
+from schemas.base.responses import ResponseFields, counted
+from schemas.base.titles import field_title
+from schemas.request.objective import Objective, Priority
 from schemas.request.requests import OptimizeRequest
 from service.report.blocks import Table, facts
 
@@ -23,25 +25,38 @@ def _told(value: float | str | tuple[Priority, ...]) -> float | str:
     return ", ".join(each.goal for each in value) if isinstance(value, tuple) else value
 
 
+def _per(unit: str) -> str:
+    return f"1/({unit})" if " " in unit else f"1/{unit}"
+
+
+def _ceiling(goal: Objective, response: ResponseFields) -> float | str:
+    allowed: float | None = getattr(goal, response.ceilings[0].field)
+    return "none" if allowed is None else allowed
+
+
 def objective(request: OptimizeRequest) -> Table:
     """Weights, ceilings and goals, as they hold."""
     goal, wanted = request.objective, weights(request.machine, request.objective)
+    count = counted(goal)
+    *others, last = (each.label for each in count)
+    names = ", ".join(f"peak {name}" for name in others)
     combined = {
-        "sum": "smallest weighted sum of peak force and peak moment",
-        "max": "smallest larger one of weighted peak force and weighted peak moment",
+        "sum": f"smallest weighted sum of {names} and peak {last}",
+        "max": "smallest larger one of weighted peak force and weighted peak moment"
+        if len(count) == 2
+        else f"smallest of the largest of {names} and peak {last}, all weighted",
     }
     return facts(
         "Objective",
         [
             ("aim", combined[goal.combine]),
-            ("weight of the peak force, 1/N", float(wanted["force"])),
-            ("weight of the peak moment, 1/(N m)", float(wanted["moment"])),
+            *((f"weight of the peak {each.label}, {_per(each.unit)}", float(wanted[each.name])) for each in count),
+            *((field_title("Objective", field), getattr(goal, field)) for each in count for field in each.parameters),
             ("weight of components along x", goal.direction_weights.x),
             ("weight of components along y", goal.direction_weights.y),
-            ("ceiling of the peak force, N", "none" if goal.force_ceiling_N is None else goal.force_ceiling_N),
-            ("ceiling of the peak moment, N m", "none" if goal.moment_ceiling_Nm is None else goal.moment_ceiling_Nm),
+            *((f"ceiling of the peak {each.label}, {each.unit}", _ceiling(goal, each)) for each in count),
             *(
-                (f"ceiling of the {each.name.replace(':', ' along ')}, {each.unit}", allowed)
+                (f"ceiling of the {each.label}, {each.unit}", allowed)
                 for each, allowed in given_ceilings(goal)
                 if each.axis is not None
             ),

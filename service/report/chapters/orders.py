@@ -8,8 +8,10 @@ from schemas.answer.outputs import ForceOrder, MomentOrder, Order, OrdersCompari
 from service.report.blocks import Cell, Chapter, Figure, Paragraph, Table, settled, table
 from service.report.charts import COUPLE_AXES, FORCE_AXES, after, before, hodograph
 
-#: an order whose force and moment are below this share of the largest is not drawn
+#: an order whose force and moment are below this share of the largest is neither listed nor drawn
 _SMALL = 1e-3
+#: minor over major axis of an ellipse that is a line
+_LINE = 1e-6
 _HEADS = ["order", "#peak force, N", "#with counterweights, N", "#peak moment, N m", "#with counterweights, N m"]
 
 
@@ -23,20 +25,39 @@ def two_orders(found: ResidualOrders) -> Table:
 
 
 def orders(found: OrdersComparison) -> Chapter:
-    """Forces and moments by multiples of the shaft speed."""
+    """Forces and moments by multiples of the shaft speed: orders that are more than small, and their ellipses."""
     left = {one.order: one for one in found.after or ()}
-    rows = [_row(str(one.order), one, left.get(one.order), found.before[0]) for one in found.before]
-    words = "Exact harmonics of the motion; counterweights on the shaft change the first order alone."
-    return Chapter("Orders", (Paragraph(words), table("", _HEADS, rows), *order_hodographs(found)))
+    listed = _listed(found)
+    rows = [_row(str(one.order), one, left.get(one.order), found.before[0]) for one in listed]
+    words = ["Exact harmonics of the motion; counterweights on the shaft change the first order alone."]
+    small = [str(one.order) for one in found.before if one not in listed and (one.force.peak_N or one.moment.peak_Nm)]
+    if small:
+        words.append(f"Of order {', '.join(small)} force and moment are below a thousandth of the largest.")
+    drawn = [one for one in listed if one.order == 1 or not _straight(one)]
+    lines = [str(one.order) for one in listed if one not in drawn]
+    if lines:
+        words.append(f"The vectors of order {', '.join(lines)} run along straight lines, which are not drawn.")
+    figures = [_hodographs(one, left.get(one.order)) for one in drawn]
+    shown = [figure for figure in figures if figure is not None]
+    return Chapter("Orders", (Paragraph(" ".join(words)), table("", _HEADS, rows), *shown))
+
+
+def _listed(found: OrdersComparison) -> list[Order]:
+    """Orders whose force or moment is more than small beside the largest of its kind."""
+    largest = {what: max((_peak(one, what) for one in found.before), default=0.0) for what in ("force", "moment")}
+    return [one for one in found.before if any(_peak(one, what) > _SMALL * most for what, most in largest.items())]
+
+
+def _straight(one: Order) -> bool:
+    """Whether force and moment both move to and fro along a line."""
+    ellipses = (_ellipse(one.force, "N"), _ellipse(one.moment, "N m"))
+    return all(minor <= _LINE * major for major, minor, _ in ellipses)
 
 
 def order_hodographs(found: OrdersComparison) -> Iterator[Figure]:
     """The ellipses of every order that has any worth a drawing."""
     left = {one.order: one for one in found.after or ()}
-    largest = {what: max((_peak(one, what) for one in found.before), default=0.0) for what in ("force", "moment")}
-    for one in found.before:
-        if all(_peak(one, what) <= _SMALL * most for what, most in largest.items()):
-            continue
+    for one in _listed(found):
         drawn = _hodographs(one, left.get(one.order))
         if drawn is not None:
             yield drawn

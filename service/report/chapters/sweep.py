@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from schemas.sweep.answers import SweepEstimate
-from service.report.blocks import Chapter, facts, table
+from service.report.blocks import Chapter, Paragraph, facts, table
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -23,7 +23,7 @@ def estimated(found: SweepEstimate) -> Iterator[Chapter]:
         ("time of one core, about s", found.cpu_s),
         (f"until it is done, {found.workers} workers, about s", found.wall_s),
     ]
-    yield Chapter("Sweep, not run", (facts("", size),))
+    yield Chapter("Sweep, not run", (facts("", size), Paragraph(f"The time assumes {found.assumption}.")))
     columns = [(column.name, column.unit or "", column.meaning) for column in found.columns]
     yield Chapter("Columns", (table("", ["name", "unit", "meaning"], columns),))
 

@@ -5,21 +5,17 @@ from collections.abc import Iterator, Mapping
 from schemas.answer.answers import Certificate, OptimizeAnswer
 from schemas.answer.infeasibility import Infeasibility
 from schemas.answer.limits import CeilingField
-from schemas.request.objective import Objective
+from schemas.base.responses import ceilings
+from schemas.request.objective import COSTS, Objective
 from schemas.request.requests import OptimizeRequest
 from service.report.blocks import Block, Chapter, Equation, Formula, Paragraph, Run, facts, prose, settled, table
-from service.report.chapters.balance import limits, shown, which
+from service.report.chapters.balance import added, limits, shown, which
 from service.report.chapters.built import decision
 from service.report.formula import formula
 from service.tables.as_built import AsBuilt
 
 _CEILINGS: Mapping[CeilingField, str] = {
-    "force_ceiling_N": "force",
-    "force_ceiling_x_N": "force along x",
-    "force_ceiling_y_N": "force along y",
-    "moment_ceiling_Nm": "moment",
-    "moment_ceiling_x_Nm": "horizontal couple",
-    "moment_ceiling_y_Nm": "vertical couple",
+    **{each.field: each.label for each in ceilings()},
     "bearing_ceiling_N": "bearing loads",
     "specific_load_ceiling_Pa": "specific bearing loads",
     "bending_ceiling_Nm": "bending moments",
@@ -40,6 +36,7 @@ def result(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | No
     rows = [
         ("peak force, N", force, settled(left_force, force), settled(answer.floor.force_N, force)),
         ("peak moment, N m", moment, settled(left_moment, moment), settled(answer.floor.moment_Nm, moment)),
+        *added(answer),
     ]
     heads = ["quantity", "#without counterweights", f"#{which(answer)}", "#floor"]
     figures = table("First-order peaks over a revolution", heads, rows)
@@ -70,10 +67,12 @@ def _certified(request: OptimizeRequest, answer: OptimizeAnswer) -> Paragraph:
             f"{_percent(request.accuracy.relative_gap)} was requested. {answer.status_reason} See the certificate.",
             "warning",
         )
+    costs = any(goal.goal in COSTS for goal in proof.goals)
+    left = " It is what this goal leaves to those after it, at most its allowance." if costs else ""
     return Paragraph(
         "Proven optimal: no counterweights within these limits bring the objective below "
         f"{prose(proof.lower_bound)}, and those below reach {prose(proof.objective)}. The difference is "
-        f"{_percent(proof.relative_gap)} of the objective without counterweights.",
+        f"{_percent(proof.relative_gap)} of the objective without counterweights.{left}",
         "key",
     )
 
@@ -183,7 +182,7 @@ def certificate(proof: Certificate | None, why: Infeasibility | None) -> Chapter
     if proof.goals:
         met = [(goal.goal, goal.value, goal.lower_bound, goal.limit, goal.limit - goal.value) for goal in proof.goals]
         heads = ["goal", "#value", "#lower bound", "#limit for the later goals", "#allowance left"]
-        blocks.append(table("Goals before the last, in their order", heads, met))
+        blocks.append(table("Goals in their order", heads, met))
     return Chapter(title, tuple(blocks))
 
 

@@ -11,7 +11,9 @@ const MOST_NAMES = 16;
 const PIN = 7;
 
 // names stand where things are at angle 0
-export function front(machine, counterweights, { named = true } = {}) {
+/** @param {{ named?: boolean, built?: any[] }} [how] `built`: what is fitted in place of them */
+export function front(machine, counterweights, how = {}) {
+  const { named = true, built = [] } = how;
   const reach = Math.max(...radiiOf(machine), 1e-12);
   const scale = (0.36 * WIDTH) / reach;
   const fitted = carried(counterweights);
@@ -25,6 +27,7 @@ export function front(machine, counterweights, { named = true } = {}) {
   (machine.throws ?? []).flatMap((each) => rows(each)),
   (machine.webs ?? []).map((web) => allowed(web, scale)),
   shapes(webs, fitted, scale),
+  built.map((one) => s("g", { class: "counterweight built" }, circle(centre(one, scale), round(one, [...fitted, ...built], scale), {}), asBuilt(one))),
   machine.kind === "scroll" ? scroll(machine, scale) : cranks(machine, scale),
   circle(MIDDLE, 5, { class: "shaft" }),
   sense(MIDDLE, 0.47 * WIDTH, machine.rotation),
@@ -68,6 +71,7 @@ function shapes(webs, fitted, scale) {
   });
 }
 
+export const asBuilt = (one) => s("title", {}, `${one.web} as built: ${figure(one.mass_kg)} kg at ${figure(one.angle_deg)}°`);
 const centre = (one, scale) => polar(MIDDLE, scale * one.radius_m, one.angle_deg);
 const round = (one, fitted, scale) => Math.max(3, scale * disc(one, fitted));
 
@@ -138,10 +142,10 @@ function scroll(machine, scale) {
   const eccentric = polar(MIDDLE, orbit, 0);
   const guide = machine.anti_rotation;
   const parts = [circle(MIDDLE, orbit, { class: "orbit" }), s("g", { class: "throw" }, line(MIDDLE, eccentric), circle(eccentric, 4))];
-  if (guide.type === "oldham") {
+  if (guide?.type === "oldham") {
     const [from, to] = [0, 180].map((turn) => polar(MIDDLE, 0.4 * WIDTH, degrees(guide.axis_deg) + turn));
     parts.push(s("g", { class: "row" }, line(from, to), s("title", {}, "the Oldham ring slides along this line")));
-  } else {
+  } else if (guide) {
     const circleRadius = scale * metres(guide.pin_circle_radius_m);
     parts.push(circle(MIDDLE, circleRadius, { class: "orbit" }));
     for (let index = 0; index < Math.min(guide.count, 60); index += 1) {

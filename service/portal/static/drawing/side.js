@@ -2,6 +2,7 @@
 
 import { s } from "../dom.js";
 import { figure, nameOf } from "../format.js";
+import { asBuilt } from "./front.js";
 import { carried, extent } from "./outline.js";
 import { circle, line, metres, points, radians, radiiOf, text } from "./view.js";
 
@@ -13,7 +14,7 @@ const MIDDLE = 142;
 const DEPTH = [-0.32, 0.26];
 const MOST_NAMES = 24;
 
-export function side(machine, counterweights, reference) {
+export function side(machine, counterweights, reference, built = []) {
   const planes = planesOf(machine);
   const all = [...planes.map((plane) => plane.z), reference].filter(Number.isFinite);
   const [low, high] = [Math.min(...all), Math.max(...all)];
@@ -35,6 +36,7 @@ export function side(machine, counterweights, reference) {
   line([z(reference), 14], [z(reference), BOTTOM - 2], { class: "reference" }),
   text(z(reference) + (late ? -4 : 4), 20, "reference plane", { class: `name faint${late ? " end" : ""}` }),
   weights(machine, counterweights, at, z),
+  asFitted(machine, built, at),
   line([24, MIDDLE], [WIDTH - 24, MIDDLE], { class: "shaft" }),
   machine.kind === "scroll" ? scroll(machine, at) : throws(machine, at),
   bearings(machine, z),
@@ -47,7 +49,7 @@ function planesOf(machine) {
   const bearingsAt = (machine.bearings ?? []).map((one) => ({ name: `bearing ${one.name}`, z: metres(one.position_m) }));
   const scrollAt = machine.kind !== "scroll" ? [] : [
     { name: "scroll", z: metres(machine.orbiting_position_m) },
-    { name: machine.anti_rotation.type === "oldham" ? "ring" : "pins", z: metres(machine.anti_rotation.position_m) },
+    { name: machine.anti_rotation?.type === "oldham" ? "ring" : "pins", z: metres(machine.anti_rotation?.position_m) },
   ];
   return [...throwsAt, ...scrollAt, ...websAt, ...bearingsAt].filter((plane) => Number.isFinite(plane.z));
 }
@@ -81,6 +83,17 @@ function weights(machine, counterweights, at, z) {
     return s("g", { class: `counterweight${one.fixed ? " fixed" : ""}${known ? "" : " unknown"}` }, line(at(place, 0, 0), inner, { class: "arm" }),
       s("polygon", { points: points(plate) }),
       s("title", {}, `${one.web}: ${figure(one.mass_kg)} kg at ${figure(one.angle_deg)}°, plane ${figure(place)} m`));
+  });
+}
+
+// what is fitted, about its centre of mass and as wide as its mass asks for
+function asFitted(machine, built, at) {
+  const places = new Map((machine.webs ?? []).map((web) => [web.name, metres(web.position_m)]));
+  const heaviest = Math.max(...built.map((one) => one.mass_kg), 1e-300);
+  return built.map((one) => {
+    const half = 3 + 9 * (one.mass_kg / heaviest);
+    const [inner, outer] = [0.82, 1.18].map((share) => at(places.get(one.web), share * one.radius_m, radians(one.angle_deg)));
+    return s("g", { class: "counterweight built" }, s("polygon", { points: points([[inner[0] - half, inner[1]], [inner[0] + half, inner[1]], [outer[0] + half, outer[1]], [outer[0] - half, outer[1]]]) }), asBuilt(one));
   });
 }
 

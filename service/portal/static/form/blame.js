@@ -1,6 +1,7 @@
 // What is wrong with a request, said at its fields.
 
-import { split } from "../pointer.js";
+import { complaint } from "../naming.js";
+import { get, split } from "../pointer.js";
 import { nearest } from "../words.js";
 
 export class Blame {
@@ -32,7 +33,7 @@ export class Blame {
       }
       const exact = place.dataset.pointer === pointer;
       const error = place.querySelector(":scope > .error");
-      const text = exact ? message : `${pointer.slice(place.dataset.pointer.length + 1).replaceAll("/", " ")}: ${message}`;
+      const text = exact ? message : complaint(get(this.form.request, place.dataset.pointer), { pointer: pointer.slice(place.dataset.pointer.length), message });
       error.textContent = error.textContent ? `${error.textContent}; ${text}` : text;
       place.classList.add("wrong");
       const input = place.classList.contains("field") ? place.querySelector("input, select, textarea") : null;

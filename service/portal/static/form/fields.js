@@ -2,7 +2,7 @@
 
 import { h } from "../dom.js";
 import { label, written } from "../format.js";
-import { meant, read } from "../quantity.js";
+import { doubt as doubted, read } from "../quantity.js";
 
 let last = 0;
 const freshId = () => `field-${(last += 1)}`;
@@ -15,15 +15,16 @@ export function field(name, pointer, description, value, required, change) {
     change(given);
     doubt(given);
   });
-  // metres that are hardly metres
+  // metres that are hardly metres, a comma that may group
   const doubt = (given) => {
-    const other = description.kind === "number" ? meant(given, description.unit, name) : null;
+    const found = description.kind === "number" ? doubted(given, description.unit, name, input.value) : null;
     const yes = () => {
-      input.value = other;
+      input.value = found?.other;
       input.dispatchEvent(new Event("input"));
       input.focus();
     };
-    question.replaceChildren(...(other ? [`${given} m? `, h("button", { type: "button", class: "small", click: yes }, `${other} meant`)] : []));
+    question.replaceChildren(...(found ? [`${found.words} `, h("button", { type: "button", class: "small", click: yes }, `${found.other} meant`)] : []));
+    if (Array.isArray(given) && given.length > 1 && input.value.includes(",")) question.replaceChildren(`Read as ${given.length} values: ${given.join("; ")}`);
   };
   const text = description.text ? ` A number${description.unit ? ` in ${description.unit}` : ""}, or with its unit.` : "";
   input.id = id;
@@ -59,12 +60,14 @@ function make(description, value, required, change) {
 // What an empty field stands for.
 const meaning = ({ about }) => /null is ([^;,.]+)/.exec(about)?.[1] ?? "none";
 
+// nothing is chosen for the reader
 function choice(description, value, _required, change) {
   const { options, fallback, nullable } = description;
+  const open = !nullable && (value ?? fallback ?? null) === null;
   const select = h("select", { change: () => change(select.value || undefined) },
-    nullable ? h("option", { value: "" }, meaning(description)) : null,
+    nullable || open ? h("option", { value: "" }, open ? "choose" : meaning(description)) : null,
     options.map((option) => h("option", { value: option }, label(String(option)))));
-  select.value = written(value ?? fallback ?? (nullable ? "" : options[0]));
+  select.value = written(value ?? fallback ?? "");
   return select;
 }
 
@@ -74,8 +77,8 @@ function boolean({ fallback }, value, change) {
   return box;
 }
 
-// between semicolons and tabs a comma is decimal
-const parts = (text) => (/[;\t]/.test(text) ? text.split(/[;\t]/).map((part) => part.trim()).filter(Boolean) : text.split(/[\s,]+/));
+// between semicolons, tabs and commas with a space a comma is decimal
+const parts = (text) => (/[;\t]/.test(text) ? text.split(/[;\t]/) : /,\s/.test(text) ? text.split(/,\s+/) : text.split(/[\s,]+/)).map((part) => part.trim()).filter(Boolean);
 
 function numbers(value, change) {
   const input = h("input", {

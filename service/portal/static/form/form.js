@@ -1,6 +1,7 @@
 // The form of a request: what is typed goes into the request, and is told; where more than a value changes it is drawn anew.
 
 import { nameOf } from "../format.js";
+import { nothing } from "../gas/part.js";
 import { get, parent, put } from "../pointer.js";
 import { Blame } from "./blame.js";
 import { Parts } from "./parts.js";
@@ -18,6 +19,10 @@ export class Form {
     this.changed = changed;
     this.request = {};
     this.grids = new Map();
+    // what was typed into cells, where it may be meant otherwise
+    this.texts = new Map();
+    // the pressure of all cylinders that is being put together
+    this.gas = nothing();
     // optional columns that were asked for
     this.unfolded = new Set();
     this.parts = new Parts(this);
@@ -25,6 +30,8 @@ export class Form {
   }
 
   show(request) {
+    this.texts.clear();
+    this.gas = nothing();
     // on narrow screens the results stand below the form
     const lists = ["/machine/throws", "/machine/webs"].filter((list) => !(get(request, list)?.length > FEW));
     this.draw(request, matchMedia(WIDE).matches ? ["/machine", ...lists] : []);

@@ -2,6 +2,7 @@
 
 import { h } from "../dom.js";
 import { label, nameOf, singular } from "../format.js";
+import { gasPart } from "../gas/part.js";
 import { inTable, tableAt } from "../grid/columns.js";
 import { Grid } from "../grid/grid.js";
 import { ListSource, RowsSource } from "../grid/sources.js";
@@ -104,7 +105,7 @@ export class Parts {
     const value = get(this.form.request, at);
     const optional = !required && (description.nullable || description.fallback === undefined || value !== undefined);
     if ((value === undefined || value === null) && description.nullable) return this.absent(name, at, description, required);
-    const shape = description.kind === "union" ? this.chosen(description, value) : description;
+    const shape = description.kind === "union" ? description.options.get(value?.[description.tag]) : description;
     const details = this.fold({ class: "group" }, description.title, at, () => {
       const remove = () => {
         this.form.put(at, undefined);
@@ -113,7 +114,7 @@ export class Parts {
       };
       return [
         description.kind === "union" ? this.kind(name, at, description, required, () => details) : [],
-        this.inside(shape, at),
+        shape ? this.inside(shape, at) : [],
         optional && description.nullable ? h("button", { type: "button", click: remove }, `Remove ${titled(at, {}).title?.toLowerCase() ?? label(name)}`) : [],
       ].flat(2);
     });
@@ -134,15 +135,12 @@ export class Parts {
     return box;
   }
 
-  chosen({ tag, options }, value) {
-    return options.get(value?.[tag]) ?? [...options.values()][0];
-  }
-
   kind(name, at, description, required, details) {
     const { tag, options } = description;
     const now = get(this.form.request, at)?.[tag];
-    const about = { kind: "choice", options: [...options.keys()], about: `${label(name)}: ${tag}`, fallback: now };
+    const about = { kind: "choice", options: [...options.keys()], about: `${label(name)}: ${tag}` };
     return field(tag, join(at, tag), about, now, true, (chosen) => {
+      if (!chosen) return;
       const known = options.get(chosen).properties;
       const kept = Object.entries(get(this.form.request, at) ?? {}).filter(([field]) => field in known && field !== tag);
       const fresh = this.form.schema.filled(options.get(chosen));
@@ -160,11 +158,15 @@ export class Parts {
       const rows = inner && new RowsSource(this.form, at, inner);
       return [
         this.grid(table, source),
-        rows ? [h("h3", {}, "Rows"), this.grid(tableAt(`${at}/0/rows`), rows)] : [],
+        rows ? [h("h3", {}, "Rows"), this.grid(tableAt(`${at}/0/rows`), rows), this.gas()] : [],
         h("p", { class: "about" }, `${description.about}${more ? "; everything else of each:" : "."}`),
         more ? source.entries().map((_, index) => this.item(name, at, index, description, null)) : [],
       ].flat();
     });
+  }
+
+  gas() {
+    return this.fold({ class: "group gas" }, "Indicated pressure and firing order", "/machine/throws/gas", () => gasPart(this.form));
   }
 
   grid(table, source) {

@@ -4,7 +4,11 @@ import { label } from "../format.js";
 
 const THROWS = { item: "throw", title: "throws", columns: ["name", "position_m", "crank_radius_m", "crank_angle_deg", "rotating_mass_kg"], groups: {} };
 const ROWS = {
-  item: "row", title: "rows", groups: { offsets: ["offset_m"] },
+  item: "row", title: "rows",
+  groups: {
+    offsets: ["offset_m"],
+    cylinders: ["bore_m", "piston_rod_diameter_m", "acting", "suction_pressure_Pa", "discharge_pressure_Pa", "relative_clearance", "expansion_exponent", "compression_exponent", "ambient_pressure_Pa"].map((name) => `cylinder/${name}`),
+  },
   columns: ["name", "axis_deg", "reciprocating_mass_kg", "connecting_rod/length_m", "connecting_rod/mass_kg", "connecting_rod/reciprocating_share"],
 };
 const WEBS = {
@@ -46,6 +50,6 @@ function described(schema, object, path, before = []) {
   const description = schema.describe(object.properties[first]);
   const around = [...before, first];
   if (rest.length) return described(schema, description, rest, around);
-  const head = [...around.slice(0, -1).map((name) => name.replace("connecting_rod", "rod")), label(first)].join(" ");
+  const head = [...around.slice(0, -1).map((name) => name.replace("connecting_rod", "rod")).filter((name) => name !== "cylinder"), label(first)].join(" ");
   return { ...description, name: first, head, optional: before.length > 0, mandatory: object.required.has(first) };
 }

@@ -3,12 +3,11 @@
 import { h } from "../dom.js";
 import { label, nameOf, written } from "../format.js";
 import { get, join } from "../pointer.js";
-import { meant, quantity, read } from "../quantity.js";
-import { columnsOf, tableAt } from "./columns.js";
+import { doubt, quantity, read } from "../quantity.js";
+import { columnsOf } from "./columns.js";
 import { copied } from "./copied.js";
-import { elsewhere, moved } from "./home.js";
-import { knownHeads, placed, withUnit } from "./paste.js";
-import { blankOf } from "./sources.js";
+import { Pasting } from "./pasting.js";
+import { Selection } from "./selection.js";
 
 export class Grid {
   constructor(form, table, source, shown) {
@@ -21,10 +20,13 @@ export class Grid {
     this.hidden = columnsOf(form.schema, source.items, table, new Set(Object.keys(table.groups))).filter(({ path }) => !this.columns.some((one) => one.path === path));
     this.said = h("div", { class: "said", role: "status" });
     this.body = h("tbody", {}, source.entries().map((entry, row) => this.line(entry, row)));
+    this.pasting = new Pasting(this);
+    this.selection = new Selection(this.body, source.owners ? 2 : 1);
     this.element = h("div", { class: `grid grid-${table.item}` },
-      h("div", { class: "wide", tabindex: 0, role: "region", "aria-label": `Table of ${table.item}s: paste from a spreadsheet here`, paste: (event) => this.pasted(event) },
+      h("div", { class: "wide", tabindex: 0, role: "region", "aria-label": `Table of ${table.item}s: paste from a spreadsheet here`, paste: (event) => this.pasting.pasted(event) },
         h("table", {}, h("thead", {}, h("tr", {}, h("th", { scope: "col" }, "#"), source.owners ? h("th", { scope: "col" }, "throw") : null,
-          this.columns.map((column) => h("th", { scope: "col", title: column.about }, column.head, column.unit ? h("span", { class: "unit" }, ` ${column.unit}`) : null)))),
+          this.columns.map((column, index) => h("th", { scope: "col", title: `${column.about}${column.name === "name" ? "" : ". Click to edit all of the column; Shift and arrow keys choose some, Ctrl+D fills down"}`, click: () => this.whole(index) },
+            column.head, column.unit ? h("span", { class: "unit" }, ` ${column.unit}`) : null)))),
         this.body)),
       this.body.childElementCount ? null : h("p", { class: "about" }, `No ${table.item} yet: add one, or paste a table from a spreadsheet.`),
       this.said, this.tools());
@@ -61,21 +63,57 @@ export class Grid {
       : h("input", { ...attributes, type: "text", autocomplete: "off", spellcheck: "false", class: column.kind, placeholder: placeholder(column),
         input: () => this.typed(at, column, input.value) });
     input.value = written(value);
+    input.addEventListener("focus", () => this.selection.holds(row, this.columns.indexOf(column)) || this.selection.clear());
     return h("td", { class: `field cell is-${column.kind}`, dataset: { pointer: at, head: `${column.head}${column.unit ? `, ${column.unit}` : ""}` } }, input, h("p", { class: "error", id: `error-${at}` }));
   }
 
+  // into a cell, and into those that are chosen with it
   typed(at, column, text) {
-    const whole = this.put(at, column, text);
-    this.doubt(at, column);
+    const entries = this.source.entries();
+    const index = this.columns.indexOf(column);
+    const others = this.selection.others(entries.findIndex(({ pointer }) => below(pointer, column.path) === at), index);
+    let whole = false;
+    for (const one of [at, ...others.map((row) => below(entries[row].pointer, column.path))]) {
+      whole = this.put(one, column, text) || whole;
+      this.doubt(one, column);
+      this.form.errors.clear(one);
+    }
+    for (const row of others) this.input(row, index).value = text;
     this.ask();
-    if (whole) this.form.refresh();
-    else this.form.told(at);
+    if (!whole) this.form.told(at);
+    else {
+      const { anchor, end } = this.selection;
+      const fresh = this.form.refresh().get(this.source.pointer + this.table.item);
+      if (others.length) fresh?.selection.choose(index, anchor, end);
+    }
+  }
+
+  input(row, index) {
+    return this.body.children[row]?.children[index + this.selection.ahead]?.querySelector("input, select");
+  }
+
+  // all of a column under edit, from its first cell; a name belongs to one row
+  whole(index) {
+    const last = this.body.childElementCount - 1;
+    if (last < 0 || this.columns[index].name === "name") return;
+    this.selection.choose(index, 0, last);
+    this.input(0, index).focus();
+    this.input(0, index).select?.();
+  }
+
+  // the value of a cell into those below it, or into those that are chosen
+  down(row, index) {
+    const column = this.columns[index];
+    if (!column || column.name === "name") return;
+    if (!this.selection.others(row, index).length) this.selection.choose(index, row, this.body.childElementCount - 1);
+    this.typed(below(this.source.entries()[row].pointer, column.path), column, this.input(row, index).value);
   }
 
   // whether more than this cell has changed
   put(at, column, text) {
     const empty = column.mandatory && column.nullable && !column.optional ? null : undefined;
     const value = text.trim() ? (column.kind === "number" ? read(text, column.unit) : text.trim()) : empty;
+    this.form.texts.set(at, { text, value });
     const [around, item] = column.optional ? [at.slice(0, at.lastIndexOf("/")), at.slice(0, -column.path.length - 1)] : [null, null];
     if (around === null) {
       this.form.put(at, value);
@@ -85,7 +123,9 @@ export class Grid {
     if (value === undefined && (before === null || before === undefined)) return false;
     this.form.put(at, value);
     const part = column.path.split("/")[0];
-    if ([...this.columns, ...this.hidden].every(({ path, kind }) => !path.startsWith(`${part}/`) || kind === "choice" || get(this.form.request, below(item, path)) === undefined)) this.form.put(around, undefined);
+    const choices = [...this.columns, ...this.hidden].filter(({ path, kind }) => kind === "choice" && path.startsWith(`${part}/`)).map(({ name }) => name);
+    // what nobody gives any more is gone, with the choices that belong to it
+    if (value === undefined && Object.keys(get(this.form.request, around) ?? {}).every((name) => choices.includes(name))) this.form.put(around, undefined);
     else if ((before === null || before === undefined) && part === "envelope") {
       // radius and mass follow from what is cut
       if (column.kind !== "choice") this.form.put(join(around, "shape"), "segment");
@@ -111,12 +151,20 @@ export class Grid {
 
   key(event, row) {
     const { key, target } = event;
+    const at = [...target.closest("tr").children].indexOf(target.closest("td"));
+    const index = at - this.selection.ahead;
+    if (key.toLowerCase() === "d" && (event.ctrlKey || event.metaKey) && !event.shiftKey) {
+      event.preventDefault();
+      this.down(row, index);
+      return;
+    }
+    if (key === "Escape") this.selection.clear();
     const by = key === "ArrowDown" || key === "Enter" ? 1 : key === "ArrowUp" ? -1 : 0;
     if (!by || event.ctrlKey || event.metaKey || (target.tagName === "SELECT" && key !== "Enter")) return;
     event.preventDefault();
-    const column = [...target.closest("tr").children].indexOf(target.closest("td"));
-    if (key === "Enter" && row === this.body.childElementCount - 1) this.add(column);
-    else this.focus(row + by, column);
+    if (event.shiftKey && key !== "Enter" && this.columns[index]?.name !== "name") this.selection.extend(row, index, by);
+    else if (key === "Enter" && row === this.body.childElementCount - 1) this.add(at);
+    else this.focus(row + by, at);
   }
 
   focus(row, column) {
@@ -188,98 +236,25 @@ export class Grid {
     return [[...(this.source.owners ? ["throw"] : []), ...this.columns.map(({ path }) => path)], ...lines].map((line) => line.join("\t")).join("\n");
   }
 
-  pasted(event) {
-    const text = event.clipboardData?.getData("text/plain") ?? "";
-    const cell = event.target.closest("td");
-    // one value goes where the caret is; several tables are no table
-    if ((!/[\t\n]/.test(text.trim()) && cell) || /\n[\t; \r]*\n\s*\S/.test(text)) return;
-    event.preventDefault();
-    const other = elsewhere(this, text);
-    if (other) {
-      this.said.replaceChildren(h("p", { class: "error" }, `This is a table of ${other.table.title}: nothing was pasted here. `,
-        h("button", { type: "button", class: "small", click: () => moved(other, text) }, `Paste it into the ${other.table.title}`)));
-      return;
-    }
-    const first = this.source.owners ? 2 : 1;
-    const start = cell ? [...cell.parentElement.children].indexOf(cell) - first : this.source.owners ? -1 : 0;
-    this.fill(text, cell ? [...this.body.children].indexOf(cell.parentElement) : 0, start, {});
-  }
-
-  fill(text, row, start, accepted) {
-    const columns = this.pasteable();
-    const { rows, places, unknown } = placed(text, columns, start + (this.source.owners ? 1 : 0), accepted);
-    if (row + rows.length > this.source.most) {
-      this.said.replaceChildren(h("p", { class: "error" }, `${rows.length} lines are more than the ${this.source.most} ${this.table.title} that a machine may have: nothing was pasted.`));
-      return 0;
-    }
-    rows.forEach((cells, index) => {
-      while (this.source.entries().length <= row + index) this.source.add();
-      const before = this.source.entries()[row + index];
-      const to = places.findIndex((place) => columns[place?.index]?.kind === "owner");
-      if (to >= 0) this.give(before, cells[to]);
-      // a row that goes to another throw keeps what it is, not its number
-      const { pointer } = this.source.entries().find((one) => one.item === before.item) ?? before;
-      cells.forEach((cell, at) => {
-        const column = columns[places[at]?.index];
-        if (!column || column.kind === "owner") return;
-        if (column.row && !get(this.form.request, `${pointer}/rows`)?.length) this.form.put(`${pointer}/rows`, [blankOf(this.form.schema, column.row)]);
-        this.put(below(pointer, column.path), column, withUnit(cell, places[at].unit, column.unit));
-      });
-    });
-    const fresh = this.form.refresh().get(this.source.pointer + this.table.item);
-    fresh?.unknown(unknown, (more) => fresh.fill(text, row, start, { ...accepted, ...more }));
-    fresh?.mark(row);
-    return rows.length;
-  }
-
-  // Columns that a paste may fill: an owner, those that are seen, those that are not, and those of the one row that
-  // a throw has in most machines.
-  pasteable() {
-    const { form: { schema }, source } = this;
-    const row = source.items.properties.rows ? schema.describe(source.items.properties.rows).items : null;
-    const rows = row ? columnsOf(schema, row, tableAt(`${source.pointer}/0/rows`), new Set()).filter(({ path }) => path !== "name") : [];
-    const own = [...this.columns, ...this.hidden].map((column) => (column.path === "name" ? { ...column, also: this.table.item } : column));
-    return [...(source.owners ? [{ path: "throw", name: "throw", head: "throw", kind: "owner" }] : []), ...own,
-      ...rows.map((column) => ({ ...column, path: `rows/0/${column.path}`, row }))];
-  }
-
-  // how many columns here some heads name, those of rows beside those of throws, and how many that must be given they miss
-  fit(cells) {
-    const all = this.pasteable();
-    const own = knownHeads(cells, all.filter((column) => !column.row));
-    return {
-      heads: own.size > 1 ? knownHeads(cells, all).size : own.size,
-      missing: all.filter(({ mandatory, nullable, row, path }, index) => mandatory && !nullable && !row && path !== "name" && !own.has(index)).length,
-    };
-  }
-
-  give(entry, name) {
-    const owner = this.source.owners().indexOf(name);
-    const known = owner >= 0 ? owner : Number(name) - 1;
-    if (known >= 0 && known < this.source.owners().length && known !== entry.owner) this.source.give(entry, known);
-  }
-
-  unknown(heads, again) {
-    this.said.append(...heads.map(({ head, near }) => h("p", {}, `“${head}” is no column here${near ? `: did you mean ${near}? ` : ", and was left out."}`,
-      near ? h("button", { type: "button", class: "small", click: () => again({ [head]: near }) }, `Yes, ${near}`) : null)));
-  }
-
+  // a number that may be meant otherwise, as it was typed
   doubt(at, column) {
     const value = get(this.form.request, at);
-    const other = meant(value, column.unit, column.name);
-    if (other) column.doubts.set(at, { value, other });
+    const typed = this.form.texts.get(at);
+    const found = column.kind === "number" ? doubt(value, column.unit, column.name, typed && typed.value === value ? typed.text : "") : null;
+    if (found) column.doubts.set(at, found);
     else column.doubts.delete(at);
   }
 
   // one question a column, answered for all of it
   ask() {
-    this.said.replaceChildren(...this.columns.filter(({ doubts }) => doubts.size).map(({ head, doubts }) => {
+    this.said.replaceChildren(...this.columns.filter(({ doubts }) => doubts.size).map((column) => {
+      const { head, doubts } = column;
       const [first] = doubts.values();
       const yes = () => {
-        for (const [at, { other }] of doubts) this.form.put(at, other);
+        for (const [at, { other }] of doubts) this.put(at, column, other);
         this.form.refresh();
       };
-      return h("p", { class: "question" }, `${head}: ${first.value} m? `, h("button", { type: "button", class: "small", click: yes }, `${first.other} meant`));
+      return h("p", { class: "question" }, `${head}: ${first.words} `, h("button", { type: "button", class: "small", click: yes }, `${first.other} meant`));
     }));
   }
 }

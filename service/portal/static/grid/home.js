@@ -14,7 +14,7 @@ function grids(form) {
 // The table that knows most of the heads; of several the one of the title, or that needs nothing else. None that knows one only.
 export function home(form, heads, title = "") {
   const words = title.toLowerCase();
-  const fits = grids(form).map((grid) => ({ grid, named: Number(words.includes(grid.table.item)), ...grid.fit(heads) })).filter((fit) => fit.heads >= FEWEST_HEADS);
+  const fits = grids(form).map((grid) => ({ grid, named: Number(words.includes(grid.table.item)), ...grid.pasting.fit(heads) })).filter((fit) => fit.heads >= FEWEST_HEADS);
   return fits.sort((one, other) => other.heads - one.heads || other.named - one.named || one.missing - other.missing)[0]?.grid ?? null;
 }
 
@@ -23,14 +23,14 @@ export function elsewhere(grid, text) {
   const [heads] = cellsOf(text);
   if (heads.some(numeric)) return null;
   const other = home(grid.form, heads);
-  return other && other.fit(heads).heads > knownHeads(heads, grid.pasteable()).size ? other : null;
+  return other && other.pasting.fit(heads).heads > knownHeads(heads, grid.pasting.pasteable()).size ? other : null;
 }
 
 // the number of lines that went into a table, which is opened
 export function moved({ form, table, source }, text) {
   form.opened(source.pointer);
   const now = form.gridsOf(source.pointer).find((one) => one.table === table);
-  const count = now.fill(text, 0, 0, {});
+  const count = now.pasting.fill(text, 0, 0, {});
   form.container.querySelector(`.grid-${table.item}`)?.scrollIntoView({ block: "nearest" });
   return count;
 }

@@ -1,6 +1,7 @@
 // A sheet as it was copied: tables with their heads one below the other, an empty line between them, and single values
 // of the machine beside their names.
 
+import { isTrace } from "../gas/trace.js";
 import { read } from "../quantity.js";
 import { nearest } from "../words.js";
 import { home, moved } from "./home.js";
@@ -8,7 +9,7 @@ import { cellsOf, headOf, numeric, withUnit } from "./paste.js";
 
 export class Sheet {
   // whether a text is tables at all
-  static like = (text) => /[\t;]/.test(text) && text.trim().includes("\n");
+  static like = (text) => text.trim().includes("\n") && (/[\t;]/.test(text) || cellsOf(text)[0].length > 1);
 
   constructor(form, text) {
     this.form = form;
@@ -16,6 +17,8 @@ export class Sheet {
     this.tables = [];
     /** @type {string[][]} */
     this.values = [];
+    /** @type {string[]} pressures over the angle */
+    this.traces = [];
     /** @type {string[]} why a table has no place */
     this.refusals = [];
     for (const block of blocksOf(text)) this.sort(block);
@@ -23,6 +26,10 @@ export class Sheet {
 
   // values first; the table whose heads it has takes the rest
   sort(block) {
+    if (isTrace(block)) {
+      this.traces.push(block);
+      return;
+    }
     const lines = block.split("\n");
     const cells = cellsOf(block);
     const first = cells.findIndex((line) => !named(line));
@@ -48,7 +55,12 @@ export class Sheet {
       const count = moved(grid, text);
       return `${count} ${grid.table.item}${count === 1 ? "" : "s"}`;
     });
-    if (this.values.length) this.form.refresh();
+    for (const text of this.traces) {
+      this.form.gas.text = text;
+      done.push("a pressure over the angle, below the rows");
+    }
+    if (this.values.length || this.traces.length) this.form.refresh();
+    if (this.traces.length) this.form.opened("/machine/throws/gas")?.scrollIntoView({ block: "nearest" });
     return `${this.refusals.map((one) => `${one} `).join("")}Pasted: ${[...done, ...this.values.filter(([name]) => !unknown.includes(name)).map(([name]) => name)].join(", ") || "nothing"}.`
       + `${unknown.length ? ` Not understood: ${unknown.join(", ")}.` : ""}`;
   }
@@ -70,5 +82,5 @@ export class Sheet {
 const named = ([name, value, ...rest]) => name && !numeric(name) && value && numeric(value) && !rest.some(Boolean);
 
 function blocksOf(text) {
-  return text.replace(/\r/g, "").split(/\n(?:[\t; ]*\n)+/).map((block) => block.replace(/^\n+|\n+$/g, "")).filter((block) => block.trim());
+  return text.replace(/\r/g, "").split(/\n(?:[\t;, ]*\n)+/).map((block) => block.replace(/^\n+|\n+$/g, "")).filter((block) => block.trim());
 }

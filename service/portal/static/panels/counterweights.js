@@ -2,6 +2,7 @@
 
 import { h, table } from "../dom.js";
 import { figure, number } from "../format.js";
+import { limited } from "../objective.js";
 
 const LIMITS = {
   max_mass: "mass", envelope: "envelope", max_centrifugal_force: "centrifugal force", sector: "sector", max_total_mass: "limit of the total mass",
@@ -34,6 +35,7 @@ export const counterweights = {
     const prices = answer.shadow_prices ?? [];
     const whole = prices.filter((price) => !price.web);
     const active = answer.active_limits ?? [];
+    const named = (limit) => LIMITS[limit] ?? (limit.endsWith("_ceiling") ? `ceiling of the ${limited(limit, answer.residual.responses)}` : limit);
     const fitted = answer.counterweights.length ? answer.counterweights : answer.infeasibility?.closest.counterweights ?? [];
     const shafts = answer.infeasibility?.closest.balance_shafts ?? answer.balance_shafts ?? [];
     body.replaceChildren(...[
@@ -44,7 +46,7 @@ export const counterweights = {
       ]),
       active.length || whole.length ? h("ul", {}, active.map((limit) => {
         const price = whole.find((one) => one.limit === limit);
-        return h("li", {}, `The ${LIMITS[limit] ?? limit} is reached${price ? `; shadow price ${worth(price)}` : ""}.`);
+        return h("li", {}, `The ${named(limit)} is reached${price ? `; shadow price ${worth(price)}` : ""}.`);
       })) : null,
       prices.length ? h("p", { class: "about" },
         "A shadow price is by how much the objective would fall for each unit more of a limit, as long as the change is small.") : null,

@@ -24,15 +24,21 @@ const peaks = ({ residual }, part) => {
   return `Peak ${part.name} before ${figure(before)} ${part.unit}${after === undefined ? "" : `, after ${figure(after)} ${part.unit}`}.`;
 };
 
+// the weights that a request says are fitted leave what is computed of them
+const asBuilt = ({ ask, request }) => (request.fitted?.length
+  ? ask("v1/analyze", { machine: request.machine, counterweights: request.fitted, outputs: ["hodograph", "residual"], angles: { step_deg: 2 } }) : null);
+
 export const hodographs = {
   id: "hodographs", output: "hodograph", title: "Hodographs of force and moment", open: true,
-  async draw(body, { answer, request }) {
+  async draw(body, context) {
+    const { answer, request } = context;
+    const built = await asBuilt(context);
     const nodes = pair(body);
     await Promise.all(PARTS.map((part, index) => {
       const scale = scales(request.machine, answer)[part.name];
       const range = calm(largest(answer, part), scale);
       return plot(nodes[index], () => {
-        const { before, after, floor } = colours();
+        const { before, after, floor, series } = colours();
         const { hodograph } = answer;
         const curve = (each, name, style) => ({ x: closed(each[part.x]), y: closed(each[part.y]), name, mode: "lines", line: style,
           hovertemplate: "%{x:.5~s}, %{y:.5~s}<extra></extra>" });
@@ -41,6 +47,7 @@ export const hodographs = {
         /** @type {object[]} */
         const traces = [curve(hodograph.before, "before", { color: before, width: 2, dash: "dash" })];
         if (hodograph.after) traces.push(curve(hodograph.after, "after", { color: after, width: 3 }));
+        if (built) traces.push(curve(built.hodograph.after, "as built", { color: series[3], width: 2, dash: "dashdot" }));
         // what is cancelled is a point, and would not be seen
         if (answer.residual.after?.[part.name][part.peak] < 1e-3 * scale) {
           traces.push({ x: [0], y: [0], mode: "markers", marker: { color: after, size: 9 }, name: "cancelled", hoverinfo: "name" });
@@ -49,7 +56,7 @@ export const hodographs = {
           name: "floor", mode: "lines", line: { color: floor, width: 1.5, dash: "dot" }, hoverinfo: "name" });
         return { traces, layout: { height: 360, xaxis: { title: `${part.axes[0]}, ${part.unit}`, ...range },
           yaxis: { title: `${part.axes[1]}, ${part.unit}`, scaleanchor: "x", ...range } },
-        label: `Hodograph of the ${part.name}. ${peaks(answer, part)} Floor ${figure(radius)} ${part.unit}.` };
+        label: `Hodograph of the ${part.name}. ${peaks(answer, part)}${built ? ` As built ${figure(built.residual.after[part.name][part.peak])} ${part.unit}.` : ""} Floor ${figure(radius)} ${part.unit}.` };
       });
     }));
   },

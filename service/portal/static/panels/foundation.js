@@ -3,6 +3,7 @@
 import { h, table } from "../dom.js";
 import { fileName, save } from "../files.js";
 import { figure, number } from "../format.js";
+import { scales } from "../scales.js";
 
 const SETS = { before: "before", after: "after", as_built: "as built" };
 const LOADS = [
@@ -13,6 +14,9 @@ const LOADS = [
 ];
 /** @type {{ [unit: string]: number }} */
 const UNITS = { N: 1, kN: 1000 };
+// what is below this share of the largest is told in a sentence, as in the report
+const SMALL = 1e-3;
+const DUST = 1e-9;
 
 const amplitude = (load) => load.amplitude_N ?? load.amplitude_Nm;
 const setsOf = (found) => Object.keys(SETS).filter((name) => found.some((one) => one[name]));
@@ -35,7 +39,7 @@ export const foundation = {
       keep("unit", unit.value);
       show();
     } }, Object.keys(UNITS).map((name) => h("option", { value: name, selected: name === kept.unit }, `${name} and ${name} m`)));
-    const show = () => place.replaceChildren(shown(found, unit.value));
+    const show = () => place.replaceChildren(shown(found, unit.value, scales(request.machine, answer)));
     const file = () => save(new Blob([foundationCsv(found)], { type: "text/csv" }), fileName(`${request.machine.name ?? "machine"}-foundation-loads`, "csv"));
     body.replaceChildren(
       h("div", { class: "controls" }, h("div", { class: "choose" }, h("label", { for: "foundation-unit" }, "Unit"), unit),
@@ -50,17 +54,25 @@ const convention = (centre) => `A load is A cos(k ψ − phase): k is the order,
   + `(shaft angle ${figure(centre)}°), in the sense of rotation. Forces act on the frame. A couple is the sum of force times distance from the reference plane. `
   + "The horizontal couple is that of the x forces and turns about y; the vertical couple is that of the y forces and turns about x. The words hold where x is level and y upright.";
 
-function shown(found, unit) {
+function shown(found, unit, scale) {
   const sets = setsOf(found);
-  const still = (one) => sets.every((set) => LOADS.every(({ name }) => !one[set] || amplitude(one[set][name]) === 0));
-  const moving = found.filter((one) => !still(one));
-  const cells = (load) => LOADS.flatMap(({ name }) => {
-    const size = amplitude(load[name]);
+  const forces = LOADS.filter((load) => load.unit === "N");
+  const couples = LOADS.filter((load) => load.unit !== "N");
+  const largest = (one, loads) => Math.max(...sets.flatMap((set) => loads.map(({ name }) => (one[set] ? amplitude(one[set][name]) : 0))));
+  const most = [forces, couples].map((loads) => Math.max(...found.map((one) => largest(one, loads))));
+  const small = (one) => [forces, couples].every((loads, kind) => largest(one, loads) <= SMALL * most[kind]);
+  // a residue of rounding beside what the counterweights do is nothing, and has no phase
+  const cells = (load) => LOADS.flatMap(({ name, unit: own }) => {
+    const given = amplitude(load[name]);
+    const size = given > DUST * (own === "N" ? scale.force : scale.moment) ? given : 0;
     return [number(size / UNITS[unit]), number(size ? load[name].phase_deg : null, 4)];
   });
   const heads = ["order", ...LOADS.flatMap((load) => [`${load.head}, ${load.unit.replace("N", unit)}`, "phase, °"])];
-  const rows = moving.flatMap((one) => sets.filter((set) => one[set]).map((set) => [`${one.order},\u00a0${SETS[set]}`, ...cells(one[set])]));
-  const quiet = found.filter(still).map((one) => one.order);
+  const rows = found.filter((one) => !small(one)).flatMap((one) => sets.filter((set) => one[set]).map((set) => [`${one.order},\u00a0${SETS[set]}`, ...cells(one[set])]));
+  const quiet = found.filter((one) => small(one) && largest(one, LOADS) === 0).map((one) => one.order);
+  const slight = found.filter((one) => small(one) && largest(one, LOADS) > 0);
   return h("div", { class: "foundation" }, rows.length ? table("Amplitude and phase by order", heads, rows) : null,
+    slight.length ? h("p", {}, `Of order ${slight.map((one) => one.order).join(", ")} forces are at most ${figure(Math.max(...slight.map((one) => largest(one, forces))) / UNITS[unit])} ${unit}, `
+      + `couples ${figure(Math.max(...slight.map((one) => largest(one, couples))) / UNITS[unit])} ${unit} m; the CSV has them.`) : null,
     quiet.length ? h("p", {}, `Nothing of order ${quiet.join(", ")} loads the foundation.`) : null);
 }

@@ -3,6 +3,7 @@
 import { post, Problem } from "../api.js";
 import { h, table } from "../dom.js";
 import { figure, number, share } from "../format.js";
+import { complaint } from "../naming.js";
 import { Parts } from "../match/parts.js";
 import { isNut, question, rowsOf, toWeigh } from "../match/question.js";
 
@@ -51,7 +52,7 @@ export const match = {
         if (!(error instanceof Problem)) throw error;
         const placed = error.errors.map((one) => ({ ...place(one.pointer), ...one }));
         parts.blame(placed.filter((one) => one.field !== undefined));
-        const homeless = placed.filter((one) => one.field === undefined).map((one) => `${one.pointer}: ${one.message}.`);
+        const homeless = placed.filter((one) => one.field === undefined).map((one) => `${complaint(asked, one)}.`);
         said.textContent = [error.errors.length ? "" : error.message, ...homeless].join(" ").trim();
       } finally {
         start.disabled = false;

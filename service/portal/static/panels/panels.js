@@ -4,6 +4,7 @@ import { Problem, post } from "../api.js";
 import { showCall } from "../calls.js";
 import { h } from "../dom.js";
 import { painted } from "../later.js";
+import { complaint } from "../naming.js";
 
 const everyRow = (machine, ...names) => {
   // asked before the service has looked at the machine, which may hold anything
@@ -120,7 +121,7 @@ export class Panels {
       if (error.name === "AbortError" || context !== this.context) return;
       if (!(error instanceof Problem)) console.error(error);
       part.body.replaceChildren(h("p", { class: "error", role: "alert" }, error.message,
-        (error.errors ?? []).map((one) => ` ${one.pointer}: ${one.message}.`)));
+        (error.errors ?? []).map((one) => ` ${complaint(context.request, one)}.`)));
       if (error.errors?.length) this.blamed(error.errors);
     } finally {
       if (context === this.context) part.wait.textContent = "";

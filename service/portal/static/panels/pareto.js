@@ -3,6 +3,7 @@
 import { h, table } from "../dom.js";
 import { front } from "../drawing/front.js";
 import { figure, number, share } from "../format.js";
+import { complaint } from "../naming.js";
 import { colours, plot } from "../plots.js";
 import { chosenFrom, counted } from "./counts.js";
 import { counterweightTable } from "./counterweights.js";
@@ -45,7 +46,7 @@ export const pareto = {
     } catch (error) {
       if (error.name === "AbortError") throw error;
       // the choice stays: another one may have an answer
-      body.append(h("p", { class: "error", role: "alert" }, [error.message, ...(error.errors ?? []).map((one) => `${one.pointer.slice(1).replaceAll("/", " ")}: ${one.message}.`)].join(" ")));
+      body.append(h("p", { class: "error", role: "alert" }, [error.message, ...(error.errors ?? []).map((one) => `${complaint(request, one)}.`)].join(" ")));
       return;
     }
     if (!found.points.length) {

@@ -3,7 +3,9 @@
 import { ask as send, events, get, post, Problem } from "../api.js";
 import { h } from "../dom.js";
 import { figure } from "../format.js";
+import { complaint } from "../naming.js";
 import { Axes } from "../sweep/axes.js";
+import { areLoads, overSpeed, showLoads, speeds } from "../sweep/bearings.js";
 import { numbersOf } from "../sweep/numbers.js";
 import { downloads, rowsOf, showRows } from "../sweep/results.js";
 
@@ -13,7 +15,8 @@ let lastAxes = null;
 export const sweep = {
   id: "sweep", title: "Sweep: many designs of this machine",
   about: "Choose fields and ranges; every design gets its own certified counterweights.",
-  async draw(body, { request, told, schema, model, keep, kept }) {
+  async draw(body, context) {
+    const { request, told, schema, model, keep, kept } = context;
     const numbers = numbersOf(request, await schema, model);
     const known = lastAxes?.filter((axis) => numbers.some(({ pointer }) => pointer === axis.path)) ?? [];
     const axes = new Axes(numbers, known.length ? known : Axes.usual(numbers));
@@ -21,7 +24,8 @@ export const sweep = {
     const design = h("select", { id: "sweep-design", change: () => { samples.parentElement.hidden = design.value === "grid"; } },
       h("option", { value: "grid" }, "every combination"), h("option", { value: "latin_hypercube" }, "Latin hypercube"));
     const samples = h("input", { id: "sweep-samples", type: "text", inputmode: "numeric", value: "500" });
-    const start = h("button", { type: "button", class: "primary", click: () => run() }, "Start the sweep");
+    const start = h("button", { type: "button", class: "primary", click: () => run(asked()) }, "Start the sweep");
+    const loads = h("button", { type: "button", click: () => run(speeds(context)) }, "Bearing loads over the speed");
     const cancel = h("button", { type: "button", hidden: true }, "Cancel");
     const bar = h("progress", { max: 1, value: 0, hidden: true, "aria-label": "Progress of the sweep" });
     const status = h("p", { role: "status" });
@@ -30,7 +34,7 @@ export const sweep = {
     body.replaceChildren(axes.element,
       h("div", { class: "controls" },
         h("div", { class: "choose" }, h("label", { for: "sweep-design" }, "designs"), design),
-        h("div", { class: "choose", hidden: true }, h("label", { for: "sweep-samples" }, "how many"), samples), start, cancel),
+        h("div", { class: "choose", hidden: true }, h("label", { for: "sweep-samples" }, "how many"), samples), start, overSpeed(request.machine) ? loads : null, cancel),
       bar, status, trouble, result);
 
     const asked = () => {
@@ -39,8 +43,7 @@ export const sweep = {
       return { base, axes: axes.value(grid), design: design.value, ...(grid ? {} : { samples: Number(samples.value) }) };
     };
 
-    async function run() {
-      const question = asked();
+    async function run(question) {
       told({ method: "POST", path: "v1/sweeps", body: question });
       clear(body);
       await busy(async () => {
@@ -54,12 +57,14 @@ export const sweep = {
       trouble.textContent = "";
       result.replaceChildren();
       start.disabled = true;
+      loads.disabled = true;
       try {
         await work();
       } catch (error) {
-        blame(body, trouble, error);
+        blame(body, trouble, error, request);
       } finally {
         start.disabled = false;
+        loads.disabled = false;
         cancel.hidden = true;
         bar.hidden = true;
       }
@@ -76,7 +81,8 @@ export const sweep = {
       if (!end.done) return;
       const drawn = h("div");
       result.replaceChildren(drawn, downloads(id));
-      await showRows(drawn, await rowsOf(id), titles, planned.design === "grid", end.total);
+      const rows = await rowsOf(id);
+      await (areLoads(planned, rows) ? showLoads(drawn, rows) : showRows(drawn, rows, titles, planned.design === "grid", end.total));
       body.closest("details").dataset.swept = id;
     }
 
@@ -116,13 +122,13 @@ function clear(body) {
 }
 
 // errors at the fields of the axes; what belongs to the machine is said as it is
-function blame(body, trouble, error) {
+function blame(body, trouble, error, request) {
   if (!(error instanceof Problem)) throw error;
   const homeless = [];
   for (const { pointer, message } of error.errors) {
     const place = body.querySelector(`[data-pointer="${CSS.escape(pointer)}"]`);
     const said = place?.querySelector(":scope > .error");
-    if (!said) homeless.push(`${pointer}: ${message}`);
+    if (!said) homeless.push(complaint(request, { pointer: pointer.replace(/^\/base/, ""), message }));
     else {
       said.textContent = message;
       place.classList.add("wrong");

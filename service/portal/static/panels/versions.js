@@ -3,6 +3,7 @@
 import { h, table } from "../dom.js";
 import { saveJson } from "../files.js";
 import { figure, share } from "../format.js";
+import { called } from "../naming.js";
 import { differences, keepVersions, responsesOf, resultOf, versions as kept } from "../versions.js";
 
 const MOST_DIFFERENCES = 60;
@@ -101,6 +102,6 @@ function asked(some) {
   if (!found.length) return h("p", {}, "They ask the same.");
   const said = (value) => (value === undefined ? "–" : String(value));
   return h("div", {}, table("What was asked differently", ["field", ...some.map((one) => one.name)],
-    found.slice(0, MOST_DIFFERENCES).map(([pointer, values]) => [pointer.slice(1).replaceAll("/", " "), ...values.map(said)])),
+    found.slice(0, MOST_DIFFERENCES).map(([pointer, values]) => [called(some[0].request, pointer), ...values.map(said)])),
   found.length > MOST_DIFFERENCES ? h("p", { class: "about" }, `and ${found.length - MOST_DIFFERENCES} more`) : null);
 }

@@ -5,12 +5,10 @@ import { h, table } from "../dom.js";
 import { figure, number, share } from "../format.js";
 import { quantity, read } from "../quantity.js";
 
-// masses and angles that a workshop likes, from the coarsest
-const ROUNDINGS = [[1, 5], [0.5, 5], [0.5, 1], [0.2, 1], [0.1, 1], [0.1, 0.5], [0.05, 0.5], [0.01, 0.1], [0.001, 0.01]];
-const WORSE = 0.01;
+// steps that a workshop likes
+const STEPS = { mass: "0.5", angle: "5" };
 
 const peaks = (state) => [state.force.peak_N, state.moment.peak_Nm];
-const rounded = (value, step) => Number((Math.round(value / step) * step).toPrecision(12));
 const change = (now, was) => (was > 0 ? `${now >= was ? "+" : "−"}${share(Math.abs(now / was - 1))}` : now > 0 ? "from nothing" : "±0 %");
 
 // the newest of calls that overtake one another
@@ -73,7 +71,7 @@ function fitted({ request, answer, told }) {
     }
   };
   const cell = (index, name, unit) => {
-    const input = h("input", { type: "text", value: figure(weights[index][name], 6).replaceAll(",", ""), autocomplete: "off",
+    const input = h("input", { type: "text", value: figure(weights[index][name], 6).replace(/\s/g, ""), autocomplete: "off",
       "aria-label": `${name === "mass_kg" ? "mass, kg" : "angle, °"}, ${weights[index].web}, as fitted`, input: () => {
         weights[index][name] = quantity(read(input.value, unit), unit);
         compute();
@@ -89,21 +87,29 @@ function fitted({ request, answer, told }) {
     for (const { input, index, name } of inputs) input.value = String(weights[index][name]);
   };
   const said = h("span", { role: "status" });
-  // the coarsest rounding that costs at most one per cent in force and moment
+  const step = (label, value) => h("input", { type: "text", value, autocomplete: "off", size: 5, "aria-label": label });
+  const [massStep, angleStep] = [step("step of masses, kg", STEPS.mass), step("step of angles, °", STEPS.angle)];
+  // the best of all roundings to these steps, and what they cost
   const suggest = async () => {
-    const least = peaks(answer.residual.after);
-    const scale = peaks(answer.residual.before);
-    for (const [mass, angle] of ROUNDINGS) {
-      const tried = answer.counterweights.map((one) => ({ mass_kg: rounded(one.mass_kg, mass), angle_deg: rounded(one.angle_deg, angle) }));
-      const found = await call("v1/analyze", ask(weights.map((one, index) => ({ ...one, ...tried[index] }))));
+    const [mass, angle] = [quantity(read(massStep.value, "kg"), "kg"), quantity(read(angleStep.value, "deg"), "deg")];
+    const question = { request: { ...request, outputs: ["residual"] }, mass_step_kg: mass, angle_step_deg: angle };
+    told({ method: "POST", path: "v1/round", body: question });
+    try {
+      const found = await call("v1/round", question);
       if (!found) return;
-      if (!peaks(found.residual.after).every((now, index) => now <= least[index] + WORSE * Math.max(least[index], WORSE * scale[index]))) continue;
-      put(tried);
-      said.textContent = `Rounded to ${mass} kg and ${angle}°.`;
-      tell(found);
-      return;
+      if (!found.rounding) {
+        said.textContent = found.status_reason;
+        return;
+      }
+      put(found.counterweights.map((one) => ({ mass_kg: one.mass_kg, angle_deg: one.angle_deg })));
+      const { relative_rise: rise, masses_alone_rise: masses, angles_alone_rise: angles } = found.rounding;
+      const cost = rise === null ? "" : ` The objective rises by ${share(Math.max(rise, 0))}.`;
+      const finer = masses > angles ? "masses" : "angles";
+      said.textContent = `Rounded to ${mass} kg and ${angle}°.${cost} The step of the ${finer} costs more.`;
+      compute();
+    } catch (error) {
+      said.textContent = [error.message, ...(error.errors ?? []).map((one) => one.message)].join(" ");
     }
-    said.textContent = "No rounding down to 1 g and 0.01° keeps within one per cent.";
   };
   const back = () => {
     put(answer.counterweights.map((one) => ({ mass_kg: one.mass_kg, angle_deg: one.angle_deg })));
@@ -114,7 +120,8 @@ function fitted({ request, answer, told }) {
   return [
     h("div", { class: "grid" }, h("div", { class: "wide" }, h("table", {}, h("caption", {}, "Optimum, and as fitted"),
       h("thead", {}, h("tr", {}, ["web", "mass, kg", "angle, °", "fitted mass, kg", "fitted angle, °"].map((head) => h("th", { scope: "col" }, head)))), h("tbody", {}, rows)))),
-    h("div", { class: "buttons" }, h("button", { type: "button", class: "small", click: suggest }, "Suggest a rounding"),
+    h("div", { class: "buttons" }, h("label", {}, "steps ", massStep, " kg "), h("label", {}, angleStep, "° "),
+      h("button", { type: "button", class: "small", click: suggest }, "Suggest a rounding"),
       h("button", { type: "button", class: "small", click: back }, "As the optimum"), said), result];
 }
 

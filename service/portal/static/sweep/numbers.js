@@ -1,7 +1,7 @@
 // The numbers of a request that a sweep can vary.
 
-import { label, nameOf, singular } from "../format.js";
-import { get, join, split } from "../pointer.js";
+import { called } from "../naming.js";
+import { get, join } from "../pointer.js";
 
 const ROOTS = ["machine", "objective"];
 
@@ -11,9 +11,9 @@ export function numbersOf(request, schema, model) {
   const visit = (description, pointer) => {
     const value = get(request, pointer);
     if (value === undefined || value === null) return;
-    if (description.kind === "number") found.push({ pointer, unit: description.unit, value, name: named(request, pointer) });
+    if (description.kind === "number") found.push({ pointer, unit: description.unit, value, name: called(request, pointer) });
     if (description.kind === "variants" && typeof value !== "object") {
-      found.push({ pointer, unit: description.unit, value, name: named(request, pointer) });
+      found.push({ pointer, unit: description.unit, value, name: called(request, pointer) });
     }
     if (description.kind === "list") value.forEach((_, index) => visit(description.items, join(pointer, index)));
     const object = description.kind === "union" ? description.options.get(value[description.tag]) : description;
@@ -22,21 +22,6 @@ export function numbersOf(request, schema, model) {
   const root = schema.model(model);
   for (const name of ROOTS) visit(schema.describe(root.properties[name]), `/${name}`);
   return found;
-}
-
-// "throw 1, row I: reciprocating mass"
-function named(request, pointer) {
-  const parts = split(pointer);
-  const last = parts.pop();
-  const around = [];
-  let at = "";
-  for (const part of parts) {
-    const list = Array.isArray(get(request, at));
-    at = join(at, part);
-    if (list) around[around.length - 1] = `${singular(around.at(-1))} ${nameOf(get(request, at), Number(part))}`;
-    else if (part !== "machine") around.push(label(part));
-  }
-  return `${around.join(", ")}${around.length ? ": " : ""}${label(last)}`;
 }
 
 const QUANTITY = /^\s*([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*(.*?)\s*$/;

@@ -1,0 +1,225 @@
+"""Loads of the main bearings, bending of the shaft, and peaks of all orders, as an answer prints them."""
+
+from __future__ import annotations
+
+from math import cos, radians, sin
+from typing import List, Optional, Sequence
+
+from verify_answer import Fitted
+from verify_circle import Circle, smallest
+from verify_claims import Claim, Claims, same
+from verify_curves import Turn
+from verify_harmonics import Curve, Peak
+from verify_loads import Loads
+from verify_machine import NAMES, Machine
+from verify_numbers import ONE, NotCovered, Place, real
+
+SAMPLE = 1e-11  # of all harmonics together: by which doubles are off
+PEAK = 2e-9  # of a peak: by which a printed one may be below the largest value, and its bracket wide
+FLOOR = 2e-7  # of a radius likewise
+
+
+def within(claim: str, place: Place, low: float, high: float, off: float) -> Claim:
+    """A figure in doubles is between two others."""
+    if not place:
+        return claim, place, -ONE, ONE
+    value = place.double()
+    return claim, place, real(min(value - low, high - value) + off), real(max(abs(low), abs(high)) + off)
+
+
+def peak_of(curve: Curve, place: Place, enough: float = 0.0) -> Peak:
+    """The largest length of a curve, where it can be enclosed."""
+    found = curve.peak(enough)
+    if found is None:
+        raise NotCovered(place)
+    return found
+
+
+def largest(claim: str, place: Place, curve: Curve, unit: str) -> Claims:
+    """A peak, its bracket and its angle; returns the enclosure of the peak."""
+    found = peak_of(curve, place)
+    off = SAMPLE * curve.size
+    yield within(claim, place / f"peak_{unit}", found.low * (1 - PEAK), found.high, off)
+    ends = list(place / f"peak_bracket_{unit}")
+    yield claim, place / f"peak_bracket_{unit}", ONE if len(ends) == 2 else -ONE, ONE
+    if len(ends) == 2:
+        yield within(claim, ends[0], found.low * (1 - PEAK), found.high, off)
+        yield within(claim, ends[1], found.low, found.high * (1 + PEAK), off)
+    return found
+
+
+def where(claim: str, place: Place, loads: Loads, curve: Curve, peak: Peak) -> Claim:
+    """The shaft angle of a peak: the curve has it there."""
+    degrees = place.double()
+    there = curve.length(turned(loads, degrees)) if 0 <= degrees <= 360 else 0.0
+    return within(claim, place, degrees, degrees, there - peak.low * (1 - PEAK) + SAMPLE * curve.size)
+
+
+def turned(loads: Loads, degrees: float) -> float:
+    """The angle of the harmonics [rad] at a shaft angle."""
+    return radians(degrees) if loads.turn.sense is ONE else -radians(degrees)
+
+
+def sampled(claim: str, angles: Place, request: Place) -> Claims:
+    """Shaft angles of the samples; returns them [degrees]."""
+    step = (request / "angles" / "step_deg").double(1.0, least=1e-3)
+    places = list(angles)
+    yield claim, angles, ONE if len(places) == round(360 / step) else -ONE, ONE
+    for n, one in enumerate(places):
+        yield within(claim, one, n * step, n * step, 1e-9 * (n + 1) * step)
+    return [one.double() for one in places]
+
+
+def curves(request: Place, machine: Machine, answer: Place, fitted: Optional[Fitted]) -> Claims:
+    """All that an answer holds of them."""
+    turn = answer / "residual" / "turn"
+    if turn:
+        frame = Loads(request / "machine", machine, Turn(request, machine, loads=False))
+        yield from all_orders(frame, answer, fitted)
+    if answer / "main_bearings":
+        shaft = Loads(request / "machine", machine, Turn(request, machine, loads=True))
+        yield from main_bearings(request, shaft, answer, fitted)
+    if answer / "roll":
+        rows = Loads(request / "machine", machine, Turn(request, machine, loads=True))
+        yield from roll(request, rows, answer / "roll", fitted)
+
+
+def roll(request: Place, loads: Loads, shown: Place, fitted: Optional[Fitted]) -> Claims:
+    """The moment about the crankshaft, which balance shafts alone change."""
+    angles = yield from sampled("roll", shown / "angle_deg", request)
+    sides = [("before", loads.curve("roll"))]
+    if fitted is None:
+        yield "roll", shown / "after", -ONE if shown / "after" else ONE, ONE
+    else:
+        sides.append(("after", loads.with_weights("roll", [], fitted.on_shafts)))
+    for side, curve in sides:
+        samples = list(shown / side / "moment_Nm")
+        yield "roll", shown / side, ONE if len(samples) == len(angles) else -ONE, ONE
+        off = SAMPLE * (curve.size + loads.curve("roll").size)
+        for degrees, one in zip(angles, samples):
+            value = curve.at(turned(loads, degrees)).real
+            yield within("roll", one, value, value, off)
+        peak = yield from largest("roll", shown / side, curve, "Nm")
+        yield where("roll", shown / side / "peak_angle_deg", loads, curve, peak)
+
+
+def main_bearings(request: Place, loads: Loads, answer: Place, fitted: Optional[Fitted]) -> Claims:
+    """Without and with counterweights."""
+    shown, asked = answer / "main_bearings", {(one / "name").text(): one for one in request / "machine" / "bearings"}
+    angles = yield from sampled("main_bearings", shown / "angle_deg", request)
+    shaft = (request / "fidelity" / "shaft").text(default="simple_spans")
+    yield same("main_bearings", shown / "shaft", shaft)
+    rows = list(shown / "bearings")
+    names = [(one / "name").text() for one in rows]
+    if names != [*asked]:
+        yield "main_bearings", shown / "bearings", -ONE, ONE
+        return
+    for name, one in zip(names, rows):
+        own = asked[name]
+        yield "main_bearings", one / "name", ONE, ONE
+        yield within("main_bearings", one / "position_m", *2 * [(own / "position_m").double()], 0.0)
+        before = loads.curve(f"bearing:{name}")
+        circle = circle_of(before, one)
+        yield from _load(loads, own, before, one / "before", circle, angles)
+        if fitted is None:
+            yield "main_bearings", one / "after", -ONE if one / "after" else ONE, ONE
+            continue
+        by = loads.added(f"bearing:{name}", fitted.turning)
+        moved = circle._replace(middle=circle.middle + by)
+        yield from _load(loads, own, before.moved(by), one / "after", moved, angles)
+    yield from _bending(loads, shown / "bending", fitted)
+
+
+def circle_of(curve: Curve, place: Place, enough: float = 0.0) -> Circle:
+    """The smallest circle around a curve, where it can be enclosed."""
+    found = smallest(curve, enough)
+    if found is None:
+        raise NotCovered(place)
+    return found
+
+
+def _load(loads: Loads, own: Place, curve: Curve, place: Place, circle: Circle, angles: Sequence[float]) -> Claims:
+    """Of one bearing."""
+    size = curve.size
+    off = SAMPLE * size
+    x, y = list(place / "force_x_N"), list(place / "force_y_N")
+    yield "main_bearings", place, ONE if len(x) == len(y) == len(angles) else -ONE, ONE
+    for degrees, one, other in zip(angles, x, y):
+        angle = turned(loads, degrees)
+        value = curve.at(angle) * complex(cos(angle), sin(angle))
+        yield within("main_bearings", one, value.real, value.real, off)
+        yield within("main_bearings", other, value.imag, value.imag, off)
+    peak = yield from largest("main_bearings", place, curve, "N")
+    yield where("main_bearings", place / "peak_angle_deg", loads, curve, peak)
+    if own / "diameter_m" and own / "length_m":
+        area = (own / "diameter_m").double() * (own / "length_m").double()
+        low, high = peak.low * (1 - PEAK) / area, peak.high / area
+        yield within("main_bearings", place / "specific_load_Pa", low, high, off / area)
+    else:
+        yield same("main_bearings", place / "specific_load_Pa", None)
+    yield within("main_bearings", place / "rms_N", curve.rms, curve.rms, 10 * off)
+    yield within("main_bearings", place / "floor_N", circle.low * (1 - FLOOR), circle.high, off)
+    # around the middle that is printed the curve is no longer than that; of two points that hold a circle, it is theirs
+    middle = complex((place / "circle_x_N").double(), (place / "circle_y_N").double())
+    around = peak_of(curve.moved(-middle), place, circle.low)
+    for name in ("circle_x_N", "circle_y_N"):
+        yield within(
+            "main_bearings",
+            place / name,
+            *2 * [(place / name).double()],
+            circle.high * (1 + 2 * FLOOR) - around.high + off,
+        )
+
+
+def _bending(loads: Loads, place: Place, fitted: Optional[Fitted]) -> Claims:
+    """Of all planes."""
+    planes = loads.planes
+    places = list(place / "position_m")
+    if [one.double() for one in places] != planes:
+        yield "main_bearings", place / "position_m", -ONE, ONE
+        return
+    yield from (("main_bearings", one, ONE, ONE) for one in places)
+    curves = [loads.curve(f"bending:{plane!r}") for plane in planes]
+    after = [] if fitted is None else [loads.with_weights(f"bending:{plane!r}", fitted.turning) for plane in planes]
+    yield same("main_bearings", Place(len(list(place / "after_Nm")), *(place / "after_Nm").path), len(after))
+    found: List[Peak] = []
+    for of_planes, said in ((curves, place / "before_Nm"), (after, place / "after_Nm")):
+        found = [peak_of(curve, said) for curve in of_planes] or found
+        yield "main_bearings", said, ONE if len(list(said)) == len(of_planes) else -ONE, ONE
+        for peak, one in zip(found, said):
+            yield within("main_bearings", one, peak.low * (1 - PEAK), peak.high, SAMPLE * loads.size_of("bending"))
+    off = SAMPLE * loads.size_of("bending")
+    low, high = max(one.low for one in found), max(one.high for one in found)
+    yield within("main_bearings", place / "peak_Nm", low * (1 - PEAK), high, off)
+    ends = list(place / "peak_bracket_Nm")
+    yield "main_bearings", place / "peak_bracket_Nm", ONE if len(ends) == 2 else -ONE, ONE
+    if len(ends) == 2:
+        yield within("main_bearings", ends[0], low * (1 - PEAK), high, off)
+        yield within("main_bearings", ends[1], low, high * (1 + PEAK), off)
+    worst = dict(zip(planes, found)).get((place / "peak_position_m").double())
+    yield (
+        "main_bearings",
+        place / "peak_position_m",
+        real(-1.0 if worst is None else worst.high * (1 + PEAK) + off - low),
+        ONE,
+    )
+    low = high = 0.0
+    for curve in curves:
+        circle = circle_of(curve, place, high)
+        low, high = max(low, circle.low), max(high, circle.high)
+    yield within("main_bearings", place / "floor_Nm", low * (1 - FLOOR), high, off)
+
+
+def all_orders(loads: Loads, answer: Place, fitted: Optional[Fitted]) -> Claims:
+    """Peaks of force and moment on the frame."""
+    shown = answer / "residual" / "turn"
+    for name, unit in NAMES.items():
+        sides = [("before", loads.curve(name))]
+        if fitted is None:
+            yield "turn", shown / "after", -ONE if shown / "after" else ONE, ONE
+        else:
+            sides.append(("after", loads.with_weights(name, fitted.turning, fitted.on_shafts)))
+        for side, curve in sides:
+            found = peak_of(curve, shown)
+            off = SAMPLE * loads.size_of(name)
+            yield within("turn", shown / side / f"{name}_peak_{unit}", found.low * (1 - 2e-8), found.high, off)

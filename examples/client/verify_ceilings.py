@@ -1,0 +1,58 @@
+"""Ceilings on what counterweights leave over a revolution, or in any of several cases: kept, and which are touched."""
+
+from __future__ import annotations
+
+from math import nan
+from typing import Dict, Iterator, NamedTuple, Sequence
+
+from verify_claims import Claims
+from verify_first import CEILING
+from verify_numbers import Place, real
+from verify_program import CEILINGS
+from verify_values import Value
+from verify_weights import UNSURE
+
+#: fields of an objective that limit loads of the shaft
+LOADED = ("bearing_ceiling_N", "specific_load_ceiling_Pa", "bending_ceiling_Nm")
+
+
+class Limited(NamedTuple):
+    """A ceiling by its name in the answer, what it allows, and the response."""
+
+    limit: str
+    most: float
+    response: str
+
+
+def limited(value: Value) -> Iterator[Limited]:
+    """All that the objective of a machine limits."""
+    goal = value.part.goal
+    for response, field in CEILINGS.items():
+        if goal / field:
+            yield Limited(field.rpartition("_")[0], (goal / field).double(least=0), response)
+    load, specific, bending = (goal / f"{name}" for name in LOADED)
+    for name in value.part.turn.bearings:
+        if load:
+            yield Limited("bearing_ceiling", load.double(least=0), f"bearing:{name}")
+        if specific:
+            area = value.part.area[name].middle().real
+            yield Limited("specific_load_ceiling", specific.double(least=0) * area, f"bearing:{name}")
+    for plane in value.part.loads.planes if bending else ():
+        yield Limited("bending_ceiling", bending.double(least=0), f"bending:{plane!r}")
+
+
+def kept(place: Place, there: Sequence[Value], rest: Sequence[Value], optimal: bool) -> Claims:
+    """That an optimal answer keeps the ceilings; returns which share of each is left at least."""
+    rooms: Dict[str, float] = {}
+    for value, nothing in zip(there, rest):
+        for limit, most, response in limited(value):
+            found = value.under(response)
+            room = most - found.high
+            if room < 0:
+                room += CEILING * max(most, nothing.under(response).high)
+            yield "ceilings", place, real(room) if optimal or room >= 0 else None, real(max(most, found.high))
+            # a ceiling that the rounding of what cancels comes near to may be listed or not
+            unsure = found.high - found.low > UNSURE * most
+            share = nan if unsure else 1 - found.high / most if most > 0 else 0.0
+            rooms[limit] = min(rooms.get(limit, share), share)
+    return rooms

@@ -1,0 +1,54 @@
+"""The smallest circle around a curve: what its length comes to at least, wherever counterweights put its middle.
+
+Two or three points of the curve are no longer than the half of their distance, or than the radius around them: any
+middle is as far from one of them (Jung's theorem; the dual of the smallest enclosing circle). From those of two points
+the farthest point of the curve is added until none is farther.
+"""
+
+from __future__ import annotations
+
+from itertools import combinations
+from typing import List, NamedTuple, Optional, Sequence, Tuple
+
+from verify_harmonics import Curve
+
+ROUNDS = 60
+WIDE = 2e-8  # share of the radius by which it is enclosed
+
+
+class Circle(NamedTuple):
+    """A radius is between these; around the middle the curve is no longer than the upper one."""
+
+    low: float
+    high: float
+    middle: complex
+
+
+def smallest(curve: Curve, enough: float = 0.0) -> Optional[Circle]:
+    """Around a curve; of no interest where it is no larger than ``enough``. None where that takes too long."""
+    size = curve.moved(-curve.harmonics.get(0, 0j)).size
+    middle, low, support = curve.harmonics.get(0, 0j), 0.0, [curve.at(0.0)]
+    for _ in range(ROUNDS):
+        peak = curve.moved(-middle).peak(enough)
+        if peak is None:
+            return None
+        if peak.high <= max(low * (1 + WIDE), enough) + 1e-12 * size:
+            return Circle(low, peak.high, middle)
+        low, middle, support = around([*support, curve.at(peak.angle)])
+    return None
+
+
+def around(points: Sequence[complex]) -> Tuple[float, complex, List[complex]]:
+    """Radius and middle of the smallest circle around two to four points, and those that hold it."""
+    found = (0.0, points[0], [points[0]])
+    for one, other in combinations(points, 2):
+        found = max(found, (abs(one - other) / 2, (one + other) / 2, [one, other]), key=lambda each: each[0])
+    for a, b, c in combinations(points, 3):
+        # of a triangle without an obtuse angle, as seen from its first corner
+        p, q = b - a, c - a
+        area = (p.conjugate() * q).imag
+        acute = min((p.conjugate() * q).real, (-p.conjugate() * (c - b)).real, (q.conjugate() * (c - b)).real)
+        if area and acute > 0:
+            centre = a + 1j * (abs(q) ** 2 * p - abs(p) ** 2 * q) / (2 * area)
+            found = max(found, (abs(centre - a), centre, [a, b, c]), key=lambda each: each[0])
+    return found

@@ -1,0 +1,143 @@
+"""Goals over a revolution, in several cases, with tolerances, in their order: what an answer prints of them."""
+
+from __future__ import annotations
+
+from typing import Dict, List, NamedTuple, Sequence
+
+from verify_answer import Fitted
+from verify_bearings import within
+from verify_cases import Case, Scatter, nominal, peak
+from verify_ceilings import kept
+from verify_claims import Claims, near
+from verify_cuts import Part
+from verify_machine import NAMES, ON_FRAME, Machine, Mass
+from verify_numbers import ABOUT_ONE, ONE, ZERO, Number, Place, largest
+from verify_values import Range, Value, most
+from verify_weights import listed
+
+#: share of a goal without counterweights by which brackets are wide
+WIDE = 2e-9
+#: least share of it that a goal leaves to those after it
+ALLOWANCE = 1e-6
+NO_SCATTER = Scatter(ZERO, ZERO)
+
+
+class Program(NamedTuple):
+    """What is asked: machines, goals in their order, what counterweights may be off by, rows of the first order."""
+
+    parts: List[Part]
+    named: List[str]
+    off: Scatter
+    machine: Machine
+    rows: Dict[str, Dict[str, Number]]
+
+
+def values(request: Place, answer: Place, program: Program, fitted: Fitted) -> Claims:
+    """Objective, goals before it, the worst case and what it costs."""
+    proof, webs = answer / "certificate", program.machine.webs
+    alone = [one if web.fixed else Mass(ZERO, ONE, ZERO, web.position) for one, web in zip(fitted.turning, webs)]
+    fixed = fitted._replace(turning=alone, on_shafts=[])
+    there, rest = ([Value(part, each, program.off) for part in program.parts] for each in (fitted, fixed))
+    optimal = (answer / "status").text() == "optimal"
+    rooms = yield from kept(answer / "counterweights", there, rest, optimal)
+    if program.machine.budget is not None:
+        most_there = float(program.machine.budget)
+        rooms["max_total_mass"] = 1 - float(fitted.mass) / most_there if most_there > 0 else 0.0
+    yield from listed("active_limits", answer / "active_limits", rooms)
+    first = program.parts[0]
+    if not first.over_turn and len(program.named) == 1:
+        yield from _exactly(request, answer, program, fitted)
+        return
+    *earlier, last = program.named
+    value, nothing = (most([one.goal(last) for one in each]) for each in (there, rest))
+    off = WIDE * nothing.high
+    yield within("objective", proof / "objective", value.low, value.high, off)
+    yield within("before", proof / "objective_without_counterweights", nothing.low, nothing.high, off)
+    for name, place, priority in zip(earlier, proof / "goals", request / "objective" / "priorities"):
+        found, nothing = (most([one.goal(name) for one in each]) for each in (there, rest))
+        yield from _goal(name, place, found, nothing, (priority / "allowance").double(0.0, least=0))
+    if answer / "worst_case":
+        yield from _worst_case(answer / "worst_case", proof / "objective", there)
+    if answer / "price_of_robustness":
+        as_given = Part(Case(request, program.machine, ONE, None), first.unweighted, program.named)
+        alone = Value(as_given, fitted, NO_SCATTER).goal(last)
+        yield within("price", answer / "price_of_robustness" / "nominal", alone.low, alone.high, off)
+        yield from _price(answer / "price_of_robustness", program, proof, off)
+
+
+def _price(place: Place, program: Program, proof: Place, off: float) -> Claims:
+    """The best of the machine as it is given, which has no proof in the answer.
+
+    Where nothing is limited it is no worse there, and no better in the worst case.
+    """
+    best, worst = place / "nominal_optimum", place / "nominal_optimum_worst_case"
+    gap, lowest = (proof / "gap").double(0.0), (proof / "lower_bound").double(0.0)
+    free = not any(part.exact.caps or part.limited for part in program.parts)
+    if best:
+        broken = free and best.double() > (place / "nominal").double() + gap + off
+        yield "nominal_optimum", best, -ONE if broken else None, ONE
+    if worst:
+        broken = free and worst.double() < lowest - off
+        yield "nominal_optimum", worst, -ONE if broken else None, ONE
+
+
+def _goal(name: str, place: Place, found: Range, rest: Range, allowance: float) -> Claims:
+    """A goal before the last: its bound, its value, and the limit that the answer keeps.
+
+    That the bound holds was proven on the way, by multipliers that the answer does not have.
+    """
+    value = (place / "value").double()
+    off = WIDE * rest.high
+    yield "goals", place / "goal", ONE if (place / "goal").value == name else -ONE, ONE
+    wide = max(allowance, ALLOWANCE) * rest.high
+    yield within("goals", place / "limit", max(value, found.low), value + wide, off)
+    lowest = place / "lower_bound"
+    if lowest:
+        broken = value - lowest.double() + off
+        yield "goals", place / "value", ONE if broken >= 0 else -ONE, ONE
+        yield "goals", lowest, None if broken >= 0 else -ONE, ONE
+
+
+def _worst_case(place: Place, objective: Place, there: Sequence[Value]) -> Claims:
+    """Peaks in the worst case, each by itself."""
+    yield within("worst_case", place / "objective", *2 * [objective.double()], 1e-12 * abs(objective.double()))
+    for name, unit in NAMES.items():
+        found = most([one.response(name) if one.part.all else one.of_first_order(name) for one in there])
+        yield within("worst_case", place / f"{name}_peak_{unit}", found.low, found.high, WIDE * found.high)
+    for claim in place / "responses":
+        name = (claim / "response").text(*ON_FRAME)
+        found = most([one.response(name) if one.part.all else one.of_first_order(name) for one in there])
+        yield "worst_case", claim / "response", ONE, ONE
+        yield within("worst_case", claim / "peak", found.low, found.high, WIDE * found.high)
+    if there[0].part.of_shaft:
+        found = most([one.bearings() for one in there])
+        yield within("worst_case", place / "bearing_peak_N", found.low, found.high, WIDE * found.high)
+    else:
+        yield "worst_case", place / "bearing_peak_N", -ONE if place / "bearing_peak_N" else ONE, ONE
+
+
+def _exactly(request: Place, answer: Place, program: Program, fitted: Fitted) -> Claims:
+    """Values of goals of the first order, in exact numbers."""
+    found = fitted.first
+    proof, worst, price = answer / "certificate", answer / "worst_case", answer / "price_of_robustness"
+    sizes, nothing = [mass.product for mass in found], [ZERO for _ in found]
+    parts = [(part, part.machine.responses(found)) for part in program.parts]
+    value = largest(ZERO, *(part.value(responses, program.off, sizes) for part, responses in parts))
+    rest = largest(ZERO, *(part.value(part.machine.laden, program.off, nothing) for part, _ in parts))
+    yield near("objective", proof / "objective", value)
+    yield near("before", proof / "objective_without_counterweights", rest)
+    if worst:
+        yield near("worst_case", worst / "objective", value * ABOUT_ONE)
+        for name, unit in NAMES.items():
+            peaks = [peak(part.machine, responses, name, program.off, sizes) for part, responses in parts]
+            yield near("worst_case", worst / f"{name}_peak_{unit}", largest(*peaks) * ABOUT_ONE)
+        for one in worst / "responses":
+            name = (one / "response").text(*ON_FRAME)
+            peaks = [peak(part.machine, responses, name, program.off, sizes) for part, responses in parts]
+            yield "worst_case", one / "response", ONE, ONE
+            yield near("worst_case", one / "peak", largest(*peaks) * ABOUT_ONE)
+    if price:
+        responses = program.machine.responses(found)
+        as_given = nominal(program.machine, request / "objective", program.rows, responses)
+        yield near("price", price / "nominal", as_given)
+        yield from _price(price, program, proof, WIDE * float(rest))

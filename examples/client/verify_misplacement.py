@@ -1,0 +1,128 @@
+"""What goals over a revolution rise by where all counterweights are off together, each whichever way is worst.
+
+A peak is a convex function of what counterweights add to its curve, so it is largest at a corner of all that they may
+add. Of masses these are the corners of a zonotope. Of angles an arc lies within the two ends and the two points where
+the tangents at its ends and in its middle meet; all arcs together within the Minkowski sum of these four points.
+"""
+
+from __future__ import annotations
+
+from cmath import phase, rect
+from math import cos, hypot, radians, sin
+from typing import Dict, Iterator, List, Sequence
+
+from verify_answer import Fitted
+from verify_bearings import SAMPLE, peak_of, within
+from verify_cases import Scatter
+from verify_claims import Claims
+from verify_cuts import Part
+from verify_numbers import ZERO, NotCovered, Number, Place
+from verify_prices import worst_by_angle, worst_by_mass
+from verify_values import Range, Value, most
+
+ANGLE, SHARE = radians(1.0), 0.01
+WIDE = 3e-7  # share of the goal by which the service's brackets are wide
+MOST = 500  # peaks that are enclosed for one answer
+
+
+class Misplaced(Value):
+    """What one machine comes to with counterweights that are off by a degree, or by a per cent."""
+
+    def __init__(self, part: Part, fitted: Fitted, by_angle: bool) -> None:
+        super().__init__(part, fitted, Scatter(ZERO, ZERO))
+        self.by_angle = by_angle
+        webs = part.machine.webs
+        self.free = [one for one, web in zip(fitted.turning, webs) if web.fixed is None and one.product.high > 0]
+
+    def response(self, name: str, enough: float = 0.0, axis: str = "") -> Range:
+        loads = self.part.loads
+        curve = loads.with_weights(name, self.fitted.turning)
+        found = [Range(*peak_of(curve, self.part.goal, enough)[:2])]
+        vectors = [loads.added(name, [one]) for one in self.free]
+        corners = turned_outline(vectors) if self.by_angle else [SHARE * one for one in zonotope(vectors)]
+        for corner in corners:
+            found.append(Range(*peak_of(curve.moved(corner), self.part.goal, max(most(found).low, enough))[:2]))
+        still = curve.moved(-curve.harmonics.get(0, 0j)).size
+        if still <= SAMPLE * loads.size_of(name):
+            # of what counterweights alone load the service takes the sum of all that moves
+            moved = 2 * sin(ANGLE / 2) if self.by_angle else SHARE
+            found.append(Range(found[0].low, found[0].high + moved * sum(map(abs, vectors))))
+        return most(found)
+
+    def _external(self) -> Iterator[Range]:
+        if self.part.all:
+            yield from super()._external()
+            return
+        statement, worst = self.part.exact, worst_by_angle if self.by_angle else worst_by_mass
+        rows: Dict[str, float] = {row: float(floor) for row, floor in statement.floor.items()}
+        vectors = self._vectors()
+        for term in statement.terms.values():
+            moved = [(one * factor).middle() for one, factor in zip(vectors, self.part.of_first_order(term))]
+            rows[term.row] += worst(term.start.middle(), moved, ANGLE if self.by_angle else SHARE)
+        value = max(rows.values(), default=0.0)
+        yield Range(value, value)
+
+    def _vectors(self) -> List[Number]:
+        """What is chosen on every web; what is fixed is in the start of every length."""
+        webs = zip(self.fitted.turning, self.part.machine.webs)
+        own = [ZERO if web.fixed else one.product * one.co for one, web in webs]
+        return [*own, *(one.vector(mass) for one, (_, mass) in zip(self.part.geared, self.fitted.on_shafts))]
+
+    def _mean(self, name: str, weight: float) -> Range:
+        loads = self.part.loads
+        curve = loads.with_weights(name, self.fitted.turning)
+        still, vectors = curve.harmonics.get(0, 0j), [loads.added(name, [one]) for one in self.free]
+        worst = worst_by_angle if self.by_angle else worst_by_mass
+        moved = worst(still - sum(vectors), vectors, ANGLE if self.by_angle else SHARE)
+        value = hypot(curve.moved(-still).rms, moved) * weight
+        return Range(value, value)
+
+
+def zonotope(vectors: Sequence[complex]) -> List[complex]:
+    """Corners of all sums of vectors, each times a number from -1 to 1."""
+    ahead = sorted((v if (v.imag, v.real) >= (0.0, 0.0) else -v for v in vectors if v), key=phase)
+    corner = sum(ahead, 0j)
+    found = [corner, -corner] if ahead else []
+    for v in ahead[:-1]:
+        corner -= 2 * v
+        found += [corner, -corner]
+    return found
+
+
+def turned_outline(vectors: Sequence[complex]) -> List[complex]:
+    """Corners of an outline around all sums of v (e^{j psi} - 1), |psi| up to the angle."""
+    start, edges = 0j, []
+    for v in vectors:
+        if v:
+            bends = [rect(1, -ANGLE), rect(1 / cos(ANGLE / 2), -ANGLE / 2), rect(1 / cos(ANGLE / 2), ANGLE / 2)]
+            points = [v * (each - 1) for each in (*bends, rect(1, ANGLE))]
+            own = [after - before for before, after in zip(points, [*points[1:], points[0]])]
+            first = min(range(4), key=lambda k: phase(own[k]))
+            start += points[first]
+            edges += own
+    found = []
+    for edge in sorted(edges, key=phase):
+        start += edge
+        found.append(start)
+    return found
+
+
+def misplacement(parts: Sequence[Part], goal: str, fitted: Fitted, said: Place) -> Claims:
+    """Both rises of the last goal."""
+    if not said:
+        return
+    part = parts[0]
+    if fitted.on_shafts and part.over_turn:
+        raise NotCovered(said)
+    weighed = [float(part.weights[name]) > 0 for name in ("bearing", "bending")]
+    count = (
+        len(part.turn.bearings) * (weighed[0] and not part.mean) + len(part.loads.planes) * weighed[1] + 2 * part.all
+    )
+    if count * 6 * len(part.machine.webs) * len(parts) > MOST:
+        raise NotCovered(said)
+    nothing_off = Scatter(ZERO, ZERO)
+    as_it_is = most([Value(one, fitted, nothing_off).goal(goal) for one in parts])
+    for field, by_angle in (("objective_rise_per_deg", True), ("objective_rise_per_percent", False)):
+        worst = most([Misplaced(one, fitted, by_angle).goal(goal) for one in parts])
+        low, high = max(worst.low - as_it_is.high, 0.0), max(worst.high - as_it_is.low, 0.0)
+        yield within("sensitivity", said / field, low, high, WIDE * (worst.high + as_it_is.high))

@@ -1,0 +1,136 @@
+"""What one machine comes to with counterweights over a revolution: enclosed for every angle."""
+
+from __future__ import annotations
+
+from math import hypot
+from typing import Iterator, List, NamedTuple, Sequence
+
+from verify_answer import Fitted
+from verify_bearings import SAMPLE, peak_of
+from verify_cases import Scatter, grown, peak
+from verify_cuts import Part
+from verify_machine import ON_FRAME
+from verify_numbers import Number
+from verify_program import phasors
+
+
+class Range(NamedTuple):
+    """A figure is between these."""
+
+    low: float
+    high: float
+
+
+NOTHING = Range(0.0, 0.0)
+
+
+def most(ranges: Sequence[Range]) -> Range:
+    """The largest of several figures."""
+    return Range(max(one.low for one in ranges), max(one.high for one in ranges)) if ranges else NOTHING
+
+
+def together(ranges: Sequence[Range]) -> Range:
+    """The sum of several figures."""
+    return Range(sum(one.low for one in ranges), sum(one.high for one in ranges))
+
+
+def _range(number: Number) -> Range:
+    return Range(float(Number(number.low, number.low)), float(number))
+
+
+class Value:
+    """What one machine comes to with counterweights that may be off."""
+
+    def __init__(self, part: Part, fitted: Fitted, off: Scatter) -> None:
+        self.part, self.fitted, self.off = part, fitted, off
+
+    def goal(self, name: str) -> Range:
+        """Of all that is weighed together, or of one of the goals in their order."""
+        kinds = [name] if name != "all" else ["external", "bearings", "bending"]
+        groups = [group for kind in kinds for group in getattr(self, f"_{kind}")()]
+        return together(groups) if self.part.apart else most(groups)
+
+    def response(self, name: str, enough: float = 0.0, axis: str = "") -> Range:
+        """The peak of a response over the revolution, or of a component; of no interest up to ``enough``."""
+        curve = self.part.loads.with_weights(name, self.fitted.turning, self.fitted.on_shafts)
+        curve = curve.along(axis) if axis else curve
+        off = self._off(name)
+        found = peak_of(curve, self.part.goal, max(enough - off, 0.0))
+        rounding = SAMPLE * self.part.loads.size_of(name)
+        return Range(found.low + off - rounding, found.high + off + rounding)
+
+    def under(self, response: str) -> Range:
+        """What a ceiling on a response limits, or on its component along an axis."""
+        name, _, axis = response.partition(":")
+        if name not in ON_FRAME:
+            return self.response(response)
+        if not self.part.all:
+            machine, weights = self.part.machine, self.fitted.first
+            co, counter = phasors(machine.responses(weights), response)
+            return _range(abs(co) + abs(counter) + grown(machine, name, self.off, [one.product for one in weights]))
+        return self.response(name, axis=axis)
+
+    def of_first_order(self, name: str) -> Range:
+        """A peak of the first order."""
+        machine, sizes = self.part.machine, [one.product for one in self.fitted.first]
+        return _range(peak(machine, machine.responses(self.fitted.first), name, self.off, sizes))
+
+    def bearings(self) -> Range:
+        """The largest load."""
+        found: List[Range] = []
+        for name in self.part.turn.bearings:
+            found.append(self.response(f"bearing:{name}", most(found).low))
+        return most(found)
+
+    def _off(self, name: str) -> float:
+        if self.off.share.high == self.off.besides.high == 0:
+            return 0.0
+        share, besides = float(self.off.share), float(self.off.besides)
+        loads = self.part.loads
+        sizes = [(one.position, one.product.middle().real) for one in self.fitted.turning]
+        return sum(
+            abs(loads.factor(name, place)) * loads.square * (share * abs(size) + besides) for place, size in sizes
+        )
+
+    def _external(self) -> Iterator[Range]:
+        weights = self.part.weights
+        if float(weights["roll"]) > 0:
+            yield self._weighed("roll", float(weights["roll"]))
+        if self.part.all:
+            for name in ON_FRAME:
+                if name in weights:
+                    yield self._weighed(name, float(weights[name]))
+            return
+        sizes = [one.product for one in self.fitted.first]
+        value = self.part.value(self.part.machine.responses(self.fitted.first), self.off, sizes)
+        yield _range(value)
+
+    def _bearings(self) -> Iterator[Range]:
+        weight = float(self.part.weights["bearing"])
+        found: List[Range] = []
+        for name in self.part.turn.bearings if weight > 0 else ():
+            area = self.part.area[name].middle().real if self.part.specific else 1.0
+            if self.part.mean:
+                found.append(self._mean(f"bearing:{name}", weight / area))
+            else:
+                found.append(self._weighed(f"bearing:{name}", weight / area, most(found).low))
+        yield most(found)
+
+    def _bending(self) -> Iterator[Range]:
+        weight = float(self.part.weights["bending"])
+        found: List[Range] = []
+        for plane in self.part.loads.planes if weight > 0 else ():
+            found.append(self._weighed(f"bending:{plane!r}", weight, most(found).low))
+        yield most(found)
+
+    def _weighed(self, name: str, weight: float, enough: float = 0.0) -> Range:
+        low, high = self.response(name, enough / weight)
+        return Range(low * weight, high * weight)
+
+    def _mean(self, name: str, weight: float) -> Range:
+        """Of a root mean square: what stands still grows by what is off."""
+        curve = self.part.loads.with_weights(name, self.fitted.turning)
+        still = curve.harmonics.get(0, 0j)
+        value = hypot(curve.moved(-still).rms, abs(still) + self._off(name)) * weight
+        rounding = 10 * SAMPLE * curve.size * weight
+        return Range(value - rounding, value + rounding)

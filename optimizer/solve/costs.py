@@ -1,0 +1,331 @@
+"""What counterweights that are chosen cost at least, under levels of goals: their mass, their number, their sizes.
+
+The fewest that keep a level are found by halving: for a number of them the smallest of the last goal is sought, until
+it is below the level, or proven to be above it. The least mass is a goal as others are; of one goal of the first order
+light sets are compared outright.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import combinations
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.choices.catalogue import Catalogue
+from optimizer.choices.catalogue_options import part_numbers
+from optimizer.choices.discrete.ample import near_options, neighbourhoods
+from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.discrete.halves import exhaust
+from optimizer.choices.discrete.lightest import lighter, lightest
+from optimizer.choices.discrete.options import EQUAL, Incumbent
+from optimizer.choices.discrete.search import EXHAUSTED
+from optimizer.choices.feasible_set import Choice, FeasibleSet
+from optimizer.numerics.arrays import Complex
+from optimizer.program.ceilings import CEILING_TOLERANCE
+from optimizer.program.cuts.dominance import Group
+from optimizer.program.cuts.optimum import Found, Reached, Unkept, next_goal, over_turn
+from optimizer.program.cuts.semi_infinite import Goal, Problem
+from optimizer.program.limits import Limits
+from optimizer.program.methods.optima import optima
+from optimizer.program.reference.solver import Solver
+from optimizer.program.rows import total_mass
+from optimizer.solve.cutting_plane_rounds import Ended, Start, in_rounds
+from schemas.request.objective import Cost
+
+#: width of the brackets by which sets are told apart, as a share of goals
+_CLOSE = 1e-10
+#: gap of a search for a number of castings, of the least mass of any masses, and of the lightest choice
+_GAP, _SHARP, _LIGHT = 1e-3, 1e-6, 1e-9
+#: options of a slot near to the optimum of any masses, and light ones of another, pass by pass
+_COUNTS = ((40, 120), (80, 300))
+#: sets of webs whose optima are looked at together
+_SUBSETS = 300
+#: of them those whose options are compared, the options near each, sets of them, and sums and pairs of halves
+_TRIED, _NEAR, _SETS, _SUMS, _PAIRS = 12, 400, 2_000_000, 40_000, 400_000
+#: what differs by less than this share of the goal is about as good
+_ALIKE = 1e-3
+#: by which sums of masses are rounded, relative
+_ROUNDING = 1e-12
+#: where a set was found that was compared with others; what that proves is told beside it
+COMPARED = Ended(True, -np.inf, 0, EXHAUSTED, False, None, 0, 0)
+
+
+class Caps(NamedTuple):
+    """The most that goals before leave."""
+
+    mass: float = np.inf  # kg
+    pieces: float = np.inf
+    sizes: float = np.inf
+
+    def lower(self, kind: Cost, most: float) -> "Caps":
+        """With a smaller one of a kind."""
+        return self._replace(**{kind: min(getattr(self, kind), most)})
+
+    def of(self, choices: FeasibleSet) -> FeasibleSet:
+        """The choices that are so few and of so few sizes."""
+        if self.pieces == self.sizes == np.inf and self.mass > 0.0:
+            return choices
+        assert isinstance(choices, Catalogue)  # nothing else is counted
+        options = choices.stock.options
+        fitted, parts = _least(options.most_fitted, self.pieces), _least(options.most_parts, self.sizes)
+        if parts == 0 or self.mass == 0.0:
+            # no size, or no mass, is nothing at all
+            fitted, parts = 0, options.most_parts
+        capped = replace(options, most_fitted=fitted, most_parts=parts)
+        return replace(choices, stock=choices.stock._replace(options=capped))
+
+    def within(self, limits: Limits) -> Limits:
+        """The same of the total mass."""
+        if self.mass in (0.0, np.inf):
+            return limits
+        return replace(limits, max_total_mass=np.minimum(limits.max_total_mass, self.mass * (1.0 + _ROUNDING)))
+
+
+NO_CAPS = Caps()
+
+
+def _least(known: int | None, cap: float) -> int | None:
+    return known if cap == np.inf else int(cap) if known is None else min(known, int(cap))
+
+
+def cost(choice: Choice, kind: Cost) -> float:
+    """What a choice costs: kg, or a number."""
+    if kind == "mass":
+        return float(np.sum(choice.mass))
+    return float(np.sum(choice.mass > 0) if kind == "pieces" else part_numbers(choice.mass))
+
+
+class _Few(NamedTuple):
+    """What is known of any masses on few webs."""
+
+    lower_bound: float  # of the last goal
+    points: Complex  # (M, K) kg m, optima on some webs each, the best first
+    webs: np.ndarray  # (M, K) bool, these webs
+
+
+_UNKNOWN = _Few(-np.inf, np.zeros((0, 0), complex), np.zeros((0, 0), bool))
+
+
+class Least(NamedTuple):
+    """The cheapest choice that was found, and what none is cheaper than."""
+
+    choice: Choice | None  # None where none was found that keeps the levels
+    lower_bound: float  # kg, or a number
+
+
+@dataclass
+class Costs:
+    """Searches of one program whose goals all have a level; every choice that they come upon, and all that they prove.
+
+    program : with its goals so far; of none yet with the first one, whose level is infinite.
+    best : of its last goal, any masses at any angles.
+    reached : of the goals before the last.
+    caps : what goals before leave of other costs.
+    """
+
+    program: Problem
+    best: Found
+    reached: Sequence[Reached]
+    choices: Callable[[Limits], FeasibleSet]  # within limits that hold the best of them
+    solver: Solver
+    caps: Caps = NO_CAPS
+    size: float = 1.0  # what gaps of the last goal are relative to
+    known: list[tuple[float, Choice]] = field(default_factory=list)  # with what they come to of the last goal
+    proven: dict[tuple[Cost, int], float] = field(default_factory=dict)  # of no more than a number, of the last goal
+
+    def least(self, kind: Cost, level: float, seconds: float) -> Least:
+        """The cheapest choice whose last goal is no more than a level.
+
+        Parameters
+        ----------
+        level : of the last goal; inf where it may be anything.
+        """
+        bound = self._lightest(level, seconds) if kind == "mass" else self._fewest(kind, level, seconds)
+        return Least(self.cheapest(kind, level), bound)
+
+    def cheapest(self, kind: Cost, level: float) -> Choice | None:
+        """Of the choices that were come upon, and of equally cheap ones a light one that is about the best."""
+        within = [(value, choice) for value, choice in self.known if value <= level]
+        if not within:
+            return None
+        # sums of masses are rounded
+        cheap = min(cost(choice, kind) for _, choice in within) * (1.0 + EQUAL)
+        equal = [each for each in within if cost(each[1], kind) <= cheap]
+        # of those that are about as good the lightest, since light is cheap
+        good = min(value for value, _ in equal) * (1.0 + _ALIKE)
+        return min((each for each in equal if each[0] <= good), key=lambda each: (cost(each[1], "mass"), each[0]))[1]
+
+    def value(self, choice: Choice) -> float:
+        """What a choice comes to of the last goal."""
+        return float(self.program.values(choice.unbalance, _CLOSE).goals[-1])
+
+    def offer(self, choice: Choice) -> None:
+        """Know a choice too, if it keeps what is before the last goal."""
+        values = self.program.values(choice.unbalance, _CLOSE)
+        most = np.array([goal.most for goal in self.reached])
+        if values.excess <= CEILING_TOLERANCE and np.all(values.goals[:-1] <= most):
+            self.known.append((float(values.goals[-1]), choice))
+
+    def _fewest(self, kind: Cost, level: float, seconds: float) -> float:
+        """Look for the fewest: the number that they are at least."""
+        clock, known = Clock(seconds), self.cheapest(kind, level)
+        high = self.program.limits.radius.size + 1 if known is None else int(cost(known, kind))
+        at_least = self._at_least(kind, level, high)
+        low = at_least
+        while low < high and not clock.spent():
+            number = (low + high) // 2
+            steps = math.ceil(math.log2(high - low + 1))
+            bound = self._with_so_few(kind, number, level, clock.left_s / steps)
+            known = self.cheapest(kind, level)
+            if known is not None and cost(known, kind) <= number:
+                high = int(cost(known, kind))
+                continue
+            low = number + 1
+            if bound > level or bound == np.inf:
+                at_least = low
+        while at_least < high and not clock.spent():
+            # what halving has left open, from below
+            bound = self._with_so_few(kind, at_least, level, clock.left_s / 2.0)
+            if not (bound > level or bound == np.inf):
+                break
+            at_least += 1
+        return float(at_least)
+
+    def _at_least(self, kind: Cost, level: float, high: int) -> int:
+        """The number that they are at least, by what is known without a search."""
+        number = 0
+        while number < high:
+            # no size is no counterweight, one or more of them may be on all webs
+            some = number if kind == "pieces" else 0 if number == 0 else -1
+            bound = self.proven.get((kind, number), -np.inf)
+            if some >= 0:
+                bound = max(bound, self._of_few_webs(some).lower_bound)
+            if not (bound > level or bound == np.inf):
+                break
+            number += 1
+        return number
+
+    def _with_so_few(self, kind: Cost, number: int, level: float, seconds: float) -> float:
+        """Look for the best of so few: what the last goal comes to at least."""
+        before = self.proven.get((kind, number), -np.inf)
+        if before > level or before == np.inf:
+            return before
+        few = self._of_few_webs(number) if kind == "pieces" else _UNKNOWN
+        bound = max(before, few.lower_bound)
+        if bound <= level and bound < np.inf:
+            clock, caps = Clock(seconds), self.caps.lower(kind, number)
+            limits = caps.within(self.best.limits)
+            choices = caps.of(self.choices(limits))
+            if len(few.points) and isinstance(choices, Catalogue):
+                self._near_few(few, choices, number, level, clock)
+            choice, found = in_rounds(
+                self.program,
+                replace(self.best, limits=limits, goals=(*self.reached, self.best.goals[-1])),
+                choices,
+                _GAP,
+                self.size,
+                lambda: clock.left_s,
+                Start(None, level, tuple(few.points[:1])),
+            )
+            bound = max(bound, found.lower_bound)
+            if found.kept:
+                self.offer(choice)
+        self.proven[kind, number] = bound
+        return bound
+
+    def _of_few_webs(self, number: int) -> "_Few":
+        """What any masses on so few webs come to at least, of one goal of the first order, and their optima."""
+        statement, webs = self.program.finite, self.program.limits.radius.size
+        if statement is None or self.program.limits.alike is not None or math.comb(webs, number) > _SUBSETS:
+            return _UNKNOWN
+        subsets = np.zeros((math.comb(webs, number), webs), bool)
+        for n, some in enumerate(combinations(range(webs), number)):
+            subsets[n, list(some)] = True
+        limits = self.caps.within(self.best.limits)
+        programs = replace(statement, limits=limits).alone().chosen(np.zeros(len(subsets), int))
+        programs = replace(programs, limits=replace(programs.limits, max_mass=subsets * limits.max_mass))
+        found = optima(programs, _SHARP, False, self.solver)
+        lower_bound = np.where(found.unreachable, np.inf, found.lower_bound)
+        value = np.where(found.unreachable, np.inf, found.objective)
+        best = np.argsort(value, kind="stable")[:_TRIED]
+        best = best[np.isfinite(value[best])]
+        return _Few(float(np.min(lower_bound)), found.unbalance[best], subsets[best])
+
+    def _near_few(self, few: _Few, choices: Catalogue, number: int, level: float, clock: Clock) -> None:
+        """Compare the options that are near the optima on few webs, one after the other."""
+        statement, options = self.program.finite, choices.stock.options
+        assert statement is not None  # else there are no such optima
+        statement = replace(statement, limits=self.caps.within(self.best.limits))
+        incumbent = Incumbent(statement, options, EQUAL * self.size)
+        # what comes to more is not worth a look
+        incumbent.least = min(level, float(statement.at_rest))
+        count = min(_NEAR, int(_SETS ** (1.0 / max(number, 1))))
+        for point, webs in zip(few.points, few.webs, strict=True):
+            which = [np.array([0]) for _ in range(options.slots)]
+            for k in np.flatnonzero(webs).tolist():
+                which[k] = near_options(options, k, complex(point[k]), count)
+            before = incumbent.chosen
+            if not clock.spent():
+                exhaust(options, which, incumbent, _SUMS, _PAIRS, clock)
+            if incumbent.chosen is not before and incumbent.chosen is not None:
+                self.offer(choices.picked(incumbent.chosen, COMPARED))
+                near, mass = min(level, incumbent.least * (1.0 + _ALIKE)), options.of(options.mass, incumbent.chosen)
+                light = lighter(statement, options, which, near, float(np.sum(mass)), clock)
+                if light is not None:
+                    self.offer(choices.picked(light, COMPARED))
+
+    def _lightest(self, level: float, seconds: float) -> float:
+        """Look for the lightest: what none is lighter than, kg."""
+        clock, known = Clock(seconds), self.cheapest("mass", level)
+        goals = () if level == np.inf else self.program.goals
+        mass = Goal("mass", (Group((total_mass(self.program.limits),)),))
+        weighed = self.program.changed(goals=(*goals, mass), limits=self.caps.within(self.best.limits))
+        reached = [*self.reached, self.best.goals[-1]._replace(most=level)] if goals else []
+        any_mass: Found | Unkept
+        if known is not None and reached:
+            any_mass = next_goal(weighed, reached, known.unbalance, _SHARP, seconds)
+        else:
+            any_mass = over_turn(weighed, _SHARP, False, seconds)
+        assert isinstance(any_mass, Found)  # what is known keeps the ceilings
+        bound = max(any_mass.proof.bound, 0.0)
+        choices = self.caps.of(self.choices(any_mass.limits))
+        if self.program.finite is not None and known is not None and isinstance(choices, Catalogue):
+            return self._compared(choices, level, bound, any_mass.point.unbalance, clock)
+        size = max(any_mass.point.mass, bound) or 1.0
+        choice, found = in_rounds(
+            weighed,
+            replace(any_mass, goals=(*reached, any_mass.goals[-1])),
+            choices,
+            _LIGHT,
+            size,
+            lambda: clock.left_s,
+            Start(known),
+        )
+        if found.kept:
+            self.offer(choice)
+        return max(found.lower_bound, bound)
+
+    def _compared(self, choices: Catalogue, level: float, least: float, relaxed: Complex, clock: Clock) -> float:
+        """The same of one goal of the first order, by light sets that are compared outright."""
+        options, known = choices.stock.options, self.cheapest("mass", level)
+        assert self.program.finite is not None  # told before
+        assert known is not None  # likewise
+        statement = replace(self.program.finite, limits=self.caps.within(self.best.limits))
+        every, above = [np.flatnonzero(some) for some in options.exists], cost(known, "mass")
+        found = lightest(statement, options, every, level, (least, above), clock)
+        if found.chosen is not None:
+            self.offer(choices.picked(found.chosen, COMPARED))
+        elif found.lower_bound < above:
+            about = relaxed if options.alike is None else options.alike.means(relaxed)
+            for near, many in _COUNTS:
+                for which in neighbourhoods(options, about, near, many):
+                    cheapest = self.cheapest("mass", level)
+                    assert cheapest is not None  # one is known
+                    chosen = None
+                    if not clock.spent():
+                        chosen = lighter(statement, options, which, level, cost(cheapest, "mass"), clock)
+                    if chosen is not None:
+                        self.offer(choices.picked(chosen, COMPARED))
+        return found.lower_bound

@@ -1,0 +1,1 @@
+"""Counterweights on the steps of a workshop, and what the steps cost."""

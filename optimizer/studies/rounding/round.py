@@ -1,0 +1,200 @@
+"""The best rounding of an optimum to steps of mass and angle: a choice from a catalogue of what is on either side."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.errors import NotComputable
+from optimizer.formulation.counterweights import counterweights, unbalance
+from optimizer.formulation.demand import demand
+from optimizer.mechanics.fixed_weights import beside
+from optimizer.mechanics.layout import stacked
+from optimizer.numerics.arrays import Real
+from optimizer.optimize import optimize
+from optimizer.outputs.registry import prepare
+from optimizer.outputs.requirements import effects_of_objective
+from optimizer.program.ceilings import CEILING_TOLERANCE
+from optimizer.program.cuts.semi_infinite import Problem
+from optimizer.program.reference.solver import Solver
+from optimizer.solve.process_solver import own_solver
+from optimizer.solve.uncertain_program import Robust
+from optimizer.studies.rounding.neighbours import Sides, nearest, sides
+from schemas.answer.answers import OptimizeAnswer
+from schemas.base.model import FieldProblem
+from schemas.machine.catalogue import Catalogue
+from schemas.machine.machine import Machine
+from schemas.request.requests import OptimizeRequest
+from schemas.request.rounding import RoundAnswer, Rounding, RoundRequest, StepRise, Weights
+
+#: width of the brackets by which sets are judged, as a share of goals and ceilings
+_CLOSE = 1e-10
+#: all roundings are compared: a gap at which searches tell equals apart
+_EXACT = 1e-9
+#: what a set is the best of
+_ALONE = "The sets are all roundings of the optimum to these steps."
+#: of a total mass, relative: by which sums are rounded
+_ROUNDING = 1e-12
+
+
+def round_weights(request: RoundRequest) -> RoundAnswer:
+    """The best rounding of the optimum of a request, certified among all of them, and what the steps cost.
+
+    Raises
+    ------
+    MissingInput
+        if the machine lacks what an output, or the objective, needs.
+    OutOfRange
+        where webs have no crank to count angles from, or no step in their sector.
+    """
+    try:
+        return _rounding(request, own_solver())
+    except NotComputable as error:
+        inside = [FieldProblem(("request", *path), message) for path, message in error.problems]
+        raise type(error)(inside) from None
+
+
+class _Set(NamedTuple):
+    """Counterweights that are not fixed."""
+
+    mass: Real  # (K,) kg
+    angle: Real  # (K,) degrees
+
+    @classmethod
+    def of(cls, answer: OptimizeAnswer) -> "_Set":
+        free = [not one.fixed for one in answer.counterweights]
+        return cls(
+            np.where(free, [one.mass_kg for one in answer.counterweights], 0.0),
+            np.where(free, [one.angle_deg for one in answer.counterweights], 0.0),
+        )
+
+
+@dataclass(frozen=True)
+class _Judge:
+    """What sets come to, by the program of a request."""
+
+    machine: Machine
+    program: Problem
+    omega_squared: float
+
+    @classmethod
+    def of(cls, request: OptimizeRequest) -> "_Judge":
+        scene = prepare(request, ("residual",), () if request.scenarios else effects_of_objective(request))
+        program = Robust(request, scene, demand(request)).asked().program
+        return cls(request.machine, program, scene.omega_squared)
+
+    def values(self, weights: _Set) -> tuple[float, float]:
+        """Objective, and the largest excess over a ceiling."""
+        radius = stacked([web.radius_m for web in self.machine.webs])
+        values = self.program.values(unbalance(*weights, radius), _CLOSE)
+        return float(values.goals[-1]) * self.omega_squared, values.excess
+
+    def objective(self, weights: _Set) -> float:
+        return self.values(weights)[0]
+
+    def told(self, weights: _Set) -> Weights:
+        """As it is answered."""
+        mass, angle = beside(self.machine, *weights)
+        (objective, excess), total = self.values(weights), float(np.sum(mass))
+        budget = self.machine.max_total_mass_kg
+        return Weights(
+            objective=objective,
+            limits_kept=excess <= CEILING_TOLERANCE and (budget is None or total <= budget * (1.0 + _ROUNDING)),
+            total_mass_kg=total,
+            counterweights=counterweights(self.machine, mass, angle),
+        )
+
+
+def _rounding(request: RoundRequest, solver: Solver) -> RoundAnswer:
+    asked = request.request
+    free = optimize(asked, solver)
+    if free.certificate is None:
+        return _answer(free, None)
+    optimum, judge = _Set.of(free), _Judge.of(asked)
+    near = sides(asked.machine, *optimum, request.mass_step_kg, request.angle_step_deg)
+    answer = optimize(_among(asked, near), solver)
+    if answer.certificate is None:
+        return _answer(answer, None)
+    plain, certificate = judge.told(_Set(*nearest(near))), answer.certificate
+    better = plain.limits_kept and plain.objective < certificate.objective
+    if better and len(judge.program.goals) == 1:
+        # the time ended the search before it came to what is nearest
+        answer = _of_nearest(optimize(_among(asked, [each.nearest for each in near]), solver), answer)
+    return _answer(answer, _cost(request, judge, free, answer, plain))
+
+
+def _answer(found: OptimizeAnswer, rounding: Rounding | None) -> RoundAnswer:
+    fields = {name: getattr(found, name) for name in type(found).model_fields}
+    if rounding is not None:
+        fields["status_reason"] = f"{_ALONE} {found.status_reason}"
+    return RoundAnswer.model_construct(**fields, rounding=rounding)
+
+
+def _among(request: OptimizeRequest, every: list[Sides]) -> OptimizeRequest:
+    """The request with what is on either side as all that there is."""
+    machine = request.machine
+    webs = tuple(
+        web if web.fixed else web.model_copy(update={"catalogue_masses_kg": masses, "hole_angles_deg": angles})
+        for web, (masses, angles) in zip(machine.webs, every, strict=True)
+    )
+    chosen = machine.model_copy(update={"webs": webs, "catalogue": Catalogue()})
+    accuracy = request.accuracy.model_copy(update={"relative_gap": _EXACT})
+    return request.model_copy(update={"machine": chosen, "accuracy": accuracy})
+
+
+def _of_nearest(found: OptimizeAnswer, search: OptimizeAnswer) -> OptimizeAnswer:
+    """An answer of the nearest steps alone, with what a search has proven of all."""
+    own, of_all = found.certificate, search.certificate
+    assert own is not None  # what is nearest keeps the ceilings
+    assert of_all is not None  # so does what was found
+    bound = of_all.lower_bound
+    gap = None if bound is None else own.objective - bound
+    proof = {
+        "lower_bound": bound,
+        "gap": gap,
+        "relative_gap": None if gap is None else gap / own.yardstick,
+        "nodes": of_all.nodes,
+        "method": of_all.method,
+    }
+    told = {"status": search.status, "status_reason": search.status_reason}
+    return found.model_copy(update={**told, "certificate": own.model_copy(update=proof)})
+
+
+def _cost(
+    request: RoundRequest, judge: _Judge, free: OptimizeAnswer, answer: OptimizeAnswer, plain: Weights
+) -> Rounding:
+    """What rounding costs."""
+    optimum, best = _Set.of(free), _Set.of(answer)
+    least, value = (judge.objective(each) for each in (optimum, best))
+    there = np.where(best.mass > 0.0, best.angle, optimum.angle)
+    rise = value - least
+    return Rounding(
+        optimum=judge.told(optimum),
+        nearest=plain,
+        objective_rise=rise,
+        relative_rise=rise / least if least > 0.0 else None,
+        mass_rise_kg=float(np.sum(best.mass) - np.sum(optimum.mass)),
+        masses_alone_rise=judge.objective(_Set(best.mass, optimum.angle)) - least,
+        angles_alone_rise=judge.objective(_Set(optimum.mass, there)) - least,
+        steps=tuple(_steps(request, judge, best, value)),
+    )
+
+
+def _steps(request: RoundRequest, judge: _Judge, best: _Set, value: float) -> Iterator[StepRise]:
+    """What a step off costs, of every counterweight alone."""
+    mass_step, angle_step = request.mass_step_kg, request.angle_step_deg
+    for k in np.flatnonzero(best.mass > 0.0).tolist():
+
+        def rise(mass: float, angle: float, web: int = k) -> float:
+            heavier, turned = best.mass.copy(), best.angle.copy()
+            heavier[web], turned[web] = max(heavier[web] + mass, 0.0), turned[web] + angle
+            return judge.objective(_Set(heavier, turned)) - value
+
+        yield StepRise(
+            web=judge.machine.webs[k].name,
+            lighter=rise(-mass_step, 0.0),
+            heavier=rise(mass_step, 0.0),
+            backward=rise(0.0, -angle_step),
+            forward=rise(0.0, angle_step),
+        )

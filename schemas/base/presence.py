@@ -1,0 +1,55 @@
+"""Which fields of a model go together, for its JSON schema: conditions (if, then) that its rules state in words.
+
+A field is given where it is there and not null.
+"""
+
+from typing import Any
+
+Schema = dict[str, Any]
+
+_NULL = {"type": "null"}
+
+
+def given(*names: str) -> Schema:
+    """All of some fields are given."""
+    return {"properties": {name: {"not": _NULL} for name in names}, "required": list(names)}
+
+
+def absent(*names: str) -> Schema:
+    """None of some fields is given."""
+    return {"properties": dict.fromkeys(names, _NULL)}
+
+
+def filled(name: str) -> Schema:
+    """A list holds something."""
+    return {"properties": {name: {"minItems": 1}}, "required": [name]}
+
+
+def empty(name: str) -> Schema:
+    """A list holds nothing, or is left out."""
+    return {"properties": {name: {"maxItems": 0}}}
+
+
+def when(condition: Schema, then: Schema, otherwise: Schema | None = None) -> list[Schema]:
+    """What holds under a condition, and what else."""
+    return [{"if": condition, "then": then, **({} if otherwise is None else {"else": otherwise})}]
+
+
+def either(one: str, *others: str) -> list[Schema]:
+    """Where the first field is given, the others are not."""
+    return when(given(one), absent(*others))
+
+
+def exactly_one(one: str, other: str) -> list[Schema]:
+    """One of two fields is given."""
+    return when(given(one), absent(other), given(other))
+
+
+def together(one: str, other: str) -> list[Schema]:
+    """Both of two fields are given, or none."""
+    return when(given(one), given(other), absent(other))
+
+
+def conditions(*listed: list[Schema]) -> Schema:
+    """Of the configuration of a model: all of some conditions."""
+    return {"allOf": [each for some in listed for each in some]}

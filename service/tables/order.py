@@ -1,0 +1,60 @@
+"""The order for a workshop: sizes with how many of each, where they go, and how far each may be off."""
+
+from itertools import groupby
+
+from optimizer.errors import OutOfRange
+from schemas.answer.answers import OptimizeAnswer
+from schemas.answer.counterweights import Counterweight
+from schemas.base.model import FieldProblem
+from service.tables.as_built import tolerance
+from service.tables.lines import Cell, Lines
+
+HEADS = (
+    "size, kg", "pieces", "radius of the centre of mass, m", "web", "angle from its crank, deg", "angle as drawn, deg",
+    "tolerance, +- kg", "tolerance, +- deg",
+)  # fmt: skip
+#: masses that agree this closely, relative, are one size
+_SAME = 1e-9
+
+
+def order(answer: OptimizeAnswer) -> list[list[Cell]]:
+    """A line for each casting that is to be made, the heaviest first; equal ones stand together."""
+    every = [one for one in answer.counterweights if one.mass_kg > 0 and not one.fixed]
+    sizes = _Sizes()
+    every.sort(key=lambda one: (-one.mass_kg, one.radius_m))
+    rows: list[list[Cell]] = []
+    allowed = tolerance(answer)
+    for (mass, radius), equal in groupby(every, key=sizes.of):
+        pieces = list(equal)
+        off = None if allowed.share is None else allowed.share * mass
+        for one in pieces:
+            angles = (one.angle_from_crank_deg, one.angle_deg)
+            rows.append([mass, len(pieces), radius, one.web, *angles, off, allowed.angle_deg])
+    return rows
+
+
+def required(answer: OptimizeAnswer) -> Lines:
+    """Headings and lines.
+
+    Raises
+    ------
+    OutOfRange
+        if there is nothing to be made.
+    """
+    found = order(answer)
+    if not found:
+        raise OutOfRange([FieldProblem(("machine", "webs"), "there is nothing to order: no counterweight is chosen")])
+    return [[*HEADS], *found]
+
+
+class _Sizes:
+    """Which size a counterweight has: the last one that it equals, of those in falling order."""
+
+    def __init__(self) -> None:
+        self._last = (0.0, 0.0)
+
+    def of(self, one: Counterweight) -> tuple[float, float]:
+        mass, radius = self._last
+        if abs(one.mass_kg - mass) > _SAME * one.mass_kg or one.radius_m != radius:
+            self._last = (one.mass_kg, one.radius_m)
+        return self._last

@@ -1,0 +1,71 @@
+"""Which process runs which tests of a parallel run, and in which order.
+
+Half of the processes begin with the tests that wait for other processes (servers, browsers, FreeCAD), the other half
+with those that compute: so neither the cores are idle, nor start all servers at once. What is long comes first: the
+last files decide when the run ends.
+"""
+
+from pathlib import Path
+
+from xdist.scheduler import LoadScopeScheduling
+from xdist.workermanage import WorkerController
+
+TESTS = Path(__file__).parent
+#: folders whose tests mostly wait for other processes
+WAITING = ("browser", "clients", "deploy", "docs", "freecad", "jobs", "network", "service")
+#: folders whose files share a server that is long in starting: one process runs all of it
+TOGETHER = ("browser", "clients", "freecad")
+#: what takes longest, the longest first; of the rest that of most tests
+LONG = (
+    "browser",
+    "freecad",
+    "docs/test_guides.py",
+    "docs/test_contributing.py",
+    "docs/test_api.py",
+    "clients",
+    "network/test_access.py",
+    "network/test_schema.py",
+    "network/test_attacks.py",
+    "network/test_answers.py",
+    "jobs/test_coordinator.py",
+    "service/test_fuzz.py",
+    "service/test_server.py",
+    "service/test_choices.py",
+    "pairs/test_pairs.py",
+    "verification/test_claims.py",
+    "verification/test_table.py",
+    "optimize/test_properties.py",
+    "optimize/test_choices_along_axes.py",
+    "optimize/test_choices_in_order.py",
+    "optimize/test_fitted_without_limit.py",
+    "hard/test_asked_gap.py",
+    "hard/test_battery.py",
+    "hard_effects/test_hard_effects.py",
+    "hard_turn/test_hard_turn.py",
+    "report_document/test_pdf.py",
+)
+
+
+class Distribution(LoadScopeScheduling):  # type: ignore[misc]
+    """Units of work of a parallel run: files, or folders whose files share a server."""
+
+    def _split_scope(self, nodeid: str) -> str:
+        name = nodeid.split("::", 1)[0].removeprefix("tests/")
+        folder = name.split("/", 1)[0]
+        return folder if folder in TOGETHER else name
+
+    def _assign_work_unit(self, node: WorkerController) -> None:
+        begins_waiting = self.nodes.index(node) % 2 == 0
+        self.workqueue.move_to_end(
+            min(self.workqueue, key=lambda unit: (waits(unit) != begins_waiting, *self._rank(unit))), last=False
+        )
+        super()._assign_work_unit(node)
+
+    def _rank(self, unit: str) -> tuple[int, int]:
+        place = LONG.index(unit) if unit in LONG else len(LONG)
+        return place, -len(self.workqueue[unit])
+
+
+def waits(unit: str) -> bool:
+    """Whether the tests of a unit mostly wait for other processes."""
+    return unit.split("/", 1)[0] in WAITING

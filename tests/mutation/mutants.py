@@ -1,0 +1,119 @@
+"""Mutants of a file: one small fault each, of kinds that happen when mechanics are written down."""
+
+import ast
+from collections.abc import Iterator
+from itertools import islice
+from typing import NamedTuple
+
+_OPERATORS: dict[type[ast.operator], type[ast.operator]] = {
+    ast.Add: ast.Sub,
+    ast.Sub: ast.Add,
+    ast.Mult: ast.Div,
+    ast.Div: ast.Mult,
+    ast.Pow: ast.Mult,
+}
+_COMPARISONS: dict[type[ast.cmpop], type[ast.cmpop]] = {
+    ast.Lt: ast.LtE,
+    ast.LtE: ast.Lt,
+    ast.Gt: ast.GtE,
+    ast.GtE: ast.Gt,
+    ast.Eq: ast.NotEq,
+    ast.NotEq: ast.Eq,
+    ast.Is: ast.IsNot,
+    ast.IsNot: ast.Is,
+    ast.In: ast.NotIn,
+    ast.NotIn: ast.In,
+}
+#: names of functions and fields, each with the one that it is taken for
+_TAKEN_FOR = {
+    one: other
+    for pair in (
+        ("min", "max"),
+        ("sin", "cos"),
+        ("minimum", "maximum"),
+        ("argmin", "argmax"),
+        ("any", "all"),
+        ("real", "imag"),
+        ("before", "after"),
+        ("lower", "upper"),
+        ("force", "moment"),
+        ("mass_kg", "angle_deg"),
+        ("velocity_m_s", "acceleration_m_s2"),
+    )
+    for one, other in (pair, pair[::-1])
+}
+
+
+class Mutant(NamedTuple):
+    """A file with one fault: where, what was done, and the text."""
+
+    line: int
+    fault: str
+    text: str
+
+
+def count(source: str) -> int:
+    """How many mutants a file has."""
+    return sum(1 for _ in _faults(ast.parse(source)))
+
+
+def mutant(source: str, number: int) -> Mutant:
+    """One mutant; what is annotated, documented or said to a reader is no arithmetic and stays."""
+    tree = ast.parse(source)
+    fault = next(islice(_faults(tree), number, None))
+    line = getattr(fault.node, "lineno", 0)
+    return Mutant(line, fault(), ast.unparse(ast.fix_missing_locations(tree)))
+
+
+def _faults(tree: ast.Module) -> Iterator["_Fault"]:
+    for node in _computing(tree):
+        if isinstance(node, ast.BinOp) and type(node.op) in _OPERATORS and not _of_text(node):
+            yield _Fault(node, "op", _OPERATORS[type(node.op)]())
+        elif isinstance(node, ast.Compare) and type(node.ops[0]) in _COMPARISONS:
+            yield _Fault(node, "ops", [_COMPARISONS[type(node.ops[0])](), *node.ops[1:]])
+        elif isinstance(node, ast.BoolOp):
+            yield _Fault(node, "op", ast.Or() if isinstance(node.op, ast.And) else ast.And())
+        elif isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
+            yield _Fault(node, "op", ast.UAdd())
+        elif isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not):
+            yield _Fault(node, "operand", ast.UnaryOp(ast.Not(), node.operand))
+        elif isinstance(node, ast.Name) and node.id in _TAKEN_FOR and isinstance(node.ctx, ast.Load):
+            yield _Fault(node, "id", _TAKEN_FOR[node.id])
+        elif isinstance(node, ast.Attribute) and node.attr in _TAKEN_FOR and isinstance(node.ctx, ast.Load):
+            yield _Fault(node, "attr", _TAKEN_FOR[node.attr])
+        elif (
+            isinstance(node, ast.Constant) and isinstance(node.value, int | float) and not isinstance(node.value, bool)
+        ):
+            value = node.value
+            yield _Fault(node, "value", value + 1 if isinstance(value, int) else 1.01 * value + 1e-3)
+
+
+class _Fault(NamedTuple):
+    """A field of a node, and what comes in its place."""
+
+    node: ast.AST
+    field: str
+    value: object
+
+    def __call__(self) -> str:
+        before = ast.unparse(self.node)
+        setattr(self.node, self.field, self.value)
+        return f"{before} -> {ast.unparse(ast.fix_missing_locations(self.node))}"
+
+
+def _computing(node: ast.AST) -> Iterator[ast.AST]:
+    """Nodes below, without annotations, texts, and arguments of decorators."""
+    for name, value in ast.iter_fields(node):
+        if name in ("annotation", "returns", "decorator_list"):
+            continue
+        for child in value if isinstance(value, list) else [value]:
+            if isinstance(child, ast.AST) and not isinstance(child, ast.JoinedStr):
+                yield child
+                yield from _computing(child)
+
+
+def _of_text(node: ast.BinOp) -> bool:
+    return any(
+        isinstance(side, ast.JoinedStr) or (isinstance(side, ast.Constant) and isinstance(side.value, str))
+        for side in (node.left, node.right)
+    )

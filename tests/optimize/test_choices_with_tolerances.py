@@ -1,0 +1,167 @@
+"""Choices from what there is that suit what may be off: what the worst case of every set comes to by hand."""
+
+import itertools
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optimizer.optimize import optimize
+from schemas.answer.answers import OptimizeAnswer
+from schemas.request.requests import OptimizeRequest
+from service.common.validation import InvalidRequest, check
+from tests.studies.pareto.test_counts import PLANES, RADIUS, SPEED, body
+
+STEP_DEG, MASSES = 45.0, (7.5, 16.0)
+SQUARE = (SPEED * np.pi / 30) ** 2
+
+
+def every_set() -> np.ndarray:
+    """(4, 83521) kg m, as drawn."""
+    angles = np.radians(np.arange(0, 360, STEP_DEG))
+    mass = np.array([0.0, *np.repeat(MASSES, angles.size)])
+    one = mass * np.exp(1j * np.array([0.0, *np.tile(angles, len(MASSES))])) * RADIUS
+    grid = np.array(np.meshgrid(*[np.arange(mass.size)] * 4, indexing="ij")).reshape(4, -1)
+    # steps count from the own crank
+    found: np.ndarray = one[grid] * np.array([[1], [1], [1j], [1j]])
+    return found
+
+
+def worst(u: np.ndarray, tolerances: dict[str, float]) -> np.ndarray:
+    """Independent: either peak in its own worst case, over all corners of the masses, and all webs off together."""
+    angle, share = np.radians(tolerances.get("angle_deg", 0.0)), tolerances.get("mass_relative", 0.0)
+    # the farthest of the four corners, and of the arc, that a mass and an angle make of a unit vector
+    turned = np.linspace(-angle, angle, 2001)
+    off = max(float(np.max(np.abs((1 + sign * share) * np.exp(1j * turned) - 1))) for sign in (-1, 1))
+    moved = off * np.abs(u) + tolerances.get("unbalance_kg_m", 0.0)
+    peaks = []
+    for arm, webs in ((lambda z: 1.0, np.ones(4)), (lambda z: z, np.array(PLANES))):
+        most = np.zeros(u.shape[1])
+        for signs in itertools.product((-1, 1), repeat=2):
+            co = back = 0j
+            for z, degrees, mass, sign in ((-0.3, 0.0, 21.0, signs[0]), (0.3, 90.0, 20.0, signs[1])):
+                mass *= 1 + sign * tolerances.get("reciprocating_mass_relative", 0.0)
+                crank = np.exp(1j * np.radians(degrees))
+                co += arm(z) * 0.1 * crank * (9.0 + 0.5 * mass)
+                back += arm(z) * 0.1 * 0.5 * mass * np.conj(crank)
+            most = np.maximum(most, np.abs(co + webs @ u) + abs(back))
+        peaks.append(SQUARE * (most + np.abs(webs) @ moved))
+    return peaks[0] + peaks[1] / (PLANES[-1] - PLANES[0])
+
+
+def asked(tolerances: dict[str, float], **more: Any) -> OptimizeAnswer:
+    return optimize(OptimizeRequest.model_validate(body(STEP_DEG, MASSES, tolerances=tolerances, **more)))
+
+
+EVERY = {"mass_relative": 0.05, "angle_deg": 3.0, "reciprocating_mass_relative": 0.1, "unbalance_kg_m": 0.02}
+
+
+@pytest.mark.parametrize(
+    "tolerances",
+    [
+        {"unbalance_kg_m": 0.05},
+        {"reciprocating_mass_relative": 0.1},
+        {"mass_relative": 0.3},
+        {"angle_deg": 20.0},
+        EVERY,
+    ],
+)
+def test_no_set_has_a_better_worst_case(tolerances: dict[str, float]) -> None:
+    """Independent: all 83,521 sets."""
+    found = asked(tolerances)
+    every = every_set()
+    best = float(np.min(worst(every, tolerances)))
+    assert found.status == "optimal", found.status_reason
+    assert found.certificate is not None
+    assert found.certificate.objective == pytest.approx(best, rel=1e-9)
+    assert found.certificate.lower_bound == pytest.approx(best, rel=1e-9)
+    assert found.certificate.lower_bound <= found.certificate.objective
+    chosen = np.array([[complex(one.x_kg_m, one.y_kg_m)] for one in found.counterweights])
+    assert float(worst(chosen, tolerances)[0]) == pytest.approx(best, rel=1e-9)
+    assert found.worst_case is not None
+    assert found.worst_case.objective == found.certificate.objective
+    price = found.price_of_robustness
+    assert price is not None
+    # what the best set of the machine as it is comes to, and is worth in the worst case
+    assert price.nominal_optimum == pytest.approx(float(np.min(worst(every, {}))), rel=1e-9)
+    assert price.nominal_optimum_worst_case is not None
+    assert price.nominal_optimum_worst_case >= best * (1.0 - 1e-9)
+
+
+def test_by_a_tree(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Independent: the same where halves are given no room."""
+    monkeypatch.setattr("optimizer.choices.discrete.search._SUMS", 1)
+    monkeypatch.setattr("optimizer.choices.discrete.branch._SETS", 20)
+    found = asked(EVERY, accuracy={"relative_gap": 1e-5, "time_limit_s": 30})
+    best = float(np.min(worst(every_set(), EVERY)))
+    assert found.certificate is not None
+    assert found.certificate.method == "branch and bound"
+    assert found.certificate.lower_bound is not None
+    assert found.certificate.lower_bound <= best * (1.0 + 1e-12)
+    assert found.certificate.objective <= best + 1e-5 * found.certificate.yardstick
+    assert found.certificate.objective >= best * (1.0 - 1e-12)
+
+
+def worst_force(u: np.ndarray, tolerances: dict[str, float]) -> np.ndarray:
+    """Independent: of the force alone."""
+    most = np.zeros(u.shape[1])
+    for signs in itertools.product((-1, 1), repeat=2):
+        co = back = 0j
+        for degrees, mass, sign in ((0.0, 21.0, signs[0]), (90.0, 20.0, signs[1])):
+            mass *= 1 + sign * tolerances.get("reciprocating_mass_relative", 0.0)
+            crank = np.exp(1j * np.radians(degrees))
+            co += 0.1 * crank * (9.0 + 0.5 * mass)
+            back += 0.1 * 0.5 * mass * np.conj(crank)
+        most = np.maximum(most, np.abs(co + np.sum(u, axis=0)) + abs(back))
+    return SQUARE * (most + 4 * tolerances.get("unbalance_kg_m", 0.0))
+
+
+def test_a_ceiling_holds_with_what_is_there_besides() -> None:
+    """Independent: of the sets whose worst force keeps a ceiling that 1 in 50 keep the best."""
+    tolerances = {"unbalance_kg_m": 0.02, "reciprocating_mass_relative": 0.05}
+    every = every_set()
+    force = worst_force(every, tolerances)
+    moment = (worst(every, tolerances) - force) * (PLANES[-1] - PLANES[0])
+    most = float(np.quantile(force, 0.02))
+    found = asked(tolerances, objective={"force_ceiling_N": most, "force_weight": 0.0, "moment_weight": 1.0})
+    kept = force <= most * (1 + 1e-12)
+    assert found.status == "optimal"
+    assert found.certificate is not None
+    assert found.certificate.objective == pytest.approx(float(np.min(moment[kept])), rel=1e-9)
+
+
+def test_at_least_so_heavy() -> None:
+    """Independent: two webs, each fitted or not, in steps of half a kilogram and four degrees."""
+    tolerances = {"mass_relative": 0.1}
+    request = body(STEP_DEG, MASSES, tolerances=tolerances, accuracy={"relative_gap": 1e-4, "time_limit_s": 30})
+    machine = request["machine"]
+    del machine["catalogue"]
+    for web, most in zip(machine["webs"], (20.0, 0.0, 0.0, 20.0), strict=True):
+        web |= {"max_mass_kg": most} | ({"min_fitted_mass_kg": 15.0} if most else {})
+    found = optimize(OptimizeRequest.model_validate(request))
+    assert found.status == "optimal", found.status_reason
+    assert found.certificate is not None
+    assert found.certificate.lower_bound is not None
+    sizes, angles = np.linspace(15.0, 20.0, 11), np.radians(np.arange(0.0, 360.0, 4.0))
+    each = np.concatenate([[0j], (sizes[:, None] * np.exp(1j * angles)).ravel()]) * RADIUS
+    first, last = (part.ravel() for part in np.meshgrid(each, each, indexing="ij"))
+    none = np.zeros(first.size)
+    by_hand = float(np.min(worst(np.array([first, none, none, last]), tolerances)))
+    assert found.certificate.lower_bound <= by_hand
+    assert found.certificate.objective <= by_hand + 1e-4 * found.certificate.yardstick
+    assert all(one.mass_kg == 0 or one.mass_kg >= 15.0 for one in found.counterweights)
+
+
+@pytest.mark.parametrize(
+    ("goal", "path"),
+    [
+        ({"force_ceiling_N": 1e4}, ("tolerances", "mass_relative")),
+        ({"priorities": [{"goal": "external"}, {"goal": "mass"}]}, ("tolerances", "mass_relative")),
+    ],
+)
+def test_what_scatters_with_the_mass_is_of_one_goal_without_ceilings(
+    goal: dict[str, Any], path: tuple[str, ...]
+) -> None:
+    with pytest.raises(InvalidRequest) as refused:
+        check(OptimizeRequest, body(STEP_DEG, MASSES, tolerances={"mass_relative": 0.02}, objective=goal))
+    assert [problem.path for problem in refused.value.problems] == [path]

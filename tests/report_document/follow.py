@@ -1,0 +1,221 @@
+"""Where a document shows each figure of an answer: found by changing one at a time and looking at what changes.
+
+``python -m tests.report_document.follow`` prints the table of follows.txt. A place that the table does not name, or one
+that no longer changes, fails tests/report_document/test_follows.py: a field printed in the place of another does both.
+"""
+
+import re
+import sys
+from collections.abc import Iterator, Mapping
+from copy import deepcopy
+from functools import cache
+from itertools import takewhile
+from pathlib import Path
+from typing import Any, NamedTuple, get_args
+
+from optimizer.optimize import optimize
+from schemas.answer.answers import OptimizeAnswer
+from schemas.answer.outputs import OutputName
+from schemas.request.report import ReportRequest
+from service.report.blocks import Document, Figure, Number, Paragraph, Table
+from service.report.document import document
+from tests.report_document.conftest import AT, asked
+
+TABLE = Path(__file__).with_name("follows.txt")
+#: the example whose answer has most kinds of figures, with all that it can be asked for
+EXAMPLE = "2d12"
+#: a list of more numbers than this is a series over the cycle
+_SERIES = 16
+#: of the largest of a kind of leaf, what counts as equal to it
+_EQUAL = 0.99
+NOWHERE = "nowhere"
+
+Step = str | int
+Path_ = tuple[Step, ...]
+#: a place of a document, with what stands there
+Places = Mapping[str, object]
+
+
+class Change(NamedTuple):
+    """A leaf of the answer, and how it is changed: a little, or above or below all of its series."""
+
+    path: Path_
+    how: str
+
+    @property
+    def name(self) -> str:
+        """Its path, without the places in lists, and the sense."""
+        return pattern(self.path) + {"little": "", "above": " above", "below": " below"}[self.how]
+
+
+def pattern(path: Path_) -> str:
+    """A path without the places in lists."""
+    return ".".join("[]" if isinstance(step, int) else step for step in path).replace(".[]", "[]")
+
+
+@cache
+def request() -> ReportRequest:
+    """What the document is asked for."""
+    outputs = [name for name in get_args(OutputName) if name != "pin_loads"]
+    return asked(EXAMPLE, outputs=outputs, angles={"step_deg": 10})
+
+
+@cache
+def answer() -> OptimizeAnswer:
+    """What was found."""
+    return optimize(request().alone)
+
+
+@cache
+def _body() -> dict[str, Any]:
+    return answer().model_dump()
+
+
+@cache
+def unchanged() -> Places:
+    """Places of the document on what was found."""
+    return places(rendered(answer()))
+
+
+def rendered(found: OptimizeAnswer) -> Document:
+    """The document on an answer; nothing is computed but what chapters derive from it."""
+    return document(request(), found, (), AT)
+
+
+@cache
+def changes() -> list[Change]:
+    """One for each kind of leaf: the last of the largest; of a series its last number, both ways."""
+    kinds: dict[str, list[tuple[Path_, float]]] = {}
+    for path, value in leaves(_body()):
+        kinds.setdefault(pattern(path), []).append((path, abs(value)))
+    found = []
+    for members in kinds.values():
+        largest = max(size for _, size in members)
+        series = _in_series(members[-1][0])
+        # what is equal but for rounding is equal on every machine
+        path = [path for path, size in members if series or size >= _EQUAL * largest][-1]
+        found += [Change(path, how) for how in (("above", "below") if series else ("little",))]
+    return found
+
+
+def leaves(node: Any, path: Path_ = ()) -> Iterator[tuple[Path_, float]]:
+    """The physical numbers of an answer; whole ones count or name something."""
+    if isinstance(node, Mapping):
+        for key, value in node.items():
+            yield from leaves(value, (*path, key))
+    elif isinstance(node, (list, tuple)):
+        for place, value in enumerate(node):
+            yield from leaves(value, (*path, place))
+    elif isinstance(node, float):
+        yield path, node
+
+
+def _at(node: Any, path: Path_) -> Any:
+    for step in path:
+        node = node[step]
+    return node
+
+
+def _in_series(path: Path_) -> bool:
+    """Whether a number is one of a series of ordinates; an abscissa keeps its place in the order."""
+    if not isinstance(path[-1], int) or str(path[-2]).endswith(("angle_deg", "position_m")):
+        return False
+    return len(_at(_body(), path[:-1])) > _SERIES
+
+
+def changed(change: Change) -> tuple[float, float, OptimizeAnswer]:
+    """The number before and after, and the answer with nothing else changed."""
+    body = deepcopy(_body())
+    *above, key = change.path
+    home = _at(body, tuple(above))
+    if isinstance(home, tuple):
+        home = list(home)
+        _at(body, tuple(above[:-1]))[above[-1]] = home
+    old = home[key]
+    if change.how == "little":
+        # an angle of a series stays below the next turn
+        new = old + 0.37 if isinstance(key, int) else 1.0137 * old or 0.0137
+    else:
+        # beside all others by a third of what they span, with digits of its own
+        beyond = max(home) - min(home) or 1.0
+        new = max(home) + 0.31337 * beyond if change.how == "above" else min(home) - 0.31337 * beyond
+    home[key] = new
+    return old, new, OptimizeAnswer.model_validate(body)
+
+
+def follows(change: Change) -> list[str]:
+    """Places that change with a leaf: `=` those that show it itself, `~` those that follow from it."""
+    old, new, other = changed(change)
+    before, after = unchanged(), places(rendered(other))
+    found = [place for place in {**before, **after} if before.get(place) != after.get(place)]
+    shown = [
+        ("= " if after.get(place) == new and (change.how != "little" or before.get(place) == old) else "~ ") + place
+        for place in found
+    ]
+    return shown or [NOWHERE]
+
+
+def places(made: Document) -> Places:
+    """Every number, text and drawing of a document, by chapter, table, row and column."""
+    found: dict[str, object] = {}
+    for chapter in made.chapters:
+        for block in chapter.blocks:
+            for name, value in _of_block(block):
+                label = f"{chapter.title} | {name}"
+                while label in found:
+                    label += "'"
+                found[label] = value
+    return found
+
+
+def _of_block(block: object) -> Iterator[tuple[str, object]]:
+    if isinstance(block, Table):
+        titles = _columns(block)
+        for row in block.rows:
+            # the texts that a row begins with
+            head = ", ".join(cell for cell in takewhile(lambda cell: isinstance(cell, str), row) if cell)
+            for title, cell in zip(titles, row, strict=True):
+                value = cell.value if isinstance(cell, Number) else cell
+                yield " | ".join(filter(None, (block.title, head, title))), value
+    elif isinstance(block, Figure):
+        for drawing in block.drawings:
+            yield f"figure: {_first(block.caption or drawing.label)}", drawing.svg()
+        if block.samples is not None:
+            for name, line in block.samples.lines:
+                yield f"samples: {block.samples.title}, {block.samples.unit} | {name}", tuple(line)
+    elif isinstance(block, Paragraph):
+        yield f"text: {_first(block.text)}", block.text
+
+
+def _columns(block: Table) -> list[str]:
+    """Titles of the columns; one that comes again is named with the one that it follows."""
+    titles = [column.title for column in block.columns]
+    found, last = [], ""
+    for title in titles:
+        if titles.count(title) > 1 and title:
+            found.append(f"{last}: {title}")
+        else:
+            last = title
+            found.append(title)
+    return found
+
+
+def _first(text: str) -> str:
+    """The beginning of a text, up to its first figure."""
+    return re.split(r"[\d.:;,]", text, maxsplit=1)[0][:40].strip()
+
+
+def written() -> Iterator[str]:
+    """The table: a line for every kind of leaf, the places below it."""
+    for change in changes():
+        yield f"{change.name}\n" + "".join(f"    {place}\n" for place in follows(change))
+
+
+def stored() -> dict[str, list[str]]:
+    """The table as it is in the file."""
+    entries = re.split(r"\n(?! )", TABLE.read_text().strip())
+    return {name: [place.strip() for place in places] for name, *places in map(str.splitlines, entries)}
+
+
+if __name__ == "__main__":
+    sys.stdout.writelines(written())

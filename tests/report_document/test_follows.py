@@ -1,0 +1,237 @@
+"""The report follows the answer: each figure stands where its name says, and nothing else moves with it.
+
+follows.txt lists for every kind of leaf of the answer the places of the report that change with it
+(``python -m tests.report_document.follow`` writes it; regression). What its labels say of quantity, sense, side and
+unit is compared with the name of the leaf, independently of how the table was made.
+"""
+
+import io
+import json
+import random
+import re
+from html.parser import HTMLParser
+
+import openpyxl
+import pytest
+from rich.console import Console
+
+from schemas.answer.answers import OptimizeAnswer
+from service.report.blocks import Document, Number, Table, typeset
+from service.report.html import html
+from service.report.terminal import terminal
+from service.workbook.answers import answered
+from tests.report_document.follow import (
+    NOWHERE,
+    answer,
+    changed,
+    changes,
+    follows,
+    places,
+    rendered,
+    request,
+    stored,
+    unchanged,
+)
+
+FOLLOWS = stored()
+#: every day one of so many, and those that once were printed in the place of others
+_STEP = 6
+_ALWAYS = {
+    "gas.rows[].chambers[].pressure_Pa[] above",
+    "gas.rows[].chambers[].pressure_Pa[] below",
+    "kinematics.rows[].velocity_m_s[] above",
+    "kinematics.rows[].acceleration_m_s2[] above",
+    "counterweights[].mass_kg",
+    "counterweights[].angle_deg",
+    "counterweights[].angle_from_crank_deg",
+}
+_DAILY = _ALWAYS | set(sorted(FOLLOWS)[::_STEP])
+
+
+@pytest.mark.parametrize(
+    "name", [name if name in _DAILY else pytest.param(name, marks=pytest.mark.nightly) for name in FOLLOWS]
+)
+def test_the_report_changes_where_a_figure_stands_and_nowhere_else(name: str) -> None:
+    (change,) = (one for one in changes() if one.name == name)
+    assert follows(change) == FOLLOWS[name]
+
+
+def test_every_kind_of_figure_of_the_answer_is_in_the_table() -> None:
+    assert [one.name for one in changes()] == list(FOLLOWS)
+
+
+#: in the name of a leaf, and in every label that shows it
+_SAID = {
+    r"_Nm\b": r"N m\b|couple|moment|objective",
+    r"_N\b": r"\bN\b|value|remaining|gas|inertia|friction|sum|side|tangential|radial|largest|smallest",
+    r"_Pa\b": r"\bPa\b",
+    r"_kg_m2\b": r"kg m2",
+    r"_kg_m\b": r"kg m\b",
+    r"_kg\b": r"\bkg\b|relative to",
+    r"(?<!per)_deg\b": r"\bdeg\b",
+    r"_m_s2\b": r"acceleration, m/s2",
+    r"_m_s\b": r"velocity, m/s\b",
+    r"displacement_m\b": r"displacement, m\b",
+    r" above$": r"largest|highest",
+    r" below$": r"smallest|lowest",
+    r"\bbefore\b": r"without|before|floor|peak force, N$|peak moment, N m$",
+    r"\bafter\b": r"with |rms with,|after",
+    r"tension": r"tension",
+    r"compression": r"compression",
+    r"peak_x|along_x": r"along x|x forces",
+    r"peak_y|along_y": r"along y|y forces",
+    r"\.co_rotating": r"with the shaft",
+    r"counter_rotating": r"against the shaft",
+    r"outer_dead_centre": r"outer dead centre",
+    r"inner_dead_centre": r"inner dead centre",
+    r"angle_from_crank": r"from its crank",
+    r"suction": r"suction",
+    r"discharge": r"discharge",
+    r"\bfloor": r"floor",
+    r"minor": r"smallest",
+    r"\brms": r"rms",
+    r"lower_bound": r"lower bound",
+    r"\bgap": r"gap",
+}
+
+
+def test_labels_say_what_the_names_of_the_leaves_say() -> None:
+    labels = [
+        (name, place[2:].rstrip("'")) for name, where in FOLLOWS.items() for place in where if place.startswith("= ")
+    ]
+    found = [(said, name, label) for name, label in labels for said in _SAID if re.search(said, name)]
+    assert len(found) > 150
+    assert [(name, label) for said, name, label in found if not re.search(_SAID[said], label)] == []
+
+
+def test_fields_in_each_other_s_place_are_noticed() -> None:
+    """A chapter that takes one field for another changes where the table says that the other stands."""
+    shown = [name for name, where in FOLLOWS.items() if where != [NOWHERE]]
+    chance = random.Random(20261125)
+    swaps = [chance.sample(shown, 2) for _ in range(100)]
+    assert sum(FOLLOWS[one] != FOLLOWS[other] for one, other in swaps) >= 98
+    # nearer by, where it happens: fields of one table
+    siblings: dict[str, list[str]] = {}
+    for name in shown:
+        if any(place.startswith("= ") for place in FOLLOWS[name]):
+            siblings.setdefault(re.split(r"\.\w+(?:\[\])?(?: \w+)?$", name)[0], []).append(name)
+    alike = [
+        (one, other)
+        for names in siblings.values()
+        for place, one in enumerate(names)
+        for other in names[place + 1 :]
+        if FOLLOWS[one] == FOLLOWS[other]
+    ]
+    assert alike == []
+
+
+def exchanged(found: OptimizeAnswer, one: str, other: str) -> OptimizeAnswer:
+    """The answer with two series of the motion in each other's place."""
+    body = found.model_dump()
+    for row in body["kinematics"]["rows"]:
+        row[one], row[other] = row[other], row[one]
+    return OptimizeAnswer.model_validate(body)
+
+
+def test_velocity_is_not_shown_as_acceleration() -> None:
+    right, wrong = unchanged(), places(rendered(exchanged(answer(), "velocity_m_s", "acceleration_m_s2")))
+    for label in ("I: velocity, m/s | largest", "II: acceleration, m/s2 | smallest"):
+        place = f"Motion | Extremes among the samples | {label}"
+        assert right[place] != wrong[place]
+
+
+def workbook_cells(found: OptimizeAnswer) -> dict[tuple[str, int, int], object]:
+    """Every cell of the workbook on an answer."""
+    book = openpyxl.load_workbook(io.BytesIO(answered(request().alone, found)), read_only=True)
+    return {
+        (sheet.title, line, place): value
+        for sheet in book.worksheets
+        for line, row in enumerate(sheet.iter_rows(values_only=True))
+        for place, value in enumerate(row)
+        if value is not None
+    }
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "gas.rows[].chambers[].pressure_Pa[] above",
+        "counterweights[].mass_kg",
+        "residual.after.force.peak_N",
+        "certificate.lower_bound",
+        *(
+            pytest.param(name, marks=pytest.mark.nightly)
+            for name in sorted(FOLLOWS)[::_STEP]
+            if "foundation" not in name
+        ),
+    ],
+)
+def test_the_workbook_changes_in_the_cell_of_the_figure(name: str) -> None:
+    (change,) = (one for one in changes() if one.name == name)
+    _, new, other = changed(change)
+    before, after = workbook_cells(answer()), workbook_cells(other)
+    ((place, value),) = ((place, value) for place, value in after.items() if before.get(place) != value)
+    # a series stands in one cell, as JSON
+    assert _holds(json.loads(value) if isinstance(value, str) else value, new)
+    line = [text for (sheet, row, _), text in after.items() if (sheet, row) == place[:2]]
+    heads = [text for (sheet, row, _), text in after.items() if (sheet, row) == (place[0], 0)]
+    assert any(str(step) in str(text) for step in change.path if isinstance(step, str) for text in (*line, *heads))
+
+
+def _holds(shown: object, number: float) -> bool:
+    """Whether a number stands in a value read from JSON."""
+    if isinstance(shown, dict):
+        return any(_holds(one, number) for one in shown.values())
+    if isinstance(shown, list):
+        return any(_holds(one, number) for one in shown)
+    return shown == pytest.approx(number, rel=1e-15)
+
+
+def test_the_terminal_writes_every_figure_of_the_tables_in_their_order() -> None:
+    made = rendered(answer())
+    console = Console(width=600, record=True, file=io.StringIO())
+    console.print(terminal(made.chapters))
+    text = console.export_text()
+    place = 0
+    for cell in figures(made):
+        found = text.find(cell.text, place)
+        assert found >= 0, cell
+        place = found + len(cell.text)
+
+
+def figures(made: Document) -> list[Number]:
+    """Every figure of the tables, in order."""
+    blocks = (block for chapter in made.chapters for block in chapter.blocks if isinstance(block, Table))
+    return [cell for block in blocks for row in block.rows for cell in row if isinstance(cell, Number)]
+
+
+class _Cells(HTMLParser):
+    """Texts of the cells of tables, in order."""
+
+    def __init__(self, page: str) -> None:
+        super().__init__()
+        self.cells: list[str] = []
+        self._inside = False
+        self.feed(page)
+
+    def handle_starttag(self, tag: str, attrs: object) -> None:
+        if tag in ("td", "th"):
+            self._inside = True
+            self.cells.append("")
+
+    def handle_endtag(self, tag: str) -> None:
+        if tag in ("td", "th"):
+            self._inside = False
+
+    def handle_data(self, data: str) -> None:
+        if self._inside:
+            self.cells[-1] += data
+
+
+def test_the_page_writes_every_figure_of_the_tables_in_their_order() -> None:
+    made = rendered(answer())
+    wanted = [typeset(cell.text) for cell in figures(made)]
+    cells = iter(one.strip() for one in _Cells(html(made).decode()).cells)
+    assert len(wanted) > 400
+    # `in` goes on with the iterator: one after the other
+    assert [one for one in wanted if one not in cells] == []

@@ -1,0 +1,49 @@
+"""The order for a workshop: sizes, pieces, places, angles from own cranks, tolerances."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from optimizer.errors import OutOfRange
+from optimizer.optimize import optimize
+from schemas.request.requests import OptimizeRequest
+from service.report.chapters.answers import optimized
+from service.tables.as_built import ALLOWANCE
+from service.tables.tables import order
+
+TWIN = json.loads((Path(__file__).parents[2] / "examples/catalogue-twin.json").read_bytes())
+
+
+def asked(**machine: Any) -> OptimizeRequest:
+    return OptimizeRequest.model_validate({"machine": {**TWIN["machine"], **machine}})
+
+
+def test_castings_by_size() -> None:
+    """Independent: every casting of the answer, counted here; tolerances from the sensitivity."""
+    request = asked()
+    answer = optimize(request)
+    head, *lines = order(request)
+    assert head[:2] == ["size, kg", "pieces"]
+    fitted = {one.web: one for one in answer.counterweights if one.mass_kg > 0}
+    assert {line[3] for line in lines} == set(fitted)
+    masses = [float(str(line[0])) for line in lines]
+    assert masses == sorted(masses, reverse=True)
+    assert answer.sensitivity is not None
+    assert answer.certificate is not None
+    room = ALLOWANCE * answer.certificate.yardstick
+    share = min(room / answer.sensitivity.objective_rise_per_percent, 1.0) / 100
+    for mass, pieces, radius, web, from_crank, drawn, off, turned in lines:
+        one = fitted[str(web)]
+        assert (mass, radius, from_crank, drawn) == (one.mass_kg, one.radius_m, one.angle_from_crank_deg, one.angle_deg)
+        assert pieces == sum(each.mass_kg == mass and each.radius_m == radius for each in fitted.values())
+        assert off == pytest.approx(share * one.mass_kg)
+        assert turned is not None
+    titles = [chapter.title for chapter in optimized(request, answer)]
+    assert "Order for the workshop" in titles
+
+
+def test_where_there_is_nothing_to_order_it_is_refused() -> None:
+    with pytest.raises(OutOfRange, match="nothing to order"):
+        order(asked(max_counterweights=0))

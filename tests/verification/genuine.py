@@ -1,0 +1,87 @@
+"""``python -m tests.verification.genuine --count 10000``: genuine answers, of which none may be broken.
+
+Pairs of features of tests/pairs, and random machines of tests/hard with what their bodies may ask for. Prints what came
+of them, and every claim that was broken. Exit code 1 where there was one, or where the checker raised something.
+"""
+
+import argparse
+import json
+import random
+import sys
+import time
+from collections import Counter
+from collections.abc import Iterator
+from typing import Any
+
+from optimizer.errors import MissingInput, OutOfRange
+from optimizer.optimize import optimize
+from schemas.request.requests import OptimizeRequest
+from service.common.validation import InvalidRequest, check
+from service.verification import checker
+from tests.hard.bodies import drawn
+from tests.hard.random_features import FEATURES
+from tests.pairs.asking import body_of
+from tests.pairs.combinations import all_pairs
+
+#: s, of searches
+_TIME_LIMIT = 0.3
+
+
+def requests(seed: int) -> Iterator[tuple[str, Any]]:
+    """Names and bodies without end: every other one a random machine, every other one a pair of features."""
+    pairs = list(all_pairs())
+    order = random.Random(seed)
+    order.shuffle(pairs)
+    modes = [one for one in FEATURES if one != "match"]
+    for number in range(10**9):
+        mode = modes[number % len(modes)]
+        yield f"{mode} {number} of seed {seed}", drawn(number, seed, mode)
+        base, features = pairs[number % len(pairs)]
+        yield f"{base} {features}", body_of(base, features, _TIME_LIMIT)
+
+
+def judged(sent: Any) -> dict[str, Any] | None:
+    """What the checker finds of the answer to a request; None where that is refused."""
+    try:
+        answer = optimize(check(OptimizeRequest, sent))
+    except (InvalidRequest, MissingInput, OutOfRange):
+        return None
+    found: dict[str, Any] = checker().verify(json.loads(json.dumps(sent)), json.loads(answer.model_dump_json()))
+    return found
+
+
+def run(count: int, seed: int, seconds: float = float("inf")) -> tuple[Counter[str], list[str]]:
+    """Verdicts of so many answers, or of so many seconds of computing, and what was broken or raised."""
+    verdicts, faults, begun = Counter[str](), [], time.process_time()
+    for name, sent in requests(seed):
+        if verdicts.total() >= count or time.process_time() - begun > seconds:
+            break
+        if sent is None:
+            continue
+        try:
+            found = judged(sent)
+        except Exception as error:  # whatever it is, it is a fault
+            verdicts["raised"] += 1
+            faults.append(f"{name}: raised {error!r}")
+            continue
+        if found is not None:
+            verdicts[found["verdict"]] += 1
+            broken = (one for one in found["claims"] if one["verdict"] == "broken")
+            faults += [f"{name}: {one['claim']} {one['margin']} {one['where']}" for one in broken]
+    return verdicts, faults
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(prog="python -m tests.verification.genuine", description=__doc__)
+    parser.add_argument("--count", type=int, default=1_000)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--seconds", type=float, default=float("inf"), help="of computing, at most")
+    arguments = parser.parse_args()
+    verdicts, faults = run(arguments.count, arguments.seed, arguments.seconds)
+    print(*faults, sep="\n")
+    print(verdicts.total(), dict(verdicts))
+    return int(bool(faults))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

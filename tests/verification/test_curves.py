@@ -1,0 +1,84 @@
+"""Curves over a revolution in the checker: harmonics, peaks, spans and circles against other code."""
+
+import sys
+from fractions import Fraction
+from types import ModuleType
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from optimizer.mechanics.bearings import continuous_beam_influence, simple_spans_influence
+from optimizer.numerics.enclosing_circle import smallest_circle
+from service.verification import checker
+
+
+def part(name: str) -> ModuleType:
+    """One of the files of the checker."""
+    checker()
+    return sys.modules[f"verify_{name}"]
+
+
+@pytest.mark.parametrize("ratio", [0.0, 0.01, 0.2, 0.5, 0.9])
+def test_harmonics_are_those_of_the_crank_gear(ratio: float) -> None:
+    """Analytic: the acceleration of the piston, and the force of the rod on the crank."""
+    curve = part("harmonics").Curve({k: complex(each) for k, each in part("harmonics").rod(ratio).items()})
+    for angle in np.linspace(0.0, 6.0, 13):
+        cosine, sine = np.cos(angle), np.sin(angle)
+        root = np.sqrt(1 - (ratio * sine) ** 2)
+        outward = cosine + ratio * (cosine**2 - sine**2) / root + ratio**3 * (cosine * sine) ** 2 / root**3
+        assert abs(curve.at(angle) - outward * (1 - 1j * ratio * sine / root)) < 1e-11
+
+
+_VECTORS = st.dictionaries(
+    st.integers(-6, 6), st.complex_numbers(max_magnitude=1e3, allow_nan=False, allow_infinity=False), min_size=1
+)
+
+
+@given(_VECTORS, st.booleans())
+def test_a_peak_is_enclosed(harmonics: dict[int, complex], scalar: bool) -> None:
+    """Independent: the curve at many angles."""
+    curve = part("harmonics").Curve(harmonics, scalar)
+    found = curve.peak()
+    assert found.high <= found.low * (1 + 1e-9) + 1e-12 * curve.size
+    angles = np.linspace(0.0, 2 * np.pi, 2_000)
+    values = sum(each * np.exp(1j * k * angles) for k, each in harmonics.items())
+    lengths = np.abs(np.real(values) if scalar else values)
+    assert np.max(lengths) <= found.high + 1e-12 * curve.size
+    # between two of them the length rises by no more than the curve moves
+    steepest = sum(abs(k * each) for k, each in harmonics.items())
+    assert found.low <= np.max(lengths) + steepest * np.pi / 1_999 + 1e-12 * curve.size
+
+
+@pytest.mark.parametrize("continuous", [False, True])
+@pytest.mark.parametrize("count", [2, 3, 6])
+def test_bearings_carry_what_the_service_has_them_carry(continuous: bool, count: int) -> None:
+    """Independent: the influences of the mechanics."""
+    rng = np.random.default_rng(count)
+    places = np.sort(rng.uniform(-1, 1, count))
+    loads = np.append(rng.uniform(-1.5, 1.5, 8), places)
+    influence = continuous_beam_influence if continuous else simple_spans_influence
+    spans = part("spans").Spans([Fraction(one) for one in places], continuous)
+    found = [[float(share) for share in spans.shares(Fraction(one))] for one in loads]
+    # lengths of spans may differ by far
+    np.testing.assert_allclose(found, influence(places, loads).T, atol=1e-9)
+
+
+@given(st.lists(st.complex_numbers(max_magnitude=10, allow_nan=False), min_size=2, max_size=4, unique=True))
+def test_the_smallest_circle_around_a_few_points(points: list[complex]) -> None:
+    """Independent: the circle of the optimizer."""
+    radius, middle, _ = part("circle").around(points)
+    assert radius == pytest.approx(smallest_circle(np.array(points)).radius, rel=1e-6, abs=1e-9)
+    assert max(abs(one - middle) for one in points) == pytest.approx(radius, rel=1e-6, abs=1e-9)
+
+
+@given(_VECTORS)
+def test_no_middle_is_nearer_to_a_curve_than_its_circle(harmonics: dict[int, complex]) -> None:
+    curve = part("harmonics").Curve(harmonics)
+    found = part("circle").smallest(curve)
+    if found is not None:
+        assert found.low <= found.high <= found.low * (1 + 1e-7) + 1e-11 * curve.size
+        for way in (1, 1j, -1, -1j):
+            moved = curve.moved(-found.middle - way * 0.01 * curve.size).peak()
+            assert moved.high >= found.low * (1 - 1e-9)

@@ -1,0 +1,35 @@
+"""Which answers of the other tests go through the checker, and that a false one fails its test."""
+
+import pytest
+
+from optimizer.optimize import optimize
+from schemas.answer.answers import OptimizeAnswer
+from schemas.request.requests import OptimizeRequest
+from service.documents.examples import bodies
+from tests.verification.every import Spread, _checked
+
+
+def test_the_first_two_of_a_test_and_a_tenth_of_the_others() -> None:
+    spread = Spread(every=False)
+    assert [number for number in range(1, 41) if spread("one")] == [1, 2, 10, 20, 30, 40]
+    assert [number for number in range(1, 12) if spread("another")] == [1, 2, 10]
+
+
+def test_every_one_at_night() -> None:
+    spread = Spread(every=True)
+    assert all(spread("one") for _ in range(40))
+
+
+def test_a_false_answer_fails_the_test_that_asked_for_it() -> None:
+    request = OptimizeRequest.model_validate(bodies("")["2d12"])
+    right = optimize(request)
+    assert right.certificate is not None
+    certificate = right.certificate.model_copy(update={"lower_bound": 1.001 * right.certificate.lower_bound})
+    false = right.model_copy(update={"certificate": certificate})
+
+    def compute(_: OptimizeRequest) -> OptimizeAnswer:
+        return false
+
+    with pytest.raises(AssertionError):
+        _checked(compute, Spread(every=False))(request)
+    assert _checked(lambda _: right, Spread(every=False))(request) is right
