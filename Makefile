@@ -80,7 +80,7 @@ validate: .venv/development $(kernels)
 
 # hours: every test, with ten times the examples and every answer through the checker; the references against references of
 # their own, and what the tests do a few times, thousands of times; the image needs root
-long := tests.hard.bodies tests.hard.boundary tests.hard.checked tests.hard.far_limits tests.hard.tampered tests.hard.worst_case tests.jobs.clocks tests.jobs.crashes \
+long := tests.choices.against_rounding tests.hard.bodies tests.hard.boundary tests.hard.checked tests.hard.far_limits tests.hard.tampered tests.hard.worst_case tests.jobs.clocks tests.jobs.crashes \
     tests.jobs.flips tests.jobs.history tests.jobs.kills tests.network.attacks tests.network.bystander tests.network.load \
     tests.network.schema
 nightly: .venv/development $(kernels)

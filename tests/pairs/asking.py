@@ -15,6 +15,7 @@ from optimizer.formulation.formulate import weights
 from optimizer.optimize import optimize
 from optimizer.program.verdict import CONTRADICTED
 from schemas.answer.answers import OptimizeAnswer
+from schemas.request.objective import COSTS
 from schemas.request.requests import OptimizeRequest
 from service.common.validation import InvalidRequest, check
 from service.verification import checker
@@ -119,13 +120,20 @@ def _wrong(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[str]:
     if proof.lower_bound is not None and proof.lower_bound > proof.objective + _ROUNDING * size:
         yield f"bound {proof.lower_bound} above {proof.objective}"
     if answer.status == "optimal":
-        if proof.relative_gap is None or proof.relative_gap > request.accuracy.relative_gap:
+        if proof.relative_gap is None or proof.relative_gap > request.accuracy.relative_gap + _left(request):
             yield f"optimal with a gap of {proof.relative_gap}"
     elif answer.status_reason == CONTRADICTED:
         yield answer.status_reason
     yield from _wrong_masses(request, answer)
     yield from _wrong_objective(request, answer, proof.objective, size)
     yield from _wrong_ceilings(request, answer)
+
+
+def _left(request: OptimizeRequest) -> float:
+    """What the last goal that is no cost leaves to costs after it."""
+    order = request.objective.priorities
+    last = max((n for n, one in enumerate(order) if one.goal not in COSTS), default=-1)
+    return order[last].allowance if 0 <= last < len(order) - 1 else 0.0
 
 
 def _wrong_infeasibility(answer: OptimizeAnswer) -> Iterator[str]:
