@@ -38,6 +38,8 @@ from schemas.request.requests import OptimizeRequest
 _CLOSE = 1e-10
 #: the same where goals are kept whose price may be high
 _CLOSER = 1e-12
+#: a floor is a sum of few, known to so many units in its last place
+_FLOORS = 8.0
 _EARLIER = (
     "The last goal is within the requested gap. The search for another goal ended with a larger gap, which `goals`"
     " of the certificate states."
@@ -288,7 +290,9 @@ def _bound(proof: Proof, u: Complex, excess: float) -> tuple[float, float]:
     statement = proof.statement
     over = np.full(statement.ceilings.size.shape, max(excess, 0.0))
     allowance = float(ceiling_allowance(statement, proof.multipliers, over))
-    return proof.bound - allowance, float(statement.rounding(u)) + proof.charge * np.finfo(float).eps
+    # what scatters whatever the counterweights is a floor
+    charge = proof.charge + _FLOORS * float(np.sum(np.abs(statement.floor)))
+    return proof.bound - allowance, float(statement.rounding(u)) + charge * np.finfo(float).eps
 
 
 def _touched(request: OptimizeRequest, asked: Goals, values: Values) -> Iterator[MachineLimit]:

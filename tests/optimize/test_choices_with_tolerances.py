@@ -10,6 +10,7 @@ from optimizer.optimize import optimize
 from schemas.answer.answers import OptimizeAnswer
 from schemas.request.requests import OptimizeRequest
 from service.common.validation import InvalidRequest, check
+from tests.pairs.asking import body_of
 from tests.studies.pareto.test_counts import PLANES, RADIUS, SPEED, body
 
 STEP_DEG, MASSES = 45.0, (7.5, 16.0)
@@ -165,3 +166,13 @@ def test_what_scatters_with_the_mass_is_of_one_goal_without_ceilings(
     with pytest.raises(InvalidRequest) as refused:
         check(OptimizeRequest, body(STEP_DEG, MASSES, tolerances={"mass_relative": 0.02}, objective=goal))
     assert [problem.path for problem in refused.value.problems] == [path]
+
+
+def test_a_bound_that_is_the_value_contradicts_nothing() -> None:
+    """Property: where nothing is chosen because of what is there besides, floors are all that both consist of."""
+    request = body_of("scroll", ("tolerance of unbalance", "masses of a catalogue", "group"))
+    assert request is not None
+    found = optimize(OptimizeRequest.model_validate(request))
+    assert found.status == "optimal", found.status_reason
+    assert found.certificate is not None
+    assert found.certificate.lower_bound == found.certificate.objective
