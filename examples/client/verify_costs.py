@@ -20,7 +20,8 @@ def costs(
 ) -> Claims:
     """Of one goal without tolerances and scenarios; ``slopes``: what the bound rises by per kg m on each web."""
     place, goal, proof = answer / "shadow_prices", request / "objective", answer / "certificate"
-    several = list(request / "scenarios") or request / "tolerances" or list(goal / "priorities")
+    off = any(one != 0 for one in (request / "tolerances").read((dict,), "an object", {}).values() if one is not None)
+    several = list(request / "scenarios") or off or list(goal / "priorities")
     if several or machine.groups or proof / "continuous_lower_bound" or not proof / "gap":
         yield "shadow_prices", place, -ONE if list(place) else ONE, ONE
         return

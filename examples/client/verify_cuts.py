@@ -59,6 +59,11 @@ class Part:
         limits = [*names, *(CEILINGS.values() if self.all else ())]
         self.limited = any("_ceiling_" in name and goal / name for name in limits)
         self.of_shaft, self.over_turn = loads, loads or rolls or self.all
+        if loads and self.turn.spans is None:
+            raise NotCovered(request / "machine" / "bearings")
+        for row in self.turn.rows if self.over_turn else ():
+            if not row.place / "connecting_rod":
+                raise NotCovered(row.place / "connecting_rod")
         external = {name: self.weights[name] for name in ON_FRAME if name in self.weights and not self.all}
         self.rows = {"sum": external} if self.apart else {name: {name: weight} for name, weight in external.items()}
         self.geared = geared(request / "machine", machine, mirrored=not self.all)

@@ -147,12 +147,10 @@ def light(statement: Statement, proof: Place, sizes: dict[str, Number], mass: Nu
         limited = Statement(statement.machine, Place({}), {name: {name: ONE} for name in statement.caps}, capped=False)
         cancelling = (statement.lightest(sizes), limited.lightest(statement.sizes))
         counts = min((one for one in cancelling if one is not None), key=lambda one: one.high, default=ZERO)
-        yield (
-            "yardstick",
-            place,
-            largest(mass - statement.machine.fixed, counts * real(MASS_SHARE)) * ABOUT_ONE - size,
-            size,
-        )
+        most = largest(mass - statement.machine.fixed, counts * real(MASS_SHARE)) * ABOUT_ONE
+        # what is cut from a plate has another radius than all that could be
+        cut = any(web.plate for web in statement.machine.webs) and (most - size).high < 0
+        yield "yardstick", place, None if cut else most - size, size
 
 
 def yardstick(statement: Statement, place: Place, rest: Number, implied: Place) -> Claim:

@@ -68,16 +68,14 @@ def values(request: Place, answer: Place, program: Program, fitted: Fitted) -> C
 def _price(place: Place, program: Program, proof: Place, off: float) -> Claims:
     """The best of the machine as it is given, which has no proof in the answer.
 
-    Where nothing is limited it is no worse there, and no better in the worst case.
+    Where nothing is limited it is no better in the worst case than what is proven of all.
     """
     best, worst = place / "nominal_optimum", place / "nominal_optimum_worst_case"
-    gap, lowest = (proof / "gap").double(0.0), (proof / "lower_bound").double(0.0)
-    free = not any(part.exact.caps or part.limited for part in program.parts)
     if best:
-        broken = free and best.double() > (place / "nominal").double() + gap + off
-        yield "nominal_optimum", best, -ONE if broken else None, ONE
+        yield "nominal_optimum", best, None, ONE
     if worst:
-        broken = free and worst.double() < lowest - off
+        free = not any(part.exact.caps or part.limited for part in program.parts)
+        broken = free and worst.double() < (proof / "lower_bound").double(0.0) - off
         yield "nominal_optimum", worst, -ONE if broken else None, ONE
 
 

@@ -299,12 +299,16 @@ def unreachable(request: Place, answer: Place, budget: Place, said: Place) -> Cl
         yield "reach", implied, None, ONE
     # what a comparison of all choices proves has no multipliers
     place = proofs / "conflict" if proofs / "conflict" else said / "conflict"
-    yield "conflict", place, least - STEP if least is not None else None, ONE
+    room = None if least is None else least - STEP
+    if room is not None and room.high < 0 and (program.scattered or None not in program.parts):
+        # how the cases share what is exceeded is not told
+        room = None
+    yield "conflict", place, room, ONE
     if least is not None:
         yield EVIDENCE, proofs / "conflict", None, ONE
         yield EVIDENCE, implied, None, ONE
     yield from closest(request, machine, said / "closest")
-    if len(program.parts) == 1 and not program.scattered and not program.first.all:
+    if len(program.parts) == 1 and not (program.scattered or program.first.all or program.first.geared):
         yield from smallest(machine, Place({}), said, proofs, implied)
         for name, unit in NAMES.items():
             lowest, found = (said / f"smallest_{name}{part}_{unit}" for part in ("_lower_bound", ""))
