@@ -47,7 +47,8 @@ def kept(place: Place, there: Sequence[Value], rest: Sequence[Value], optimal: b
     for value, nothing in zip(there, rest):
         for limit, most, response in limited(value):
             found = value.under(response)
-            room = most - found.high
+            # broken is what exceeds the ceiling for certain, as in the first order
+            room = most - found.low
             if room < 0:
                 room += CEILING * max(most, nothing.under(response).high)
             yield "ceilings", place, real(room) if optimal or room >= 0 else None, real(max(most, found.high))

@@ -66,10 +66,13 @@ def result_columns(
 
 
 def goal_columns(objective: Objective) -> Iterator[Column]:
-    """What goals before the last, and numbers of castings, come to, where there are several in their order."""
-    goals = [priority.goal for priority in objective.priorities if priority.goal not in COSTS]
-    counted = [priority.goal for priority in objective.priorities if priority.goal in ("pieces", "sizes")]
-    for goal in (*goals[:-1], *counted):
+    """What goals in their order come to: all of them with a cost among them, else those before the last."""
+    order = [priority.goal for priority in objective.priorities]
+    weighed = [priority for priority in objective.priorities if priority.goal not in COSTS]
+    if order[-1:] == ["mass"] and weighed and weighed[-1].allowance == 0.0:
+        # of equal counterweights the lightest are taken anyhow
+        order.pop()
+    for goal in order if any(goal in COSTS for goal in order) else order[:-1]:
         yield Column(f"goal_value.{goal}", "number", None, f"what the goal {goal} comes to in the end")
         yield Column(f"goal_lower_bound.{goal}", "number", None, "proven of what it comes to at least")
         yield Column(f"goal_limit.{goal}", "number", None, "what the goals after it may let it come to")
