@@ -82,7 +82,7 @@ validate: .venv/development $(kernels)
 # their own, and what the tests do a few times, thousands of times; the image needs root
 long := tests.choices.against_rounding tests.hard.bodies tests.hard.boundary tests.hard.checked tests.hard.far_limits tests.hard.tampered tests.hard.worst_case tests.jobs.clocks tests.jobs.crashes \
     tests.jobs.flips tests.jobs.history tests.jobs.kills tests.network.attacks tests.network.bystander tests.network.load \
-    tests.network.schema
+    tests.network.schema tests.verification.fabricated tests.verification.genuine
 nightly: .venv/development $(kernels)
 	failed=0; $(MAKE) hard || failed=1; \
 	HYPOTHESIS_PROFILE=night CHECKED_ANSWERS=every $(bin)/pytest --numprocesses 4 --dist loadfile || failed=1; \

@@ -17,7 +17,7 @@ from schemas.sweep.axes import MAX_DESIGNS
 _PREFIX = "COUNTERWEIGHT_"
 #: variables of clients, of the workbench and of the deployment files, which the service does not read
 _OF_OTHERS = {f"{_PREFIX}{name}" for name in (
-    "CPUS", "DASK_WORKERS", "FOLDER", "IMAGE", "KEY", "MACHINE", "MEMORY", "PUBLISH", "SHAFT", "URL",
+    "CPUS", "DASK_WORKERS", "FOLDER", "FORCE", "IMAGE", "KEY", "MACHINE", "MEMORY", "PUBLISH", "SHAFT", "URL",
 )}  # fmt: skip
 
 

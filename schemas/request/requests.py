@@ -169,6 +169,8 @@ class OptimizeRequest(Scene, Ruled):
         )
         message = "cheaper choices are listed beside one goal: remove them, or let a cost be the last goal"
         yield Rule(listed and bool(self.objective.priorities), path, message)
+        scattered = self.tolerances is not None and self.tolerances.any
+        yield Rule(listed and scattered, path, "cheaper choices are listed without tolerances: remove `tolerances`")
 
     def _catalogue_rules(self) -> Iterator[Rule]:
         """What does not go with discrete choices."""

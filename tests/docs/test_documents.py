@@ -157,7 +157,7 @@ def test_every_long_command_of_the_tests_is_run_at_night() -> None:
     (listed,) = re.findall(r"^long := ((?:.*\\\n)*.*)", document("Makefile"), re.MULTILINE)
     found = {
         ".".join(path.relative_to(ROOT).with_suffix("").parts)
-        for folder in ("hard", "hard_effects", "jobs", "network")
+        for folder in ("choices", "hard", "hard_effects", "jobs", "network", "verification")
         for path in (ROOT / "tests" / folder).glob("*.py")
         if 'if __name__ == "__main__"' in path.read_text() and not path.name.startswith(("test_", "__"))
     }

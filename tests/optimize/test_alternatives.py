@@ -127,7 +127,7 @@ def test_fixed_weights_count_and_are_not_chosen() -> None:
         ({"alternatives": [-0.1]}, "greater than or equal to 0"),
         ({"alternatives": [1.5]}, "less than or equal to 1"),
         ({"machine": {"catalogue": None}}, "give a catalogue too"),
-        ({"tolerances": {"angle_deg": 1}}, "does not go with a catalogue"),
+        ({"tolerances": {"angle_deg": 1}}, "are listed without tolerances"),
         (
             {"objective": {"priorities": [{"goal": "external"}, {"goal": "mass"}]}},
             "listed beside one goal",

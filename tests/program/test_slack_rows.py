@@ -19,6 +19,7 @@ from optimizer.solve.certify import certified
 from optimizer.solve.process_solver import own_solver
 from schemas.base.rules import Path
 from schemas.base.variation import with_fields
+from schemas.request.objective import Objective
 from schemas.request.requests import OptimizeRequest
 
 THROWS, ORDERS = 9, 120
@@ -53,7 +54,7 @@ def test_least_masses_of_even_layouts_are_proven_without_another_solver(most: fl
     request = even(most)
     shaft = layout(request.machine)
     square = np.broadcast_to(shaft.omega**2, (ORDERS,))
-    asked = responses(shaft, rotating(shaft).plus(reciprocating(shaft, 1)))
+    asked = responses(shaft, rotating(shaft).plus(reciprocating(shaft, 1)), Objective())
     best = certified(request.machine, request.objective, asked, square, demand(request), own_solver())
     assert set(best.found.method) == {INTERIOR_POINT}
     assert set(best.status) == {"optimal"}

@@ -26,7 +26,7 @@ PLANES = (-0.5, -0.2, 0.2, 0.5)
 
 def program(made: ReciprocatingMachine, **objective: float) -> Statement:
     plan = layout(made)
-    found = responses(plan, rotating(plan).plus(reciprocating(plan, 1)))
+    found = responses(plan, rotating(plan).plus(reciprocating(plan, 1)), Objective())
     return cone_program(made, Objective.model_validate(objective), found, plan.omega**2).alone()
 
 

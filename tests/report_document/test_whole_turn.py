@@ -107,8 +107,17 @@ def test_warnings_and_balance_rates_stand_in_the_report() -> None:
     assert "balance rate" in document
 
 
-@pytest.mark.parametrize("objective", [{"orders": "all"}, {"bearing_weight": 1}, {"bearing_ceiling_N": 1e3}])
-def test_the_checker_does_not_cover_the_whole_turn(objective: dict[str, Any]) -> None:
-    body = {"machine": inline_six(), "objective": objective}
-    answer = json.loads(optimize(asked(inline_six(), **objective)).model_dump_json())
-    assert checker().verify(body, answer)["verdict"] == "not covered"
+@pytest.mark.parametrize(
+    ("objective", "place"),
+    [
+        ({"orders": "all"}, "/answer/certificate/implied_max_mass_kg"),
+        ({"bearing_weight": 1}, "/request/machine/throws/0/rows/0/cylinders"),
+        ({"bearing_ceiling_N": 1e3}, "/request/machine/throws/0/rows/0/cylinders"),
+    ],
+)
+def test_the_checker_names_what_it_does_not_cover(objective: dict[str, Any], place: str) -> None:
+    """Gas loads bearings and never the frame; a limit that the service implies is believed."""
+    request = asked(inline_six(), **objective)
+    found = checker().verify(json.loads(request.model_dump_json()), json.loads(optimize(request).model_dump_json()))
+    assert found["verdict"] == "not covered"
+    assert [one["where"] for one in found["claims"] if one["verdict"] != "held"] == [place]

@@ -144,7 +144,8 @@ def over_turn(
     for sharpness in _SHARPNESS:
         proof = course.smallest(last, sharpness * share, proof)
         course.keep(last, proof, max(share, allowed))
-        target = max(course.goals[last].value, course.goals[last].most if allowed > share else 0.0) + share
+        reached = course.goals[last]
+        target = (max(reached.value, reached.most) if allowed > share else reached.value) + share
         mass_proof = course.lightest(target, _TARGET_MARGIN * sharpness * share)
         tried.append(course.found(mass_proof, target))
         if tried[-1].mass_gap <= _LIGHT or course.timed_out or allowed > share:

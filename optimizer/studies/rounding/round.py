@@ -22,6 +22,7 @@ from optimizer.solve.process_solver import own_solver
 from optimizer.solve.uncertain_program import Robust
 from optimizer.studies.rounding.neighbours import Sides, nearest, sides
 from schemas.answer.answers import OptimizeAnswer
+from schemas.base.mappings import or_mapping
 from schemas.base.model import FieldProblem
 from schemas.machine.catalogue import Catalogue
 from schemas.machine.machine import Machine
@@ -38,6 +39,7 @@ _ALONE = "The sets are all roundings of the optimum to these steps."
 _ROUNDING = 1e-12
 
 
+@or_mapping(RoundRequest)
 def round_weights(request: RoundRequest) -> RoundAnswer:
     """The best rounding of the optimum of a request, certified among all of them, and what the steps cost.
 
