@@ -35,10 +35,13 @@ def peak_of(curve: Curve, place: Place, enough: float = 0.0) -> Peak:
     return found
 
 
-def largest(claim: str, place: Place, curve: Curve, unit: str) -> Claims:
-    """A peak, its bracket and its angle; returns the enclosure of the peak."""
+def largest(claim: str, place: Place, curve: Curve, unit: str, size: float = 0.0) -> Claims:
+    """A peak and its bracket; returns the enclosure of the peak.
+
+    ``size``: of what is added up to the curve, where that may cancel.
+    """
     found = peak_of(curve, place)
-    off = SAMPLE * curve.size
+    off = SAMPLE * max(curve.size, size)
     yield within(claim, place / f"peak_{unit}", found.low * (1 - PEAK), found.high, off)
     ends = list(place / f"peak_bracket_{unit}")
     yield claim, place / f"peak_bracket_{unit}", ONE if len(ends) == 2 else -ONE, ONE
@@ -142,7 +145,7 @@ def circle_of(curve: Curve, place: Place, enough: float = 0.0) -> Circle:
 
 def _load(loads: Loads, own: Place, curve: Curve, place: Place, circle: Circle, angles: Sequence[float]) -> Claims:
     """Of one bearing."""
-    size = curve.size
+    size = max(curve.size, loads.size_of("bearing"))
     off = SAMPLE * size
     x, y = list(place / "force_x_N"), list(place / "force_y_N")
     yield "main_bearings", place, ONE if len(x) == len(y) == len(angles) else -ONE, ONE
@@ -151,7 +154,7 @@ def _load(loads: Loads, own: Place, curve: Curve, place: Place, circle: Circle, 
         value = curve.at(angle) * complex(cos(angle), sin(angle))
         yield within("main_bearings", one, value.real, value.real, off)
         yield within("main_bearings", other, value.imag, value.imag, off)
-    peak = yield from largest("main_bearings", place, curve, "N")
+    peak = yield from largest("main_bearings", place, curve, "N", size)
     yield where("main_bearings", place / "peak_angle_deg", loads, curve, peak)
     if own / "diameter_m" and own / "length_m":
         area = (own / "diameter_m").double() * (own / "length_m").double()

@@ -40,7 +40,7 @@ def test_the_example_sets_the_defaults(monkeypatch: pytest.MonkeyPatch, tmp_path
 def test_no_document_names_a_setting_that_there_is_not() -> None:
     compose = {"IMAGE", "PUBLISH", "DASK_WORKERS", "MEMORY", "CPUS"}
     # of the workbench's script without a window
-    script = {"SHAFT", "MACHINE", "FOLDER", "URL"}
+    script = {"SHAFT", "MACHINE", "FOLDER", "URL", "FORCE"}
     others = {
         "COUNTERWEIGHT_KEY",
         *(f"COUNTERWEIGHT_{name}" for name in script),

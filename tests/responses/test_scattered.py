@@ -6,8 +6,8 @@ from functools import cache
 import numpy as np
 import pytest
 
+from optimizer.formulation.formulate import of_all_orders
 from optimizer.formulation.goals import bearing_responses
-from optimizer.mechanics.shaft_curves import shaking
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.registry import prepare
 from optimizer.responses import worst_masses as scattered
@@ -17,6 +17,7 @@ from optimizer.responses.curve import TurnResponse, peaks
 from optimizer.responses.mass_scatter import peaks_astray
 from optimizer.solve.uncertain_program import Machine
 from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.objective import Objective
 from schemas.request.requests import OptimizeRequest
 from tests.hard_turn import machines
 
@@ -32,7 +33,7 @@ def _responses(name: str, gas: bool, shaft: str) -> tuple[TurnResponse, ...]:
     assert isinstance(request.machine, ReciprocatingMachine)
     turn = Machine(request, scene, None, 1.0, 0.0).turn
     loads = bearing_responses(request.machine, request.fidelity, turn, scene.laden)
-    frame = shaking(turn, scene.laden)
+    frame = of_all_orders(turn, scene.laden, Objective())
     return (*loads, *frame, component(frame[0], "y", float(scene.laden.sense)))
 
 
