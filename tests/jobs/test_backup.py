@@ -37,6 +37,14 @@ def command(pattern: str, *replaced: tuple[str, str]) -> list[str]:
     return shlex.split(line)
 
 
+def piped(data: Path) -> list[str]:
+    """The guide's copy of the files of a folder."""
+    found = re.search(r"tar --create .+", SECTION)
+    assert found is not None
+    assert "/data " in found[0]
+    return ["bash", "-o", "pipefail", "-c", found[0].replace("/data ", f"{data} ")]
+
+
 def run(arguments: list[str], folder: Path, programs: Path | None = None) -> None:
     path = f"{programs or ''}{os.pathsep}{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     done = subprocess.run(
@@ -74,7 +82,7 @@ def test_sqlite(tmp_path: Path) -> None:
     for folder in (data, copy, again):
         folder.mkdir()
     database = command(r"python3 -c '.+jobs\.sqlite.+'", ("/data/", f"{data}/"))
-    files = command(r"cp --archive /data/results results", ("/data/", f"{data}/"))
+    files = piped(data)
     house = House(data)
     with closing(house.database):
         job, before = interrupted(house, [(database, copy, None), (files, copy, None)])
@@ -92,7 +100,7 @@ def test_postgresql(tmp_path: Path) -> None:
         programs = postgres.programs(tmp_path)
         with postgres.server() as first, postgres.server() as second:
             database = command(r"pg_dump .+", ("dump counterweight", f"dump {first.url}"))
-            files = command(r"cp --archive /data/results results", ("/data/", f"{data}/"))
+            files = piped(data)
             house = House(data, first.url)
             with closing(house.database):
                 job, before = interrupted(house, [(database, copy, programs), (files, copy, None)])
