@@ -209,7 +209,8 @@ def budget_price(statement: Statement, multipliers: Multipliers, mass_cost: floa
         return np.zeros(ends.shape)
     minorant = _minorant(statement, multipliers, statement.ceilings.cap)
     # with the rounding of the slopes, as in the bound: at a lower price a web behind this one would gain something
-    _, price = limits.spent(limits.radius * minorant.support(limits) - mass_cost)
+    # a plate that is opened further adds a kilogram at its edge (section 18)
+    _, price = limits.spent(limits.margin * minorant.support(limits) - mass_cost)
     return price
 
 

@@ -27,6 +27,12 @@ class Limits:
     half_angle_sin: Real  # (..., K)
     max_total_mass: Real  # (...) kg, inf where there is no budget
     alike: Alike | None = None  # webs that carry alike counterweights, whose other limits are alike too
+    marginal_radius: Real | None = None  # (..., K) m, at which one more kilogram acts where that is not the radius
+
+    @property
+    def margin(self) -> Real:
+        """Radius at which one more kilogram acts, m (..., K): of a plate the lever of its edge, else the radius."""
+        return self.radius if self.marginal_radius is None else self.marginal_radius
 
     @property
     def reach(self) -> Real:

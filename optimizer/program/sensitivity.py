@@ -38,11 +38,11 @@ def shadow_prices(statement: Statement, u: Complex, multipliers: Multipliers) ->
         slope = slope + np.add.reduce(np.conj(ceilings.norms.influence) * multipliers.ceiling[..., :, None], axis=-2)
     # what a kilogram on a web is worth; the budget is spent in falling order of it, and costs what the last one is
     # worth that it does not pay in full (docs/mathematics.md section 5)
-    worth = limits.radius * limits.support(-slope)
+    support = limits.support(-slope)
     ends = limits.budget_ends
-    budget = limits.spent(worth)[1] if ends.any() else np.zeros(ends.shape)
+    budget = limits.spent(limits.margin * support)[1] if ends.any() else np.zeros(ends.shape)
     return ShadowPrices(
-        max_mass=np.maximum(worth - budget[..., None], 0.0),
+        max_mass=np.maximum(limits.radius * (support - budget[..., None] / limits.margin), 0.0),
         half_angle=np.abs(u) * limits.opening(-slope),
         max_total_mass=budget,
         ceiling=np.abs(multipliers.ceiling),

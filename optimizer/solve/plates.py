@@ -284,7 +284,7 @@ class _Task:
         machine = fitted(self.request.machine, angle[first])
         asked = self.request.model_copy(update={"machine": machine})
         stated = limits(machine, self.omega_squared.shape)
-        program = replace(self.whole, limits=_limits(stated, self.whole.limits, self.plates))
+        program = replace(self.whole, limits=_limits(stated, self.whole.limits, self.plates, angle[first]))
         found = replace(proven, unbalance=cut.unbalance[None])
         wanted = demand(asked)
         return asked, judged(
@@ -304,8 +304,9 @@ def _up_to(program: Statement, proven: Optima, objective: Real) -> Optima:
     return replace(proven, mass_target=target, mass_lower_bound=bound)
 
 
-def _limits(stated: Limits, reached: Limits, plates: Plates) -> Limits:
-    """Limits of webs with the radii that were found; what the others may reach at most is as it was proven."""
-    most = reached.max_mass.copy()
+def _limits(stated: Limits, reached: Limits, plates: Plates, angle: Real) -> Limits:
+    """Limits of webs with the radii of half-angles (P,); what the others may reach at most is as it was proven."""
+    most, margin = reached.max_mass.copy(), stated.radius.copy()
     most[..., plates.webs] = stated.max_mass[..., plates.webs]
-    return replace(stated, max_mass=most)
+    margin[..., plates.webs] = plates.lever(angle)
+    return replace(stated, max_mass=most, marginal_radius=margin)

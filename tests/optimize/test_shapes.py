@@ -19,6 +19,7 @@ from service.common.validation import InvalidRequest, check
 from service.documents.examples import bodies
 from service.report.document import report
 from service.report.html import html
+from tests.verification.answers import pair
 
 PLATE = {"inner_radius_m": 0.08, "outer_radius_m": 0.32, "thickness_m": 0.06, "max_half_angle_deg": 75}
 SHAPES = ("sector", "segment")
@@ -355,3 +356,20 @@ def test_more_than_a_plate_holds_is_refused() -> None:
     with pytest.raises(OutOfRange, match="holds") as refused:
         analyze(AnalyzeRequest.model_validate({"machine": machine, "counterweights": fitted}))
     assert refused.value.problems[0].path == ("counterweights", 0, "mass_kg")
+
+
+def test_the_price_of_a_budget_is_its_slope_and_proves_the_bound() -> None:
+    """Independent: the difference of certified optima; one more kilogram is added at the edges of the plates."""
+    body, answer = pair("plates, segments, budget")
+
+    def objective(budget_kg: float) -> float:
+        request = {**body, "machine": {**body["machine"], "max_total_mass_kg": budget_kg}}
+        certificate = optimize(OptimizeRequest.model_validate(request)).certificate
+        assert certificate is not None
+        return certificate.objective
+
+    budget, step = body["machine"]["max_total_mass_kg"], 0.02
+    slope = (objective(budget - step) - objective(budget + step)) / (2 * step)
+    (price,) = [each["value"] for each in answer["shadow_prices"] if each["limit"] == "max_total_mass"]
+    assert price == pytest.approx(slope, rel=1e-4)
+    assert answer["certificate"]["multipliers"]["objective"]["budget"] == pytest.approx(slope, rel=1e-4)
