@@ -10,8 +10,8 @@ from service.tables.as_built import tolerance
 from service.tables.lines import Cell, Lines
 
 HEADS = (
-    "size, kg", "pieces", "radius of the centre of mass, m", "web", "angle from its crank, deg", "angle as drawn, deg",
-    "tolerance, +- kg", "tolerance, +- deg",
+    "size, kg", "of this size", "radius of the centre of mass, m", "web", "angle from its crank, deg",
+    "angle as drawn, deg", "tolerance, +- kg", "tolerance, +- deg",
 )  # fmt: skip
 #: masses that agree this closely, relative, are one size
 _SAME = 1e-9

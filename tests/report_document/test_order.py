@@ -25,7 +25,7 @@ def test_castings_by_size() -> None:
     request = asked()
     answer = optimize(request)
     head, *lines = order(request)
-    assert head[:2] == ["size, kg", "pieces"]
+    assert head[:2] == ["size, kg", "of this size"]
     fitted = {one.web: one for one in answer.counterweights if one.mass_kg > 0}
     assert {line[3] for line in lines} == set(fitted)
     masses = [float(str(line[0])) for line in lines]

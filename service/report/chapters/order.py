@@ -9,11 +9,12 @@ from service.tables.as_built import ALLOWANCE
 from service.tables.order import order
 
 _HEADS = (
-    "#size, kg", "#pieces", "#centre of mass, m", "web", "#from its crank, deg", "#as drawn, deg", "#+- kg", "#+- deg",
+    "#size, kg", "#of this size", "#centre of mass, m", "web", "#from its crank, deg", "#as drawn, deg", "#+- kg",
+    "#+- deg",
 )  # fmt: skip
 _WORDS = (
     "Equal castings stand together, the heaviest first. All of them together may be off by these tolerances, masses or"
-    f" angles alone. That costs at most {ALLOWANCE:.0%} of the objective without counterweights."
+    f" angles alone. That costs at most {ALLOWANCE * 100:g} % of the objective without counterweights."
 )
 
 
