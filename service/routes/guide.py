@@ -24,6 +24,9 @@ class Guide(StaticFiles):
         super().__init__(directory=folder, html=True, check_dir=False)
         self._unknown = folder / "404.html"
 
+    async def check_config(self) -> None:
+        """Nothing at the first request alone: the folder may be built, or removed, while the service runs."""
+
     async def get_response(self, path: str, scope: Scope) -> Response:
         """The file at a path.
 

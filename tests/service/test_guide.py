@@ -63,8 +63,9 @@ def test_pages_are_only_read(guide: TestClient, method: str) -> None:
     assert guide.head("/docs/guide/").status_code == 200
 
 
-def test_a_guide_that_is_not_built_says_how_to_build_it(tmp_path: Path) -> None:
-    with TestClient(create_app(Settings(guide_dir=tmp_path), warm=False)) as client:
+@pytest.mark.parametrize("name", ["", "nowhere"])
+def test_a_guide_that_is_not_built_says_how_to_build_it(tmp_path: Path, name: str) -> None:
+    with TestClient(create_app(Settings(guide_dir=tmp_path / name), warm=False)) as client:
         answer = client.get("/docs/guide/how-to/sweep.html")
     assert answer.status_code == 404
     assert answer.headers["content-type"] == "application/problem+json"
