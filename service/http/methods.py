@@ -15,10 +15,13 @@ class Methods:
 
     def template(self, scope: Scope) -> str | None:
         """The path of the first route, as it is written; None where there is nothing."""
-        found = (route for route in self._routes if route.matches(scope)[0] is not Match.NONE)
-        return getattr(next(found, None), "path", None)
+        return getattr(next(iter(self._fitting(scope)), None), "path", None)
 
     def of(self, scope: Scope) -> Sequence[str]:
         """The methods, sorted; none where there is nothing."""
-        fitting = [route for route in self._routes if route.matches(scope)[0] is not Match.NONE]
-        return sorted({method for route in fitting for method in getattr(route, "methods", None) or ()})
+        return sorted({method for route in self._fitting(scope) for method in getattr(route, "methods", None) or ()})
+
+    def _fitting(self, scope: Scope) -> list[BaseRoute]:
+        """Routes at the path as it came: a mounted application has moved the root of its own."""
+        whole = {**scope, "root_path": scope.get("app_root_path", scope.get("root_path", ""))}
+        return [route for route in self._routes if route.matches(whole)[0] is not Match.NONE]

@@ -1,5 +1,6 @@
 """The documents as a site below ``/docs/guide``."""
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -70,3 +71,12 @@ def test_a_guide_that_is_not_built_says_how_to_build_it(tmp_path: Path, name: st
     assert answer.status_code == 404
     assert answer.headers["content-type"] == "application/problem+json"
     assert "make docs" in answer.json()["detail"]
+
+
+def test_a_page_is_counted_as_one_of_the_guide(guide: TestClient) -> None:
+    """A mounted application moves the root path of a request; that of the start page would be `/` then."""
+    for path in ("", "how-to/sweep.html", "nothing"):
+        guide.get(f"/docs/guide/{path}")
+    counted = re.findall(r'counterweight_requests_total\{method="GET",route="([^"]+)"', guide.get("/metrics").text)
+    assert "/docs/guide" in counted
+    assert "/" not in counted

@@ -38,27 +38,6 @@ def test_values_of_the_first_order_are_evaluated_anew(name: str) -> None:
     assert {found[one] for one in ("objective", "before", "worst_case", "price")} == {"held"}
 
 
-def idle(answer: dict[str, Any]) -> dict[str, Any]:
-    """The answer of one who does nothing, and calls it optimal: its figures agree with one another."""
-    found = copy.deepcopy(answer)
-    for one in found["counterweights"]:
-        fixed = one["fixed"]
-        for field in ("mass_kg", "angle_deg", "mass_radius_kg_m", "x_kg_m", "y_kg_m", "centrifugal_force_N"):
-            one[field] = one[field] if fixed else 0.0
-        one["angle_from_crank_deg"], one["active_limits"], one["shape"] = None, [], None
-    for shaft in found["balance_shafts"]:
-        shaft["total_mass_kg"], shaft["counterweights"] = 0.0, []
-    proof = found["certificate"]
-    rest = proof["objective_without_counterweights"]
-    proof |= {"objective": rest, "lower_bound": rest, "gap": 0.0, "relative_gap": 0.0}
-    proof |= {"mass_lower_bound_kg": 0.0, "mass_relative_gap": 0.0, "mass_objective_limit": rest}
-    found |= {"total_mass_kg": 0.0, "shadow_prices": [], "active_limits": [], "sensitivity": None}
-    residual = found["residual"]
-    residual["after"], residual["orders"]["after"] = residual["before"], residual["orders"]["before"]
-    found["balance_rate"] = [{**one, "rate": 0.0, "sideways": 0.0} for one in found["balance_rate"]]
-    return found
-
-
 @pytest.mark.parametrize("name", KINDS[::6])
 def test_nothing_that_is_made_up_passes(name: str) -> None:
     for way, request, answer in fabricated(name):
