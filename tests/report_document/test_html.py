@@ -75,7 +75,8 @@ def test_the_policy_forbids_what_is_not_there(page: Page) -> None:
 def test_whoever_cannot_see_it_is_told_what_is_what(page: Page) -> None:
     assert ("html", {"lang": "en"}) in page.elements
     drawings = [attributes for tag, attributes in page.elements if tag == "svg"]
-    # four of machine and first order, the stages, and of orders those that are no straight lines
+    # four of machine and first order, the stages, the torque, and two of order 1: higher orders of horizontal rows act
+    # along x alone, and straight lines are not drawn
     assert len(drawings) == 8
     assert all(found["role"] == "img" and found["aria-label"] for found in drawings)
     assert all(found["scope"] in ("col", "row") for tag, found in page.elements if tag == "th")
