@@ -1,4 +1,4 @@
-"""How much each owner has had lately, so that who asks now and then is told from who asks without end."""
+"""How much was computed for each owner lately, so that who asks now and then is told from who asks without end."""
 
 import math
 from collections.abc import Callable
@@ -31,8 +31,11 @@ class _Load:
 
 
 class Loads:
-    """Turns that owners had on the average of the last seconds, or since they came, as systems tell how many processes
+    """Cores that owners had on the average of the last seconds, or since they came, as systems tell how many processes
     run.
+
+    A turn that runs counts as one core. Once it has ended, it counts for what was computed in it: where others compute
+    too, a turn lasts longer, and that is no fault of its owner.
 
     Parameters
     ----------
@@ -49,11 +52,20 @@ class Loads:
         load = self._loads.get(owner)
         return 0.0 if load is None else load.corrected(self._clock())
 
-    def take(self, owner: str, turns: int) -> None:
-        """Have an owner have so many turns more, or fewer."""
+    def take(self, owner: str) -> None:
+        """Begin a turn of an owner."""
+        self._change(owner, 1, 0.0)
+
+    def end(self, owner: str, lasted_s: float, computed_s: float) -> None:
+        """End a turn that an owner had until now, in which a core computed for part of the time [s]."""
+        counted = -math.expm1(-lasted_s / LATELY_S)
+        share = min(1.0, computed_s / lasted_s) if lasted_s > 0 else 1.0
+        self._change(owner, -1, (share - 1.0) * counted)
+
+    def _change(self, owner: str, turns: int, average: float) -> None:
         at = self._clock()
         load = self._loads.pop(owner, _Load(at, 0.0, 0, at))
-        self._loads[owner] = _Load(load.since, load.now(at), load.turns + turns, at)
+        self._loads[owner] = _Load(load.since, load.now(at) + average, load.turns + turns, at)
         # one comes at most, so they do not become many
         for name in tuple(islice(self._loads, 2)):
             if not self._loads[name].turns and self._loads[name].now(at) < _NOTHING:

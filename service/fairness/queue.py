@@ -13,7 +13,7 @@ from service.fairness.table import Share
 
 #: whoever waits and has had no turn for so long is before all who have had less [s]
 PATIENCE_S = 2.0
-#: the second turn above the size is for who had less than this share of what anybody had who has a turn
+#: the second turn above the size is for who had less than this share of what any other had who has a turn or waits
 _LESS = 0.8
 
 
@@ -25,6 +25,8 @@ class Full(Exception):
 class Turn:
     """Asked for, waited for and had in an ``async with``; or step by step, and then ended in any case.
 
+    begun_at : on the clock of the turns [s].
+    computed_s : what a core has computed in it [s]; if not known, as long as it lasted.
     above : it is one above the size.
     """
 
@@ -33,6 +35,8 @@ class Turn:
     decided: asyncio.Event = field(default_factory=asyncio.Event)
     wanted: bool = False
     begun: bool = False
+    begun_at: float = 0.0
+    computed_s: float | None = None
     ended: bool = False
     above: bool = False
 
@@ -71,10 +75,10 @@ class FairQueue:
     ever, however many come who have had nothing. When as many wait as may, the owner of whom most wait gives up its
     last place to one of whom fewer wait.
 
-    Little is at most half of an equal share of the turns, among all owners who have one or wait; and for the second one
-    above the size less than anybody had who has one. Owners who ask without end have more than that on the average,
-    so they leave those to whoever asks now and then. What the busiest had is no measure: beside one whose computations
-    are long, all others would have had little.
+    Little is at most half of an equal share of the cores that turns are for, among all owners who have a turn or wait;
+    and for the second one above the size less than any other of them had. Owners who ask without end have more than
+    that on the average, so they leave those to whoever asks now and then. What the busiest had is no measure: beside
+    one whose computations are long, all others would have had little.
 
     Parameters
     ----------
@@ -121,7 +125,9 @@ class FairQueue:
             if not self._running[turn.owner]:
                 del self._running[turn.owner]
             self._above -= turn.above
-            self._take(turn.owner, -1)
+            self._accounts.take(turn.owner, -1)
+            lasted_s = self._clock() - turn.begun_at
+            self._loads.end(turn.owner, lasted_s, lasted_s if turn.computed_s is None else turn.computed_s)
         else:
             self._leave(turn)
         if turn.owner in self._accounts and not self._running[turn.owner] and turn.owner not in self._waiting:
@@ -164,22 +170,20 @@ class FairQueue:
             return False
         owners = {*self._running, *self._waiting, owner}
         had = self._loads.of(owner)
-        least = min(map(self._loads.of, self._running)) if self._above else math.inf
+        others = owners - {owner} if self._above else ()
+        least = min(map(self._loads.of, others), default=math.inf)
         return had <= min(_LESS * least, 0.5 * self.size / len(owners))
 
     def _is_free(self) -> bool:
         return self._running.total() - self._above < self.size
 
     def _begin(self, turn: Turn) -> None:
-        turn.begun, turn.above = True, not self._is_free()
+        turn.begun, turn.begun_at, turn.above = True, self._clock(), not self._is_free()
         self._above += turn.above
         self._running[turn.owner] += 1
-        self._take(turn.owner, 1)
+        self._accounts.take(turn.owner, 1)
+        self._loads.take(turn.owner)
         turn.decided.set()
-
-    def _take(self, owner: str, turns: int) -> None:
-        self._accounts.take(owner, turns)
-        self._loads.take(owner, turns)
 
     def _leave(self, turn: Turn) -> None:
         place = self._waiting.get(turn.owner)

@@ -178,6 +178,7 @@ class Pool:
                 await self._in_thread(worker.end)
                 raise
             else:
+                (long if task.long or short.ended else short).computed_s = worker.computed_s
                 await self._keep(worker, outcome, task.long)
                 return outcome
             finally:

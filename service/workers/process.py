@@ -47,6 +47,8 @@ class Worker:
     def __init__(self, memory_bytes: int, folder: Path | None) -> None:
         #: whether its priority was lowered, which nobody can undo
         self.lowered = False
+        #: for how long cores have computed the last task [s], once it has an outcome
+        self.computed_s: float | None = None
         context = multiprocessing.get_context("forkserver")
         self._connection, theirs = socket.socketpair()
         self._says = Listener(self._connection)
@@ -74,6 +76,7 @@ class Worker:
 
     def send(self, task: Task, priority: Priority) -> None:
         """Have a task computed."""
+        self.computed_s = None
         try:
             self._connection.sendall(task.said(priority))
         except OSError as error:
@@ -81,10 +84,11 @@ class Worker:
 
     async def outcome(self) -> Outcome | Long:
         try:
-            outcome, file = await self._says.heard()
+            reply, file = await self._says.heard()
         except EOFError as error:
             raise Dead from error
-        return outcome if file is None else replace(outcome, file=file)
+        self.computed_s = reply.computed_s
+        return reply.outcome if file is None else replace(reply.outcome, file=file)
 
     def lower(self) -> None:
         """Have whatever it computes go on behind all others, as long ones do."""

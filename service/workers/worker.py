@@ -116,6 +116,14 @@ class Long:
 Outcome = Answer | Refused | Crashed
 
 
+@dataclass(frozen=True)
+class Reply:
+    """What a worker says: the outcome of a task, and for how long cores have computed it [s]."""
+
+    outcome: Outcome | Long
+    computed_s: float
+
+
 def serve(connection: socket.socket, memory_bytes: int, folder: Path | None) -> None:
     """Answer tasks until the service ends; large answers go into files of a folder.
 
@@ -141,17 +149,19 @@ def serve(connection: socket.socket, memory_bytes: int, folder: Path | None) -> 
             }
             while True:
                 task, priority = Task.heard(asked)
+                before_s = time.process_time()
                 outcome = nicer[priority].submit(perform, task).result() if priority in nicer else perform(task)
-                _send(connection, outcome, folder)
+                _send(connection, Reply(outcome, time.process_time() - before_s), folder)
                 del task, outcome
     except (EOFError, BrokenPipeError, ConnectionResetError):
         return
 
 
-def _send(connection: socket.socket, outcome: Outcome | Long, folder: Path | None) -> None:
+def _send(connection: socket.socket, reply: Reply, folder: Path | None) -> None:
     """Hand over an outcome; of a large answer an open file, which the service need not hold in memory."""
+    outcome = reply.outcome
     if not (isinstance(outcome, Answer) and len(outcome.content) > LARGE_BYTES):
-        say(connection, outcome)
+        say(connection, reply)
         return
     try:
         if folder is not None:
@@ -159,11 +169,12 @@ def _send(connection: socket.socket, outcome: Outcome | Long, folder: Path | Non
         with TemporaryFile(dir=folder) as file:
             file.write(outcome.content)
             file.seek(0)
-            say(connection, replace(outcome, content=b""), file)
+            say(connection, replace(reply, outcome=replace(outcome, content=b"")), file)
     except OSError as error:
         if error.errno not in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.ENOTDIR, errno.EACCES):
             raise
-        say(connection, Refused.because(NoRoom("There is no room on disk for so large an answer; try again later.")))
+        full = NoRoom("There is no room on disk for so large an answer; try again later.")
+        say(connection, replace(reply, outcome=Refused.because(full)))
 
 
 def perform(task: Task) -> Outcome | Long:

@@ -48,6 +48,8 @@ class Asked:
         self.turns = turns
         self.begun: list[str] = []
         self.refused: list[str] = []
+        #: of turns, where it is not all the time that they last
+        self.computed_s: dict[str, float] = {}
         self._group = group
         self._ends: dict[str, anyio.Event] = {}
 
@@ -57,9 +59,11 @@ class Asked:
 
         async def have() -> None:
             try:
-                async with self.turns.turn(name[0]):
+                turn = self.turns.turn(name[0])
+                async with turn:
                     self.begun.append(name)
                     await self._ends[name].wait()
+                    turn.computed_s = self.computed_s.get(name)
             except Full:
                 self.refused.append(name)
 
@@ -316,5 +320,45 @@ def test_a_bystander_never_waits_for_owners_who_ask_without_end(each: int, long_
         # two of theirs at a time, and more in the first moments; each a quarter of them
         assert sum(begun[owner] for owner in "abcd") == pytest.approx(2 * 4.0 / 0.025, rel=0.07)
         assert max(begun[owner] for owner in "abcd") - min(begun[owner] for owner in "abcd") <= 8
+
+    play(FairQueue(2, 100, 64), story)
+
+
+@pytest.mark.parametrize("slow", [1.0, 2.0, 3.0])
+def test_a_bystander_of_six_never_waits_on_a_machine_with_other_work(slow: float) -> None:
+    """His turns last several times as long as they compute, as everybody's do: that is not what he had."""
+
+    async def story(asked: Asked) -> None:
+        numbers, ends = itertools.count(), list[tuple[float, str]]()
+        waits: list[str] = []
+
+        async def ask(owner: str) -> str:
+            name = f"{owner}{next(numbers)}"
+            asked.computed_s[name] = {"z": 0.008}.get(owner, 0.1)
+            await asked.ask(name)
+            return name
+
+        for owner in "abcdef" * 8:
+            await ask(owner)
+        # 100 ms of every one of theirs, 8 ms of his, every 150 ms from when they have pressed for 2 s
+        seen, comes = 0, 2.0
+        while comes < 8.0:
+            for name in asked.begun[seen:]:
+                heapq.heappush(ends, (asked.turns.clock() + slow * asked.computed_s[name], name))
+            seen = len(asked.begun)
+            if comes <= ends[0][0]:
+                asked.turns.clock.seconds = comes
+                name = await ask("z")
+                waits += [] if name in asked.begun else [name]
+                comes += 0.15
+                continue
+            at, name = heapq.heappop(ends)
+            await asked.end(name, after_s=at - asked.turns.clock())
+            if name[0] != "z":
+                await ask(name[0])
+        assert waits == []
+        begun = Counter(name[0] for name in asked.begun)
+        assert begun["z"] == 40
+        assert max(begun[owner] for owner in "abcdef") - min(begun[owner] for owner in "abcdef") <= 3
 
     play(FairQueue(2, 100, 64), story)

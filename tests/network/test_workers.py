@@ -91,6 +91,12 @@ def test_long_tasks_are_computed_behind_all_others(pool: Pool) -> None:
     assert (own, process) == (min(19, here + 9), min(19, here + 2))
 
 
+def test_a_turn_counts_for_what_its_worker_computed(pool: Pool) -> None:
+    # it sleeps for a second
+    assert isinstance(run(pool, task(tasks.slow))[0], Answer)
+    assert 0 < pool._short._loads.of("one") < 0.3
+
+
 def test_what_turns_out_to_be_long_gives_its_turn_back(pool: Pool, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("service.fairness.length.BRIEF_S", 0.1)
     run(pool, task(tasks.quick))
