@@ -5,12 +5,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optimizer.choices.discrete import branch, halves
+from optimizer.choices.discrete import ample, branch, halves
 from optimizer.choices.discrete.clock import Clock, Pace
 from optimizer.choices.discrete.exchange import start
 from optimizer.choices.discrete.options import EQUAL, Incumbent, Options
 from optimizer.choices.semicontinuous import inside, tree
 from optimizer.choices.semicontinuous.places import root
+from optimizer.program.cuts.row_generation import FEW
 from optimizer.program.methods.optima import optima
 from optimizer.program.statement import Statement
 from optimizer.solve.process_solver import own_solver
@@ -152,3 +153,26 @@ def test_pairs_of_sums_are_compared_by_fewer_at_once_where_they_have_more_terms(
     # several were made, and the last of a batch may be more than fill it
     assert len(batches) > 1
     assert max(batches) <= 1.5 * halves._AT_ONCE
+
+
+@pytest.mark.parametrize(
+    ("base", "features"),
+    [
+        ("twin", ["bending alone", "own masses"]),
+        ("vee", ["bending_ceiling_Nm near", "cheaper choices", "bearing weight"]),
+    ],
+)
+def test_light_sets_are_sought_near_an_optimum_of_few_rows(
+    base: str, features: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Over the turn a program has hundreds of terms, and took seconds between two looks at the time."""
+    terms, stages = list[int](), ample.both_stages
+
+    def counting(statement: Statement, *rest: Any) -> Any:
+        terms.append(statement.norms.constant.shape[-1] + statement.ceilings.norms.constant.shape[-1])
+        return stages(statement, *rest)
+
+    monkeypatch.setattr(ample, "both_stages", counting)
+    assert ask(base, features).kind == "answered"
+    # a row has three terms at most
+    assert 0 < max(terms) <= 2 * 3 * FEW

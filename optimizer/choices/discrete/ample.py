@@ -18,6 +18,7 @@ from optimizer.choices.discrete.options import Incumbent, Options
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.methods.compiled import both_stages, suits_kernel
 from optimizer.program.solution import OPTIMUM_SHARE
+from optimizer.program.statement import Statement
 
 #: options of a slot near to the optimum, and light ones of another, pass by pass
 _COUNTS = ((40, 200), (60, 300))
@@ -44,15 +45,18 @@ _USED = 1e-3
 Sizes = tuple[int, ...]
 
 
-def offer_light_sets(incumbent: Incumbent, relaxed: Complex, enough: Callable[[], bool], clock: Clock) -> None:
+def offer_light_sets(
+    incumbent: Incumbent, below: Statement, relaxed: Complex, enough: Callable[[], bool], clock: Clock
+) -> None:
     """Offer the sets that are found so.
 
     Parameters
     ----------
+    below : the incumbent's program, or one of fewer rows that is nowhere above it.
     relaxed : (K,) kg m of first webs, an optimum of any masses.
     enough : whether the best set is as good as asked.
     """
-    light = _lightest(incumbent, relaxed)
+    light = _lightest(below, relaxed)
     used = used_slots(light)
     if not used:
         return
@@ -132,9 +136,8 @@ def lightened(incumbent: Incumbent, limit: float) -> np.ndarray:
         chosen = sets[int(np.argmax(kept))]
 
 
-def _lightest(incumbent: Incumbent, relaxed: Complex) -> Complex:
+def _lightest(statement: Statement, relaxed: Complex) -> Complex:
     """(K,) kg m: the lightest optimum of any masses, or the one that is known."""
-    statement = incumbent.statement
     if not suits_kernel(statement) or not statement.at_rest > 0:
         return relaxed
     share = np.array([OPTIMUM_SHARE * float(statement.at_rest)])

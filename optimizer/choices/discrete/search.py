@@ -98,7 +98,7 @@ def search(
         return incumbent.least - at_least <= gap
 
     light = Clock((_LIGHT_OF_PARTS if options.limits_parts else _LIGHT) * time_limit_s)
-    offer_light_sets(incumbent, relaxed, enough, light)
+    offer_light_sets(incumbent, below, relaxed, enough, light)
     for patience, most_nodes in _SEARCHES:
         neighbourhoods(incumbent, relaxed, patience, enough, half)
         tree = branch(options, incumbent, at_least, gap, lambda bound: False, clock, most_nodes, below)
