@@ -9,9 +9,8 @@ if [ ! -d "$NUMBA_CACHE_DIR" ]; then
     cp -R --preserve=timestamps "$compiled/." "$fresh"
     mv "$fresh" "$NUMBA_CACHE_DIR"
 fi
-# numba keeps kernels by processor, and takes the features of this one unless it is told to take none beyond the name
-if [ -z "${NUMBA_CPU_NAME:-}" ]; then
-    NUMBA_CPU_NAME=$(processor) NUMBA_CPU_FEATURES=
-    export NUMBA_CPU_NAME NUMBA_CPU_FEATURES
-fi
+# numba keeps kernels by processor, and takes the features of this one unless it is told to take none beyond the name:
+# by those it would find none of the image's kernels, whoever names the processor
+NUMBA_CPU_NAME=${NUMBA_CPU_NAME:-$(processor)} NUMBA_CPU_FEATURES=${NUMBA_CPU_FEATURES-}
+export NUMBA_CPU_NAME NUMBA_CPU_FEATURES
 exec "$@"

@@ -141,7 +141,9 @@ def test_the_processor_is_told_by_all_its_flags(tmp_path: Path, flags: str, name
     assert found.stdout.strip() == name
 
 
-@pytest.mark.parametrize(("before", "after"), [("", "x86-64-v3/"), ("generic", "generic/unset")])
+@pytest.mark.parametrize(
+    ("before", "after"), [("", "x86-64-v3/"), ("generic", "generic/"), ("x86-64-v3", "x86-64-v3/")]
+)
 def test_kernels_are_loaded_for_the_processor_unless_the_operator_names_one(
     compiled: Path, tmp_path: Path, before: str, after: str
 ) -> None:

@@ -18,6 +18,7 @@ from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer
 from schemas.base.version import DISTRIBUTION
 from service.cli import app
 from service.documents.examples import catalogue, directory, load, names
+from service.routes.version import processor
 
 ROOT = Path(__file__).parents[2]
 
@@ -275,4 +276,4 @@ def test_version(client: TestClient) -> None:
     shown = run("--version")
     assert (shown.exit_code, shown.stdout) == (0, f"{version(DISTRIBUTION)}\n")
     answer = client.get("/v1/version").json()
-    assert answer == {"version": version(DISTRIBUTION), "processor": os.environ.get("NUMBA_CPU_NAME", "host")}
+    assert answer == {"version": version(DISTRIBUTION), "processor": processor()}
