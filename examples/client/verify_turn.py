@@ -182,9 +182,6 @@ class Program:
                 continue
             part = self._part(limit)
             start, factors, cap = part.capped(limit)
-            if part.case.name is not None:
-                # all are of programs over the square of the speed of the machine as it is
-                p = p * (self.machine.square / part.machine.square)
             if limit / "angle_deg" and (limit / "response").text() in ALONG:
                 p = p.parts()[0]
             pulls.least = pulls.least + p.along(start) - abs(p) * cap

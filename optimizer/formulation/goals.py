@@ -75,6 +75,11 @@ class Goals:
     limited: tuple[Limited, ...]  # as in the program
     cases: tuple[Case, ...]
 
+    @property
+    def speeds(self) -> Mapping[str | None, float]:
+        """omega^2 by scenario, rad^2/s^2, of one request."""
+        return {case.scenario: float(case.omega_squared) for case in self.cases}
+
 
 def bearing_responses(
     machine: ReciprocatingMachine, fidelity: Fidelity, turn: WholeTurn, layout: Layout

@@ -147,7 +147,7 @@ def unreachable(
         alone = alone.changed(limits=replace(alone.limits, max_mass=most))
         least = {name: _least(alone, group) for name, group in groups.items()}
     peaks = {
-        name: Smallest(goal.value * square, goal.lower_bound * square, multipliers_of(goal.proof, square))
+        name: Smallest(goal.value * square, goal.lower_bound * square, multipliers_of(goal.proof, square, asked.speeds))
         for name, (goal,) in ((name, each.goals) for name, each in least.items())
     }
     # of all orders the ceilings are among what is limited over the turn
@@ -163,7 +163,7 @@ def unreachable(
     conflict, scenarios = None, tuple[str, ...]()
     if found is not None:
         scales, proof = asked.program.excess_scales(found.proof.cuts), found.proof
-        conflict = named_excess(proof.statement, proof.multipliers, scales, square)
+        conflict = named_excess(proof.statement, proof.multipliers, scales, asked.speeds)
         scenarios = _scenarios(asked.program, found)
     implied = implied_max_mass(posed(request).machine, most[None])[0]
     fields = report(scene, shown, (*exact, *both), together, peaks, implied, conflict, scenarios)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from optimizer.formulation.simulation import Prepared
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.cuts.proof import Proof
-from optimizer.solve.proof import Bounded, implied_max_mass, named, physical
+from optimizer.solve.proof import Bounded, Speeds, implied_max_mass, named, physical
 from schemas.answer.answers import Certificate, GoalReached
 from schemas.answer.proof import BoundMultipliers, Multipliers
 from schemas.machine.machine import Machine
@@ -30,9 +30,16 @@ class Outcome:
     report_s: float = 0.0  # of the time, that spent on the fields
 
 
-def multipliers_of(proof: Proof, omega_squared: float, bounded: Bounded = "objective") -> BoundMultipliers:
-    """Multipliers of a bound, of a program over omega^2, by their names and in their units."""
-    scaled = physical(proof.statement, proof.multipliers, bounded, omega_squared)
+def multipliers_of(
+    proof: Proof, omega_squared: float, speeds: Speeds, bounded: Bounded = "objective"
+) -> BoundMultipliers:
+    """Multipliers of a bound, of a program over omega^2, by their names and in their units.
+
+    Parameters
+    ----------
+    speeds : omega^2 by scenario, that ceilings are over.
+    """
+    scaled = physical(proof.statement, proof.multipliers, bounded, omega_squared, speeds)
     return named(proof.statement, scaled.of_groups(proof.statement, proof.scale))
 
 

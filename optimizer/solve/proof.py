@@ -1,11 +1,12 @@
 """Multipliers of the program by name and in the units of the answer: the proof that leaves the house.
 
 The program is in mass-radius products, forces over omega^2. A multiplier of the objective is the same in either; one
-of the mass, or of a ceiling alone, is per newton and so divided by omega^2. Webs that cannot carry anything have no
-multipliers of their own, so none is missing where the program went without them.
+of the mass, or of a ceiling alone, is per newton and so divided by omega^2. Ceilings are over omega^2 of the scenario
+whose response they limit, and all else is over that of the machine as it is given. Webs that cannot carry anything have
+no multipliers of their own, so none is missing where the program went without them.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Literal, NamedTuple
 
@@ -49,8 +50,12 @@ class PhysicalMultipliers:
         return PhysicalMultipliers(self.term[program], self.row[program], self.ceiling[program], self.budget[program])
 
 
+#: omega^2 by scenario, rad^2/s^2
+Speeds = Mapping[str | None, float]
+
+
 def physical(
-    statement: Statement, multipliers: Multipliers, bounded: Bounded, omega_squared: Reals
+    statement: Statement, multipliers: Multipliers, bounded: Bounded, omega_squared: Reals, speeds: Speeds | None = None
 ) -> PhysicalMultipliers:
     """Multipliers of a bound in the units of the answer.
 
@@ -59,9 +64,18 @@ def physical(
     statement : (...) programs, over omega^2.
     bounded : "objective": in units of the objective, the rows sum to 1; "mass": in kg; "parameter": a plain number.
     omega_squared : (...) rad^2/s^2.
+    speeds : of all scenarios, where there are any.
     """
     (found,) = _physical(statement, {bounded: multipliers}, omega_squared)
-    return found
+    scenarios = statement.ceilings.scenarios
+    if not speeds or not scenarios:
+        return found
+    return replace(found, ceiling=found.ceiling * (omega_squared / _squares(scenarios, speeds)))
+
+
+def _squares(scenarios: Iterable[str | None], speeds: Speeds) -> Real:
+    """omega^2 of the scenario of each (...) rad^2/s^2."""
+    return np.array([speeds[scenario] for scenario in scenarios])
 
 
 def _physical(
@@ -174,18 +188,22 @@ def named_conflict(statement: Statement, multipliers: PhysicalMultipliers) -> Bo
     return BoundMultipliers.model_validate({"terms": (), **_shared(names, statement, multipliers)})
 
 
-def named_excess(excess: Statement, multipliers: Multipliers, scales: Real, omega_squared: float) -> BoundMultipliers:
+def named_excess(excess: Statement, multipliers: Multipliers, scales: Real, speeds: Speeds) -> BoundMultipliers:
     """Multipliers that prove that ceilings cannot be kept, by the program of their excess: a row for each ceiling.
 
     Parameters
     ----------
     scales : (rows,) what each ceiling is divided by in that program.
+    speeds : of all scenarios, or of the machine as it is given.
     """
     usable, _ = normalised(excess, multipliers)
-    row = usable.row / scales / omega_squared
-    terms = _no_longer(usable.term / scales[excess.row] / omega_squared, row[excess.row])
-    price = budget_price(excess, usable, 0.0)
     names = excess.names
+    squares = np.ones_like(scales)
+    # all terms of a row are of one scenario
+    squares[excess.row] = _squares((term.scenario for term in names.terms), speeds)
+    row = usable.row / scales / squares
+    terms = _no_longer(usable.term / (scales * squares)[excess.row], row[excess.row])
+    price = budget_price(excess, usable, 0.0)
     return BoundMultipliers.model_validate(
         {
             "terms": (),

@@ -201,8 +201,10 @@ def told(
                 machine,
                 found.limits.max_mass,
                 Multipliers(
-                    objective=multipliers_of(found.proof, square),
-                    mass=None if found.mass_proof is None else multipliers_of(found.mass_proof, square, "mass"),
+                    objective=multipliers_of(found.proof, square, asked.speeds),
+                    mass=None
+                    if found.mass_proof is None
+                    else multipliers_of(found.mass_proof, square, asked.speeds, "mass"),
                 ),
                 levels,
             ),

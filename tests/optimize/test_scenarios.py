@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from optimizer.errors import MissingInput
+from schemas.answer.answers import OptimizeAnswer
 from schemas.front.pareto import ParetoRequest
 from schemas.request.accuracy import AccuracyRequest
 from schemas.request.requests import OptimizeRequest
@@ -16,6 +17,7 @@ from schemas.sweep.request import SweepRequest
 from tests.optimize.machines import machine, random_machine, row, throw, web
 from tests.optimize.robust import answered, crank, scenario, worst
 from tests.optimize.whole_turn import one_throw
+from tests.pairs.machines import BASES
 
 
 def test_between_two_cranks_the_counterweight_is_in_the_middle() -> None:
@@ -195,3 +197,35 @@ def test_what_a_scenario_lacks_is_asked_for_in_its_name() -> None:
     made["throws"][0]["rows"][0].pop("connecting_rod")
     with pytest.raises(MissingInput):
         answered(made, objective=goal, scenarios=[scenario("a")])
+
+
+@pytest.mark.parametrize(
+    ("made", "objective", "ceiling", "share", "slower"),
+    [
+        (BASES["twin"]["machine"], {"moment_weight": 0.2}, "bearing_ceiling_N", 0.97, 1.0),
+        (random_machine(1), {"moment_weight": 0.0}, "moment_ceiling_Nm", 0.8, 1.0),
+        # the slow machine decides the objective, and the fast one is under the ceiling
+        (random_machine(1), {"moment_weight": 0.0}, "moment_ceiling_Nm", 0.8, 2.0),
+    ],
+)
+def test_the_multiplier_of_a_ceiling_is_what_it_costs_at_its_own_speed(
+    made: dict[str, Any], objective: dict[str, float], ceiling: str, share: float, slower: float
+) -> None:
+    """Independent: the central difference of certified objectives."""
+    several = [scenario("slow", slower), scenario("fast", speed_rpm=1.25 * made["speed_rpm"])]
+
+    def under(cap: float) -> OptimizeAnswer:
+        goal = {**objective, ceiling: cap}
+        return answered(made, objective=goal, scenarios=several, accuracy={"relative_gap": 1e-9})
+
+    free = under(1e12).worst_case
+    cap = share * getattr(free, ceiling.replace("ceiling", "peak"))
+    step = 1e-3 * cap
+    below, at, above = (under(cap + off).certificate for off in (-step, 0.0, step))
+    assert below is not None
+    assert at is not None
+    assert above is not None
+    given = [each for each in at.multipliers.objective.ceilings if np.hypot(each.x, each.y) > 1e-9]
+    assert {each.scenario for each in given} == {"fast"}
+    cost = sum(np.hypot(each.x, each.y) for each in given)
+    assert cost == pytest.approx((below.objective - above.objective) / (2 * step), rel=1e-4)
