@@ -8,7 +8,7 @@ the tangents at its ends and in its middle meet; all arcs together within the Mi
 from __future__ import annotations
 
 from cmath import phase, rect
-from math import cos, hypot, radians, sin
+from math import cos, hypot, radians
 from typing import Dict, Iterator, List, Sequence
 
 from verify_answer import Fitted
@@ -44,10 +44,15 @@ class Misplaced(Value):
             found.append(Range(*peak_of(curve.moved(corner), self.part.goal, max(most(found).low, enough))[:2]))
         still = curve.moved(-curve.harmonics.get(0, 0j)).size
         if still <= SAMPLE * loads.size_of(name):
-            # of what counterweights alone load the service takes the sum of all that moves
-            moved = 2 * sin(ANGLE / 2) if self.by_angle else SHARE
-            found.append(Range(found[0].low, found[0].high + moved * sum(map(abs, vectors))))
+            # what turns with the shaft alone has one length, at worst no more than at a corner
+            least = self._at_worst(curve.harmonics.get(0, 0j), vectors)
+            return Range(least, max(least, most(found).high))
         return most(found)
+
+    def _at_worst(self, middle: complex, vectors: Sequence[complex]) -> float:
+        """The largest length of a vector of which these are parts."""
+        worst, step = (worst_by_angle, ANGLE) if self.by_angle else (worst_by_mass, SHARE)
+        return worst(middle - sum(vectors), vectors, step)
 
     def _external(self) -> Iterator[Range]:
         if self.part.all:
@@ -72,9 +77,7 @@ class Misplaced(Value):
         loads = self.part.loads
         curve = loads.with_weights(name, self.fitted.turning)
         still, vectors = curve.harmonics.get(0, 0j), [loads.added(name, [one]) for one in self.free]
-        worst = worst_by_angle if self.by_angle else worst_by_mass
-        moved = worst(still - sum(vectors), vectors, ANGLE if self.by_angle else SHARE)
-        value = hypot(curve.moved(-still).rms, moved) * weight
+        value = hypot(curve.moved(-still).rms, self._at_worst(still, vectors)) * weight
         return Range(value, value)
 
 

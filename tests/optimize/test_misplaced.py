@@ -44,6 +44,23 @@ def test_large_counterweights_that_balance_one_another_are_fragile() -> None:
     assert "One degree" in warning.message
 
 
+def test_a_bearing_that_carries_counterweights_alone() -> None:
+    """Analytic: a bearing with one counterweight and nothing else has its load wherever that is turned to."""
+    made = machine([throw(0.0, 30.0, [], rotating=20.0)], [web("a", 1.0)], speed_rpm="10 rad/s")
+    bearings = [
+        {"name": name, "position_m": at, "diameter_m": size, "length_m": size}
+        for name, at, size in (("of the crank", 0.0, 1.0), ("of the counterweight", 1.0, 0.1))
+    ]
+    objective = {"force_weight": 0.0, "moment_weight": 0.0, "bearing_weight": 1.0, "bearing_measure": "specific"}
+    answer = answered(made | {"bearings": bearings}, **objective, force_ceiling_N=50.0)
+    # the crank has 200 N, of which the counterweight has to take 150, on 0.01 m2
+    assert answer.certificate is not None
+    assert answer.certificate.objective == pytest.approx(15_000.0)
+    assert answer.sensitivity is not None
+    assert answer.sensitivity.objective_rise_per_deg == pytest.approx(0.0, abs=1e-4)
+    assert answer.sensitivity.objective_rise_per_percent == pytest.approx(150.0)
+
+
 def test_without_counterweights_nothing_is_off() -> None:
     answer = answered(machine([throw(0.0, 30.0, [], rotating=20.0)], []))
     assert answer.sensitivity is not None

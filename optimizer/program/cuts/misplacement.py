@@ -36,7 +36,8 @@ def largest_last_goals(
         (2.0 * np.sin(0.5 * angle), lambda norms: worst_by_angle(norms, u, angle), lambda v: angle_corners(v, angle)),
         (share, lambda norms: worst_by_mass(norms, u, share), lambda v: share * mass_corners(v)),
     )
-    worst = [[_no_less(quantity, u, each, kind) for quantity, each in _pairs(program, reached)] for kind in kinds]
+    quantities = tuple(zip(program.quantities, reached, program.samples.cancelled, strict=True))
+    worst = [[_no_less(quantity, u, each, nothing, kind) for quantity, each, nothing in quantities] for kind in kinds]
     sharp = [(k, q) for k, of_kind in enumerate(worst) for q in _matter(program, reached, of_kind)]
     for (k, q), peak in zip(sharp, _sharper(program, u, [(kinds[k], q) for k, q in sharp]), strict=True):
         worst[k][q] = min(worst[k][q], peak)
@@ -48,17 +49,20 @@ def largest_last_goals(
 _Kind = tuple[float, Callable[[Norms], Real], Callable[[Complex], Complex]]
 
 
-def _pairs(program: Problem, reached: Sequence[Reached]) -> Iterator[tuple[Quantity, Reached]]:
-    yield from zip(program.quantities, reached, strict=True)
+def _no_less(quantity: Quantity, u: Complex, reached: Reached, cancelled: bool, kind: _Kind) -> float:
+    """What a quantity comes to at worst, or more: every counterweight off along what is largest.
 
-
-def _no_less(quantity: Quantity, u: Complex, reached: Reached, kind: _Kind) -> float:
-    """What a quantity comes to at worst, or more: every counterweight off along what is largest."""
+    Parameters
+    ----------
+    cancelled : there is no curve, so that counterweights are all of it.
+    """
     change, size, _ = kind
     response = quantity.response
     if quantity.measure == "rms":
         mean = Norms(np.array([response.mean]), response.influence[None])
         return float(np.hypot(size(mean)[0], quantity.spread)) + response.rms_error
+    if cancelled and response.turning is None:
+        return max(float(size(Norms(np.zeros(1, complex), response.influence[None]))[0]), reached.upper)
     return reached.upper + change * float(np.sum(np.abs(response.influence * u)))
 
 
