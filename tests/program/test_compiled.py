@@ -265,6 +265,18 @@ def test_limits_of_zero(limit: str) -> None:
     assert np.all(found.mass == 0.0)
 
 
+def test_a_budget_of_zero_beside_one_of_more() -> None:
+    """Analytic: nothing is fitted where nothing may be, and a batch with such a program has no other answers."""
+    problem = _pair()
+    total = np.array([0.0, 1.0])
+    found = both_stages(
+        replace(problem, limits=replace(problem.limits, max_total_mass=total)), np.full(2, 1e-3), np.full(2, 1e-3), True
+    )
+    assert np.all(found.unbalance[0] == 0.0)
+    alone = replace(problem, limits=replace(problem.limits, max_total_mass=np.ones(2)))
+    assert np.array_equal(found.unbalance[1], both_stages(alone, np.full(2, 1e-3), np.full(2, 1e-3), True).unbalance[1])
+
+
 def _signatures() -> list[list[object]]:
     return [list(method.signatures) for method in (discs.solve, interior_point.run)]
 

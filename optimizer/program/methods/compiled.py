@@ -326,6 +326,8 @@ def _programs(statement: Statement, reach: Real, unit: Real, margin: float) -> "
     mass = reach / limits.radius
     highest = np.maximum.reduce(statement.floor, axis=-1)
     budget = limits.max_total_mass[:, None]
+    # where nothing is left no web reaches anything
+    over = np.add.reduce(mass, axis=-1, keepdims=True) > budget
     programs = Programs(
         row=statement.row.astype(np.int64),
         floor=(statement.floor - highest[:, None]) / unit[:, None],
@@ -337,7 +339,7 @@ def _programs(statement: Statement, reach: Real, unit: Real, margin: float) -> "
         cosine=limits.half_angle_cos,
         sector=np.where(limits.free, 0.0, 1.0),
         mass=mass,
-        budget=np.where(np.add.reduce(mass, axis=-1, keepdims=True) > budget, mass / budget, 0.0),
+        budget=mass / np.where(over, budget, np.inf),
     )
     return Programs(*(plain(values) for values in programs))
 
