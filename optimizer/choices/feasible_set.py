@@ -44,7 +44,7 @@ class SearchResult(Protocol):
 
     @property
     def ended(self) -> str | None:
-        """ "time", "size" or "cuts" where that ended it before the asked gap."""
+        """ "time", "size", "rounding" or "cuts" where that ended it before the asked gap."""
         ...
 
 

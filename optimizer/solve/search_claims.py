@@ -24,7 +24,11 @@ _CUTS = (
     "The search ended because further candidates gave no new cut. The certificate states the gap to the proven lower"
     " bound."
 )
-_WHY = {"time": LATE, "size": _SIZE, "cuts": _CUTS}
+_ROUNDING = (
+    "The search has divided all that can be chosen, and rounding leaves a gap. The certificate states the gap to the"
+    " proven lower bound."
+)
+_WHY = {"time": LATE, "size": _SIZE, "cuts": _CUTS, "rounding": _ROUNDING}
 #: beside any of these, where the tree has proven nothing of its own
 _AMPLE = (
     " The bound is that of free masses and angles: the catalogue comes so close to these that no closer bound was"

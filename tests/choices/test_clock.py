@@ -9,11 +9,12 @@ from optimizer.choices.discrete import ample, branch, halves
 from optimizer.choices.discrete.clock import Clock, Pace
 from optimizer.choices.discrete.exchange import start
 from optimizer.choices.discrete.options import EQUAL, Incumbent, Options
-from optimizer.choices.semicontinuous import inside, tree
+from optimizer.choices.semicontinuous import inside, search, tree
 from optimizer.choices.semicontinuous.places import root
 from optimizer.program.cuts.row_generation import FEW
 from optimizer.program.methods.optima import optima
 from optimizer.program.statement import Statement
+from optimizer.solve import search_claims
 from optimizer.solve.process_solver import own_solver
 from tests.choices.sets import options_of
 from tests.pairs.asking import ask
@@ -135,6 +136,19 @@ def test_a_tree_of_leasts_bounds_as_many_nodes_as_it_has_time_for(
     ended = tree.branch(incumbent, -np.inf, -1.0, lambda bound: False, Clock(limit_s, seconds), problem)
     # a whole turn has four pieces, and nothing
     assert limit_s <= ended.nodes == seconds.now <= limit_s + 5
+
+
+def test_a_tree_that_rounding_leaves_open_does_not_say_that_time_was_over(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Bounds of single points are as close as they are solved; below that nothing is left to divide."""
+    problem, _ = problem_of(4)
+    least = 0.9 * problem.limits.reach
+    relaxed = optima(problem.alone(), 1e-6, False, SOLVER).unbalance[0]
+    at_rest = float(problem.at_rest)
+    asked = search.Asked(1e-9 * at_rest, 0.0, at_rest, _LONG)
+    monkeypatch.setattr(tree, "_bounded", lambda *_: (0.0, []))
+    found = search.search(problem, least, relaxed, 0.0, asked, own_solver())
+    assert (found.ended, found.nodes) == ("rounding", 1)
+    assert search_claims.ended(found).startswith("The search has divided all that can be chosen")
 
 
 def test_pairs_of_sums_are_compared_by_fewer_at_once_where_they_have_more_terms(

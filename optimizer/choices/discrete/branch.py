@@ -37,6 +37,7 @@ class Tree(NamedTuple):
     lower_bound: float  # of every set that was not offered, -inf where nothing is proven
     nodes: int
     full: bool  # it ended because it had grown too large
+    done: bool  # nothing was left to divide
 
 
 class _Node(NamedTuple):
@@ -79,7 +80,7 @@ def branch(
     work, pace = _Work(options, incumbent, gap, below or incumbent.statement), Pace(clock)
     root = work.settled(options.exists, frozenset())
     if root is None:
-        return Tree(np.inf, 0, False)
+        return Tree(np.inf, 0, False, True)
     nodes, closed, ties = 0, np.inf, 0
     open_nodes: list[tuple[float, int, _Split]] = []
     fresh, bounds = [root], [at_least]
@@ -100,7 +101,7 @@ def branch(
         full = len(open_nodes) * 2 * root.bits.size > _MEMORY
         done = not open_nodes or lowest >= incumbent.least - gap
         if done or full or enough(lowest) or nodes >= most_nodes or clock.spent():
-            return Tree(lowest, nodes, full and not done)
+            return Tree(lowest, nodes, full and not done, done)
         fresh, bounds, most = [], [], pace.most(size)
         while open_nodes and len(fresh) < most:
             bound, _, split = heapq.heappop(open_nodes)

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.choices.discrete.ample import lightened, offer_light_sets
-from optimizer.choices.discrete.branch import branch
+from optimizer.choices.discrete.branch import Tree, branch
 from optimizer.choices.discrete.clock import Clock
 from optimizer.choices.discrete.exchange import neighbourhoods, start
 from optimizer.choices.discrete.halves import exhaust
@@ -39,7 +39,7 @@ class Found:
     nodes: int  # of the tree
     method: str
     proven: bool  # all equals were compared as well
-    ended: str | None = None  # "time" or "size" where that ended the search before the asked gap
+    ended: str | None = None  # "time", "size" or "rounding" where that ended the search before the asked gap
 
 
 class Known(NamedTuple):
@@ -110,12 +110,17 @@ def search(
         closed = incumbent.least - bound <= max(gap, 0.0)
         if closed or clock.spent():
             break
-    ended = None if closed else "size" if tree.full else "time"
+    ended = None if closed else _ended(tree)
     found = _found(incumbent, bound, nodes, TREE, closed and gap < 0, ended)
     if closed and gap > 0 and known.below is None:
         # all within the asked gap are as good, and what is light is cheap
         return replace(found, chosen=lightened(incumbent, bound + gap))
     return found
+
+
+def _ended(tree: Tree) -> str:
+    """Why a tree has left a gap."""
+    return "size" if tree.full else "rounding" if tree.done else "time"
 
 
 def _most_sums(incumbent: Incumbent) -> int:
@@ -161,7 +166,7 @@ def _within(
                 below=below.excess(),
             )
             bound, nodes, method = tree.lower_bound, tree.nodes, TREE
-            ended = "size" if tree.full else "time"
+            ended = _ended(tree)
     found = _found(incumbent, -np.inf, nodes, method, False, ended)
     if kept():
         return found

@@ -28,7 +28,7 @@ class Found:
     kept: bool  # whether they keep the ceilings
     lower_bound: float  # of all that are within the limits; inf where it is proven that none are
     nodes: int
-    ended: str | None = None  # "time" or "size" where that ended the search before the asked gap
+    ended: str | None = None  # "time", "size" or "rounding" where that ended the search before the asked gap
     method: str = TREE
     proven: bool = False  # equals are not told apart
 
@@ -87,7 +87,9 @@ def search(
 
 
 def _ended(tree: Tree, closed: bool) -> str | None:
-    return None if closed else "size" if tree.full else "time"
+    if closed:
+        return None
+    return "size" if tree.full else "rounding" if tree.done else "time"
 
 
 def _within(
@@ -105,7 +107,7 @@ def _within(
         return incumbent.least <= CEILING_TOLERANCE
 
     sharing(incumbent, continuous, clock)
-    tree = Tree(-np.inf, 0, False)
+    tree = Tree(-np.inf, 0, False, False)
     if not kept():
         loose = below.excess()
         tree = branch(incumbent, -np.inf, 0.0, lambda bound: kept() or bound > CEILING_TOLERANCE, clock, loose)

@@ -34,6 +34,7 @@ class Tree(NamedTuple):
     lower_bound: float  # of everything that keeps the limits, up to what was offered; inf where there is nothing
     nodes: int
     full: bool  # it ended because it had grown too large
+    done: bool  # nothing was left to divide
 
 
 class _Open(NamedTuple):
@@ -76,7 +77,7 @@ def branch(
         full = len(open_nodes) > _OPEN
         done = not open_nodes or lowest >= incumbent.least - gap
         if done or full or enough(lowest) or clock.spent():
-            return Tree(lowest, nodes, full and not done)
+            return Tree(lowest, nodes, full and not done, done)
         children: list[Places] = []
         inherited: list[float] = []
         most = pace.most(_BATCH)
@@ -89,7 +90,7 @@ def branch(
                 children.append(child)
                 inherited.append(bound)
         if not children:
-            return Tree(closed, nodes, False)
+            return Tree(closed, nodes, False, True)
         fresh, bounds = children[0].beside(*children[1:]), np.array(inherited)
 
 
