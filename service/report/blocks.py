@@ -23,6 +23,8 @@ _MAX_SHORT = 16
 #: between thousands, as SI has it
 NARROW = "\N{NARROW NO-BREAK SPACE}"
 _THOUSANDS = re.compile(r"(?<=[0-9])(?=(?:[0-9]{3})+$)")
+#: of an angle in a table
+_ANGLE_DECIMALS, _WHOLE_TURNS = 4, ("360", "-360")
 #: of a scale, below which a figure is what rounding leaves
 _DUST = 1e-6
 #: text with raised and lowered parts, as formulas have
@@ -161,6 +163,14 @@ class Document:
 def number(value: float | None) -> Cell:
     """A figure to six digits; a dash where there is none."""
     return "–" if value is None else Number(value, digits(value))
+
+
+def angle(value: float | None) -> Cell:
+    """An angle to a ten-thousandth of a degree; a whole turn is none, as what rounding leaves of one."""
+    if value is None:
+        return number(None)
+    text = digits(round(value, _ANGLE_DECIMALS))
+    return Number(value, "0" if text in _WHOLE_TURNS else text)
 
 
 def typeset(figure: str) -> str:

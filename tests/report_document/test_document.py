@@ -13,7 +13,7 @@ from rich.console import Console
 from optimizer.optimize import optimize
 from schemas.answer.outputs import OutputName
 from schemas.base.version import package_version
-from service.report.blocks import NARROW, Cell, Chapter, Document, Figure, Number, Paragraph, Samples, Table
+from service.report.blocks import NARROW, Cell, Chapter, Document, Figure, Number, Paragraph, Samples, Table, angle
 from service.report.chapters.answers import CHAPTERS
 from service.report.chapters.reproduction import request_json
 from service.report.document import document
@@ -218,3 +218,17 @@ def test_a_terminal_tells_every_30_degrees(turns: int) -> None:
     # analytic
     told = re.findall(r"(\d+) │ *0\.5", console.export_text())
     assert [int(each) for each in told] == [30 * step for step in range(12 * turns)]
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (4.4e-10, "0"), (-4.4e-10, "0"), (360.0 - 1e-9, "0"), (360.0, "0"), (-360.0, "0"), (123.45678, "123.457"),
+        (0.00016, "0.0002"), (-90.0, "-90"), (359.9994, "359.999"), (359.99951, "0"),
+    ],
+)  # fmt: skip
+def test_an_angle_of_a_whole_turn_is_printed_as_none(value: float, text: str) -> None:
+    found = angle(value)
+    assert isinstance(found, Number)
+    # to all its digits where it is computed with
+    assert (found.text, found.value) == (text, value)

@@ -20,6 +20,7 @@ from service.report.blocks import (
     Figure,
     Paragraph,
     Table,
+    angle,
     facts,
     number,
     settled,
@@ -241,8 +242,8 @@ def places(fitted: Sequence[Counterweight]) -> Table:
                     one.web,
                     *(
                         (
-                            one.mass_kg, one.angle_deg, one.angle_from_crank_deg, one.position_m, one.radius_m,
-                            one.mass_radius_kg_m,
+                            one.mass_kg, angle(one.angle_deg), angle(one.angle_from_crank_deg), one.position_m,
+                            one.radius_m, one.mass_radius_kg_m,
                         )
                         if one.mass_kg > 0
                         else ("none", *5 * (None,))

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer
 from schemas.machine.machine import Machine
-from service.report.blocks import Chapter, Paragraph, table
+from service.report.blocks import Chapter, Paragraph, angle, table
 
 
 def balance_quality(machine: Machine, answer: OptimizeAnswer | AnalyzeAnswer) -> Iterator[Chapter]:
@@ -16,7 +16,7 @@ def balance_quality(machine: Machine, answer: OptimizeAnswer | AnalyzeAnswer) ->
     if found.after is not None:
         gradings.append(("with counterweights", found.after))
     rows = [
-        (what, name, plane.position_m, plane.permissible_kg_m, plane.unbalance_kg_m, plane.angle_deg)
+        (what, name, plane.position_m, plane.permissible_kg_m, plane.unbalance_kg_m, angle(plane.angle_deg))
         for what, grading in gradings
         for name, plane in (("A", grading.plane_a), ("B", grading.plane_b))
     ]

@@ -21,7 +21,7 @@ from schemas.answer.dynamics import (
 )
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import ReciprocatingMachine
-from service.report.blocks import Block, Chapter, Equation, Figure, Paragraph, Samples, extremes, facts, table
+from service.report.blocks import Block, Chapter, Equation, Figure, Paragraph, Samples, angle, extremes, facts, table
 from service.report.chapters.bearing_loci import bearing_loci
 from service.report.chapters.inputs import row_name
 from service.report.charts import MAX_LINES, Line, chart, over_turn
@@ -260,9 +260,9 @@ def _main_bearings(machine: Machine, found: MainBearings) -> Chapter:
             one.name,
             one.position_m,
             one.before.peak_N,
-            one.before.peak_angle_deg,
+            angle(one.before.peak_angle_deg),
             one.after.peak_N if one.after else None,
-            one.after.peak_angle_deg if one.after else None,
+            angle(one.after.peak_angle_deg if one.after else None),
         )
         for one in found.bearings
     ]

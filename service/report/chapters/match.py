@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from schemas.match.answer import MatchAnswer, MatchedRow
 from schemas.match.request import MatchRequest
-from service.report.blocks import Chapter, Paragraph, facts, table
+from service.report.blocks import Chapter, Paragraph, angle, facts, table
 
 _PROVEN = {
     "exhaustion": "every assignment counts, those that a bound excludes are left out",
@@ -35,7 +35,7 @@ def matched(request: MatchRequest, answer: MatchAnswer) -> Iterator[Chapter]:
     ]
     yield Chapter("First order", (table("", ["", "#as listed", "#as matched"], peaks),))
     if answer.counterweights:
-        fitted = [(one.web, one.mass_kg, one.angle_deg) for one in answer.counterweights]
+        fitted = [(one.web, one.mass_kg, angle(one.angle_deg)) for one in answer.counterweights]
         title = "Counterweights, chosen" if request.choose_counterweights else "Counterweights, as given"
         yield Chapter(title, (table("", ["web", "#mass, kg", "#angle, deg"], fitted),))
     proof = facts(

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 
 from schemas.scroll.losses import Losses
 from schemas.scroll.pin_loads import Pin, PinLoads, PinLoadsAnswer, PinLoadsRequest
-from service.report.blocks import Block, Chapter, Equation, Figure, Paragraph, Table, digits, facts, table
+from service.report.blocks import Block, Chapter, Equation, Figure, Paragraph, Table, angle, digits, facts, table
 from service.report.blocks import number as number_cell
 from service.report.chapters.dynamics import figure
 from service.report.charts import Line
@@ -69,9 +69,9 @@ def _blocks(found: PinLoads, pins: Sequence[Pin]) -> Iterator[Block]:
     rows = [
         (
             str(pin.index),
-            pin.phase_deg,
+            angle(pin.phase_deg),
             pin.peak_N,
-            pin.peak_angle_deg,
+            angle(pin.peak_angle_deg),
             pin.compression_from_deg,
             pin.compression_to_deg,
             pin.tension_from_deg,
