@@ -120,12 +120,25 @@ class ParetoRequest(OptimizeRequest):
                 yield Rule(True, ("objective", name), message)
             return
         yield Rule(bool(self.objective.priorities), ("objective", "priorities"), _NO_ORDER)
+        if "objective" in self.responses:
+            yield from self._objective_rules(self.responses)
         for index, name in enumerate(self.responses):
             yield Rule(name in self.responses[:index], ("responses", index), "this response is in the list already")
         yield Rule(self.multipliers, ("multipliers",), "remove it: only the front of force and moment takes it")
         together = self.points * max(1, len(self.total_mass_budgets_kg or ()))
         most = f"points times budgets must be at most {MAX_TRADED_POINTS} where responses are named"
         yield Rule(together > MAX_TRADED_POINTS, ("points",), most)
+
+    def _objective_rules(self, names: TradedNames) -> Iterator[Rule]:
+        """The objective is made of what else could be traded, and stands beside the mass alone."""
+        message = "name `objective` and `mass` alone: the objective is made of the other responses"
+        yield Rule(set(names) != {"objective", "mass"}, ("responses",), message)
+        goal = self.objective
+        for name in ("bearing_weight", "bending_weight"):
+            message = "remove it: the objective that is traded weighs force and moment of the first order"
+            yield Rule(getattr(goal, name) != 0, ("objective", name), message)
+        message = 'give "first": the objective that is traded is of the first order'
+        yield Rule(goal.orders != "first", ("objective", "orders"), message)
 
 
 class Scale(Model):

@@ -13,8 +13,8 @@ from schemas.base.responses import RESPONSES
 if TYPE_CHECKING:
     Traded = str
 else:
-    #: of the responses on the frame, inside the shaft, and the mass
-    Traded = Literal[*RESPONSES, "bearings", "bending", "mass"]
+    #: of the responses on the frame, inside the shaft, the mass, and beside the mass all that is weighed
+    Traded = Literal[*RESPONSES, "bearings", "bending", "mass", "objective"]
 TradedNames = Annotated[tuple[Traded, ...], Field(min_length=2, max_length=3)]
 #: points of all fronts of one request
 MAX_TRADED_POINTS = 100
@@ -25,7 +25,8 @@ class TradedResponse(Model):
 
     response: Traded = Field(
         description="force, moment: their peaks as weighed across the shaft, of the first order or of all as `orders`"
-        " says; bearings: the largest load as `bearing_measure` says; bending: the largest moment; mass: the total",
+        " says; bearings: the largest load as `bearing_measure` says; bending: the largest moment; mass: the total;"
+        " objective: force and moment of the first order, as they are weighed and combined",
         examples=["bearings"],
     )
     unit: str = Field(description="unit of its values", examples=["N"])

@@ -13,14 +13,13 @@ from schemas.base.rules import Path, Rule, Ruled
 from schemas.base.units import Unit
 from schemas.machine.fitted import FittedCounterweight, fitted_rules
 from schemas.machine.reciprocating import MAX_ROWS_TOGETHER, ReciprocatingMachine, no_balance_shafts
-from schemas.machine.rotor import MAX_WEBS, no_catalogue, no_groups
+from schemas.machine.rotor import MAX_WEBS
 from schemas.request.objective import Objective
+from schemas.request.requests import OptimizeRequest
 
 MAX_CLASSES = 8
 #: a larger limit of a counterweight is none, kg
 _LARGEST = 1e15
-#: what is refused of a match, and the way round
-_MATCHED_FIRST = "a match: optimise with the rows of its answer"
 
 
 class RowPlace(Model):
@@ -123,7 +122,10 @@ class MatchRequest(Ruled):
         examples=[[{"web": "1a", "mass_kg": 24.5, "angle_deg": 180}]],
     )
     choose_counterweights: Flag = Field(
-        False, description="choose the counterweights together with the parts, within their limits", examples=[False]
+        False,
+        description="choose the counterweights together with the parts, within their limits: of any mass, from a"
+        " catalogue, at least so heavy, alike or cut from plates, as the machine says; else these fields play no part",
+        examples=[False],
     )
     objective: Objective = Field(
         Objective(), description="what is to be small; of the first order, without ceilings", examples=[{}]
@@ -140,12 +142,9 @@ class MatchRequest(Ruled):
 
     def rules(self) -> Iterator[Rule]:
         yield from no_balance_shafts(self.machine, ("machine",), "a match")
-        for broken, path, message in self.machine.no_envelopes(
-            "remove it: match the parts first, then optimise with the rows of the answer"
-        ):
-            yield Rule(broken, ("machine", *path), message)
-        yield from no_catalogue(self.machine, ("machine",), _MATCHED_FIRST)
-        yield from no_groups(self.machine, ("machine",), _MATCHED_FIRST)
+        if self.choose_counterweights:
+            # they are those of an optimum
+            yield from OptimizeRequest.model_construct(machine=self.machine, objective=self.objective).rules()
         rows = self.places
         yield Rule(not rows, ("machine", "throws"), "parts need at least one row")
         yield Rule(not self.parts and not self.balance_nuts_kg, ("parts",), "nothing to match: give parts or nuts")
@@ -160,13 +159,11 @@ class MatchRequest(Ruled):
             endless = (
                 self.choose_counterweights
                 and web.fixed is None
+                and web.envelope is None
                 and (web.max_mass_kg is None or web.max_mass_kg > _LARGEST)
             )
             message = f"a match that chooses counterweights needs a limit of at most {_LARGEST:g} kg here"
             yield Rule(endless, ("machine", "webs", k, "max_mass_kg"), message)
-            fixed = self.choose_counterweights and web.fixed is not None
-            message = "remove it, or do not choose counterweights with the parts"
-            yield Rule(fixed, ("machine", "webs", k, "fixed"), message)
         for name in self.objective.over_the_turn:
             yield Rule(True, ("objective", name), "remove it: parts are matched for first-order force and moment")
         for ceiling in ceilings():

@@ -6,29 +6,35 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from schemas.base.model import Answer, Model
-from schemas.base.quantities import Count, Milliseconds
+from schemas.base.quantities import Count, Kilograms, Milliseconds
 from schemas.base.rules import Rule
 from schemas.machine.reciprocating import no_balance_shafts
-from schemas.machine.rotor import no_catalogue, no_groups
 from schemas.request.requests import OptimizeRequest
 
 
 class AccuracyRequest(OptimizeRequest):
-    """Measure what accuracy costs on a machine. `outputs`, `angles`, `fidelity` and `accuracy` play no part."""
+    """Measure what accuracy costs on a machine. `outputs`, `angles` and `fidelity` play no part.
+
+    Nor does `accuracy`, but for the time limit where counterweights are chosen.
+    """
 
     repeats: Annotated[Count, Field(ge=1, le=20)] = Field(
         5, description="rounds of timing; every method runs once in a round", examples=[5]
     )
 
+    @property
+    def as_made(self) -> bool:
+        """Whether counterweights are as a workshop makes them: chosen, at least so heavy, alike, or cut from plates."""
+        machine = self.machine
+        cut = any(web.envelope is not None for web in machine.webs)
+        return machine.discrete or machine.semicontinuous or bool(machine.web_groups) or cut
+
     def rules(self) -> Iterator[Rule]:
         yield from super().rules()
         yield from self.worst_case_rules("the ladder is of one machine as it is given")
-        yield from self.envelope_rules("the ladder is of counterweights of a known radius")
         for name in self.objective.over_the_turn:
             yield Rule(True, ("objective", name), "the ladder is of the first order: not asked of a whole cycle")
         yield from no_balance_shafts(self.machine, ("machine",), "the ladder")
-        yield from no_catalogue(self.machine, ("machine",), "the ladder")
-        yield from no_groups(self.machine, ("machine",), "the ladder")
 
 
 class AccuracyRow(Model):
@@ -82,6 +88,49 @@ class AccuracyRow(Model):
         description="whether no other row is both as fast and as accurate, errors below the resolution being equal; "
         "rows of many programs at once are no candidates",
         examples=[True],
+    )
+    runs: int = Field(description="timed runs behind the median", examples=[5])
+    skipped: str | None = Field(None, description="why there is no answer", examples=[None])
+
+
+class ChoiceRow(Model):
+    """One way to counterweights as a workshop makes them, and what comes of the time that it takes."""
+
+    method: Literal["service", "rounding"] = Field(
+        description="service: what /v1/optimize does, with the least mass where that is asked for; rounding: the "
+        "optimum of any masses at any angles, of a group the mean, each on what is nearest of its web",
+        examples=["service"],
+    )
+    setting: str = Field(description="the limit of time or the gap that is asked for", examples=["0.3 s"])
+    status: str | None = Field(
+        description="of the answer; null of a rounding, which proves nothing", examples=["optimal"]
+    )
+    time_ms: Milliseconds | None = Field(
+        description="median over the rounds, from the request to the answer; of one run where that takes seconds",
+        examples=[310.0],
+    )
+    objective: float | None = Field(
+        description="of the counterweights, recomputed; null where there are none", examples=[40881.9]
+    )
+    lower_bound: float | None = Field(
+        description="that the row proves by itself; null where it proves none", examples=[40549.4]
+    )
+    relative_error: float | None = Field(
+        description="objective minus the best bound of all rows, over the objective without counterweights",
+        examples=[2e-4],
+    )
+    certified_gap: float | None = Field(
+        description="objective minus the own bound, over the objective without counterweights", examples=[3e-4]
+    )
+    total_mass_kg: Kilograms | None = Field(description="of all counterweights, fixed ones included", examples=[91.5])
+    pieces: int | None = Field(description="counterweights that are not fixed", examples=[3])
+    sizes: int | None = Field(description="different masses among them", examples=[2])
+    limits_kept: bool = Field(
+        description="whether ceilings, budget, number and part numbers are kept, which rounding may break",
+        examples=[True],
+    )
+    on_frontier: bool = Field(
+        description="whether no other row that keeps the limits is both as fast and as good", examples=[True]
     )
     runs: int = Field(description="timed runs behind the median", examples=[5])
     skipped: str | None = Field(None, description="why there is no answer", examples=[None])
@@ -146,6 +195,12 @@ class Reference(Model):
         examples=[41250.2],
     )
     objective_without_counterweights: float = Field(description="what errors are relative to", examples=[97032.0])
+    objective_of_any_mass: float | None = Field(
+        None,
+        description="the optimum of any masses at any angles, which counterweights as a workshop makes them cannot"
+        " reach; null where they are any",
+        examples=[None],
+    )
     resolution: float = Field(
         description="smallest objective found minus bound, relative, and at least the rounding of objectives: errors "
         "are not known more closely",
@@ -194,6 +249,12 @@ class AccuracyAnswer(Answer):
     repeats: int = Field(description="rounds of timing", examples=[5])
     positions: int = Field(description="positions of angle grids and polygons that were tried", examples=[4])
     ladder: tuple[AccuracyRow, ...] = Field(description="methods and settings", examples=[[]])
+    choices_ladder: tuple[ChoiceRow, ...] = Field(
+        (),
+        description="counterweights as a workshop makes them: gap, mass and pieces against time. Then `ladder` is "
+        "empty, and this is without groups, choices, minimum fitted masses and plates",
+        examples=[[]],
+    )
     effects_ladder: tuple[EffectRow, ...] = Field(
         description="simulated effects: cut-off kinematics against exact, samples against panels; empty where the "
         "machine gives no rods. With cylinders the torque of gas, inertia and friction, otherwise of inertia",

@@ -27,11 +27,11 @@ def one_by_one(base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target]
     return isinstance(base, OptimizeRequest) and bool(plates or base.machine.web_groups or searched(base, targets))
 
 
-def alone_problems(base: OptimizeRequest | AnalyzeRequest, design: str) -> Iterator[FieldProblem]:
+def alone_problems(base: OptimizeRequest | AnalyzeRequest) -> Iterator[FieldProblem]:
     """What only an optimum of one design after the other can be asked for."""
-    if isinstance(base, OptimizeRequest) and design != "crank_orders":
+    if isinstance(base, OptimizeRequest):
         return
-    what = "crank_orders" if isinstance(base, OptimizeRequest) else "a sweep of what is analyzed"
+    what = "a sweep of what is analyzed"
     machine, place = base.machine, ("machine",)
     rules = (
         no_catalogue(machine, place, what),

@@ -123,7 +123,7 @@ def _turns_freely(machine: Machine) -> bool:
     """Whether nothing on the machine stands at an angle of its own."""
     rows = [row for throw in _throws(machine) for row in throw.rows]
     tabled = any(one.pressure is not None for row in rows for _, one in row_cylinders(row))
-    free = all(web.sector is None and web.fixed is None for web in machine.webs)
+    free = all(web.sector is None and web.fixed is None and web.hole_angles_deg is None for web in machine.webs)
     return not tabled and not machine.unbalances and free
 
 
@@ -163,20 +163,32 @@ def _same_from_both_ends(machine: Machine) -> bool:
     given = machine.reference_plane_m
     if machine.unbalances or any(web.fixed is not None for web in machine.webs):
         return False
+    if machine.web_groups:
+        # the groups would have to change ends too
+        return False
     if given is not None and abs(2 * given - ends) > _NEAR * max(size, abs(given)):
         return False
     sides = [[_from_an_end(one, ends, turned) for one in throws] for turned in (False, True)]
     bearings = machine.bearings if isinstance(machine, ReciprocatingMachine) else ()
     places = [*machine.webs, *bearings]
-    turned = [_from_an_end(one, ends, True) for one in places]
-    there = [_from_an_end(one, ends, False) for one in places]
+    last = len(throws) - 1 if machine.discrete else None
+    turned = [_from_an_end(one, ends, True, last) for one in places]
+    there = [_from_an_end(one, ends, False, last) for one in places]
     return _equal(sides[0], sides[1][::-1], size) and _equal(there, turned, size, anywhere=True)
 
 
-def _from_an_end(part: Any, ends: float, turned: bool) -> dict[str, Any]:
-    """What a throw, a web or a bearing is, without its name and crank angle, with its distance from an end."""
+def _from_an_end(part: Any, ends: float, turned: bool, last: int | None = None) -> dict[str, Any]:
+    """What a throw, a web or a bearing is, without its name and crank angle, with its distance from an end.
+
+    Parameters
+    ----------
+    last : number of the last throw, where it matters whose crank a web belongs to: steps of angle count from it.
+    """
     found: dict[str, Any] = part.model_dump(exclude={"name", "crank_angle_deg", "throw"})
     found["position_m"] = ends - part.position_m if turned else part.position_m
+    own = getattr(part, "throw", None)
+    if last is not None and own is not None:
+        found["throw"] = last - own if turned else own
     for row in found.get("rows", ()):
         row["name"] = None
         row["offset_m"] = -row["offset_m"] if turned else row["offset_m"]
@@ -196,7 +208,7 @@ def _equal(one: Sequence[dict[str, Any]], other: Sequence[dict[str, Any]], size:
 
 def _same(one: dict[str, Any], other: dict[str, Any], size: float) -> bool:
     near = abs(one["position_m"] - other["position_m"]) <= _NEAR * size
-    return near and all(one[key] == other[key] for key in one if key != "position_m")
+    return near and one.keys() == other.keys() and all(one[key] == other[key] for key in one if key != "position_m")
 
 
 def _throws(machine: Machine) -> tuple[Throw, ...]:

@@ -206,7 +206,7 @@ class SweepRequest(Ruled):
     def _output_problems(self) -> Iterator[FieldProblem]:
         if self.multipliers and self.task != "optimize":
             yield FieldProblem(("multipliers",), "serves only to optimize: what is analyzed has no certificate")
-        yield from alone_problems(self.base, self.design)
+        yield from alone_problems(self.base)
         if isinstance(self.base, OptimizeRequest):
             for broken, path, message in self.base.worst_case_rules("serves only to optimize one machine, not a sweep"):
                 if broken:
@@ -244,6 +244,7 @@ class SweepRequest(Ruled):
             self._crank_orders = found
             paths = (f"/machine/throws/{t}/crank_angle_deg" for t in range(len(angles)))
             self._targets = tuple(find_target(self.base, path) for path in paths)
+            yield from self._search_problems()
 
     @property
     def _alike_across(self) -> bool:
@@ -293,7 +294,8 @@ class SweepRequest(Ruled):
     def _search_problems(self) -> Iterator[FieldProblem]:
         if self.searched and self.total > MAX_SEARCHED:
             message = f"at most {MAX_SEARCHED} designs are searched one by one; these make {self.total}"
-            yield FieldProblem(("samples",) if self.design == "latin_hypercube" else ("axes",), message)
+            field = {"latin_hypercube": "samples", "crank_orders": "angles_deg"}.get(self.design, "axes")
+            yield FieldProblem((field,), message)
 
     def _column_problems(self) -> Iterator[FieldProblem]:
         kinds = {column.name: column.kind for column in self.possible_columns}

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from io import StringIO
 from itertools import groupby
 
-from schemas.request.accuracy import AccuracyAnswer, AccuracyRow
+from schemas.request.accuracy import AccuracyAnswer, AccuracyRow, ChoiceRow
 from service.report.chapters.accuracy import method_name
 
 #: distinct for the colour-blind as well
@@ -52,7 +52,9 @@ def draw(title: str, answer: AccuracyAnswer) -> str:
 
     resolution = answer.reference.resolution if answer.reference else 0.0
 
-    def place(row: AccuracyRow) -> tuple[float, float] | None:
+    ladder: tuple[AccuracyRow | ChoiceRow, ...] = answer.choices_ladder or answer.ladder
+
+    def place(row: AccuracyRow | ChoiceRow) -> tuple[float, float] | None:
         if row.time_ms is None or row.relative_error is None:
             return None
         return row.time_ms, max(row.relative_error, resolution)
@@ -64,7 +66,7 @@ def draw(title: str, answer: AccuracyAnswer) -> str:
         axis.set(xscale="log", yscale="log", xlabel="time of one solve [ms]", ylabel="true relative error")
         axis.set_title(title, loc="left")
         axis.grid(alpha=0.3, linewidth=0.4)
-        for n, (method, rows) in enumerate(groupby(answer.ladder, key=lambda row: row.method)):
+        for n, (method, rows) in enumerate(groupby(ladder, key=lambda row: row.method)):
             shown = [(row, at) for row in rows if (at := place(row)) is not None]
             if not shown:
                 continue
@@ -81,7 +83,7 @@ def draw(title: str, answer: AccuracyAnswer) -> str:
                     fontsize=7,
                     color=colour,
                 )
-        best = sorted(at for row in answer.ladder if row.on_frontier and (at := place(row)) is not None)
+        best = sorted(at for row in ladder if row.on_frontier and (at := place(row)) is not None)
         if best:
             times, errors = zip(*best, strict=True)
             axis.step(times, errors, where="post", color="#7f7f7f", linewidth=6, alpha=0.3, label="frontier", zorder=0)

@@ -20,6 +20,7 @@ from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import Solution
 from optimizer.program.statement import Statement
+from optimizer.studies.accuracy.choices import at_rest, choices_ladder
 from optimizer.studies.accuracy.effects import effects_ladder
 from optimizer.studies.accuracy.ladder import LADDER_S, Clock, Trial, frontier, median_ms, survey, time_rounds
 from optimizer.studies.accuracy.methods import POSITIONS, Task, methods
@@ -52,7 +53,32 @@ def accuracy(request: AccuracyRequest) -> AccuracyAnswer:
     start = time.perf_counter()
     # outputs play no part: what they would miss must not refuse the ladder
     scene = prepare(request.model_copy(update={"outputs": ("residual",)}))
-    solver = Solver()
+    measured = (_as_made if request.as_made else _of_any_mass)(request, scene, Solver())
+    return AccuracyAnswer(
+        **measured,
+        repeats=request.repeats,
+        positions=len(POSITIONS),
+        effects_ladder=effects_ladder(request.machine, scene.layout, request.repeats),
+        peaks_ladder=peaks_ladder(request.machine, scene.layout, request.repeats),
+        environment=_environment(),
+        total_ms=(time.perf_counter() - start) * 1e3,
+    )
+
+
+def _as_made(request: AccuracyRequest, scene: Prepared, solver: Solver) -> dict[str, object]:
+    """Fields of the answer where counterweights are as a workshop makes them."""
+    closed = at_rest(request, scene)
+    usable = closed.limits.reach > 0
+    fields: dict[str, object] = {"size": _size(request, closed.only(usable)), "ladder": ()}
+    if float(closed.at_rest) == 0.0 or not np.any(usable):
+        return fields | {"status": "nothing_to_choose", "reference": None}
+    found = choices_ladder(request, scene, solver)
+    status = "infeasible" if found.unreachable else "measured" if found.reference else "contradicted"
+    return fields | {"status": status, "reference": found.reference, "choices_ladder": found.rows}
+
+
+def _of_any_mass(request: AccuracyRequest, scene: Prepared, solver: Solver) -> dict[str, object]:
+    """Fields of the answer where counterweights have any mass at any angle."""
     whole = within_reach(cone_program(request.machine, request.objective, scene.responses, scene.omega_squared), solver)
     usable = whole.limits.reach > 0
     statement = whole.only(usable)
@@ -72,18 +98,7 @@ def accuracy(request: AccuracyRequest) -> AccuracyAnswer:
         reference, rows = _judged(task, _run(task, request.repeats), best, rest, scene.omega_squared)
     if reference is None and status != "infeasible":
         status = "contradicted"
-    return AccuracyAnswer(
-        status=status,
-        reference=reference,
-        size=_size(request, statement),
-        repeats=request.repeats,
-        positions=len(POSITIONS),
-        ladder=rows,
-        effects_ladder=effects_ladder(request.machine, scene.layout, request.repeats),
-        peaks_ladder=peaks_ladder(request.machine, scene.layout, request.repeats),
-        environment=_environment(),
-        total_ms=(time.perf_counter() - start) * 1e3,
-    )
+    return {"status": status, "reference": reference, "size": _size(request, statement), "ladder": rows}
 
 
 def _turn(request: AccuracyRequest, scene: Prepared) -> OverTheTurn:

@@ -1,28 +1,57 @@
 """Counterweights that are chosen with the parts: what each assignment comes to with those that are best for it.
 
 An assignment changes the program only in its constants, so multipliers of one bound all others (docs/mathematics.md).
+Of counterweights as a workshop makes them this is the program of any masses, which they are some of; what each
+assignment comes to is then searched, cut or certified by itself.
 """
 
+import time
 from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
 from optimizer.formulation.formulate import responses
 from optimizer.formulation.goals import cone_program
+from optimizer.mechanics.fixed_weights import laden
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import layout, spread
+from optimizer.mechanics.shapes import fitted, plates
 from optimizer.numerics.arrays import Real
 from optimizer.program.certificate import Multipliers, normalised, objective_lower_bound
 from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
+from optimizer.solve.design import certified_one
 from optimizer.studies.matching.problem import Minorants, Problem
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.machine.throws import Row
 from schemas.match.request import MatchRequest
+from schemas.request.requests import Accuracy, OptimizeRequest
 
 #: asked of every program, in units of its objective without counterweights
 _GAP = 1e-6
+#: of what may be left open that part which a search of one assignment may leave, and its limits
+_OPEN, _CLOSEST = 0.5, 1e-12
+#: the shortest time that a search gets, s
+_SHORTEST_S = 1e-3
+
+
+class Fitted(NamedTuple):
+    """Counterweights that are not fixed."""
+
+    mass: Real  # (K,) kg
+    angle: Real  # (K,) degrees
+
+
+class Solved(NamedTuple):
+    """What assignments (N,) come to, over omega squared."""
+
+    value: Real  # (N,), inf where the bound leaves no room for a better one, or the time was over
+    lower_bound: Real  # (N,)
+    below: Minorants  # of all assignments
+    fitted: list[Fitted | None]  # None where any mass at any angle is a choice
 
 
 @dataclass(frozen=True)
@@ -32,19 +61,72 @@ class Chosen:
     request: MatchRequest
     problem: Problem
     solver: Solver
+    near: float  # what may be left open, over omega squared
+    until: float  # of this thread's own time, when no more are searched
 
-    def at(self, mass: Real) -> tuple[Real, Real, Minorants]:
-        """Objectives and certified lower bounds (N,) of assignments (N, T), over omega squared, and what they prove."""
-        program = self._programs(self.problem.row_masses(mass))
+    @property
+    def as_made(self) -> bool:
+        """Whether every assignment is certified by itself: chosen, at least so heavy, or cut from plates."""
+        machine = self.request.machine
+        return machine.discrete or machine.semicontinuous or plates(machine) is not None
+
+    def at(self, mass: Real, best: float) -> Solved:
+        """Assignments (N, T), and what they prove of all.
+
+        Parameters
+        ----------
+        best : objective of the best assignment that is known; what is proven to be no better is not searched.
+        """
+        row_mass = self.problem.row_masses(mass)
+        program = self._programs(row_mass)
         found = optima(program, _GAP, False, self.solver)
-        return found.objective, found.lower_bound, self._minorants(program, found.multipliers, mass)
+        below = self._minorants(program, found.multipliers, mass)
+        if not self.as_made:
+            return Solved(found.objective, found.lower_bound, below, [None] * len(mass))
+        value, bound = np.full(len(mass), np.inf), found.lower_bound.copy()
+        fitted_there: list[Fitted | None] = [None] * len(mass)
+        for n in np.argsort(bound, kind="stable").tolist():
+            late = time.thread_time() >= self.until and np.isfinite(best)
+            if late or bound[n] >= best:
+                break
+            value[n], own, fitted_there[n] = self._searched(row_mass[n], float(program.at_rest[n]))
+            bound[n], best = max(bound[n], own), min(best, float(value[n]))
+        return Solved(value, bound, below, fitted_there)
+
+    @cached_property
+    def _posed(self) -> OptimizeRequest:
+        return OptimizeRequest(machine=self.request.machine, objective=self.request.objective)
+
+    @cached_property
+    def _of_any_mass(self) -> ReciprocatingMachine:
+        """The machine whose counterweights have any mass within their limits; plates reach as far as they can."""
+        machine, cut = self.request.machine, plates(self.request.machine)
+        return machine if cut is None else fitted(machine, np.zeros(cut.webs.size))
 
     def _programs(self, row_mass: Real) -> Statement:
-        machine = with_masses(self.request.machine, row_mass)
+        machine = with_masses(self._of_any_mass, row_mass)
         leading = row_mass.shape[:-1]
-        plan = spread(layout(machine), leading)
+        plan = spread(laden(layout(machine), machine), leading)
         base = responses(plan, rotating(plan).plus(reciprocating(plan, 1)), self.request.objective)
         return cone_program(machine, self.request.objective, base, np.ones(leading))
+
+    def _searched(self, row_mass: Real, at_rest: float) -> tuple[float, float, Fitted]:
+        """Value, certified bound and counterweights of one assignment, over omega squared.
+
+        Parameters
+        ----------
+        at_rest : the objective without counterweights, which gaps are relative to.
+        """
+        machine = with_masses(self.request.machine, row_mass)
+        gap = np.clip(_OPEN * self.near / at_rest if at_rest > 0 else 1.0, _CLOSEST, 1.0)
+        left = max(self.until - time.thread_time(), _SHORTEST_S)
+        accuracy = Accuracy(relative_gap=float(gap), time_limit_s=left)
+        asked = self._posed.model_copy(update={"machine": machine, "accuracy": accuracy})
+        plan = laden(layout(machine), machine)
+        base = responses(plan, rotating(plan).plus(reciprocating(plan, 1)), asked.objective)
+        _, best = certified_one(asked, base, np.ones(1), self.solver)
+        bound = float(np.nan_to_num(best.verdict.lower_bound[0, 0], nan=-np.inf))
+        return float(best.certificate["objective"][0]), bound, Fitted(best.mass_kg[0], best.angle_deg[0])
 
     def _minorants(self, program: Statement, multipliers: Multipliers, mass: Real) -> Minorants:
         """The bounds as functions of the vectors of the parts."""

@@ -1,28 +1,28 @@
 """From weighed parts to rows: parts -> vectors -> assignments -> bound -> answer."""
 
 import time
-from collections.abc import Mapping
+from collections.abc import Iterator
 from typing import Any, NamedTuple, cast
 
 import numpy as np
 
 from optimizer.analyze import analyze
-from optimizer.formulation.counterweights import as_given, unbalance
+from optimizer.errors import refuse
+from optimizer.formulation.counterweights import as_given, too_heavy, unbalance
 from optimizer.formulation.formulate import responses
 from optimizer.formulation.goals import cone_program
+from optimizer.mechanics.fixed_weights import beside
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import layout
+from optimizer.mechanics.shapes import fitted_masses
 from optimizer.numerics.arrays import Real
 from optimizer.optimize import optimize
 from optimizer.program.verdict import Claim, verdict
-from optimizer.solve.process_solver import own_solver
 from optimizer.solve.search_claims import LATE
-from optimizer.studies.matching.bound import best_plane
-from optimizer.studies.matching.chosen import Chosen, with_masses
-from optimizer.studies.matching.exhaustion import candidates
-from optimizer.studies.matching.fitted import Best, as_fitted, few
-from optimizer.studies.matching.problem import Minorants, Problem, stated
-from optimizer.studies.matching.search import searched
+from optimizer.studies.matching.chosen import Fitted, with_masses
+from optimizer.studies.matching.chosen_search import WithChosen, with_chosen
+from optimizer.studies.matching.fitted import Best, as_fitted
+from optimizer.studies.matching.problem import Problem, stated
 from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer, Timing
 from schemas.answer.first_order import FirstOrder, Residual
 from schemas.base.mappings import or_mapping
@@ -32,11 +32,6 @@ from schemas.match.answer import Assignment, MatchAnswer, MatchCertificate, Matc
 from schemas.match.request import MatchRequest
 from schemas.request.requests import Accuracy, AnalyzeRequest, OptimizeRequest
 
-#: rounds of a search with counterweights, and programs in one of them
-_ROUNDS = 12
-_PROGRAMS = 16
-#: candidates that are solved to prove that none is better
-_CANDIDATES = 2_000
 _LEFT = (
     "No exchange of the search gives a better assignment, and there are too many assignments to compare all of them."
     " The certificate states the gap to the proven lower bound, which more time would not change."
@@ -48,16 +43,24 @@ def match(request: MatchRequest) -> MatchAnswer:
     """The rows that weighed parts go on, each once, so that the weighted peaks are small; with a certified bound."""
     start = time.perf_counter()
     fitted, angle = as_given(request.machine, request.counterweights)
-    problem = stated(request, fitted, angle)
+    # what is cut from a plate has the radius that its mass gives it
+    cut = fitted_masses(request.machine, fitted)
+    if not request.choose_counterweights:
+        refuse(too_heavy(request.machine, request.counterweights, "counterweights"))
+        # nor are castings made alike of which nothing is chosen
+        cut = cut.model_copy(update={"web_groups": ()})
+        request = request.model_copy(update={"machine": cut})
+    problem = stated(request.model_copy(update={"machine": cut}), fitted, angle)
     searching = time.perf_counter()
     choice = request.choose_counterweights and any(web.max_mass_kg != 0 for web in request.machine.webs)
     near = request.accuracy.relative_gap * float(problem.peaks.at(problem.vectors(problem.listed)))
     if choice:
-        best = _with_chosen(request, problem, near)
+        found = with_chosen(request, problem, near)
     else:
         best = as_fitted(problem, near, request.accuracy.time_limit_s, bool(request.balance_nuts_kg))
+        found = WithChosen(best, None, None)
     reporting = time.perf_counter()
-    fields = _answer(request, problem, best)
+    fields = _answer(request, problem, found)
     end = time.perf_counter()
     return MatchAnswer(
         **fields,
@@ -71,93 +74,12 @@ def match(request: MatchRequest) -> MatchAnswer:
     )
 
 
-def _with_chosen(request: MatchRequest, problem: Problem, near: float) -> Best:
-    """The best assignment with the counterweights that are best for it: planes below what they reach, one by one."""
-    chosen, listed = Chosen(request, problem, own_solver()), problem.listed[None]
-    until = time.thread_time() + request.accuracy.time_limit_s
-    value, bound, below = chosen.at(listed)
-    known = {_key(problem, listed[0]): (float(value[0]), float(bound[0]), listed[0])}
-    cut = best_plane(problem, below, float(value[0]), near)
-    for _ in range(_ROUNDS):
-        if time.thread_time() >= until:
-            break
-        best, _, mass = min(known.values(), key=lambda one: one[0])
-        tried = searched(problem, below, mass[None])
-        new = _unknown(problem, known, tried[below.at(problem.vectors(tried)) < best])
-        if not new.size:
-            break
-        below = _solved(problem, chosen, known, new, below)
-    best, _, mass = min(known.values(), key=lambda one: one[0])
-    cut = best_plane(problem, below, best, near)
-    if (best - cut.least <= near and not few(problem)) or time.thread_time() >= until:
-        return Best(mass, cut.least - problem.rounding, False, best - cut.least > near)
-    return _proven(problem, chosen, known, below, cut.least, until)
-
-
-def _proven(
-    problem: Problem,
-    chosen: Chosen,
-    known: dict[bytes, tuple[float, float, Real]],
-    below: Minorants,
-    bound: float,
-    until: float,
-) -> Best:
-    """The best of all assignments whose minorants leave room for a better one, where they are not too many.
-
-    Parameters
-    ----------
-    bound : what is proven of all already.
-    until : of this thread's own time, when no more are solved.
-    """
-    best, _, mass = min(known.values(), key=lambda one: one[0])
-    cut = best_plane(problem, below, best, 0.0)
-    left = candidates(problem, below, best, cut)
-    if left is None or len(left[0]) > _CANDIDATES:
-        return Best(mass, max(bound, cut.least) - problem.rounding, False)
-    remaining = left[0]
-    while len(remaining):
-        best = min(one[0] for one in known.values())
-        # what has been solved has cut off others
-        open_still = remaining[below.at(problem.vectors(remaining)) < best]
-        new = _unknown(problem, known, open_still)
-        if not new.size:
-            break
-        if time.thread_time() >= until:
-            _, _, mass = min(known.values(), key=lambda one: one[0])
-            return Best(mass, max(bound, cut.least) - problem.rounding, False, True)
-        below = _solved(problem, chosen, known, new, below)
-        remaining = open_still
-    best, _, mass = min(known.values(), key=lambda one: one[0])
-    # every other assignment has a minorant that is no better than the best
-    return Best(mass, min(best, *(one[1] for one in known.values())) - problem.rounding, True)
-
-
-def _solved(
-    problem: Problem, chosen: Chosen, known: dict[bytes, tuple[float, float, Real]], mass: Real, below: Minorants
-) -> Minorants:
-    """Solve some assignments, put them among the known ones, and add what they prove."""
-    values, bounds, more = chosen.at(mass)
-    for one, value, bound in zip(mass, values.tolist(), bounds.tolist(), strict=True):
-        known[_key(problem, one)] = (value, bound, one)
-    return below.plus(more)
-
-
-def _unknown(problem: Problem, known: Mapping[bytes, Any], mass: Real) -> Real:
-    """The first of some assignments (N, T) that are not known yet, each once."""
-    new = {_key(problem, one): one for one in mass}
-    return np.array([one for key, one in new.items() if key not in known][:_PROGRAMS])
-
-
-def _key(problem: Problem, mass: Real) -> bytes:
-    return problem.row_masses(mass).tobytes()
-
-
-def _answer(request: MatchRequest, problem: Problem, best: Best) -> dict[str, Any]:
+def _answer(request: MatchRequest, problem: Problem, found: WithChosen) -> dict[str, Any]:
     """Names for masses, and every figure evaluated anew by the mechanics."""
-    machine = request.machine
-    before = _evaluated(request, with_masses(machine, problem.row_masses(problem.listed)))
+    machine, best = request.machine, found.best
+    before = _evaluated(request, with_masses(machine, problem.row_masses(problem.listed)), found.listed)
     heavier = with_masses(machine, problem.row_masses(best.mass))
-    after = _evaluated(request, heavier)
+    after = _evaluated(request, heavier, found.fitted)
     omega_squared = (machine.speed_rpm * np.pi / 30.0) ** 2
     value, size = after.objective, before.at_rest if request.choose_counterweights else before.objective
     judged = verdict(
@@ -203,9 +125,9 @@ def _answer(request: MatchRequest, problem: Problem, best: Best) -> dict[str, An
 
 def _reason(best: Best, status: str, judged: str) -> str:
     """Why the answer is what it is: a gap that is left is the search's, or of the arithmetic if all were compared."""
-    if status != "inaccurate" or best.exhausted:
-        return judged
-    return LATE if best.late else _LEFT
+    if status == "inaccurate" and best.late:
+        return LATE
+    return judged if status != "inaccurate" or best.exhausted else _LEFT
 
 
 class _Evaluated(NamedTuple):
@@ -214,35 +136,52 @@ class _Evaluated(NamedTuple):
     answer: AnalyzeAnswer | OptimizeAnswer
     first_order: FirstOrder
     objective: float
-    at_rest: float  # the objective without counterweights
+    at_rest: float  # the objective with fixed weights alone
     rounding: float  # of the objective
 
 
-def _evaluated(request: MatchRequest, machine: ReciprocatingMachine) -> _Evaluated:
+def _evaluated(request: MatchRequest, machine: ReciprocatingMachine, chosen: Fitted | None) -> _Evaluated:
+    """A machine with its parts.
+
+    Parameters
+    ----------
+    chosen : counterweights that were searched; None: those of the request, or those of any masses that are best.
+    """
     goal = request.objective
     answer: AnalyzeAnswer | OptimizeAnswer
-    if request.choose_counterweights:
+    if request.choose_counterweights and chosen is None:
         close = {"relative_gap": min(request.accuracy.relative_gap, 1e-6)}
         answer = optimize(OptimizeRequest(machine=machine, objective=goal, accuracy=Accuracy(**close)))
     else:
-        given = tuple(GivenCounterweight(**one.model_dump()) for one in request.counterweights)
+        given = tuple(GivenCounterweight(**one) for one in _given(request, chosen))
         answer = analyze(AnalyzeRequest(machine=machine, counterweights=given))
-    plan = layout(machine)
+    fitted = answer.counterweights
+    mass, angle = np.array([one.mass_kg for one in fitted]), np.array([one.angle_deg for one in fitted])
+    cut = fitted_masses(machine, mass)
+    plan = layout(cut)
     first = responses(plan, rotating(plan).plus(reciprocating(plan, 1)), goal)
     square = plan.omega**2
-    program = cone_program(machine, goal, first, square)
-    fitted = answer.counterweights
-    u = unbalance(
-        np.array([one.mass_kg for one in fitted]), np.array([one.angle_deg for one in fitted]), plan.webs.radius
-    )
+    program = cone_program(cut, goal, first, square)
+    u = unbalance(mass, angle, plan.webs.radius)
+    alone = unbalance(*beside(machine, np.zeros(mass.shape), np.zeros(mass.shape)), plan.webs.radius)
     residual = cast(Residual, answer.residual)
     return _Evaluated(
         answer,
         cast(FirstOrder, residual.after),
         float(program.objective(u) * square),
-        float(program.at_rest * square),
+        float(program.objective(alone) * square),
         float(program.rounding(u) * square),
     )
+
+
+def _given(request: MatchRequest, chosen: Fitted | None) -> Iterator[dict[str, Any]]:
+    """Counterweights that are on the machine, those that were chosen or those of the request."""
+    if chosen is None:
+        yield from (one.model_dump() for one in request.counterweights)
+        return
+    for web, mass, angle in zip(request.machine.webs, chosen.mass.tolist(), chosen.angle.tolist(), strict=True):
+        if mass > 0.0 and web.fixed is None:
+            yield {"web": web.name, "mass_kg": mass, "angle_deg": angle}
 
 
 def _named(request: MatchRequest, problem: Problem, mass: Real) -> tuple[tuple[Assignment, ...], tuple[Spare, ...]]:

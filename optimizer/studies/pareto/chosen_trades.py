@@ -14,6 +14,7 @@ from time import thread_time
 import numpy as np
 
 from optimizer.formulation.formulate import weighing
+from optimizer.formulation.formulate import weights as own_weights
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.fixed_weights import fixed_masses
 from optimizer.numerics.arrays import Complex, Real
@@ -25,6 +26,7 @@ from optimizer.studies.pareto.measures import Measures, measures, sizes, unit_of
 from schemas.answer.answers import Certificate, OptimizeAnswer
 from schemas.answer.infeasibility import Infeasibility
 from schemas.front.trade import Traded, TradedCertificate, TradedFront, TradedPoint, TradedResponse
+from schemas.request.objective import Objective
 from schemas.request.requests import Accuracy, OptimizeRequest
 
 #: of the time limit that of the ends
@@ -228,13 +230,12 @@ class _Search:
         self, weights: Mapping[Traded, float], budget: float | None, gap: float, seconds: float
     ) -> _Chosen | _Unkept:
         """The best choice for the largest of the responses times their weights."""
-        inside = {field: weights.get(name, 0.0) for name, field in _INSIDE.items()}
         machine = self.asked.machine.model_copy(update={"max_total_mass_kg": budget})
         answer = optimize(
             self.asked.model_copy(
                 update={
                     "machine": machine,
-                    "objective": weighing(self.asked.objective, weights, combine="max", **inside),
+                    "objective": self._weighing(weights),
                     "accuracy": Accuracy(
                         relative_gap=min(max(gap, _LEAST_GAP), 1.0),
                         time_limit_s=min(max(seconds, _LEAST_TIME), self.seconds),
@@ -252,6 +253,16 @@ class _Search:
             [np.nan if bound is None else bound / weights[name] if name in weights else 0.0 for name in self.names]
         )
         return _Chosen(answer, values, corner)
+
+    def _weighing(self, weights: Mapping[Traded, float]) -> Objective:
+        """The largest of the responses times their weights; the objective itself times its own."""
+        objective = self.asked.objective
+        if "objective" in weights:
+            own = own_weights(self.asked.machine, objective)
+            more = {name: float(each) * weights["objective"] for name, each in own.items()}
+            return weighing(objective, more)
+        inside = {field: weights.get(name, 0.0) for name, field in _INSIDE.items()}
+        return weighing(objective, weights, combine="max", **inside)
 
     def _unbalance(self, answer: OptimizeAnswer) -> Complex:
         """Of what is chosen (K,), kg m."""

@@ -27,7 +27,9 @@ _OF: dict[str, Traded] = {"bearing": "bearings"}
 
 
 def alone(objective: Objective, names: Sequence[Traded]) -> Objective:
-    """The objective that is the largest of some responses, each as it is."""
+    """The objective that is the largest of some responses, each as it is; or itself, where that is traded."""
+    if "objective" in names:
+        return objective.model_copy(update={"priorities": ()})
     return weighing(
         objective,
         dict.fromkeys(names, 1.0),
@@ -108,9 +110,10 @@ def measures(request: OptimizeRequest, names: tuple[Traded, ...], scene: Prepare
     machine, square = request.machine, scene.omega_squared
     case = Case(machine, square, (scene.responses,), None if turn is None else (turn, scene.laden))
     program = formulate(machine, objective, [case], square, request.fidelity).program
-    groups = {"mass": Group((total_mass(program.limits),))} | {
+    every = tuple(row for group in program.groups for row in group.rows)
+    groups = {"mass": Group((total_mass(program.limits),)), "objective": Group(every)} | {
         name: Group(
-            tuple(row for group in program.groups for row in group.rows if row.name == name),
+            tuple(row for row in every if row.name == name),
             tuple(
                 each
                 for group in program.groups
@@ -119,7 +122,7 @@ def measures(request: OptimizeRequest, names: tuple[Traded, ...], scene: Prepare
             ),
         )
         for name in names
-        if name != "mass"
+        if name not in ("mass", "objective")
     }
     return Measures(names, program, tuple(groups[name] for name in names))
 
@@ -146,7 +149,7 @@ def unit_of(name: Traded, objective: Objective) -> str:
     if name in RESPONSES:
         return RESPONSES[name].unit
     specific = objective.bearing_measure == "specific"
-    return {"bearings": "Pa" if specific else "N", "bending": "N m", "mass": "kg"}[name]
+    return {"bearings": "Pa" if specific else "N", "bending": "N m", "mass": "kg", "objective": "as weighed"}[name]
 
 
 def _along(group: Group, anchor: float, unit: float) -> Group:

@@ -2,7 +2,15 @@
 
 from collections.abc import Iterator
 
-from schemas.request.accuracy import AccuracyAnswer, AccuracyRequest, AccuracyRow, EffectRow, PeakRow
+from schemas.request.accuracy import (
+    AccuracyAnswer,
+    AccuracyRequest,
+    AccuracyRow,
+    ChoiceRow,
+    EffectRow,
+    PeakRow,
+    Reference,
+)
 from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, Table, digits, number, table
 
 _METHODS = {
@@ -14,6 +22,7 @@ _METHODS = {
     "cone_program_matrices": "cone program, matrices",
     "sampled_angles": "sampled angles",
     "polygonal_cones": "polygonal cones",
+    "rounding": "rounding by hand",
     "panels": "panels between kinks",
     "search": "search between kinks",
     "samples": "equal steps",
@@ -29,7 +38,10 @@ _EMPTY = {
 
 def measured(_: AccuracyRequest, answer: AccuracyAnswer) -> Iterator[Chapter]:
     """The ladders, and what stands behind the figures."""
-    yield Chapter("What the smallest objective costs (minimum mass is off)", tuple(_ladder(answer)))
+    if answer.choices_ladder:
+        yield Chapter("What counterweights as they are made cost", tuple(_choices(answer)))
+    else:
+        yield Chapter("What the smallest objective costs (minimum mass is off)", tuple(_ladder(answer)))
     if answer.effects_ladder:
         yield Chapter("What the figures of the cycle cost", (_effects(answer.effects_ladder),))
     if answer.peaks_ladder:
@@ -52,12 +64,46 @@ def _ladder(answer: AccuracyAnswer) -> Iterator[Block]:
             if row.skipped:
                 yield Paragraph(f"{method_name(row.method)}, {row.setting}: {row.skipped}")
     if answer.reference is not None:
-        yield Paragraph(
-            f"Certified: no counterweights within the limits bring the objective below "
-            f"{digits(answer.reference.lower_bound)}; the best found bring it to {digits(answer.reference.objective)}. "
-            f"Errors are relative to {digits(answer.reference.objective_without_counterweights)}, the objective "
-            f"without any, and known to {answer.reference.resolution:.0e}."
-        )
+        yield Paragraph(_proven("no counterweights within the limits", answer.reference))
+
+
+def _proven(none: str, reference: Reference) -> str:
+    return (
+        f"Certified: {none} bring the objective below "
+        f"{digits(reference.lower_bound)}; the best found bring it to {digits(reference.objective)}. "
+        f"Errors are relative to {digits(reference.objective_without_counterweights)}, the objective "
+        f"without any, and known to {reference.resolution:.0e}."
+    )
+
+
+def _choices(answer: AccuracyAnswer) -> Iterator[Block]:
+    """Gap, mass and pieces against time."""
+    heads = ["method", "setting", "#time, ms", "#objective", "#error", "#certified gap", "#kg", "#pieces", "#sizes", ""]
+    yield table("", heads, [_choice(row) for row in answer.choices_ladder if not row.skipped])
+    for row in answer.choices_ladder:
+        if row.skipped:
+            yield Paragraph(f"{method_name(row.method)}, {row.setting}: {row.skipped}.")
+    if answer.reference is not None:
+        yield Paragraph(_proven("no counterweights of this kind", answer.reference))
+        if answer.reference.objective_of_any_mass is not None:
+            of_any = digits(answer.reference.objective_of_any_mass)
+            yield Paragraph(f"Any masses at any angles, each web by itself, bring it to {of_any}.")
+
+
+def _choice(row: ChoiceRow) -> tuple[Cell | float | None, ...]:
+    kept = "" if row.limits_kept else "limits broken"
+    return (
+        method_name(row.method),
+        row.setting,
+        _time(row.time_ms),
+        row.objective,
+        _error(row.relative_error),
+        _error(row.certified_gap),
+        row.total_mass_kg,
+        row.pieces,
+        row.sizes,
+        "frontier" if row.on_frontier else kept,
+    )
 
 
 def _rung(row: AccuracyRow) -> tuple[Cell, ...]:

@@ -11,6 +11,17 @@ const WORDS = {
   nothing_to_choose: "There is nothing to choose on this machine: no web can carry anything, or nothing is out of balance.",
 };
 
+const HEADS = ["method", "setting", "time, ms", "relative error", "proved gap"];
+
+function cells(row) {
+  return [label(row.method), row.setting, number(row.time_ms, 3), number(row.relative_error, 2), number(row.certified_gap, 2)];
+}
+
+// Counterweights as a workshop makes them: what the time buys is seen in kilograms and pieces too.
+function made(row) {
+  return [...cells(row), number(row.total_mass_kg, 4), number(row.pieces), number(row.sizes), row.limits_kept ? "" : "limits broken"];
+}
+
 export const accuracy = {
   id: "accuracy", title: "Accuracy against time",
   about: "Every method and setting, timed on this machine just now; down and to the left is better.",
@@ -22,13 +33,14 @@ export const accuracy = {
       return;
     }
     const [node] = places(body, 1);
-    const rows = answer.ladder.filter((row) => row.time_ms !== null);
+    const choices = answer.choices_ladder.length > 0;
+    const rows = (choices ? answer.choices_ladder : answer.ladder).filter((row) => row.time_ms !== null);
     // an error that cannot be told from nothing is drawn at the resolution
     const least = Math.max(answer.reference.resolution, 1e-16);
     const methods = [...new Set(rows.map((row) => row.method))];
-    body.replaceChildren(node, h("details", {}, h("summary", {}, "As a table"), table("Methods and settings",
-      ["method", "setting", "time, ms", "relative error", "proved gap"],
-      rows.map((row) => [label(row.method), row.setting, number(row.time_ms, 3), number(row.relative_error, 2), number(row.certified_gap, 2)]))));
+    body.replaceChildren(node, h("details", {}, h("summary", {}, "As a table"), choices
+      ? table("Time, gap, mass and pieces", [...HEADS, "mass, kg", "pieces", "sizes", "limits"], rows.map(made))
+      : table("Methods and settings", HEADS, rows.map(cells))));
     await plot(node, () => ({
       traces: methods.map((method, index) => {
         const own = rows.filter((row) => row.method === method && row.relative_error !== null);

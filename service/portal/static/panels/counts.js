@@ -1,10 +1,10 @@
-// The number of counterweights, or of part numbers, against what so few come to: of machines that choose from what there is.
+// The number of counterweights, of part numbers, or their mass, against what so few come to: of machines that choose from what there is.
 
 import { h } from "../dom.js";
 
 // with none at all, and up to as many as are of use
 const POINTS = 12;
-const OF = { weights: "counterweights", part_numbers: "part numbers" };
+const OF = { weights: "counterweights", part_numbers: "part numbers", mass: "kilograms" };
 const LEAST = { objective: "least objective", mass: "minimum total mass, kg" };
 
 export const chosenFrom = (machine) => (machine.catalogue ?? machine.max_counterweights ?? null) !== null
@@ -17,14 +17,26 @@ export function counted(context, again) {
   const limited = Object.entries(request.objective ?? {}).some(([name, value]) => name.includes("_ceiling_") && value !== null);
   const [of, least] = kept.count?.split(",") ?? [];
   const count = OF[of] ? of : "weights";
-  const lessened = limited && LEAST[least] ? least : "objective";
+  const both = limited && count !== "mass";
+  const lessened = both && LEAST[least] ? least : "objective";
   const select = (id, title, words, value, chosen) => h("div", { class: "choose" }, h("label", { for: id }, title),
     h("select", { id, change: (event) => chosen(event.target.value) },
       Object.entries(words).map(([name, text]) => h("option", { value: name, selected: name === value }, text))));
   const choice = h("div", { class: "controls" },
     select("count-of", "At most so many", OF, count, (name) => again("count", `${name},${lessened}`)),
-    select("count-least", "for", limited ? LEAST : { objective: LEAST.objective }, lessened, (name) => again("count", `${count},${name}`)));
-  return { choice, ends: "fewest to most", found: (rest, ask) => front(count, lessened, rest, ask) };
+    select("count-least", "for", both ? LEAST : { objective: LEAST.objective }, lessened, (name) => again("count", `${count},${name}`)));
+  return count === "mass" ? { choice, ends: "lightest to best", found: weighed }
+    : { choice, ends: "fewest to most", found: (rest, ask) => front(count, lessened, rest, ask) };
+}
+
+// the objective against the mass
+async function weighed(request, ask) {
+  const [found] = (await ask("v1/pareto", { ...request, points: POINTS, responses: ["mass", "objective"] })).trades;
+  return {
+    titles: ["total mass, kg", LEAST.objective], bare: null,
+    about: found.status === "inaccurate" ? "The time ended some searches before the asked gap: each says its own." : "",
+    points: found.points,
+  };
 }
 
 async function front(of, least, request, ask) {

@@ -17,7 +17,7 @@ const POINTS_OF_THREE = 10;
 const USUAL = ["force", "moment"];
 // what the front of the first order does not take
 const PLAIN = /^(orders|bearing_measure|(bearing|specific_load|bending)_ceiling_.*)$/;
-const WORDS = { force: "peak force", moment: "peak moment", bearings: "largest bearing load", bending: "largest bending moment", mass: "total mass", roll: "roll moment" };
+const WORDS = { force: "peak force", moment: "peak moment", bearings: "largest bearing load", bending: "largest bending moment", mass: "total mass", objective: "objective", roll: "roll moment" };
 const NEEDS = { bearings: ["rods", "bearings"], bending: ["rods", "bearings"], roll: ["rods"] };
 const WHY = {
   reached_together: "Both are smallest at the same counterweights: there is nothing to trade.",
@@ -89,6 +89,14 @@ async function traded({ request, kept, schema }, again) {
   };
 }
 
+// the objective is made of the others, and stands beside the mass alone
+function beside(made, name) {
+  if (name === "objective") return made[0] === name ? [name, "mass"] : ["mass", name];
+  if (!made.includes("objective") || (made.length === 2 && made.includes("mass"))) return made;
+  const other = [...USUAL, "mass"].find((one) => !made.includes(one));
+  return made.map((one) => (one === "objective" ? other : one));
+}
+
 // which is traded for which; the one that is chosen twice makes the other give way
 function axes(names, traded, chosen) {
   const put = (place, name) => {
@@ -96,7 +104,7 @@ function axes(names, traded, chosen) {
     const other = traded.indexOf(name);
     if (other >= 0) made[other] = traded[place];
     made[place] = name;
-    return chosen(made.filter(Boolean));
+    return chosen(beside(made.filter(Boolean), name));
   };
   const select = (place, id, title) => h("div", { class: "choose" }, h("label", { for: id }, title),
     h("select", { id, change: (event) => put(place, event.target.value) }, place === 2 ? h("option", { value: "" }, "nothing else") : null,

@@ -1,0 +1,295 @@
+"""What accuracy costs where counterweights are as a workshop makes them: gap, mass and pieces against time.
+
+Chosen from a catalogue, at least so heavy, alike in groups, or cut from plates: the ways are the service itself with
+several limits of time and several gaps, and the optimum of any masses put on what is nearest.
+"""
+
+import logging
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from optimizer.choices.catalogue_options import part_numbers, stock
+from optimizer.choices.discrete.options import EQUAL
+from optimizer.formulation.counterweights import unbalance
+from optimizer.formulation.goals import cone_program
+from optimizer.formulation.groups import alike_webs
+from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.fixed_weights import fixed_masses
+from optimizer.mechanics.layout import stacked
+from optimizer.mechanics.shapes import fitted, plates
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.ceilings import CEILING_TOLERANCE
+from optimizer.program.reference.solver import Solver
+from optimizer.program.statement import Statement
+from optimizer.solve.first_order import certified_first
+from optimizer.studies.accuracy.ladder import LADDER_S, ROUNDS_S, Clock, frontier, median_ms
+from schemas.answer.answers import Certificate
+from schemas.machine.machine import Machine
+from schemas.request.accuracy import AccuracyRequest, ChoiceRow, Reference
+from schemas.request.requests import Accuracy
+
+_LOG = logging.getLogger(__name__)
+#: limits of time up to that of the request, s, and gaps
+LIMITS_S = (0.1, 0.3, 1.0, 3.0, 10.0)
+GAPS = (1e-2, 1e-3, 1e-4)
+#: asked of a search that a limit of time is to end
+_CLOSEST = EQUAL
+#: the shortest limit of time that is asked for, s
+_SHORTEST_S = 1e-3
+Aim = Literal["gap", "time", "none"]
+#: of the rungs of one aim the first that ends so leaves nothing to those after it, and what these say
+_ENDS: Mapping[Aim, str] = {"gap": "inaccurate", "time": "optimal"}
+_BEYOND: Mapping[Aim, str] = {"gap": "{} was not reached within the limit of time", "time": "{} sufficed"}
+_UNREACHABLE = "no counterweights keep the ceilings"
+#: of a total mass, relative: by which sums are rounded
+_ROUNDING = 1e-12
+
+
+class Made(NamedTuple):
+    """Counterweights that one way comes to."""
+
+    mass: Real  # (K,) kg, fixed weights apart
+    objective: float  # as it is answered
+    bound: float | None
+    kept: bool
+    status: str | None
+
+
+class Nothing(NamedTuple):
+    """Why a way comes to none."""
+
+    reason: str
+
+
+@dataclass
+class Rung:
+    """One way, and what has been seen of it."""
+
+    method: Literal["service", "rounding"]
+    setting: str
+    aim: Aim
+    run: Callable[[float], Made | Nothing]  # of the seconds that are left
+    made: Made | None = None
+    times_s: list[float] = field(default_factory=list)
+    skipped: str | None = None
+
+
+class Ladder(NamedTuple):
+    """What the ways come to; no reference where limits are out of reach or a bound is above a value."""
+
+    reference: Reference | None
+    rows: tuple[ChoiceRow, ...]
+    unreachable: bool
+
+
+def at_rest(request: AccuracyRequest, scene: Prepared) -> Statement:
+    """The program of any masses; plates are not opened yet, and reach as far as they can."""
+    machine, square = request.machine, np.array([scene.omega_squared])
+    cut = plates(machine)
+    closed = machine if cut is None else fitted(machine, np.zeros(cut.webs.size))
+    return cone_program(closed, request.objective, scene.responses, square).chosen(0)
+
+
+def choices_ladder(request: AccuracyRequest, scene: Prepared, solver: Solver) -> Ladder:
+    """Every way once, then in rounds those that are quick.
+
+    Raises
+    ------
+    OutOfRange
+        where the options of a web cannot be told, or webs of a group are unlike.
+    """
+    task = _Task(request, scene, solver)
+    task.warm_up()
+    clock, rungs = Clock.of(LADDER_S), list(task.rungs())
+    enough = dict[Aim, str]()
+    for rung in rungs:
+        _first(rung, clock, enough.get(rung.aim))
+        if rung.skipped == _UNREACHABLE:
+            return Ladder(None, (), True)
+        if rung.made is not None and rung.aim in _ENDS and rung.made.status == _ENDS[rung.aim]:
+            enough.setdefault(rung.aim, _BEYOND[rung.aim].format(rung.setting))
+    for _ in range(request.repeats - 1):
+        for rung in rungs:
+            if rung.made is not None and sum(rung.times_s) < ROUNDS_S and clock.left_s > 0:
+                _timed(rung, clock.left_s)
+    return task.judged(rungs)
+
+
+def _first(rung: Rung, clock: Clock, enough: str | None) -> None:
+    if enough is not None or clock.left_s <= 0:
+        rung.skipped = enough or f"the {LADDER_S:.0f} s of the whole ladder were used up"
+        return
+    found = _timed(rung, clock.left_s)
+    if isinstance(found, Nothing):
+        rung.skipped = found.reason
+    else:
+        rung.made = found
+
+
+def _timed(rung: Rung, left_s: float) -> Made | Nothing:
+    start = time.perf_counter()
+    found = rung.run(left_s)
+    rung.times_s.append(time.perf_counter() - start)
+    return found
+
+
+@dataclass(frozen=True)
+class _Task:
+    """What is asked, and the ways to it."""
+
+    request: AccuracyRequest
+    scene: Prepared
+    solver: Solver
+
+    @cached_property
+    def program(self) -> Statement:
+        return at_rest(self.request, self.scene)
+
+    @cached_property
+    def free(self) -> AccuracyRequest:
+        """The request with any mass at any angle on every web; plates stay plates."""
+        nothing = {"catalogue_masses_kg": None, "hole_angles_deg": None, "min_fitted_mass_kg": None}
+        webs = tuple(web.model_copy(update=nothing) for web in self.request.machine.webs)
+        without = {"webs": webs, "catalogue": None, "max_counterweights": None, "web_groups": ()}
+        machine = self.request.machine.model_copy(update=without)
+        return self.request.model_copy(update={"machine": machine, "accuracy": Accuracy()})
+
+    def rungs(self) -> Iterator[Rung]:
+        machine, longest = self.request.machine, self.request.accuracy.time_limit_s
+        for gap in GAPS:
+            yield Rung("service", f"relative gap {gap:.0e}", "gap", self._service(gap, longest))
+        if machine.discrete or machine.semicontinuous:
+            # groups and plates alone are no search
+            for limit in (*(each for each in LIMITS_S if each < longest), longest):
+                yield Rung("service", f"{limit:g} s", "time", self._service(_CLOSEST, limit))
+        if plates(machine) is None:
+            yield Rung("rounding", "nearest", "none", lambda _: self._rounded())
+
+    def warm_up(self) -> None:
+        """Compile what is compiled once; the widest gap ends every search at once."""
+        self._service(1.0, self.request.accuracy.time_limit_s)(LADDER_S)
+
+    def _service(self, gap: float, limit_s: float) -> Callable[[float], Made | Nothing]:
+        def run(left_s: float) -> Made | Nothing:
+            accuracy = Accuracy(relative_gap=gap, time_limit_s=min(limit_s, max(left_s, _SHORTEST_S)))
+            return self._optimum(self.request.model_copy(update={"accuracy": accuracy}))
+
+        return run
+
+    def _optimum(self, request: AccuracyRequest) -> Made | Nothing:
+        found = certified_first(request, self.scene, self.solver)
+        if found.chosen is None:
+            return Nothing(_UNREACHABLE if found.status == "infeasible" else found.reason)
+        proof = found.fields["certificate"]
+        assert isinstance(proof, Certificate)  # of every optimum
+        mass = np.abs(found.chosen) / _radius((found.cut or self.scene).request.machine)
+        return Made(mass, proof.objective, proof.lower_bound, True, found.status)
+
+    def _rounded(self) -> Made | Nothing:
+        """The optimum of any masses, of a group the mean, each on what is nearest of its web."""
+        machine, free = self.request.machine, certified_first(self.free, self.scene, self.solver)
+        if free.chosen is None:
+            return Nothing(free.reason)
+        mass, angle = _nearest(machine, free.chosen)
+        u = unbalance(mass, angle, _radius(machine))
+        excess = np.max(self.program.ceilings.excess(u), initial=-np.inf)
+        kept = bool(excess <= CEILING_TOLERANCE) and _counts(machine, mass)
+        return Made(mass, float(self.program.objective(u)) * self.scene.omega_squared, None, kept, None)
+
+    def judged(self, rungs: Sequence[Rung]) -> Ladder:
+        """What is known of all rows together, and each against it."""
+        found = [rung.made for rung in rungs if rung.made is not None]
+        rest = float(self.program.at_rest) * self.scene.omega_squared
+        objective = min((each.objective for each in found if each.kept), default=np.nan)
+        bound = max((each.bound for each in found if each.bound is not None), default=-np.inf)
+        if not bound <= objective + EQUAL * rest:
+            _LOG.error("a lower bound is above the value of an answer: %.17g above %.17g", bound, objective)
+            return Ladder(None, (), False)
+        bound, any_mass = min(bound, objective), self._optimum(self.free)
+        fixed = float(np.sum(fixed_masses(self.request.machine)))
+        rows = [_row(rung, bound, rest, fixed) for rung in rungs]
+        reference = Reference(
+            objective=objective,
+            lower_bound=bound,
+            objective_without_counterweights=rest,
+            objective_of_any_mass=any_mass.objective if isinstance(any_mass, Made) else None,
+            resolution=max((objective - bound) / rest, EQUAL),
+        )
+        candidates = [
+            (row.time_ms, row.relative_error)
+            if row.limits_kept and row.time_ms is not None and row.relative_error is not None
+            else None
+            for row in rows
+        ]
+        fastest = frontier(candidates, reference.resolution)
+        marked = (row.model_copy(update={"on_frontier": on}) for row, on in zip(rows, fastest, strict=True))
+        return Ladder(reference, tuple(marked), False)
+
+
+def _radius(machine: Machine) -> Real:
+    radius: Real = stacked([web.radius_m for web in machine.webs])
+    return radius
+
+
+def _nearest(machine: Machine, u: Complex) -> tuple[Real, Real]:
+    """Masses [kg] and angles [deg] (K,) nearest to unbalances (K,)."""
+    alike = alike_webs(machine)
+    if machine.discrete:
+        held = stock(machine)
+        return held.fitted(held.options.nearest(u if alike is None else alike.means(u)))
+    u = u if alike is None else alike.nearest(u)
+    mass = np.abs(u) / _radius(machine)
+    least = stacked([web.min_fitted_mass_kg or 0.0 for web in machine.webs])
+    mass = np.where(mass < 0.5 * least, 0.0, np.maximum(mass, least))
+    return mass, np.where(mass > 0.0, np.mod(np.rad2deg(np.angle(u)), 360.0), 0.0)
+
+
+def _counts(machine: Machine, mass: Real) -> bool:
+    """Whether masses (K,) keep the budget, and the numbers of castings and of sizes."""
+    budget, most = machine.max_total_mass_kg, machine.max_counterweights
+    sizes = machine.catalogue.max_part_numbers if machine.catalogue is not None else None
+    total = float(np.sum(mass) + np.sum(fixed_masses(machine)))
+    return (
+        (budget is None or total <= budget * (1.0 + _ROUNDING))
+        and (most is None or int(np.sum(mass > 0)) <= most)
+        and (sizes is None or part_numbers(mass) <= sizes)
+    )
+
+
+def _row(rung: Rung, bound: float, rest: float, fixed_kg: float) -> ChoiceRow:
+    made = rung.made
+    row = ChoiceRow(
+        method=rung.method,
+        setting=rung.setting,
+        status=None if made is None else made.status,
+        time_ms=None,
+        objective=None,
+        lower_bound=None,
+        relative_error=None,
+        certified_gap=None,
+        total_mass_kg=None,
+        pieces=None,
+        sizes=None,
+        limits_kept=made is not None and made.kept,
+        on_frontier=False,
+        runs=0 if made is None else len(rung.times_s),
+        skipped=rung.skipped,
+    )
+    if made is None:
+        return row
+    figures = {
+        "time_ms": median_ms(rung.times_s),
+        "objective": made.objective,
+        "lower_bound": made.bound,
+        "relative_error": (made.objective - bound) / rest,
+        "certified_gap": None if made.bound is None else (made.objective - made.bound) / rest,
+        "total_mass_kg": float(np.sum(made.mass)) + fixed_kg,
+        "pieces": int(np.sum(made.mass > 0.0)),
+        "sizes": part_numbers(made.mass),
+    }
+    return row.model_copy(update=figures)

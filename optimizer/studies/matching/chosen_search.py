@@ -1,0 +1,143 @@
+"""The best assignment with the counterweights that are best for it: minorants of what they reach, then candidates."""
+
+import time
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.numerics.arrays import Real
+from optimizer.solve.process_solver import own_solver
+from optimizer.studies.matching.bound import best_plane
+from optimizer.studies.matching.chosen import Chosen, Fitted
+from optimizer.studies.matching.exhaustion import candidates
+from optimizer.studies.matching.fitted import Best, few
+from optimizer.studies.matching.problem import Minorants, Problem
+from optimizer.studies.matching.search import searched
+from schemas.match.request import MatchRequest
+
+#: rounds of a search with counterweights, and programs in one of them
+_ROUNDS = 12
+_PROGRAMS = 16
+#: candidates that are solved to prove that none is better
+_CANDIDATES = 2_000
+
+
+class _Known(NamedTuple):
+    """An assignment that was looked at."""
+
+    value: float  # over omega squared; inf where that was not found out
+    bound: float
+    mass: Real  # (T,)
+    fitted: Fitted | None  # its counterweights, where they are no optimum of any masses
+
+
+class WithChosen(NamedTuple):
+    """Where the search ended, and the counterweights of the best assignment and of the parts as they are listed."""
+
+    best: Best
+    fitted: Fitted | None
+    listed: Fitted | None
+
+
+class _Search:
+    """The assignments that are known, and the minorants of all."""
+
+    def __init__(self, problem: Problem, chosen: Chosen) -> None:
+        self.problem, self.chosen, self._known = problem, chosen, dict[bytes, _Known]()
+        self.below = Minorants(np.zeros(0), np.zeros((0, problem.start.size), complex), np.zeros((0, problem.row.size)))
+        self.solve(problem.listed[None])
+
+    @property
+    def best(self) -> _Known:
+        return min(self._known.values(), key=lambda one: one.value)
+
+    @property
+    def least(self) -> float:
+        """The smallest bound of those that are known."""
+        return min(one.bound for one in self._known.values())
+
+    @property
+    def listed(self) -> _Known:
+        return self._known[self._key(self.problem.listed)]
+
+    @property
+    def late(self) -> bool:
+        return time.thread_time() >= self.chosen.until
+
+    def solve(self, mass: Real) -> None:
+        """Solve assignments (N, T), and add what they prove of all."""
+        found = self.chosen.at(mass, self.best.value if self._known else np.inf)
+        each = zip(found.value.tolist(), found.lower_bound.tolist(), mass, found.fitted, strict=True)
+        for one in each:
+            self._known[self._key(one[2])] = _Known(*one)
+        self.below = self.below.plus(found.below)
+
+    def values(self, mass: Real) -> Real:
+        """What assignments (N, T) come to at least."""
+        return self.below.at(self.problem.vectors(mass))
+
+    def unknown(self, mass: Real) -> Real:
+        """Those of some assignments (N, T) that are not known yet, each once."""
+        new = {self._key(one): one for one in mass}
+        return np.array([one for key, one in new.items() if key not in self._known])
+
+    def _key(self, mass: Real) -> bytes:
+        return self.problem.row_masses(mass).tobytes()
+
+
+def with_chosen(request: MatchRequest, problem: Problem, near: float) -> WithChosen:
+    """The best assignment with the counterweights that are best for it: planes below what they reach, one by one."""
+    until = time.thread_time() + request.accuracy.time_limit_s
+    search = _Search(problem, Chosen(request, problem, own_solver(), near, until))
+    found = _best(search, near)
+    return WithChosen(found, search.best.fitted, search.listed.fitted)
+
+
+def _best(search: _Search, near: float) -> Best:
+    problem = search.problem
+    for _ in range(_ROUNDS):
+        if search.late:
+            break
+        tried = searched(problem, search.below, search.best.mass[None])
+        new = search.unknown(tried[search.values(tried) < search.best.value])[:_PROGRAMS]
+        if not new.size:
+            break
+        search.solve(new)
+    best = search.best
+    cut = best_plane(problem, search.below, best.value, near)
+    if (best.value - cut.least <= near and not few(problem)) or search.late:
+        return Best(best.mass, cut.least - problem.rounding, False, best.value - cut.least > near)
+    return _proven(search, cut.least, near)
+
+
+def _proven(search: _Search, bound: float, near: float) -> Best:
+    """The best of all assignments whose minorants leave room for a better one, where they are not too many.
+
+    Parameters
+    ----------
+    bound : what is proven of all already.
+    near : what may be left open.
+    """
+    problem, best = search.problem, search.best
+    cut = best_plane(problem, search.below, best.value, 0.0)
+    left = candidates(problem, search.below, best.value, cut)
+    if left is None or len(left[0]) > _CANDIDATES:
+        return Best(best.mass, max(bound, cut.least) - problem.rounding, False)
+    remaining = left[0]
+    while len(remaining):
+        # what has been solved has cut off others
+        remaining = remaining[search.values(remaining) < search.best.value]
+        new = search.unknown(remaining)
+        if not new.size:
+            break
+        if search.late:
+            best = search.best
+            # of those that are not known the smallest minorant, of the others their bounds, and no better is left out
+            least = min(best.value, search.least, float(np.min(search.values(new))))
+            bound = max(bound, cut.least, least)
+            return Best(best.mass, bound - problem.rounding, False, best.value - bound > near)
+        search.solve(new[:_PROGRAMS])
+    best = search.best
+    # every other assignment has a minorant that is no better than the best
+    bound = min(best.value, search.least)
+    return Best(best.mass, bound - problem.rounding, True, search.late and best.value - bound > near)
