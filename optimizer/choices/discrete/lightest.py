@@ -10,8 +10,9 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.choices.discrete.clock import Clock
-from optimizer.choices.discrete.halves import Halves, Pairs, halves
+from optimizer.choices.discrete.halves import Halves, halves
 from optimizer.choices.discrete.options import Incumbent, Options
+from optimizer.choices.discrete.pairs import Pairs
 from optimizer.program.statement import Statement
 
 #: sums of a half, and pairs of them near enough to the level, that are compared
