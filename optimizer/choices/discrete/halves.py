@@ -8,9 +8,14 @@ import numpy as np
 from optimizer.choices.discrete.clock import Clock, Pace
 from optimizer.choices.discrete.options import Incumbent, Options
 from optimizer.choices.discrete.pairs import Pairs
-from optimizer.choices.discrete.sums import Sums, sums_of
+from optimizer.choices.discrete.sums import Half, sums_of
 from optimizer.numerics.arrays import Complex, Real
 
+#: slots of the outer and of the inner sums of a half
+Sides = tuple[list[int], list[int]]
+
+#: sums of a half up to which they are listed, and at most where those of its quarters did not do
+_LISTED, _LISTED_AT_MOST = 20_000, 300_000
 #: pairs up to which all are evaluated
 _FEW = 20_000
 #: part numbers that fit into the bits of a whole number
@@ -20,22 +25,23 @@ _BITS = 62
 class Halves(NamedTuple):
     """All sums of the slots, those of one half of them beside those of the other."""
 
-    one: Sums
-    other: Sums
+    one: Half
+    other: Half
     lever: Real  # (J, s) what the coordinates of the sums do to the terms
     terms: Complex  # (J,) of slots that take one option
     fixed: np.ndarray  # (K,) the first option of every slot
-    sides: tuple[list[int], list[int]]  # slots of either half, of more options than one
+    sides: tuple[Sides, Sides]  # slots of either half, of more options than one
     which: Sequence[np.ndarray]  # (K) options of every slot
 
     def sets(self, i: np.ndarray, j: np.ndarray) -> np.ndarray:
         """The options (M, K) of pairs of sums, by their places (M,) in either half."""
         sets = np.tile(self.fixed, (i.size, 1))
-        for side, sums, place in zip(self.sides, (self.one, self.other), (i, j), strict=True):
-            code = sums.code[place]
-            for k in reversed(side):
-                code, digit = np.divmod(code, len(self.which[k]))
-                sets[:, k] = self.which[k][digit]
+        for sides, half, place in zip(self.sides, (self.one, self.other), (i, j), strict=True):
+            for side, codes in zip(sides, half.codes(place), strict=True):
+                code = codes
+                for k in reversed(side):
+                    code, digit = np.divmod(code, len(self.which[k]))
+                    sets[:, k] = self.which[k][digit]
         return sets
 
 
@@ -46,6 +52,7 @@ def halves(
     most_sums: int,
     clock: Clock,
     most_kg: float = np.inf,
+    listed: bool = True,
 ) -> Halves | None:
     """The sums of either half; None where they are more than so many, or than there is time for.
 
@@ -53,23 +60,29 @@ def halves(
     ----------
     which : (K) options of every slot, at least one each.
     most_kg : mass of a half, kg, beyond which its sums are left out.
+    listed : sums of a half are listed, each once and without those that counts leave out; else those of its quarters.
     """
     if options.limits_parts and np.max(options.part) > _BITS:
         return None
     many = sorted((k for k, some in enumerate(which) if len(some) > 1), key=lambda k: -len(which[k]))
-    sides = many[::2], many[1::2]
     lever, effect = incumbent.coordinates
     fixed = np.array([some[0] for some in which], dtype=int)
     single = np.ones(options.slots, bool)
     single[many] = False
     rest = np.sum(options.of(effect, fixed)[single], axis=0)
-    pace = Pace(clock)
-    one = sums_of(options, effect, which, sides[0], pace, most_sums, most_kg)
-    other = None if one is None else sums_of(options, effect, which, sides[1], pace, most_sums, most_kg)
-    if one is None or other is None:
-        return None
+    pace, found, sides = Pace(clock), list[Half](), list[Sides]()
+    for side in (many[::2], many[1::2]):
+        # those of a half are not listed where there is nothing to be left out
+        apart = not listed and len(side) > 1
+        split: Sides = (side[::2], side[1::2]) if apart else (side, [])
+        outer = sums_of(options, effect, which, split[0], pace, most_sums, most_kg)
+        inner = None if outer is None else sums_of(options, effect, which, split[1], pace, most_sums, most_kg)
+        if outer is None or inner is None or outer.code.size * inner.code.size > most_sums:
+            return None
+        found.append(Half(outer, inner))
+        sides.append(split)
     terms = incumbent.statement.norms.constant + lever @ rest
-    return Halves(one, other, lever, terms, fixed, sides, which)
+    return Halves(found[0], found[1], lever, terms, fixed, (sides[0], sides[1]), which)
 
 
 def exhaust(
@@ -88,19 +101,25 @@ def exhaust(
     most_sums, most_pairs : sums of a half, and pairs of them, beyond which it is given up.
     clock : what is left of the time; what there is not enough for is given up.
     """
-    split = halves(options, which, incumbent, most_sums, clock)
-    if split is None:
-        return False
-    one, other = split.one, split.other
-    if not one.code.size or not other.code.size:
-        return True
+    counted = options.limits_fitted or options.limits_parts
+    several = np.sort([float(len(some)) for some in which])[::-1]
+    if not counted and np.prod(several[::2]) > _LISTED and np.isfinite(incumbent.level):
+        split = halves(options, which, incumbent, most_sums, clock, listed=False)
+        if split is not None and _compared(split, incumbent, most_pairs, clock):
+            return True
+    # sums that are the same are listed once
+    split = halves(options, which, incumbent, min(most_sums, _LISTED_AT_MOST), clock)
+    return split is not None and _compared(split, incumbent, most_pairs, clock)
+
+
+def _compared(split: Halves, incumbent: Incumbent, most_pairs: int, clock: Clock) -> bool:
+    """Whether all pairs that can be best were offered."""
 
     def offered(i: np.ndarray, j: np.ndarray) -> None:
         incumbent.offer(split.sets(i, j))
 
-    pairs = Pairs(incumbent.statement, one.z, other.z, split.lever, split.terms, incumbent, offered)
+    pairs = Pairs(incumbent.statement, split.one, split.other, split.lever, split.terms, incumbent, offered)
     # without coordinates all pairs are in one place, and none is nearer than another
     if not np.isfinite(incumbent.level) or pairs.count <= _FEW or not split.lever.shape[-1]:
         return pairs.count <= most_pairs and pairs.all(clock)
-    pairs.nearest(clock)
     return pairs.near(most_pairs, clock)

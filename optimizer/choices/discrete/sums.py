@@ -26,6 +26,38 @@ class Sums(NamedTuple):
     code: np.ndarray  # (n,) which options
 
 
+class Half(NamedTuple):
+    """Sums of half of the slots, each of one sum of its outer slots and one of its inner ones; they are not listed."""
+
+    outer: Sums
+    inner: Sums
+
+    @property
+    def size(self) -> int:
+        return self.outer.code.size * self.inner.code.size
+
+    @property
+    def largest(self) -> Real:
+        """The largest of every coordinate (s,), at most."""
+        found: Real = sum(np.max(np.abs(sums.z), axis=0, initial=0.0) for sums in self)
+        return found
+
+    def at(self, place: np.ndarray) -> Complex:
+        """Sums (M, s) by their places (M,)."""
+        i, j = np.divmod(place, self.inner.code.size)
+        return self.outer.z[i] + self.inner.z[j]
+
+    def mass(self, place: np.ndarray) -> Real:
+        """Their masses (M,), kg."""
+        i, j = np.divmod(place, self.inner.code.size)
+        return self.outer.mass[i] + self.inner.mass[j]
+
+    def codes(self, place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Which options of outer and inner slots they take (M,)."""
+        i, j = np.divmod(place, self.inner.code.size)
+        return self.outer.code[i], self.inner.code[j]
+
+
 def sums_of(
     options: Options,
     effect: Complex,
