@@ -1,8 +1,8 @@
 """Compile the kernels, once for an installation: ``python -m optimizer.compile_kernels``.
 
 Two processes take about as long: one what budgets are spent by, the interior point for any limits, and what parts are
-matched by, the other what follows the turn, and the interior point for plain discs. What both interior points have in
-common is inlined in each.
+matched by, the other what follows the turn, the interior point for plain discs, and what sums of options are compared
+by. What both interior points have in common is inlined in each.
 """
 
 import gc
@@ -32,10 +32,19 @@ def budgets() -> None:
     filled(np.ones((1, 1)), np.ones((1, 1)), np.ones(1))
 
 
+def near_sums() -> None:
+    """Compile what sums of options are compared by: two sums each."""
+    from optimizer.choices.discrete.kernel.near_sums import ALL, gridded, near
+
+    lists, two, cells = (np.zeros((1, 2)), np.zeros((2, 2))), np.zeros(2), np.ones(2, np.int64)
+    first, sums, _ = gridded(*lists, two, two, 1.0, cells, ALL)
+    near(first, sums, *lists, two, two, 1.0, cells, ALL, np.zeros(4, np.int64), 1.0, cells)
+
+
 def main() -> None:
     _say("compiling the kernels, once: half a minute on two cores")
     begun = time.perf_counter()
-    beside = get_context("spawn").Process(target=_alone, args=(follow_a_turn, plain_discs))
+    beside = get_context("spawn").Process(target=_alone, args=(follow_a_turn, plain_discs, near_sums))
     beside.start()
     # a budget first: plain discs, made by the other process, spend one too
     _alone(budgets, any_limits, match_parts)

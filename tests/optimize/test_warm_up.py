@@ -7,7 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from optimizer.choices.discrete.kernel import near_sums
 from optimizer.compile_kernels import any_limits, budgets
+from optimizer.compile_kernels import near_sums as sums
 from optimizer.mechanics.kernel import curves, readings, rows
 from optimizer.numerics.kernel import knapsack
 from optimizer.program.kernel import bounds, cancelling, discs, interior_point, outlines, settling, symmetries, values
@@ -42,6 +44,7 @@ def test_what_is_compiled_is_what_answers_need() -> None:
     follow_a_turn()
     plain_discs()
     match_parts()
+    sums()
     warm_up()
     version = f"py{sys.version_info.major}{sys.version_info.minor}"
     entries = {
@@ -61,6 +64,7 @@ def test_what_is_compiled_is_what_answers_need() -> None:
         quarters: ("tabled",),
         joined: ("joined",),
         meeting: ("met",),
+        near_sums: ("gridded", "near"),
     }
     for module, names in entries.items():
         kept = Path(str(module.__file__)).parent / "__pycache__"

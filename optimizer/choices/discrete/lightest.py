@@ -10,8 +10,9 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.choices.discrete.clock import Clock
-from optimizer.choices.discrete.halves import Halves, Pairs, halves
+from optimizer.choices.discrete.halves import Halves, halves
 from optimizer.choices.discrete.options import Incumbent, Options
+from optimizer.choices.discrete.pairs import Pairs
 from optimizer.program.statement import Statement
 
 #: sums of a half, and pairs of them near enough to the level, that are compared
@@ -122,13 +123,13 @@ class _Best:
 def _compared(split: Halves, within: Incumbent, cap: float, offer: Callable[[np.ndarray], None], clock: Clock) -> bool:
     """Whether all pairs of sums that are no heavier than so much were offered where they are near the level."""
     one, other = split.one, split.other
-    if not one.code.size or not other.code.size:
+    if not one.size or not other.size:
         return True
 
     def offered(i: np.ndarray, j: np.ndarray) -> None:
-        light = one.mass[i] + other.mass[j] <= cap * (1.0 + _ROUNDING)
+        light = one.mass(i) + other.mass(j) <= cap * (1.0 + _ROUNDING)
         if np.any(light):
             offer(split.sets(i[light], j[light]))
 
-    pairs = Pairs(within.statement, one.z, other.z, split.lever, split.terms, within, offered)
+    pairs = Pairs(within.statement, one, other, split.lever, split.terms, within, offered)
     return pairs.near(_PAIRS, clock) if split.lever.shape[-1] else pairs.count <= _PAIRS and pairs.all(clock)

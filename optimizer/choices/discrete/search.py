@@ -20,7 +20,7 @@ from optimizer.program.statement import Statement
 EXHAUSTED = "exhaustion in halves"
 TREE = "branch and bound"
 #: sums of a half, and pairs of them, that are searched outright
-_SUMS, _PAIRS = 300_000, 3_000_000
+_SUMS, _PAIRS = 20_000_000, 3_000_000
 #: sums of a half where they have so many coordinates that what is near is hardly found any quicker than by looking
 _FEW_SUMS, _COORDINATES = 10_000, 4
 #: share of the time for light sets near the optimum of any masses; where part numbers are few no tree closes soon

@@ -1,0 +1,1 @@
+"""Inner loops of searches among options, compiled once for an installation."""

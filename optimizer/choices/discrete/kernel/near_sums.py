@@ -1,0 +1,143 @@
+"""Which sums of two lists are near to which sums of two others; compiled.
+
+Sums are made slab by slab of their first coordinate, so that those of a slab stay at hand: the first list beside the
+part of the second, sorted by that coordinate, that leads into the slab (Schroeppel and Shamir 1981). They are dealt
+into the cells of a plane grid, no narrower than what counts as near, so that what is near is in nine cells.
+"""
+
+import numpy as np
+
+from optimizer.numerics.compiling import inner, kernel
+
+#: the share that is all of them
+ALL = np.uint64(0xFFFFFFFFFFFFFFFF)
+_MIX = np.uint64(0x9E3779B97F4A7C15)
+
+
+@kernel
+def gridded(one, other, slab, low, side, cells, share):  # type: ignore[no-untyped-def]
+    """Sums of (a, d) and (b, d) in a slab, by cells.
+
+    Parameters
+    ----------
+    other : sorted by the first coordinate.
+    slab : (2,) of that coordinate, from the first number to below the second.
+    low, side, cells : (2,) corner of the grid, width of a cell, (2,) numbers of cells; what is outside is in the last.
+    share : of 2^64, of the sums that are taken, by chance of a fixed seed.
+
+    Returns
+    -------
+    (cells + 1,) : the first sum in each cell.
+    (n, d) : the sums.
+    (2, n) : their places in the lists.
+    """
+    first, whole = np.zeros(cells[0] * cells[1] + 1, np.int64), share == ALL
+    finer = 1.0 / side
+    for i in range(len(one)):
+        begin, end = _reach(one[i, 0], other, slab)
+        for j in range(begin, end):
+            if whole or _taken(i, j, share):
+                first[_cell(one, i, other, j, low, finer, cells) + 1] += 1
+    for c in range(first.size - 1):
+        first[c + 1] += first[c]
+    count, d, there = first[-1], one.shape[1], first[:-1].copy()
+    sums, places = np.empty((count, d)), np.empty((2, count), np.int64)
+    for i in range(len(one)):
+        begin, end = _reach(one[i, 0], other, slab)
+        for j in range(begin, end):
+            if whole or _taken(i, j, share):
+                c = _cell(one, i, other, j, low, finer, cells)
+                n = there[c]
+                there[c] += 1
+                places[0, n], places[1, n] = i, j
+                for k in range(d):
+                    sums[n, k] = one[i, k] + other[j, k]
+    return first, sums, places
+
+
+@kernel
+def near(first, sums, one, other, slab, low, side, cells, share, start, square, most):  # type: ignore[no-untyped-def]
+    """Sums of a grid that are near to sums of (a, d) and (b, d) in a slab.
+
+    Parameters
+    ----------
+    first, sums, low, side, cells : as of :func:`gridded`; ``side`` no less than the distance.
+    start : (4,) what to begin with: places in these lists, a line of the grid and a place in it, -1 of the first ones.
+    square : of the distance, within which sums are near.
+    most : (2,) pairs, and sums that are looked at, after which it ends for now.
+
+    Returns
+    -------
+    (3, k) : places in the grid, and in both lists.
+    (4,) : what to go on with; the first is a where nothing is left.
+    int : sums that were looked at.
+    """
+    found, k, looked, d = np.empty((3, most[0]), np.int64), 0, 0, one.shape[1]
+    after, at = np.full(4, -1), np.empty(d)
+    columns, rows, line, n = cells[0], cells[1], start[2], start[3]
+    whole, finer = share == ALL, 1.0 / side
+    for i in range(start[0], len(one)):
+        begin, end = _reach(one[i, 0], other, slab)
+        for j in range(max(begin, start[1]) if i == start[0] else begin, end):
+            if not (whole or _taken(i, j, share)):
+                continue
+            if looked > most[1]:
+                after[0], after[1] = i, j
+                return found[:, :k].copy(), after, looked
+            for c in range(d):
+                at[c] = one[i, c] + other[j, c]
+            # what is outside of the grid is in its last cells
+            column = min(max(np.int64(np.floor((at[0] - low[0]) * finer)), 0), columns - 1)
+            row = min(max(np.int64(np.floor((at[1] - low[1]) * finer)), 0), rows - 1) if d > 1 else 0
+            line = max(column - 1, 0) if line < 0 else line
+            while line < min(column + 2, columns):
+                n, until = max(n, first[line * rows + max(row - 1, 0)]), first[line * rows + min(row + 2, rows)]
+                looked += max(until - n, 0)
+                while n < until:
+                    off = 0.0
+                    for c in range(d):
+                        off += (sums[n, c] - at[c]) ** 2
+                        if off > square:
+                            break
+                    if off <= square:
+                        if k == most[0]:
+                            after[0], after[1], after[2], after[3] = i, j, line, n
+                            return found, after, looked
+                        found[0, k], found[1, k], found[2, k] = n, i, j
+                        k += 1
+                    n += 1
+                line, n = line + 1, -1
+            line = -1
+    after[0] = len(one)
+    return found[:, :k].copy(), after, looked
+
+
+@inner
+def _reach(at, other, slab):  # type: ignore[no-untyped-def]
+    """The part of a sorted list that leads into a slab: its first place, and the one after its last."""
+    return _place(other, slab[0] - at), _place(other, slab[1] - at)
+
+
+@inner
+def _place(other, value):  # type: ignore[no-untyped-def]
+    """The first place of a sorted list that is no less than a value."""
+    low, high = 0, len(other)
+    while low < high:
+        middle = (low + high) // 2
+        if other[middle, 0] < value:
+            low = middle + 1
+        else:
+            high = middle
+    return low
+
+
+@inner
+def _cell(one, i, other, j, low, finer, cells):  # type: ignore[no-untyped-def]
+    column = np.int64(np.floor((one[i, 0] + other[j, 0] - low[0]) * finer))
+    row = np.int64(np.floor((one[i, 1] + other[j, 1] - low[1]) * finer)) if one.shape[1] > 1 else 0
+    return min(max(column, 0), cells[0] - 1) * cells[1] + min(max(row, 0), cells[1] - 1)
+
+
+@inner
+def _taken(i, j, share):  # type: ignore[no-untyped-def]
+    return (np.uint64(i) * _MIX ^ np.uint64(j)) * _MIX <= share
