@@ -312,7 +312,7 @@ def unreachable(request: Place, answer: Place, budget: Place, said: Place) -> Cl
         yield from smallest(machine, Place({}), said, proofs, implied)
         for name, unit in NAMES.items():
             lowest, found = (said / f"smallest_{name}{part}_{unit}" for part in ("_lower_bound", ""))
-            yield from near_the_bound(f"smallest_{name}", found, lowest, machine, name)
+            yield from near_the_bound(f"smallest_{name}", found, lowest, machine, name, implied)
 
 
 def _proven(
