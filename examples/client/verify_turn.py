@@ -14,6 +14,7 @@ from verify_cases import FIELDS as CASES
 from verify_cases import cases, goals, scatter
 from verify_claims import EVIDENCE, Claims, covered, near
 from verify_costs import costs
+from verify_curves import root
 from verify_cuts import FIELDS, SHAFTS, Group, Part, Term
 from verify_first import near_the_bound, searched, smallest
 from verify_goals import Program as Asked
@@ -101,7 +102,8 @@ class Program:
                 moved = moved + vector * factor
             moved = moved.parts()[0] if one.scalar else moved
             before = rows.get((one.group, one.row), one.floor)
-            rows[one.group, one.row] = before + abs(moved) + self.off.of(one.factors, sizes)
+            length = abs(moved) + self.off.of(one.factors, sizes)
+            rows[one.group, one.row] = before + (abs(length + J * one.still) if one.mean else length)
         groups = {group for group, _ in rows if group[1] == len(self.named) - 1}
         most = {group: largest(*(value for (of, _), value in rows.items() if of == group)) for group in groups}
         every = {group[0] for group in groups}
@@ -116,6 +118,8 @@ class Program:
         if any(group_of[one.row] != one.group for one in terms):
             raise NotCovered(proof / "terms")
         rows = {name: value for name, value in rows.items() if value.low > 0 and name in group_of}
+        rows, terms = _means(rows, terms)
+        group_of = {one.row: one.group for one in terms}
         sums = {group: total(value for name, value in rows.items() if group_of[name] == group)
                 for group in {group_of[name] for name in rows}}  # fmt: skip
         if cost is ZERO and not sums:
@@ -162,7 +166,7 @@ class Program:
         y = one.y.parts()[0] if one.scalar else one.y
         size = abs(y)
         if self.scattered:
-            grown = allowed * share
+            grown = (size if one.mean else allowed) * share
             pulls.spread = [
                 old + grown * self.off.share * abs(factor) for old, factor in zip(pulls.spread, one.factors)
             ]
@@ -236,6 +240,26 @@ class Program:
         levels = [*self.levels, most]
         charge = total(price * levels[goal] for (_, goal), price in prices.items() if goal < last or cost is not ZERO)
         return dict.fromkeys(sums, share), charge * share
+
+
+def _means(rows: Dict[str, Number], terms: List[Term]) -> Tuple[Dict[str, Number], List[Term]]:
+    """All rows of a root mean square as one, hypot(length, what stays), with y of the length and z of what stays.
+
+    y^2 + z^2 is no more than the square of the row: z is what y leaves of it.
+    """
+    together: Dict[Tuple[str, Group], List[Term]] = {}
+    for one in terms:
+        if one.mean and one.row in rows:
+            together.setdefault((one.mean, one.group), []).append(one)
+    kept = [one for one in terms if not one.mean]
+    rows = dict(rows)
+    for (name, group), each in together.items():
+        allowed, y = total(rows.pop(one.row) for one in each), total(one.y for one in each)
+        left = root(largest(allowed * allowed - abs(y) * abs(y), ZERO))
+        of = f"{name} of {group}"
+        rows[of] = allowed
+        kept.append(each[0]._replace(row=of, y=y, floor=left / allowed * each[0].still))
+    return rows, kept
 
 
 def looks_at_the_turn(request: Place) -> bool:
