@@ -7,6 +7,7 @@ import pytest
 
 from service.verification import checker
 from tests.verification.answers import pair
+from tests.verification.checking import broken
 from tests.verification.fabricated import KINDS, fabricated, verdict
 
 SEVERAL = (
@@ -49,3 +50,14 @@ def test_nothing_that_is_made_up_passes(name: str) -> None:
 def test_nothing_that_is_made_up_passes_whatever_is_asked(name: str) -> None:
     for way, request, answer in fabricated(name):
         assert verdict(request, answer) in ("broken", "refused", "not covered"), way
+
+
+def test_the_price_of_a_budget_beside_plates_has_to_prove_the_bound() -> None:
+    """Independent: the price at which the budget is spent is found by halving, and the printed one proves as much."""
+    request, answer = pair("plates, segments, budget")
+    assert checker().verify(request, answer)["verdict"] == "held"
+    for factor in (0.9, 1.01):
+        wrong = copy.deepcopy(answer)
+        wrong["shadow_prices"][0]["value"] *= factor
+        wrong["certificate"]["multipliers"]["objective"]["budget"] *= factor
+        assert any(one.startswith("shadow_prices") for one in broken(request, wrong))
