@@ -31,7 +31,10 @@ _FILES = [
     *(f"verify_{part}" for part in ("numbers", "leaves", "plates", "machine", "claims", "cranks", "weights", "shafts")),
     *(f"verify_{part}" for part in ("form", "orders", "quality", "answer", "program", "prices", "alternatives")),
     *(f"verify_{part}" for part in ("first", "spans", "curves", "harmonics", "circle", "loads", "bearings", "shaking")),
-    *(f"verify_{part}" for part in ("cases", "cuts", "costs", "values", "misplacement", "ceilings", "goals", "turn")),
+    *(
+        f"verify_{part}"
+        for part in ("cases", "cuts", "costs", "values", "misplacement", "ceilings", "levels", "goals", "turn")
+    ),
     *(f"verify_{part}" for part in ("single", "many", "match")),
     "verify",
 ]

@@ -43,9 +43,10 @@ floor yardstick scale: force_N moment_Nm
 certificate: objective lower_bound gap relative_gap yardstick objective_without_counterweights mass_lower_bound_kg
   mass_relative_gap mass_yardstick_kg mass_objective_limit implied_max_mass_kg method cuts rounds
   continuous_lower_bound nodes goals multipliers
-goals: goal value lower_bound limit
+goals: goal value lower_bound limit multipliers
 certificate/multipliers points/multipliers: objective mass
-objective mass smallest/multipliers conflict smallest_force smallest_moment: terms rows budget ceilings
+objective mass smallest/multipliers goals/multipliers conflict smallest_force smallest_moment: terms rows budget
+  ceilings
 terms: response part row angle_deg scenario x y
 rows: name value
 ceilings: response part angle_deg scenario x y

@@ -7,6 +7,7 @@ and balance shafts are not covered.
 
 from __future__ import annotations
 
+from copy import copy
 from typing import Dict, List, Optional, Sequence, Tuple
 
 from verify_answer import Fitted, closest
@@ -75,6 +76,12 @@ class Program:
         self.levels = [(one / "limit").number() for one in listed if (one / "goal").text() in self.named[:-1]]
         if answer and len(self.levels) != len(self.named) - 1:
             raise NotCovered(answer / "certificate" / "goals")
+
+    def up_to(self, goal: int) -> Program:
+        """The same with the goals up to one."""
+        found = copy(self)
+        found.named, found.levels = self.named[: goal + 1], self.levels[:goal]
+        return found
 
     def _part(self, one: Place) -> Part:
         name = (one / "scenario").text() if one / "scenario" else None
@@ -288,6 +295,7 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
     of_objective = multipliers / "objective"
     yield from _proven("lower_bound", of_any_mass, program.bound(of_objective, terms, implied), implied, of_objective)
     slopes = program.slopes
+    yield from _earlier(program, proof, implied)
     least = proof / "mass_lower_bound_kg"
     if least and (least.number() - machine.fixed).high <= 0:
         yield "mass_lower_bound", least, machine.fixed - least.number(), ONE
@@ -305,6 +313,20 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
     if slopes:
         yield from covered(costs(request, answer, machine, program.first, terms, slopes))
     yield from covered(misplacement(goals_of.parts, program.named[-1], fitted, answer / "sensitivity"))
+
+
+def _earlier(program: Program, proof: Place, implied: Place) -> Claims:
+    """Bounds of the goals before the last: each by its own multipliers, under the limits of those before it."""
+    listed = [one for one in proof / "goals" if (one / "goal").text() in program.named[:-1]]
+    for n, one in enumerate(listed):
+        if not one / "lower_bound":
+            continue
+        if not one / "multipliers":
+            yield "goals", one / "lower_bound", None, ONE
+            continue
+        so_far = program.up_to(n)
+        found = so_far.bound(one / "multipliers", so_far.terms(one / "multipliers"), implied)
+        yield from _proven("goals", one / "lower_bound", found, implied, one / "multipliers")
 
 
 def unreachable(request: Place, answer: Place, budget: Place, said: Place) -> Claims:
