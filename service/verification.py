@@ -28,12 +28,12 @@ def verify(asked: VerifyRequest) -> VerifyAnswer:
 
 #: the files, each behind those that it imports
 _FILES = [
-    *(f"verify_{part}" for part in ("numbers", "leaves", "plates", "machine", "claims", "cranks", "weights")),
+    *(f"verify_{part}" for part in ("numbers", "leaves", "plates", "machine", "claims", "cranks", "weights", "shafts")),
     *(f"verify_{part}" for part in ("form", "orders", "quality", "answer", "program", "prices", "alternatives")),
-    *(f"verify_{part}" for part in ("first", "spans", "curves", "harmonics", "circle", "loads", "bearings")),
+    *(f"verify_{part}" for part in ("first", "spans", "curves", "harmonics", "circle", "loads", "bearings", "shaking")),
     *(
         f"verify_{part}"
-        for part in ("cases", "shafts", "cuts", "costs", "values", "misplacement", "ceilings", "goals", "turn")
+        for part in ("cases", "cuts", "costs", "values", "misplacement", "ceilings", "levels", "goals", "turn")
     ),
     *(f"verify_{part}" for part in ("single", "many", "match")),
     "verify",

@@ -9,7 +9,7 @@ from verify_claims import Claims, near, same
 from verify_cranks import balance_rates
 from verify_machine import ON_FRAME, Machine, Mass, Responses
 from verify_numbers import ABOUT_ONE, COSTS, ONE, SPECK, ZERO, Number, Place, real, total
-from verify_orders import first_order, floor, orders, second_order
+from verify_orders import first_order, floor, of_order, orders
 from verify_quality import quality
 from verify_weights import UNSURE, counterweights, listed, shafts, usual_gap
 
@@ -50,7 +50,7 @@ def before(request: Place, machine: Machine, answer: Place) -> Claims:
     if answer / "floor":
         yield from floor(machine, request / "machine", answer / "floor")
     if shown / "orders":
-        own = [(1, machine.before), (2, second_order(request, machine))]
+        own = [(1, machine.before), (2, of_order(request, machine, 2))]
         yield from orders("orders", shown / "orders" / "before", own)
 
 
@@ -70,7 +70,7 @@ def after(request: Place, machine: Machine, answer: Place, there: Fitted) -> Cla
     yield from first_order("after", shown / "after", left)
     yield from beside("after", shown / "responses", "after", left)
     if shown / "orders":
-        twice = second_order(request, machine, there.on_shafts)
+        twice = of_order(request, machine, 2, there.on_shafts)
         yield from orders("orders", shown / "orders" / "after", [(1, left), (2, twice)])
     yield near("total_mass", answer / "total_mass_kg", there.mass)
     if answer / "balance_shafts_mass_kg":

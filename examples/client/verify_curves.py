@@ -57,10 +57,10 @@ class Turn:
             upright = ONE - row.ratio * row.ratio * sine * sine
             if upright.low <= 0:
                 raise NotCovered(row.place)
-            root, both = _root(upright), row.ratio * cosine * sine
-            outward = cosine + over(row.ratio * (cosine * cosine - sine * sine), root, self.place)
-            outward = outward + over(row.ratio * both * both, upright * root, self.place)
-            tangent = over(row.ratio * sine, root, self.place)
+            leaning, both = root(upright), row.ratio * cosine * sine
+            outward = cosine + over(row.ratio * (cosine * cosine - sine * sine), leaning, self.place)
+            outward = outward + over(row.ratio * both * both, upright * leaning, self.place)
+            tangent = over(row.ratio * sine, leaning, self.place)
             if response == "roll":
                 found = found + row.product * row.radius * machine.wide * outward * (sine + cosine * tangent)
                 continue
@@ -129,6 +129,6 @@ def _rows(asked: Place, loads: bool) -> Iterator[Row]:
             yield Row(weight * radius, radius, crank, axis, ratio, where, row)
 
 
-def _root(number: Number) -> Number:
+def root(number: Number) -> Number:
     """Of a number above 0."""
     return Number(isqrt(max(number.low, 0) << BITS), isqrt(number.high << BITS) + 1)

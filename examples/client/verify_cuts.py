@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from functools import cached_property
+from math import sqrt
 from typing import Dict, List, NamedTuple, Optional, Sequence, Tuple
 
+from verify_bearings import SAMPLE
 from verify_cases import Case, Scatter, goal_of
 from verify_curves import Turn
 from verify_loads import Loads
 from verify_machine import ON_FRAME, Responses, over
-from verify_numbers import ABOUT_ONE, ONE, ZERO, J, NotCovered, Number, Place, largest
+from verify_numbers import ABOUT_ONE, ONE, ZERO, J, NotCovered, Number, Place, largest, real, total
 from verify_program import CEILINGS, Statement
 from verify_program import Term as Length
 from verify_shafts import Geared, geared
@@ -34,6 +36,8 @@ class Term(NamedTuple):
     y: Number  # its multiplier
     floor: Number  # of its row
     scalar: bool = False  # the real part alone counts
+    mean: str = ""  # of a root mean square, the response
+    still: Number = ZERO  # what it has beside the length, at a right angle to it
 
 
 class Part:
@@ -81,16 +85,34 @@ class Part:
         y = (one / "x").number() + J * (one / "y").number()
         if kind not in self.weights or self.weights[kind].high <= 0 or not self.turn.knows(response):
             raise NotCovered(one)
-        if not one / "angle_deg":
+        if not one / "angle_deg" and not (kind == "bearing" and self.mean):
             exact = self.exact.terms.get((response, (one / "part").text("co", "counter")))
             if exact is None:
                 raise NotCovered(one)
             floor = self.exact.floor[exact.row]
             return Term(row, self._group("first"), exact.start, self.of_first_order(exact), y, floor)
+        if kind == "bearing" and self.mean:
+            return self._mean(response, row, y)
         weight, degrees = self.weights[kind] * ABOUT_ONE, (one / "angle_deg").double()
         weight = over(weight, self.area[name], one) if kind == "bearing" and self.specific else weight
         start, factors = self.turn.seen(response, degrees) * weight, self.at(response, degrees, weight)
         return Term(row, self._group(kind), start, factors, y, ZERO, kind == "roll")
+
+    def _mean(self, response: str, row: str, y: Number) -> Term:
+        """Of a root mean square: the length of the mean, as the shaft sees it, beside all that moves around it."""
+        weight, harmonics = self.weights["bearing"] * ABOUT_ONE, self.loads.curve(response).harmonics
+        off = SAMPLE * self.loads.size_of(response)
+        around = Number(real(-off).low, real(off).high)
+        mean = harmonics.get(0, 0j)
+        start = real(mean.real) + around + J * (real(mean.imag) + around) + self._fixed(response)
+        still = real(sqrt(sum(abs(each) ** 2 for order, each in harmonics.items() if order))) + around
+        factors = [*self._factors(response, weight), *(ZERO for _ in self.geared)]
+        return Term(row, self._group("bearing"), start * weight, factors, y, ZERO, False, response, still * weight)
+
+    def _fixed(self, response: str) -> Number:
+        """What weights that are there already add."""
+        fixed = ((self.turn.factor(response, one.position) * one.product, one) for one in self.machine.there)
+        return total(size * (one.co + self.machine.blur) for size, one in fixed) * self.machine.square
 
     def of_first_order(self, term: Length) -> List[Number]:
         """Factors of a length of the first order."""

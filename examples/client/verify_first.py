@@ -184,7 +184,7 @@ def infeasible(request: Place, answer: Place, budget: Place, said: Place) -> Cla
     for name, unit in NAMES.items():
         lowest, found = (said / f"smallest_{name}{part}_{unit}" for part in ("_lower_bound", ""))
         if lowest and found:
-            yield from near_the_bound(f"smallest_{name}", found, lowest, plain, name)
+            yield from near_the_bound(f"smallest_{name}", found, lowest, plain, name, implied)
         if lowest and f"{name}_ceiling_{unit}" in named and len(named) < len(given):
             # this ceiling alone is out of reach
             yield "conflict", lowest, lowest.number() - (goal / f"{name}_ceiling_{unit}").number(), lowest.number()
@@ -198,19 +198,29 @@ def infeasible(request: Place, answer: Place, budget: Place, said: Place) -> Cla
         yield "smallest", one / "response", ONE, ONE
         yield same("smallest", one / "ceiling_field", CEILINGS[name])
         yield near("smallest", one / "ceiling", (goal / CEILINGS[name]).number(0.0))
-        yield from near_the_bound("smallest", one / "smallest", lowest, plain, name.partition(":")[0])
+        yield from near_the_bound("smallest", one / "smallest", lowest, plain, name, implied)
         if CEILINGS[name] in named and len(named) < len(given):
             yield "conflict", lowest, lowest.number() - (goal / CEILINGS[name]).number(), lowest.number()
     yield from closest(request, plain, said / "closest")
 
 
-def near_the_bound(claim: str, found: Place, lowest: Place, machine: Machine, name: str) -> Claims:
-    """What is smallest is no less than its bound, and above it by no more than a share of what is there before."""
-    co, counter = machine.laden[name]
+def near_the_bound(claim: str, found: Place, lowest: Place, machine: Machine, name: str, implied: Place) -> Claims:
+    """What is smallest is no less than its bound, and above it by no more than a share of what is there before.
+
+    Where rounding of what the limits allow is more than that share, nothing is told.
+    """
+    of = name.partition(":")[0]
+    co, counter = machine.laden[of]
     above = found.number() - lowest.number()
-    size = abs(co) + abs(counter)
-    yield claim, found, above + SPECK * abs(found.number()), abs(found.number())
-    yield claim, found, size * real(SMALLEST) + SPECK * abs(found.number()) - above, size
+    size, noise = abs(co) + abs(counter), SPECK * abs(found.number())
+    yield claim, found, above + noise, abs(found.number())
+    room = size * real(SMALLEST) + noise - above
+    if room.high < 0:
+        most = Statement(machine, Place({}), {name: {name: ONE}}).reachable(implied)
+        lost = most is None or (above - SPECK * most).low <= 0
+        yield claim, found, None if lost else room, size
+    else:
+        yield claim, found, room, size
 
 
 def smallest(machine: Machine, goal: Place, said: Place, proofs: Place, implied: Place) -> Claims:

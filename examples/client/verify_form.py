@@ -43,9 +43,10 @@ floor yardstick scale: force_N moment_Nm
 certificate: objective lower_bound gap relative_gap yardstick objective_without_counterweights mass_lower_bound_kg
   mass_relative_gap mass_yardstick_kg mass_objective_limit implied_max_mass_kg method cuts rounds
   continuous_lower_bound nodes goals multipliers
-goals: goal value lower_bound limit
+goals: goal value lower_bound limit multipliers
 certificate/multipliers points/multipliers: objective mass
-objective mass smallest/multipliers conflict smallest_force smallest_moment: terms rows budget ceilings
+objective mass smallest/multipliers goals/multipliers conflict smallest_force smallest_moment: terms rows budget
+  ceilings
 terms: response part row angle_deg scenario x y
 rows: name value
 ceilings: response part angle_deg scenario x y
@@ -69,7 +70,18 @@ points/certificate: force_N moment_Nm relative_gap yardstick mass_lower_bound_kg
 ends: smallest_force_N smallest_force_lower_bound_N moment_at_smallest_force_Nm smallest_moment_Nm
   smallest_moment_lower_bound_Nm force_at_smallest_moment_N multipliers
 ends/multipliers: smallest_force smallest_moment
+hodograph: angle_deg before after
+hodograph/before hodograph/after: force_x_N force_y_N moment_x_Nm moment_y_Nm
+foundation_loads: order dead_centre_deg before after as_built
+foundation_loads/before foundation_loads/after foundation_loads/as_built: force_x force_y couple_of_x_forces
+  couple_of_y_forces
+force_x force_y: amplitude_N phase_deg
+couple_of_x_forces couple_of_y_forces: amplitude_Nm phase_deg
 """
+#: outputs whose form is known here, though none but those that are requested are in an answer
+OUTPUTS = ("hodograph", "orders", "foundation_loads")
+#: outputs that may be empty although they are requested
+_ANYWAY = ("residual", "balance_rate")
 
 
 def _read(table: str) -> Dict[Tuple[str, ...], Tuple[str, ...]]:
@@ -105,4 +117,12 @@ def form(answer: Place, kind: Tuple[str, ...] = ()) -> Iterator[Claim]:
             missing = [name for name in known if name not in value]
             if missing:
                 yield "form", Place(value, *answer.path, *path, missing[0]), -ONE, ONE
-            left.extend((value[name], (*path, name)) for name in known if name in value)
+            also = () if path or kind else tuple(name for name in OUTPUTS if name in value)
+            left.extend((value[name], (*path, name)) for name in (*known, *also) if name in value)
+
+
+def outputs(request: Place, answer: Place) -> Iterator[Claim]:
+    """What was requested is there."""
+    for name in map(Place.text, request / "outputs"):
+        if name not in _ANYWAY and not answer / name:
+            yield "form", answer / name, -ONE, ONE

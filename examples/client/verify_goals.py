@@ -10,15 +10,12 @@ from verify_cases import Case, Scatter, nominal, peak
 from verify_ceilings import kept
 from verify_claims import Claims, near
 from verify_cuts import Part
+from verify_levels import WIDE, levels
 from verify_machine import NAMES, ON_FRAME, Machine, Mass
 from verify_numbers import ABOUT_ONE, ONE, ZERO, Number, Place, largest
-from verify_values import Range, Value, most
+from verify_values import Value, most
 from verify_weights import listed
 
-#: share of a goal without counterweights by which brackets are wide
-WIDE = 2e-9
-#: least share of it that a goal leaves to those after it
-ALLOWANCE = 1e-6
 NO_SCATTER = Scatter(ZERO, ZERO)
 
 
@@ -44,18 +41,17 @@ def values(request: Place, answer: Place, program: Program, fitted: Fitted) -> C
         most_there = float(program.machine.budget)
         rooms["max_total_mass"] = 1 - float(fitted.mass) / most_there if most_there > 0 else 0.0
     yield from listed("active_limits", answer / "active_limits", rooms)
+    if list(request / "objective" / "priorities"):
+        yield from levels(request, answer, program.named, there, rest, fitted)
     first = program.parts[0]
     if not first.over_turn and len(program.named) == 1:
         yield from _exactly(request, answer, program, fitted)
         return
-    *earlier, last = program.named
+    last = program.named[-1]
     value, nothing = (most([one.goal(last) for one in each]) for each in (there, rest))
     off = WIDE * nothing.high
     yield within("objective", proof / "objective", value.low, value.high, off)
     yield within("before", proof / "objective_without_counterweights", nothing.low, nothing.high, off)
-    for name, place, priority in zip(earlier, proof / "goals", request / "objective" / "priorities"):
-        found, nothing = (most([one.goal(name) for one in each]) for each in (there, rest))
-        yield from _goal(name, place, found, nothing, (priority / "allowance").double(0.0, least=0))
     if answer / "worst_case":
         yield from _worst_case(answer / "worst_case", proof / "objective", there)
     if answer / "price_of_robustness":
@@ -74,26 +70,10 @@ def _price(place: Place, program: Program, proof: Place, off: float) -> Claims:
     if best:
         yield "nominal_optimum", best, None, ONE
     if worst:
-        free = not any(part.exact.caps or part.limited for part in program.parts)
+        # a goal before it may have been kept to another limit
+        free = len(program.named) == 1 and not any(part.exact.caps or part.limited for part in program.parts)
         broken = free and worst.double() < (proof / "lower_bound").double(0.0) - off
         yield "nominal_optimum", worst, -ONE if broken else None, ONE
-
-
-def _goal(name: str, place: Place, found: Range, rest: Range, allowance: float) -> Claims:
-    """A goal before the last: its bound, its value, and the limit that the answer keeps.
-
-    That the bound holds was proven on the way, by multipliers that the answer does not have.
-    """
-    value = (place / "value").double()
-    off = WIDE * rest.high
-    yield "goals", place / "goal", ONE if (place / "goal").value == name else -ONE, ONE
-    wide = max(allowance, ALLOWANCE) * rest.high
-    yield within("goals", place / "limit", max(value, found.low), value + wide, off)
-    lowest = place / "lower_bound"
-    if lowest:
-        broken = value - lowest.double() + off
-        yield "goals", place / "value", ONE if broken >= 0 else -ONE, ONE
-        yield "goals", lowest, None if broken >= 0 else -ONE, ONE
 
 
 def _worst_case(place: Place, objective: Place, there: Sequence[Value]) -> Claims:

@@ -1,4 +1,4 @@
-"""What shakes the frame: ellipses of the first order, phasors of orders 1 and 2, and what no counterweight removes."""
+"""What shakes the frame: ellipses of the first order, phasors of all orders, and what no counterweight removes."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Callable, Dict, Iterable, List, Optional, Sequence, Tuple
 from verify_claims import Claims, near, same
 from verify_machine import NAMES, NOTHING, Machine, Mass, Responses, row_masses
 from verify_numbers import BLUR, HALF, ONE, ZERO, Number, Place, direction, real
+from verify_shafts import power
 
 _EITHER_WAY = Number((-ONE).low, ONE.high)
 SERIES = 1e-12  # share by which the sum of a series in doubles may be off
@@ -37,8 +38,10 @@ def first_order(claim: str, place: Place, responses: Responses) -> Claims:
             yield claim, axis, -abs(product - way * way * abs(product)) if 0 <= degrees <= 180 else -ONE, abs(product)
 
 
-def second_order(request: Place, machine: Machine, shafts: Sequence[Tuple[int, Mass]] = ()) -> Optional[Responses]:
-    """Phasors that turn twice; None where a row has no rod."""
+def of_order(
+    request: Place, machine: Machine, order: int, shafts: Sequence[Tuple[int, Mass]] = ()
+) -> Optional[Responses]:
+    """Phasors that turn ``order`` times, an even number; None where a row has no rod."""
     asked = request / "machine"
     # the series cut off behind its second term
     cut_off = (request / "fidelity" / "kinematics").text(default="exact") == "order_2"
@@ -52,15 +55,15 @@ def second_order(request: Place, machine: Machine, shafts: Sequence[Tuple[int, M
                 return None
             length = (rod / "length_m").double(least=1e-300) if rod / "length_m" else inf
             ratio = min((throw / "crank_radius_m").double() / length, 1.0)
-            share = real(ratio if cut_off else harmonic(ratio))
-            size = row_masses(row)[0] * radius * HALF * (share + real(SERIES) * _EITHER_WAY)
-            twice = crank * axis.conjugate() * crank * axis.conjugate()
+            share, off = (ratio if order == 2 else 0.0, 0.0) if cut_off else harmonic(order, ratio)
+            size = row_masses(row)[0] * radius * HALF * (real(share) + real(off) * _EITHER_WAY)
+            turned = power(crank * axis.conjugate(), order)
             where = (throw / "position_m").number() + (row / "offset_m").number(0.0)
-            parts.append((size, axis * twice, axis * twice.conjugate(), where))
-    for order, mass in shafts:
-        if order == 2:
-            four = mass.product * real(4)
-            parts.append((four, mass.co, mass.counter, mass.position))
+            parts.append((size, axis * turned, axis * turned.conjugate(), where))
+    for ratio, mass in shafts:
+        if ratio == order:
+            larger = mass.product * real(order * order)
+            parts.append((larger, mass.co, mass.counter, mass.position))
     for size, co, counter, where in parts:
         for name, pair in found.items():
             arm = ONE if name == "force" else where * machine.wide - machine.plane * machine.wide
@@ -71,20 +74,27 @@ def second_order(request: Place, machine: Machine, shafts: Sequence[Tuple[int, M
     return {name: (co, counter) for name, (co, counter) in found.items()}
 
 
-def harmonic(ratio: float) -> float:
-    """What cos 2 phi has in the acceleration of a piston over r omega^2, of crank radius over rod length up to 1.
+def harmonic(order: int, ratio: float) -> Tuple[float, float]:
+    """What cos(order phi) has in the acceleration of a piston over r omega^2, of crank radius over rod length up to 1.
 
     With k = sqrt(1 - ratio^2) and q = (1 - k) / (1 + k) the rod adds sqrt(1 - ratio^2 sin^2 phi) =
-    (1 + k) / 2 |1 + q e^{2j phi}|, whose Fourier coefficients are hypergeometric series in q^2.
+    (1 + k) / 2 |1 + q e^{2j phi}|, whose Fourier coefficients are q^m times hypergeometric series in q^2; order = 2 m.
+    Returns that, and what the rounding of the series and its end may be off by.
     """
+    m = order // 2
     root = sqrt(max((1 - ratio) * (1 + ratio), 0.0))
     over_ratio = ratio / (1 + root) ** 2
-    square, term, series, n = (ratio * over_ratio) ** 2, 1.0, 0.0, 0
-    while abs(term) > 1e-18 and n < 20_000:
+    power_of, term, series, n = ratio * over_ratio, 1.0, 0.0, 0
+    for k in range(m):
+        term *= (0.5 - k) / (k + 1)
+    least = 1e-18 * abs(term)
+    while abs(term) > least and n < 20_000:
         series += term
-        term *= (n + 0.5) * (n - 0.5) / ((n + 2.0) * (n + 1.0)) * square
+        term *= (n + m - 0.5) * (n - 0.5) / ((n + m + 1.0) * (n + 1.0)) * power_of**2
         n += 1
-    return 2 * (1 + root) * over_ratio * series
+    factor = order**2 * (1 + root) * over_ratio * power_of ** (m - 1)
+    # beyond its first terms one falls as 1 / n^3 at least
+    return factor * series, factor * (SERIES * abs(series) + n * abs(term))
 
 
 def orders(claim: str, place: Place, by_order: Iterable[Tuple[int, Optional[Responses]]]) -> Claims:

@@ -9,11 +9,12 @@ from typing import Dict, Iterator, List, NamedTuple, Sequence, Tuple
 from verify_answer import Fitted
 from verify_claims import Claims
 from verify_machine import ON_FRAME, Machine, Mass
-from verify_numbers import ONE, NotCovered, Place, real
+from verify_numbers import ONE, ZERO, NotCovered, Place, real
 from verify_program import CEILINGS, Statement, weighed
 
 FIGURE = 1e-9  # share of a figure in doubles, of all that it is made of
 WORTH = 1e-6  # share of the objective without counterweights: what a whole limit has to be worth to be listed
+PRICED = 1e-4  # share of it by which the bound may be less with the price of a budget beside plates
 ACROSS = 1e-3  # rad: by which what pulls at a web may be off a right angle to the edge of its sector
 UNITS = {"max_mass": "kg", "max_total_mass": "kg", "envelope": "(kg m)", "max_centrifugal_force": "N", "sector": "deg"}
 
@@ -103,14 +104,17 @@ def prices(statement: Statement, request: Place, answer: Place, there: Fitted, c
     if chosen or machine.groups or not gap:
         yield "shadow_prices", place, -ONE if told else ONE, ONE
         return
-    if machine.budget is not None and any(web.plate for web in machine.webs):
-        # the price at which the budget is spent is another one there
-        raise NotCovered(place)
     # of the first response that is weighed
     weights = ((float(weight), ON_FRAME[name].unit) for name, weight in weighed(goal, machine).items())
     weight, unit = next((each for each in weights if each[0] > 0), (0.0, "N"))
     unit = unit.replace("Nm", "N m")
     multipliers = proof / "multipliers" / "objective"
+    if machine.budget is not None and any(web.plate for web in machine.webs):
+        # the bound was proven by a price found here: that which is printed has to prove it too
+        lowest, implied = proof / "lower_bound", proof / "implied_max_mass_kg"
+        least = statement.bound(multipliers, implied, {}, ZERO, True, printed=True).least
+        noise = real(PRICED) * abs((proof / "objective_without_counterweights").number(0.0))
+        yield "shadow_prices", place, None if least is None else least + noise - lowest.number(), abs(lowest.number())
     touched = {(one.text()) for one in answer / "active_limits"}
     slopes, ceilings = slope(statement, multipliers)
     arms = [1 + abs((web.position - machine.plane).middle()) for web in machine.webs]

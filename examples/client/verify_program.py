@@ -128,11 +128,20 @@ class Statement:
             found[row] = found[row] + floor + total(abs(vector) for vector, *_ in lengths.values())
         return found
 
-    def bound(self, proof: Place, implied: Place, slack: dict[str, Number], cost: Number, believed: bool) -> Bound:
+    def bound(
+        self,
+        proof: Place,
+        implied: Place,
+        slack: dict[str, Number],
+        cost: Number,
+        believed: bool,
+        printed: bool = False,
+    ) -> Bound:
         """Of rows and cost * mass, for all within the limits that exceed no ceiling by more than slack.
 
         What the answer says that missing limits imply is believed, or shown to be of no account. Without rows
-        of an objective the multipliers have those of the ceilings, and prove that they conflict.
+        of an objective the multipliers have those of the ceilings, and prove that they conflict. ``printed``: with the
+        price of the budget that is printed, beside plates too.
         """
         limits = {(name, "ceiling"): Term(name, name, phasors(self.machine.laden, name)[0], ONE) for name in self.caps}
         terms = {**self.terms, **limits}
@@ -162,7 +171,7 @@ class Statement:
         # where a kilogram has a price, what has no limit must gain no more: all multipliers are shortened alike
         share = _share((price, gains[name]) for name in free if price.low > 0 and machine.left is None)
         least = least * share
-        if machine.left is not None and any(web.plate for web in machine.webs):
+        if machine.left is not None and not printed and any(web.plate for web in machine.webs):
             price = cost + spent(machine, pulls, share, cost)
         for web in machine.webs:
             if web.plate is not None:

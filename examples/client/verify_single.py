@@ -6,9 +6,10 @@ from verify_answer import Fitted, after, before, fitted, gaps
 from verify_bearings import curves
 from verify_claims import Claims, covered, same
 from verify_first import infeasible, optimum
-from verify_form import form
+from verify_form import form, outputs
 from verify_machine import Machine
 from verify_numbers import ONE, Place
+from verify_shaking import shaking
 from verify_turn import looks_at_the_turn, over_turn, unreachable
 
 
@@ -19,6 +20,7 @@ def single(request: Place, answer: Place, whole: bool = True) -> Claims:
     """
     if whole:
         yield from form(answer)
+        yield from outputs(request, answer)
     asked = request / "machine"
     status = (answer / "status").text("optimal", "inaccurate", "infeasible")
     machine = Machine(asked, request / "objective", answer / "reference_plane_m", asked / "max_total_mass_kg")
@@ -27,12 +29,14 @@ def single(request: Place, answer: Place, whole: bool = True) -> Claims:
     if status == "infeasible":
         yield from _nothing(answer)
         budget, why = asked / "max_total_mass_kg", answer / "infeasibility"
+        yield from covered(shaking(request, machine, answer, None))
         yield from covered(curves(request, machine, answer, None))
         yield from covered((unreachable if turn else infeasible)(request, answer, budget, why))
         return
     yield "status", answer / "infeasibility", -ONE if answer / "infeasibility" else ONE, ONE
     there: Fitted = yield from fitted(request, machine, answer / "counterweights", answer / "balance_shafts", whole)
     yield from after(request, machine, answer, there)
+    yield from covered(shaking(request, machine, answer, there))
     yield from covered(curves(request, machine, answer, there))
     mass = there.mass + there.on_shafts_mass if there.on_shafts else there.mass
     yield from gaps(request, answer, mass)

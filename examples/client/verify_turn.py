@@ -7,6 +7,7 @@ and balance shafts are not covered.
 
 from __future__ import annotations
 
+from copy import copy
 from typing import Dict, List, Optional, Sequence, Tuple
 
 from verify_answer import Fitted, closest
@@ -14,6 +15,7 @@ from verify_cases import FIELDS as CASES
 from verify_cases import cases, goals, scatter
 from verify_claims import EVIDENCE, Claims, covered, near
 from verify_costs import costs
+from verify_curves import root
 from verify_cuts import FIELDS, SHAFTS, Group, Part, Term
 from verify_first import near_the_bound, searched, smallest
 from verify_goals import Program as Asked
@@ -75,6 +77,12 @@ class Program:
         if answer and len(self.levels) != len(self.named) - 1:
             raise NotCovered(answer / "certificate" / "goals")
 
+    def up_to(self, goal: int) -> Program:
+        """The same with the goals up to one."""
+        found = copy(self)
+        found.named, found.levels = self.named[: goal + 1], self.levels[:goal]
+        return found
+
     def _part(self, one: Place) -> Part:
         name = (one / "scenario").text() if one / "scenario" else None
         if name not in self.parts:
@@ -101,7 +109,8 @@ class Program:
                 moved = moved + vector * factor
             moved = moved.parts()[0] if one.scalar else moved
             before = rows.get((one.group, one.row), one.floor)
-            rows[one.group, one.row] = before + abs(moved) + self.off.of(one.factors, sizes)
+            length = abs(moved) + self.off.of(one.factors, sizes)
+            rows[one.group, one.row] = before + (abs(length + J * one.still) if one.mean else length)
         groups = {group for group, _ in rows if group[1] == len(self.named) - 1}
         most = {group: largest(*(value for (of, _), value in rows.items() if of == group)) for group in groups}
         every = {group[0] for group in groups}
@@ -116,6 +125,8 @@ class Program:
         if any(group_of[one.row] != one.group for one in terms):
             raise NotCovered(proof / "terms")
         rows = {name: value for name, value in rows.items() if value.low > 0 and name in group_of}
+        rows, terms = _means(rows, terms)
+        group_of = {one.row: one.group for one in terms}
         sums = {group: total(value for name, value in rows.items() if group_of[name] == group)
                 for group in {group_of[name] for name in rows}}  # fmt: skip
         if cost is ZERO and not sums:
@@ -162,7 +173,7 @@ class Program:
         y = one.y.parts()[0] if one.scalar else one.y
         size = abs(y)
         if self.scattered:
-            grown = allowed * share
+            grown = (size if one.mean else allowed) * share
             pulls.spread = [
                 old + grown * self.off.share * abs(factor) for old, factor in zip(pulls.spread, one.factors)
             ]
@@ -235,6 +246,26 @@ class Program:
         return dict.fromkeys(sums, share), charge * share
 
 
+def _means(rows: Dict[str, Number], terms: List[Term]) -> Tuple[Dict[str, Number], List[Term]]:
+    """All rows of a root mean square as one, hypot(length, what stays), with y of the length and z of what stays.
+
+    y^2 + z^2 is no more than the square of the row: z is what y leaves of it.
+    """
+    together: Dict[Tuple[str, Group], List[Term]] = {}
+    for one in terms:
+        if one.mean and one.row in rows:
+            together.setdefault((one.mean, one.group), []).append(one)
+    kept = [one for one in terms if not one.mean]
+    rows = dict(rows)
+    for (name, group), each in together.items():
+        allowed, y = total(rows.pop(one.row) for one in each), total(one.y for one in each)
+        left = root(largest(allowed * allowed - abs(y) * abs(y), ZERO))
+        of = f"{name} of {group}"
+        rows[of] = allowed
+        kept.append(each[0]._replace(row=of, y=y, floor=left / allowed * each[0].still))
+    return rows, kept
+
+
 def looks_at_the_turn(request: Place) -> bool:
     """Whether an objective asks for more than the first order, in a way that is known here."""
     goal = request / "objective"
@@ -261,6 +292,7 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
     of_objective = multipliers / "objective"
     yield from _proven("lower_bound", of_any_mass, program.bound(of_objective, terms, implied), implied, of_objective)
     slopes = program.slopes
+    yield from _earlier(program, proof, implied)
     least = proof / "mass_lower_bound_kg"
     if least and (least.number() - machine.fixed).high <= 0:
         yield "mass_lower_bound", least, machine.fixed - least.number(), ONE
@@ -278,6 +310,20 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
     if slopes:
         yield from covered(costs(request, answer, machine, program.first, terms, slopes))
     yield from covered(misplacement(goals_of.parts, program.named[-1], fitted, answer / "sensitivity"))
+
+
+def _earlier(program: Program, proof: Place, implied: Place) -> Claims:
+    """Bounds of the goals before the last: each by its own multipliers, under the limits of those before it."""
+    listed = [one for one in proof / "goals" if (one / "goal").text() in program.named[:-1]]
+    for n, one in enumerate(listed):
+        if not one / "lower_bound":
+            continue
+        if not one / "multipliers":
+            yield "goals", one / "lower_bound", None, ONE
+            continue
+        so_far = program.up_to(n)
+        found = so_far.bound(one / "multipliers", so_far.terms(one / "multipliers"), implied)
+        yield from _proven("goals", one / "lower_bound", found, implied, one / "multipliers")
 
 
 def unreachable(request: Place, answer: Place, budget: Place, said: Place) -> Claims:
@@ -309,7 +355,7 @@ def unreachable(request: Place, answer: Place, budget: Place, said: Place) -> Cl
         yield from smallest(machine, Place({}), said, proofs, implied)
         for name, unit in NAMES.items():
             lowest, found = (said / f"smallest_{name}{part}_{unit}" for part in ("_lower_bound", ""))
-            yield from near_the_bound(f"smallest_{name}", found, lowest, machine, name)
+            yield from near_the_bound(f"smallest_{name}", found, lowest, machine, name, implied)
 
 
 def _proven(

@@ -172,8 +172,8 @@ def named(statement: Statement, multipliers: PhysicalMultipliers) -> BoundMultip
                     "row": rows[row],
                     "angle_deg": term.angle_deg,
                     "scenario": term.scenario,
-                    "x": y.real,
-                    "y": y.imag,
+                    "x": y.real * term.share,
+                    "y": y.imag * term.share,
                 }
                 for term, row, y in zip(terms, statement.row.tolist(), multipliers.term.tolist(), strict=True)
             ),

@@ -11,7 +11,7 @@ from schemas.answer.first_order import Floor, Residual
 from schemas.answer.infeasibility import Infeasibility
 from schemas.answer.limits import MachineLimit, ShadowPrice
 from schemas.answer.outputs import OutputFields
-from schemas.answer.proof import Multipliers
+from schemas.answer.proof import BoundMultipliers, Multipliers
 from schemas.answer.robust import PriceOfRobustness, Sensitivity, WorstCase
 from schemas.base.model import Answer, Model
 from schemas.base.quantities import (
@@ -45,12 +45,18 @@ class GoalReached(Model):
     goal: Literal["external", "bearings", "bending", "mass", "pieces", "sizes"] = Field(
         description="the goal", examples=["external"]
     )
-    value: float = Field(description="what it came to by itself; mass in kg, without those fixed", examples=[30345.0])
+    value: float = Field(description="what it came to by itself; mass in kg, with those fixed", examples=[30345.0])
     lower_bound: float | None = Field(
         description="certified: under the goals before it nothing is smaller; null if nothing is proven",
         examples=[30344.97],
     )
     limit: float = Field(description="what the goals after it had to keep", examples=[30405.7])
+    multipliers: BoundMultipliers | None = Field(
+        None,
+        description="of the bound of a goal before the last, under the limits of those before it; null of the last,"
+        " whose multipliers are the certificate's, of what castings cost, and where choices were searched",
+        examples=[None],
+    )
 
 
 class Certificate(Model):

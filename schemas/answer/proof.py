@@ -38,7 +38,8 @@ class TermMultiplier(Model):
     angle_deg: Degrees | None = Field(None, description=_ANGLE, examples=[None])
     scenario: Name | None = Field(None, description=_SCENARIO, examples=[None])
     x: float = Field(
-        description="x component, no longer together with y than the row's multiplier; in the row's unit",
+        description="x component, no longer together with y than the row's multiplier; in the row's unit; of"
+        " a root mean square that of the part that counterweights move",
         examples=[0.6],
     )
     y: float = Field(description="y component", examples=[-0.8])

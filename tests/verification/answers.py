@@ -52,14 +52,26 @@ _FEATURES: dict[str, tuple[str, tuple[str, ...]]] = {
 }
 
 
+def _pair(base: str, *features: str) -> Body:
+    body = body_of(base, features, 2.0)
+    assert body is not None
+    return body
+
+
+def _shown(body: Body, **more: Any) -> Body:
+    """What the page asks for first."""
+    outputs = ["hodograph", "orders", "foundation_loads"]
+    return {**body, **more, "outputs": outputs, "angles": {"step_deg": 5.0}}
+
+
 @cache
 def _requests() -> dict[str, Body]:
     found = {name: SINGLE[name] for name in ("sum", "max", "direction weights", "budget and ceiling", "infeasible")}
     found |= {name: SINGLE[name] for name in ("no limits, max, sector", "2d12", "scroll-oldham")}
     for name, (base, features) in _FEATURES.items():
-        body = body_of(base, features, 2.0)
-        assert body is not None
-        found[name] = body
+        found[name] = _pair(base, *features)
+    found["shaking"] = _shown(_pair("vee", "clockwise"), fitted=[{"web": "a", "mass_kg": 2.0, "angle_deg": 75.0}])
+    found["shaking, balance shaft"] = _shown(_pair("vee", "balance shaft of order 2"))
     found["front"] = {**SINGLE["sum"], "points": 3, "multipliers": True}
     masses = {"path": "/machine/throws/0/rows/0/reciprocating_mass_kg", "values": [9.0, 14.0]}
     found["sweep"] = {"base": SINGLE["ceilings"], "axes": [masses], "multipliers": True}

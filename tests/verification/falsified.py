@@ -102,16 +102,17 @@ def _dust(answer: Any, path: Path) -> bool:
     So it is beside what the same object and those around it hold: of a phasor and of an ellipse, both orders, before
     and after.
     """
-    if path[0] != "residual" and "first_order" not in path:
+    if path[0] not in ("residual", "orders", "foundation_loads") and "first_order" not in path:
         return False
     here = at(answer, path[:-1])
-    kind = "_Nm" if "moment" in path else "_N"
+    kind = "_Nm" if "moment" in path or any(str(part).startswith("couple") for part in path) else "_N"
     figures = (one for one in numbers(answer["residual"], ("residual",)) if str(one[-1]).endswith(kind))
     largest = max(abs(at(answer, one)) for one in figures)
     value = at(answer, path)
     if str(path[-1]).endswith("_deg"):
         # along what is smallest of it: one of both phasors, or the phasor itself
-        sizes = [abs(one) for name, one in here.items() if name.startswith(("co_", "counter_", "magnitude"))]
+        lengths = ("co_", "counter_", "magnitude", "amplitude")
+        sizes = [abs(one) for name, one in here.items() if name.startswith(lengths)]
         return min(sizes) <= _DUST * largest
     others = [one for name, one in here.items() if name.endswith(kind) and name != path[-1]]
     return abs(value) <= _DUST * largest or any(abs(value - one) <= _DUST * largest for one in others)

@@ -7,6 +7,7 @@ import pytest
 
 from service.verification import checker
 from tests.verification.answers import pair
+from tests.verification.checking import broken
 from tests.verification.fabricated import KINDS, fabricated, verdict
 
 SEVERAL = (
@@ -49,3 +50,38 @@ def test_nothing_that_is_made_up_passes(name: str) -> None:
 def test_nothing_that_is_made_up_passes_whatever_is_asked(name: str) -> None:
     for way, request, answer in fabricated(name):
         assert verdict(request, answer) in ("broken", "refused", "not covered"), way
+
+
+def test_the_price_of_a_budget_beside_plates_has_to_prove_the_bound() -> None:
+    """Independent: the price at which the budget is spent is found by halving, and the printed one proves as much."""
+    request, answer = pair("plates, segments, budget")
+    assert checker().verify(request, answer)["verdict"] == "held"
+    for factor in (0.9, 1.01):
+        wrong = copy.deepcopy(answer)
+        wrong["shadow_prices"][0]["value"] *= factor
+        wrong["certificate"]["multipliers"]["objective"]["budget"] *= factor
+        assert any(one.startswith("shadow_prices") for one in broken(request, wrong))
+
+
+def test_the_bound_of_every_goal_in_order_is_proven() -> None:
+    request, answer = pair("priorities")
+    assert checker().verify(request, answer)["verdict"] == "held"
+    for goal in answer["certificate"]["goals"]:
+        bound = goal["lower_bound"]
+        goal["lower_bound"] = bound + 1e-6 * goal["value"]
+        assert any(one.startswith("goals") for one in broken(request, answer))
+        goal["lower_bound"] = bound
+    for goal in answer["certificate"]["goals"]:
+        goal["multipliers"] = None
+    found = checker().verify(request, answer)
+    assert (found["verdict"], found["not_covered"]) == ("not covered", ["/answer/certificate/goals/*/lower_bound"])
+
+
+@pytest.mark.parametrize(("field", "factor"), [("value", 0.999), ("limit", 0.999), ("lower_bound", 1.0001)])
+def test_what_a_minimum_mass_came_to_is_held(field: str, factor: float) -> None:
+    request, answer = pair("priorities of the first order")
+    assert checker().verify(request, answer)["verdict"] == "held"
+    mass = answer["certificate"]["goals"][-1]
+    assert mass["goal"] == "mass"
+    mass[field] *= factor
+    assert any(one.startswith("goals") for one in broken(request, answer))

@@ -166,3 +166,42 @@ def test_nothing_that_is_sent_raises(changes: list[tuple[tuple[str | int, ...], 
 @given(JSON, JSON)
 def test_anything_at_all_is_judged_or_refused(request: Any, answer: Any) -> None:
     judged(request, answer)
+
+
+def test_what_rounding_of_the_limits_hides_is_no_fault() -> None:
+    """Regression: beside 1e27 N m that the limits allow a smallest moment of 1e-5 N m has a bound of 0."""
+    machine = {
+        "kind": "scroll",
+        "orbit_radius_m": 1e8,
+        "orbiting_mass_kg": 1e12,
+        "orbiting_position_m": 0.0,
+        "anti_rotation": {
+            "type": "crank_pins",
+            "count": 6,
+            "eccentric_mass_kg": 3e-11,
+            "position_m": -1e-13,
+            "pin_circle_radius_m": 1.0,
+        },
+        "speed_rpm": 7e5,
+        "webs": [
+            {
+                "name": "0",
+                "position_m": 1e7,
+                "counterweight_radius_m": 0.27,
+                "max_mass_kg": 1e300,
+                "sector": {"centre_deg": 120.0, "half_angle_deg": 1e-9},
+            }
+        ],
+        "max_total_mass_kg": 2e11,
+    }
+
+    body = {"machine": machine, "objective": {"force_ceiling_N": 0.0}}
+    answer = json.loads(optimize(OptimizeRequest.model_validate(body)).model_dump_json())
+    assert answer["infeasibility"]["smallest_moment_Nm"] > 0
+    found = checker().verify(body, answer)
+    assert not broken(body, answer)
+    hidden = answer["infeasibility"]["smallest_moment_lower_bound_Nm"] < answer["infeasibility"]["smallest_moment_Nm"]
+    assert hidden == any(one["claim"] == "smallest_moment" and one["margin"] is None for one in found["claims"])
+    # of the force, which is no rounding, nothing is let go
+    answer["infeasibility"]["smallest_force_N"] *= 1.001
+    assert any(one.startswith("smallest_force") for one in broken(body, answer))

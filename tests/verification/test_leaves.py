@@ -13,7 +13,7 @@ from tests.verification.falsified import deleted, numbers, replaced
 from tests.verification.form import all_fields
 
 #: enough for what has to hold of every kind, and for a test
-KINDS = ("sum", "infeasible", "plates, sectors", "balance quality", "scenarios", "front")
+KINDS = ("sum", "infeasible", "plates, sectors", "balance quality", "scenarios", "shaking", "front")
 
 
 def test_the_form_is_that_of_the_models() -> None:
@@ -55,6 +55,13 @@ def test_a_counterweight_twice_or_not_at_all_is_broken(name: str) -> None:
         kept, there["counterweights"] = there["counterweights"], wrong
         assert checker().verify(request, answer)["verdict"] == "broken"
         there["counterweights"] = kept
+
+
+@pytest.mark.parametrize("name", ["hodograph", "orders", "foundation_loads"])
+def test_an_output_that_was_requested_is_there(name: str) -> None:
+    request, answer = pair("shaking")
+    assert checker().verify(request, answer)["verdict"] == "held"
+    assert checker().verify(request, {**answer, name: None})["verdict"] == "broken"
 
 
 def test_what_is_added_is_named() -> None:

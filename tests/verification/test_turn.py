@@ -58,6 +58,10 @@ _KINDS: dict[str, dict[str, Any]] = {
         "machine": _machine(rotation="cw"),
         "objective": {"orders": "all", "force_ceiling_x_N": 3800, "moment_ceiling_y_Nm": 730},
     },
+    "mean squares": {
+        "machine": _machine(rotation="cw"),
+        "objective": {"bearing_weight": 2.0, "bearing_measure": "rms", "combine": "max"},
+    },
     "no limits": {"machine": _machine([web("a", -0.2, None), web("c", 0.65, None)]), "objective": {"orders": "all"}},
 }
 

@@ -44,6 +44,7 @@ class Cut(NamedTuple):
     floor: float = 0.0
     angle_deg: float | None = None  # of the shaft, where the cut belongs to one
     scalar: bool = False
+    share: float = 1.0  # constant and influence are the response's times this
 
     def at(self, u: Complex, scatter: Scatter) -> float:
         """What it comes to with an unbalance (K,)."""
@@ -125,7 +126,7 @@ class Quantity:
         value = float(np.hypot(moved, self.spread))
         along, across = (moved / value, self.spread / value) if value > 0 else (1.0, 0.0)
         off = self.response.rms_error
-        cut = Cut(along * mean, along * influence, across * self.spread - off)
+        cut = Cut(along * mean, along * influence, across * self.spread - off, share=along)
         return Reached(value - off, value + off, cut)
 
 

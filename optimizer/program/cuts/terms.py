@@ -37,7 +37,7 @@ class Terms:
         self.influence.append(weighed.weight * cut.influence)
         self.scalar.append(cut.scalar)
         self.row.append(len(self.rows))
-        self.names.append(Term(name, "co", cut.angle_deg, quantity.scenario))
+        self.names.append(Term(name, "co", cut.angle_deg, quantity.scenario, cut.share))
         # of a root mean square the cuts have no angle
         called = f"{name} {len(self.rows)}" if cut.angle_deg is None else f"{name} at {cut.angle_deg!r} deg"
         called = called if quantity.scenario is None else f"{called} in {quantity.scenario}"

@@ -1,0 +1,83 @@
+"""Goals in their order: what each came to by itself, what is proven of it, and the limit that the answer keeps.
+
+The value of a goal is that of counterweights that the answer need not have: those after it may take what it allows.
+So it lies between its bound and its limit. The bound is proven by multipliers where any masses may be.
+"""
+
+from __future__ import annotations
+
+from typing import List, Sequence
+
+from verify_answer import Fitted
+from verify_bearings import within
+from verify_claims import Claims, same
+from verify_numbers import COSTS, ONE, Place, real
+from verify_values import Range, Value, most
+from verify_weights import SAME
+
+#: share of a goal without counterweights by which brackets are wide
+WIDE = 2e-9
+#: least share of it that a goal leaves to those after it
+ALLOWANCE = 1e-6
+
+
+def levels(
+    request: Place, answer: Place, named: Sequence[str], there: Sequence[Value], rest: Sequence[Value], fitted: Fitted
+) -> Claims:
+    """Every goal that an answer lists. ``rest``: without counterweights."""
+    proof, order = answer / "certificate", list(request / "objective" / "priorities")
+    listed, names = list(proof / "goals"), [(one / "goal").text() for one in order]
+    said = [(one / "goal").text() for one in listed]
+    places = [names.index(one) for one in said if one in names]
+    # a cost of which no choice was found is left out
+    must = [one for one in names[: max(n for n, one in enumerate(names) if one not in COSTS)] if one not in COSTS]
+    right = len(places) == len(said) and places == sorted({*places}) and {*must} <= {*said}
+    yield "goals", proof / "goals", ONE if right else -ONE, ONE
+    for place, name in zip(listed, said) if right else ():
+        yield same("goals", place / "goal", name)
+        last, allowance = name == said[-1], (order[names.index(name)] / "allowance").double(0.0, least=0)
+        if name in COSTS:
+            yield from _cost(name, place, answer, fitted, last)
+            continue
+        found, nothing = (most([one.goal(name) for one in each]) for each in (there, rest))
+        yield from _goal(place, found, nothing, allowance)
+        if name == named[-1]:
+            yield from _bound(place, proof / "lower_bound", proof)
+
+
+def _goal(place: Place, found: Range, rest: Range, allowance: float) -> Claims:
+    """One of the machine."""
+    value, off = (place / "value").double(), WIDE * rest.high
+    wide = max(allowance, ALLOWANCE) * rest.high
+    yield within("goals", place / "limit", max(value, found.low), value + wide, off)
+    lowest = place / "lower_bound"
+    above = value - lowest.double() + off if lowest else 0.0
+    yield "goals", place / "value", ONE if above >= 0 else -ONE, ONE
+
+
+def _bound(place: Place, own: Place, proof: Place) -> Claims:
+    """Of what the certificate proves as well, where no choices were searched."""
+    searched = bool(proof / "nodes") or bool(proof / "continuous_lower_bound")
+    if place / "lower_bound":
+        alike = own and (place / "lower_bound").double() == own.double()
+        yield "goals", place / "lower_bound", None if searched else ONE if alike else -ONE, ONE
+
+
+def _cost(name: str, place: Place, answer: Place, fitted: Fitted, last: bool) -> Claims:
+    """What castings cost: their mass, with those fixed, their number or their sizes, without."""
+    proof, chosen = answer / "certificate", [one for one in answer / "counterweights" if not (one / "fixed").value]
+    masses = sorted((one / "mass_kg").double() for one in chosen if (one / "mass_kg").double() > 0)
+    comes_to = {"mass": float(fitted.mass), "pieces": float(len(masses)), "sizes": float(_sizes(masses))}[name]
+    value, limit = (place / "value").double(), (place / "limit").double()
+    off = SAME * comes_to
+    yield "goals", place / "limit", real(min(limit - comes_to, limit - value) + off), ONE
+    least = (place / "lower_bound").double(value)
+    yield "goals", place / "value", real(min(value - least, off - abs(value - comes_to) if last else off) + off), ONE
+    if name == "mass":
+        yield from _bound(place, proof / "mass_lower_bound_kg", proof)
+    elif place / "lower_bound":
+        yield "goals", place / "lower_bound", None, ONE
+
+
+def _sizes(masses: List[float]) -> int:
+    return sum(n == 0 or one - masses[n - 1] > SAME * one for n, one in enumerate(masses))
