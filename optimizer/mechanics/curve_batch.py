@@ -6,8 +6,10 @@ Whatever is asked for at an angle, the rows are expanded about it once, and each
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from optimizer.mechanics.row_series import RowSeries, Taylor
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
@@ -41,7 +43,8 @@ class CurveBatch:
         for some, weights, constant, series, place in self._by_part(curve, (piece, centre), 3):
             found[some] = np.einsum("mr,krm->mk", weights, series.middle[:, 0][..., place])
             found[some, 0] += constant
-        return found * half[:, None] ** np.arange(4)
+        found *= half[:, None] ** np.arange(4)
+        return found
 
     def rests(self, curve: Index, piece: Index, centre: Real, half: Real) -> Real:
         """Bounds within half widths (m,) rad about centres."""
@@ -61,7 +64,7 @@ class CurveBatch:
         return found
 
     def _by_part(
-        self, curve: Index, places: tuple[Index, Real] | tuple[Index, Real, Real], order: int
+        self, curve: Index, places: tuple[NDArray[Any], ...], order: int
     ) -> Iterator[tuple[Index, Complex | Real, Complex | Real, Taylor, Index]]:
         """Of every part of which there are curves: which (n,), their weights (n, R) and constants (n,), the series of
         its force about all places, and at which of them each is."""
@@ -82,7 +85,7 @@ class CurveBatch:
         return self.parts[0].whole
 
 
-def _alike(places: tuple[Index, Real] | tuple[Index, Real, Real]) -> tuple[Index, Index]:
+def _alike(places: tuple[NDArray[Any], ...]) -> tuple[Index, Index]:
     """Which of places (m,) are the first of those that are alike, and which of these each is."""
     order = np.lexsort(places)
     other = np.ones(order.size, dtype=bool)

@@ -78,9 +78,10 @@ def _sets(unbalance: Complex | None) -> list[Complex | None]:
 
 def _searches(scene: Prepared, unbalance: Complex | None) -> Iterator[Search]:
     yield shaft_search(scene.shaft_curves, _sets(unbalance))
-    if unbalance is not None and scene.machine.webs:
+    machine = scene.machine
+    if unbalance is not None and isinstance(machine, ReciprocatingMachine) and machine.webs:
         # a warning compares with them
-        yield customary_search(scene, cranks(scene.machine).customary)
+        yield customary_search(scene, cranks(machine).customary)
 
 
 def _loads(

@@ -75,7 +75,7 @@ def searched(searches: Iterable[Search]) -> dict[tuple[Hashable, ...], Bracket]:
     group = np.concatenate([one + end for one, end in zip(groups, ends, strict=False)])
     found = batch.pieces.peaks(offset, TOLERANCE, number, group, sign)
     return {
-        each.name: Bracket(*(part[slice(*own)] for part in found))
+        each.name: Bracket._make(part[slice(*own)] for part in found)
         for each, own in zip(every, pairwise(ends), strict=True)
     }
 

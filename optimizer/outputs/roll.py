@@ -21,7 +21,7 @@ def _figure(scene: Prepared, unbalance: Complex | None) -> Roll:
     fitted = None if unbalance is None or scene.shafts is None else np.concatenate([unbalance, scene.shafts])
     if fitted is not None:
         # what turns with the crankshaft has no lever: of all counterweights only those of balance shafts count
-        moment = bare + np.real(scene.roll.added(fitted, angle))
+        moment = bare + np.asarray(scene.roll.added(fitted, angle)).real
         after = _moment(scene, moment * square, peaks([scene.roll], fitted, TOLERANCE))
     return Roll(angle_deg=scene.angles, before=before, after=None if unbalance is None else after)
 
