@@ -7,18 +7,15 @@ bin=$1/bin
 list=$2
 here=$(dirname "$0")
 
-# the list is whole, and leaves out what cvxpy would bring along and nothing asks for
-packages="--no-deps --require-hashes --requirement"
 pip="$bin/pip --disable-pip-version-check"
 # uv does not read what pip is told of mirrors
 mirror=${PIP_INDEX_URL:-$($pip config get global.index-url 2> /dev/null || true)}
 [ -z "$mirror" ] || export UV_DEFAULT_INDEX="${UV_DEFAULT_INDEX:-$mirror}"
 
-# shellcheck disable=SC2086 # options are several words
-if { [ -x "$bin/uv" ] || $pip --quiet install $packages "$here/uv.txt"; } \
-    && "$bin/uv" pip install --python "$bin/python" --no-progress $packages "$list"; then
+# the lists are whole, and leave out what cvxpy would bring along and nothing asks for
+if { [ -x "$bin/uv" ] || $pip --quiet install --no-deps --require-hashes --requirement "$here/uv.txt"; } \
+    && "$bin/uv" pip install --python "$bin/python" --no-progress --no-deps --require-hashes --requirement "$list"; then
     exit
 fi
 echo "without uv: pip installs, which takes half a minute longer"
-# shellcheck disable=SC2086
-$pip install $packages "$list"
+$pip install --no-deps --require-hashes --requirement "$list"
