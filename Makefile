@@ -91,12 +91,13 @@ nightly: .venv/development $(kernels)
 	for each in $(long); do echo "$$each"; $(bin)/python -m $$each || failed=1; done; exit $$failed
 
 # new versions into the hashed lists: names, versions and hashes only
-compile := $(bin)/uv --quiet pip compile pyproject.toml --upgrade --generate-hashes --no-header --no-annotate \
-    --no-emit-index-url --group runtime-build
+pinned := $(bin)/uv --quiet pip compile --upgrade --generate-hashes --no-header --no-annotate --no-emit-index-url
+compile := $(pinned) pyproject.toml --group runtime-build
 lock: .venv/development
 	$(compile) --output-file requirements.txt
 	$(compile) --constraint requirements.txt --group dev --output-file requirements-dev.txt
 	$(compile) --constraint requirements-dev.txt --all-extras --output-file deploy/requirements.txt
+	$(pinned) --constraint requirements-dev.txt --group pyproject.toml:install --output-file deploy/uv.txt
 
 # the table of docs/operation.md and deploy/.env.example, from service/settings.py
 settings: .venv/runtime
@@ -148,26 +149,26 @@ audit: licences
 clean:
 	rm -rf .venv build artefacts
 
-.venv/runtime: requirements.txt pyproject.toml
-	@echo "installing $$(grep -c == requirements.txt) packages into .venv"
+.venv/runtime: requirements.txt deploy/uv.txt deploy/install.sh pyproject.toml
+	@echo "first of two steps: $$(grep -c == requirements.txt) packages into .venv; then the kernels"
 	test -x $(bin)/python || $(PYTHON) -m venv .venv
-	$(bin)/pip --disable-pip-version-check install --require-hashes --requirement requirements.txt
+	deploy/install.sh .venv requirements.txt
 	# an older checkout was installed by a name that is not ours
 	$(pip) uninstall --yes counterweight 2> /dev/null
 	$(pip) install --no-deps --no-build-isolation --editable .
 	touch $@
 
 .venv/development: requirements-dev.txt .venv/runtime
-	$(pip) install --require-hashes --requirement requirements-dev.txt
+	deploy/install.sh .venv requirements-dev.txt
 	touch $@
 
 # as in the image: locked versions with their hashes, wheels only, without pip and what nothing imports
 build/runtime/made: deploy/requirements.txt deploy/prune.py deploy/unused.txt pyproject.toml .venv/development
 	rm -rf build/runtime
 	$(PYTHON) -m venv --without-pip build/runtime
-	$(pip) --python build/runtime/bin/python install --require-hashes --only-binary :all: \
+	$(pip) --python build/runtime/bin/python install --no-deps --require-hashes --only-binary :all: \
 	    --requirement deploy/requirements.txt
 	$(pip) --python build/runtime/bin/python install --no-deps --no-build-isolation .
-	$(pip) --python build/runtime/bin/python check
+	deploy/check.sh $(pip) --python build/runtime/bin/python
 	build/runtime/bin/python deploy/prune.py deploy/unused.txt
 	touch $@

@@ -18,9 +18,9 @@ tar --extract --gzip --strip-components 1 --directory "$elsewhere/source" --file
 echo "install the locked packages, then the wheel alone, in an empty environment"
 "$bin/python" -m venv "$elsewhere/env"
 pip=("$elsewhere/env/bin/pip" --quiet --disable-pip-version-check)
-"${pip[@]}" install --require-hashes --requirement requirements.txt
+deploy/install.sh "$elsewhere/env" requirements.txt
 "${pip[@]}" install --no-deps "$into"/*.whl
-"${pip[@]}" check
+deploy/check.sh "${pip[@]}"
 
 echo "compile the kernels, and answer for the 2D12 outside of the tree"
 cp examples/2d12.json "$elsewhere"

@@ -205,27 +205,29 @@ def _torque_integrals(context: Context) -> TorqueIntegrals:
         row_mean = np.zeros_like(context.layout.reciprocating.mass)
         for k in range(rows.shape[-2]):
             row_mean[..., k] = mean(fine, rows[..., k, :])
-        whole, energy = mean(fine, total), fluctuation(fine, total)
+        whole, energy, error = mean(fine, total), fluctuation(fine, total), None
     else:
         row_mean = closed.of_a_turn / TURN
         whole = np.sum(row_mean, axis=-1) + rotating
-        energy = closed.fluctuation(context.results["whole_turn"].torque).value
+        energy, error = closed.fluctuation(context.results["whole_turn"].torque)
     return TorqueIntegrals(
         row_mean=row_mean,
         mean=whole,
         fluctuation=energy,
+        fluctuation_error=error,
         indicated_power=np.sum(_indicated_power(context), axis=-1),
         friction_power=friction_power,
     )
 
 
 def _torque_errors(context: Context) -> TorqueErrors:
-    closed, torque = _row_work(context), context.results["whole_turn"].torque
-    if closed is not None:
-        rounding = ROUNDING * torque.pieces.size.reshape(context.layout.omega.shape)
-        return TorqueErrors(mean=rounding, fluctuation=closed.fluctuation(torque).error)
+    fine: TorqueIntegrals = context.results["torque_integrals"]
+    if fine.fluctuation_error is not None:
+        size = context.results["whole_turn"].torque.pieces.size
+        return TorqueErrors(
+            mean=ROUNDING * size.reshape(context.layout.omega.shape), fluctuation=fine.fluctuation_error
+        )
     coarse = panels(_breaks(context), _WIDEST_PANEL, turns=_turns(context))
-    fine = context.results["torque_integrals"]
     _, total = _torque_at(context, coarse)
     return TorqueErrors(
         mean=np.abs(fine.mean - mean(coarse, total)), fluctuation=np.abs(fine.fluctuation - fluctuation(coarse, total))

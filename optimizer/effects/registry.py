@@ -15,6 +15,7 @@ from optimizer.effects.scroll import SCROLL
 from optimizer.mechanics.inertia import Wrench
 from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.memoization import remembered
 from schemas.answer.answers import EffectUse
 from schemas.base.model import FieldProblem
 from schemas.base.rules import Rule
@@ -62,8 +63,24 @@ def _demanding(name: str) -> bool:
 
 def problems_of(machine: Machine, needs: Sequence[str]) -> Iterator[FieldProblem]:
     """Fields that these effects need, and all that they need, and the machine does not give."""
+    known = _problems(machine)
     for name in closure(machine, needs):
-        yield from EFFECTS[name].problems(machine)
+        yield from known[name]
+
+
+class _Problems(dict[str, tuple[FieldProblem, ...]]):
+    """Fields that each effect by itself needs and a machine does not give; worked out when asked for."""
+
+    def __init__(self, machine: Machine) -> None:
+        super().__init__()
+        self._machine = machine
+
+    def __missing__(self, name: str) -> tuple[FieldProblem, ...]:
+        self[name] = tuple(EFFECTS[name].problems(self._machine))
+        return self[name]
+
+
+_problems = remembered(_Problems)
 
 
 def rules_of(machine: Machine, name: str) -> Iterator[Rule]:
@@ -75,7 +92,7 @@ def rules_of(machine: Machine, name: str) -> Iterator[Rule]:
     """
     if not _demanding(name):
         return
-    for path, message in EFFECTS[name].problems(machine):
+    for path, message in _problems(machine)[name]:
         yield Rule(True, path, message)
     if not any(problems_of(machine, (name,))):
         yield from EFFECTS[name].rules(machine)

@@ -79,6 +79,7 @@ class TorqueIntegrals:
     row_mean: Real  # (..., rows) N m
     mean: Real  # (...) N m
     fluctuation: Real  # (...) J
+    fluctuation_error: Real | None  # (...) J, where it has a closed form; else none is known without other panels
     indicated_power: Real  # (...) W
     friction_power: Real  # (...) W
 

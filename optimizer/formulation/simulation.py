@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -16,7 +16,12 @@ from optimizer.mechanics.fixed_weights import laden
 from optimizer.mechanics.frame import Shares
 from optimizer.mechanics.inertia import Wrench, counterweights, reciprocating, rotating
 from optimizer.mechanics.layout import Layout, layout, spread
+from optimizer.mechanics.roll import roll
+from optimizer.mechanics.shaft import INFLUENCES, bearing_places
+from optimizer.mechanics.shaft_curves import ShaftCurves, bending_influence, planes, shaft_curves, stations
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.responses.curve import TurnResponse
+from optimizer.responses.piecewise_cubics import Bracket
 from optimizer.responses.response import Response
 from schemas.base.responses import ResponseFields
 from schemas.machine.machine import Machine
@@ -41,6 +46,7 @@ class Prepared:
     mechanics_ms: float
     shafts: Complex | None = None  # (S,) kg m, unbalances of the balance shafts that go with counterweights
     turns: int = 1  # over which the samples go: 2 where gas takes so long
+    brackets: dict[Any, Bracket] = field(default_factory=dict)  # peaks over the turn, searched before outputs show them
 
     @property
     def machine(self) -> ReciprocatingMachine | ScrollMachine:
@@ -90,6 +96,20 @@ class Prepared:
         if plan is self.layout:
             return responses(plan, self.simulated.first_order, goal)
         return responses(plan, rotating(plan).plus(reciprocating(plan, 1)), goal)
+
+    @cached_property
+    def shaft_curves(self) -> ShaftCurves:
+        """Loads of the B main bearings and bending moments at the S corners, over omega^2: B + S curves together."""
+        assert isinstance(self.machine, ReciprocatingMachine)  # no other has bearings
+        influence, places = INFLUENCES[self.request.fidelity.shaft], bearing_places(self.machine)
+        moments = bending_influence(self.layout, places, influence, stations(self.layout, places))
+        both = np.concatenate([influence(places, planes(self.layout)), moments], axis=-2)
+        return shaft_curves(self.results["whole_turn"], self.layout, both)
+
+    @cached_property
+    def roll(self) -> TurnResponse:
+        """Alternating moment about the crankshaft on the frame of one machine, over omega^2."""
+        return roll(self.results["whole_turn"], self.layout)
 
     @property
     def objective(self) -> Objective:

@@ -122,6 +122,9 @@ def _opened(state: Sequence[Real], closed: Real) -> tuple[Real, Real]:
 
 def compact(values: Real) -> Real:
     """Values as what is compiled takes them: of any other layout it would be compiled once more."""
+    flags = values.flags
+    if values.dtype == float and flags.c_contiguous and flags.writeable:
+        return values
     return np.require(values, float, ("C", "W"))
 
 

@@ -8,6 +8,7 @@ Shapes: N designs or places, R rows, P angles.
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
@@ -106,20 +107,25 @@ class RowSeries:
         # the pressures may differ between designs that have all else in common
         once = len(rows.motion) == len(self.centre) == 1 and pressure.shape[1] <= 1
         design = self.design[:1] if once else self.design
-        half = self.centre if self.half is None else self.half
-        every = [np.broadcast_to(each, (design.size, angles)) for each in (self.centre, half, self.within)]
-        traces = [np.broadcast_to(each, (len(pressure), design.size, angles)) for each in (pressure, slope)]
+        shape = (design.size, angles)
+        centre, within = (np.broadcast_to(each, shape) for each in (self.centre, self.within))
+        half = None if self.half is None else np.broadcast_to(self.half, shape)
+        traces = [np.broadcast_to(each, (len(pressure), *shape)) for each in (pressure, slope)]
         parts = max(1, min(-(-design.size * rows.motion.shape[1] * angles // _AT_ONCE), angles))
-        for some in np.array_split(np.arange(angles), parts):
-            place = slice(some[0], some[-1] + 1) if parts > 1 else slice(None)
-            centre, wide, within = (compact(each[:, place]).reshape(-1) for each in every)
-            given = (compact(each[..., place]).reshape(len(pressure), design.size * some.size) for each in traces)
-            wide = np.zeros(0) if self.half is None else wide
-            places = Places(np.repeat(design, some.size), centre, wide, within, *given)
+        ends = [angles * part // parts for part in range(parts + 1)]
+        for first, last in pairwise(ends):
+            place = slice(first, last)
+            places = Places(
+                np.repeat(design, last - first),
+                _flat(centre[:, place]),
+                np.zeros(0) if half is None else _flat(half[:, place]),
+                _flat(within[:, place]),
+                *(compact(each[..., place]).reshape(len(pressure), design.size * (last - first)) for each in traces),
+            )
             functions = row_functions(rows, places, self.order, pressed)
             if parts == 1:
                 self._functions_by_pressure[pressed] = functions
-            yield functions, some.size
+            yield functions, last - first
 
     @cached_property
     def _functions_by_pressure(self) -> "dict[bool, Functions]":
@@ -128,16 +134,21 @@ class RowSeries:
     @property
     def _pressure(self) -> tuple[Real, Real]:
         """Pressures [Pa] and their slopes [Pa/rad] of the traces (T, N or 1, P)."""
+        if not self.data.traces:
+            return np.zeros((0, 1, 1)), np.zeros((0, 1, 1))
         found = []
         for trace in self.data.traces:
             ahead = self._of_design(self.data.ahead[:, trace.row, None])
             one = replace(trace, table=self._of_design(trace.table), lead=self._of_design(trace.lead))
             found.append(one.at(self.centre + ahead, self.within + ahead))
-        if not found:
-            return np.zeros((0, 1, 1)), np.zeros((0, 1, 1))
         pressure, slope = (np.stack(np.broadcast_arrays(*each)) for each in zip(*found, strict=True))
         return pressure, np.broadcast_to(slope, pressure.shape)
 
     def _of_design(self, values: NDArray[Any]) -> NDArray[Any]:
         """Values (N or 1, ...) of each row of angles; once where all designs have the same."""
         return values[self.design] if len(values) > 1 else values
+
+
+def _flat(values: Real) -> Real:
+    """Values (N, P) as what is compiled takes them, design by design."""
+    return compact(values).reshape(-1)

@@ -82,6 +82,19 @@ class WholeTurn:
         one = slice(number, number + 1)
         return WholeTurn(self.rows.of_design(number), self.centre[one], self.half[one], self.turns)
 
+    def of_rows(self, reading: Reading) -> "TurnCurves":
+        """A force of every row by itself."""
+        if reading not in self._of_rows:
+            count = self.rows.crank_radius.shape[-1]
+            self._of_rows[reading] = self.curves(
+                reading, np.broadcast_to(np.eye(count), (len(self.centre), count, count))
+            )
+        return self._of_rows[reading]
+
+    @cached_property
+    def _of_rows(self) -> "dict[Reading, TurnCurves]":
+        return {}
+
     @cached_property
     def torque(self) -> "TurnCurves":
         """Torque of all rows against rotation, N m."""

@@ -1,6 +1,6 @@
 """Main-bearing loads without and with counterweights, and the bending moment inside the shaft."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -10,15 +10,18 @@ from optimizer.mechanics.shaft import bearing_places
 from optimizer.mechanics.shaft_curves import ShaftCurves, stations
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.enclosing_circle import Circle
+from optimizer.outputs.balance_rate import cranks
 from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.peaks import (
     FLOOR_TOLERANCE,
-    bearing_and_bending_curves,
+    Search,
     bearing_influence,
     bracket,
+    customary_search,
     of_shaft,
     of_shaft_each,
     one_by_one,
+    shaft_search,
 )
 from optimizer.responses.curve import floors
 from optimizer.responses.piecewise_cubics import Bracket
@@ -33,11 +36,11 @@ def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
     machine = scene.machine
     assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
     planes = stations(scene.layout, bearing_places(machine))
-    found = bearing_and_bending_curves(scene, planes)
+    found = scene.shaft_curves
     count = len(machine.bearings)
     # every bearing's, and the largest of all bending moments
     circles = [each.circle for each in floors(found.curves, FLOOR_TOLERANCE, None, one_by_one(count, planes.size))]
-    before, *fitted_too = of_shaft_each(scene, found, [None] if unbalance is None else [None, unbalance])
+    before, *fitted_too = of_shaft_each(scene, found, _sets(unbalance))
     after = fitted_too[0] if fitted_too else None
     alone = found.first(count)
     loads = _loads(scene, alone, before, circles, None)
@@ -66,6 +69,19 @@ def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
             floor_Nm=max(circle.radius for circle in circles[count:]) * scene.omega_squared,
         ),
     )
+
+
+def _sets(unbalance: Complex | None) -> list[Complex | None]:
+    """Without counterweights, and with them where there are any to show."""
+    return [None] if unbalance is None else [None, unbalance]
+
+
+def _searches(scene: Prepared, unbalance: Complex | None) -> Iterator[Search]:
+    yield shaft_search(scene.shaft_curves, _sets(unbalance))
+    machine = scene.machine
+    if unbalance is not None and isinstance(machine, ReciprocatingMachine) and machine.webs:
+        # a warning compares with them
+        yield customary_search(scene, cranks(machine).customary)
 
 
 def _loads(
@@ -110,7 +126,7 @@ def _over_area(load: float, bearing: Bearing) -> float | None:
 def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
     machine = scene.machine
     assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
-    curves = bearing_and_bending_curves(scene, stations(scene.layout, bearing_places(machine)))
+    curves = scene.shaft_curves
     # the largest bending moment alone; the bearings one by one
     count = len(machine.bearings)
     peak = of_shaft(scene, curves, unbalance, one_by_one(count, curves.webs.shape[-2] - count)).lower
@@ -128,4 +144,5 @@ MAIN_BEARINGS = Output(
     ("shaft_loads", "whole_turn"),
     main_bearings,
     Columns(_columns, needs=("whole_turn",)),
+    _searches,
 )

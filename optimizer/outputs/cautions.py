@@ -12,7 +12,7 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.cylinders import without_gas
 from optimizer.numerics.arrays import Complex
 from optimizer.outputs.balance_rate import cranks
-from optimizer.outputs.peaks import at_least, bearing_and_bending_curves, of_shaft
+from optimizer.outputs.peaks import of_customary
 from schemas.answer.answers import BalanceRate, Certificate
 from schemas.answer.caution import Caution, CautionCode
 from schemas.answer.dynamics import MainBearings
@@ -205,9 +205,7 @@ def _loads_grow(told: Told) -> Iterator[Caution]:
     shown: MainBearings | None = told.fields.get("main_bearings")
     if shown is None or told.unbalance is None or not isinstance(machine, ReciprocatingMachine) or not machine.webs:
         return
-    stations, count = np.array(shown.bending.position_m), len(machine.bearings)
-    curves = bearing_and_bending_curves(scene, stations)
-    customary = cranks(machine).customary
+    count = len(machine.bearings)
     before = np.array([*(one.before.peak_N for one in shown.bearings), *shown.bending.before_Nm])
     after = np.array([*(one.after.peak_N for one in shown.bearings if one.after), *(shown.bending.after_Nm or ())])
     kinds: tuple[tuple[CautionCode, str, str, slice], ...] = (
@@ -215,9 +213,7 @@ def _loads_grow(told: Told) -> Iterator[Caution]:
         ("bending_moment_grows", "bending moment", "N m", slice(count, None)),
     )
     largest = [tuple(float(np.max(each[some])) for *_, some in kinds) for each in (after, before)]
-    usual = np.array([np.max(at_least(scene, curves, customary)[some]) for *_, some in kinds])
-    if np.any(usual < largest[0]):
-        usual = of_shaft(scene, curves, customary, np.minimum(np.arange(after.size) // count, 1)).lower
+    usual = of_customary(scene, cranks(machine).customary)
     for (code, what, unit, _), now, bare, of_usual in zip(kinds, *largest, usual.tolist(), strict=True):
         for than, of in ((bare, "without counterweights"), (of_usual, "of a crank balanced throw by throw")):
             if now > than * (1.0 + _ALIKE):
@@ -234,13 +230,14 @@ def _not_closed(told: Told) -> Iterator[Caution]:
     for output, field in told.fields.items():
         if not isinstance(field, Model) or not _bracketed(field.__class__):
             continue
+        values = list(_values(field))
         for unit, size in (("N", force), ("Nm", moment)):
-            brackets = [found for name, found in _values(field) if name.endswith(f"_bracket_{unit}")]
-            wide = [found for found in brackets if _width(found) > _ALIKE * max(np.abs(found))]
+            brackets = [found for name, found in values if name.endswith(f"_bracket_{unit}")]
+            wide = [found for found in brackets if _width(found) > _ALIKE * max(abs(found[0]), abs(found[1]))]
             if not wide:
                 continue
             # of the same unit: what cancels between rows or bearings is as large in each of them
-            most = max(float(np.max(np.abs(found), initial=size)) for name, found in _values(field) if _of(name, unit))
+            most = max(float(np.max(np.abs(found), initial=size)) for name, found in values if _of(name, unit))
             open_ = [found for found in wide if _width(found) > _CANCELLED * most]
             if open_:
                 low, high = max(open_, key=_width)

@@ -9,7 +9,15 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.row_series import Reading
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.output import Columns, Output
-from optimizer.outputs.peaks import Extremes, bracket, largest_of_rows, of_rows, of_torque
+from optimizer.outputs.peaks import (
+    Extremes,
+    bracket,
+    largest_of_rows,
+    of_rows,
+    of_torque,
+    rows_search,
+    torque_search,
+)
 from schemas.answer.dynamics import (
     Chamber,
     Flywheel,
@@ -304,6 +312,7 @@ OVER_THE_TURN = (
         ("piston_force", "whole_turn"),
         piston_force,
         Columns(_piston_columns, needs=("whole_turn",)),
+        lambda scene, _: (rows_search(scene, "piston"),),
     ),
     Output(
         "rod_loads",
@@ -311,6 +320,7 @@ OVER_THE_TURN = (
         ("rod_forces", "whole_turn"),
         rod_loads,
         Columns(_rod_columns, needs=("whole_turn",)),
+        lambda scene, _: (rows_search(scene, reading) for reading in (*CASES.values(), "side")),
     ),
     Output(
         "torque",
@@ -318,6 +328,7 @@ OVER_THE_TURN = (
         ("torque", "torque_integrals", "torque_errors", "whole_turn"),
         torque,
         Columns(_torque_columns, needs=("friction", "torque_integrals", "whole_turn")),
+        lambda scene, _: (torque_search(scene, scene.results["torque"].rotating_friction),),
     ),
     Output(
         "flywheel",
@@ -332,5 +343,6 @@ OVER_THE_TURN = (
         ("rod_forces", "whole_turn"),
         overturning,
         Columns(_overturning_columns, needs=("whole_turn",)),
+        lambda scene, _: (torque_search(scene),),
     ),
 )

@@ -11,16 +11,20 @@ from optimizer.mechanics.angles import direction
 from optimizer.mechanics.gas import gas_forces
 from optimizer.mechanics.kinematics import motion, own_angle
 from optimizer.mechanics.layout import stacked
+from optimizer.mechanics.row_series import Reading
 from optimizer.mechanics.shaft import INFLUENCES, bearing_places
 from optimizer.mechanics.weight import GRAVITY, along_axis, on_guide
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.dynamics import rows_of
 from optimizer.outputs.output import Columns, Output
-from optimizer.outputs.peaks import largest_of_rows, of_rows, of_torque
+from optimizer.outputs.peaks import Search, largest_of_rows, of_rows, of_torque, rows_search, torque_search
 from schemas.answer.loads import BearingWeight, CoverLoad, FrameLoad, GuideLoad, Loads, RowLoad, ThrowMass
 from schemas.answer.outputs import labels
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.machine.throws import row_cylinders
+
+#: forces whose largest magnitudes are loads of every row
+_READINGS: tuple[Reading, ...] = ("piston", "rod", "rod_at_rest")
 
 
 def _figure(scene: Prepared, fitted: Complex | None) -> Loads:
@@ -64,7 +68,7 @@ def _inertia(scene: Prepared, machine: ReciprocatingMachine) -> float | None:
 
 def _rows(scene: Prepared, machine: ReciprocatingMachine) -> Iterator[RowLoad]:
     forces, masses = scene.results["piston_force"], scene.layout.reciprocating.mass
-    piston, rod, stopped = (of_rows(scene, reading).magnitude for reading in ("piston", "rod", "rod_at_rest"))
+    piston, rod, stopped = (of_rows(scene, reading).magnitude for reading in _READINGS)
     at_centres = at_dead_centres(scene)
     guides = _guides(scene, machine)
     rows = [row for throw in machine.throws for row in throw.rows]
@@ -211,6 +215,12 @@ def whole_weight(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex
     return np.asarray((machine.stationary_mass_kg + moving) * GRAVITY)
 
 
+def _searches(scene: Prepared, _fitted: Complex | None) -> Iterator[Search]:
+    yield from (rows_search(scene, reading) for reading in _READINGS)
+    friction, mean = scene.results["torque"].rotating_friction, scene.results["torque_integrals"].mean
+    yield from (torque_search(scene, constant) for constant in (friction, friction - mean))
+
+
 def _columns(scene: Prepared, fitted: Complex) -> dict[str, Real]:
     machine = scene.machine
     assert isinstance(machine, ReciprocatingMachine)  # of the kinematics
@@ -235,4 +245,5 @@ LOADS = Output(
     ("gas", "piston_force", "rod_forces", "torque", "torque_integrals", "whole_turn"),
     _figure,
     Columns(_columns, needs=("friction", "torque_integrals", "whole_turn")),
+    _searches,
 )

@@ -1,6 +1,6 @@
 """One output: what it means, what it needs, its figure in an answer and its columns in a sweep."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -8,6 +8,7 @@ import numpy as np
 
 from optimizer.formulation.simulation import Prepared
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.outputs.peaks import Search
 
 
 @dataclass(frozen=True)
@@ -28,6 +29,10 @@ class Columns:
     alone: bool = False
 
 
+def _none(_scene: Prepared, _unbalance: Complex | None) -> Iterable[Search]:
+    return ()
+
+
 @dataclass(frozen=True)
 class Output:
     """An output.
@@ -36,6 +41,7 @@ class Output:
     needs : effects whose results it reads; others are let go before.
     figure : its field of the answer, of a scene and the counterweights (webs,) kg m; None where there are none to show.
     columns : of a sweep; None where a sweep cannot hold it.
+    searches : peaks over the turn that its figure shows, which are searched together with those of other outputs.
     """
 
     name: str
@@ -43,6 +49,7 @@ class Output:
     needs: tuple[str, ...]
     figure: Callable[[Prepared, Complex | None], Any]
     columns: Columns | None = None
+    searches: Callable[[Prepared, Complex | None], Iterable[Search]] = _none
 
     @property
     def column_needs(self) -> tuple[str, ...]:

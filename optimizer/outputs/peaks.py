@@ -1,15 +1,17 @@
 """Peaks over the whole turn: bracketed whatever the samples, of one machine and of many designs."""
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Iterable, Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
 from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.curve_batch import CurveBatch
 from optimizer.mechanics.indicated import TURN
 from optimizer.mechanics.row_series import Reading
 from optimizer.mechanics.shaft import INFLUENCES, bearing_places
-from optimizer.mechanics.shaft_curves import ShaftCurves, bending_influence, planes, shaft_curves
+from optimizer.mechanics.shaft_curves import ShaftCurves, planes
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.responses.piecewise_cubics import Bracket, Index
@@ -42,12 +44,65 @@ def bracket(found: Bracket, *index: int) -> tuple[float, float]:
     return float(found.lower[index]), float(found.upper[index])
 
 
+class Search(NamedTuple):
+    """Peaks of curves that an output shows.
+
+    name : what says which they are, among all searches of one scene.
+    """
+
+    name: tuple[Hashable, ...]
+    curves: TurnCurves
+    number: Index  # (m,) which of the curves
+    offset: Complex | Real  # (m,) what is added to each
+    sign: Real | float = 0.0  # (m,) as in :meth:`Pieces.peaks`
+    group: Index | None = None  # (m,) from 0, where only the largest of each group is shown
+
+
+def searched(searches: Iterable[Search]) -> dict[tuple[Hashable, ...], Bracket]:
+    """Brackets (m,), or (groups,), of all searches of one machine, each as if it were alone."""
+    every = list({each.name: each for each in searches}.values())
+    if not every:
+        return {}
+    # what several outputs have in common stands there once
+    curves = list({id(each.curves): each.curves for each in every}.values())
+    batch = CurveBatch(tuple(curves))
+    first = {id(each): int(number) for each, number in zip(curves, batch.first, strict=False)}
+    number = np.concatenate([each.number + first[id(each.curves)] for each in every])
+    offset = np.concatenate([each.offset for each in every])
+    sign = np.concatenate([np.broadcast_to(each.sign, each.number.shape) for each in every])
+    groups = [np.arange(each.number.size) if each.group is None else each.group for each in every]
+    ends = np.cumsum([0, *(int(np.max(group, initial=-1)) + 1 for group in groups)]).tolist()
+    group = np.concatenate([one + end for one, end in zip(groups, ends, strict=False)])
+    found = batch.pieces.peaks(offset, TOLERANCE, number, group, sign)
+    return {
+        each.name: Bracket._make(part[slice(*own)] for part in found)
+        for each, own in zip(every, pairwise(ends), strict=True)
+    }
+
+
+def peaks_of(scene: Prepared, search: Search) -> Bracket:
+    """What has been searched together with all else, or else is searched now."""
+    known = scene.brackets.get(search.name)
+    if known is not None:
+        return known
+    return search.curves.pieces.peaks(search.offset, TOLERANCE, search.number, search.group, search.sign)
+
+
+def rows_search(scene: Prepared, reading: Reading) -> Search:
+    """Largest and smallest values of a force of every row."""
+    whole: WholeTurn = scene.results["whole_turn"]
+    curves = whole.of_rows(reading)
+    count = curves.weights.shape[0] * curves.weights.shape[1]
+    return Search(
+        ("rows", reading), curves, np.tile(np.arange(count), 2), np.zeros(2 * count), np.repeat([1.0, -1.0], count)
+    )
+
+
 def of_rows(scene: Prepared, reading: Reading) -> Extremes:
     """Of a force of every row, (..., rows)."""
-    count = scene.layout.reciprocating.mass.shape[-1]
-    whole: WholeTurn = scene.results["whole_turn"]
-    pieces = _curves_of_rows(whole, reading, count).pieces
-    return Extremes(*(_reshaped(scene, pieces.largest(sign, TOLERANCE)) for sign in (1.0, -1.0)))
+    found = peaks_of(scene, rows_search(scene, reading))
+    both = zip(*(np.split(part, 2) for part in found), strict=True)
+    return Extremes(*(_reshaped(scene, Bracket(*parts)) for parts in both))
 
 
 def largest_of_rows(scene: Prepared, reading: Reading) -> Bracket:
@@ -58,29 +113,26 @@ def largest_of_rows(scene: Prepared, reading: Reading) -> Bracket:
         nothing = np.zeros(scene.layout.omega.shape)
         return Bracket(nothing, nothing.astype(complex), nothing, nothing)
     designs = np.repeat(np.arange(len(whole.centre)), count)
-    found = _curves_of_rows(whole, reading, count).pieces.peaks(np.zeros(designs.size), TOLERANCE, None, designs)
+    found = whole.of_rows(reading).pieces.peaks(np.zeros(designs.size), TOLERANCE, None, designs)
     return _one(_reshaped(scene, found))
 
 
-def of_torque(scene: Prepared, constant: Real | float = 0.0) -> Bracket:
-    """Largest torque of all rows with a constant (...), N m, magnitude: (...)."""
+def torque_search(scene: Prepared, constant: Real | float = 0.0) -> Search:
+    """Largest torque of all rows with a constant (...), N m, magnitude."""
     whole: WholeTurn = scene.results["whole_turn"]
     offset = np.broadcast_to(np.reshape(constant, -1), len(whole.centre))
-    return _one(_reshaped(scene, whole.torque.pieces.peaks(offset, TOLERANCE)))
+    return Search(("torque", offset.tobytes()), whole.torque, np.arange(offset.size), offset)
+
+
+def of_torque(scene: Prepared, constant: Real | float = 0.0) -> Bracket:
+    """The same: (...)."""
+    return _one(_reshaped(scene, peaks_of(scene, torque_search(scene, constant))))
 
 
 def bearing_influence(scene: Prepared) -> Real:
     """Loads of the main bearings for unit loads in all planes, (..., B, L)."""
     influence = INFLUENCES[scene.request.fidelity.shaft]
     return influence(bearing_places(_reciprocating(scene)), planes(scene.layout))
-
-
-def bearing_and_bending_curves(scene: Prepared, corners: Real) -> ShaftCurves:
-    """Loads of the B main bearings and bending moments at corners (..., S), over omega^2: B + S curves together."""
-    influence = INFLUENCES[scene.request.fidelity.shaft]
-    moments = bending_influence(scene.layout, bearing_places(_reciprocating(scene)), influence, corners)
-    both = np.concatenate([bearing_influence(scene), moments], axis=-2)
-    return shaft_curves(scene.results["whole_turn"], scene.layout, both)
 
 
 def of_shaft(scene: Prepared, found: ShaftCurves, unbalance: Complex | None, group: Index | None = None) -> Bracket:
@@ -97,22 +149,30 @@ def of_shaft(scene: Prepared, found: ShaftCurves, unbalance: Complex | None, gro
     return _times_square(scene, pieces.peaks(found.offsets(unbalance), TOLERANCE, None, group))
 
 
-def of_shaft_each(scene: Prepared, found: ShaftCurves, unbalances: Sequence[Complex | None]) -> tuple[Bracket, ...]:
-    """The same with several sets of counterweights, all peaks searched together."""
-    pieces = found.curves.pieces
-    count, sets = len(pieces.half), len(unbalances)
+def shaft_search(found: ShaftCurves, unbalances: Sequence[Complex | None]) -> Search:
+    """Peaks of loads and moments of one machine with several sets of counterweights."""
+    count, sets = found.curves.weights.shape[1], len(unbalances)
     offset = np.concatenate([found.offsets(each) for each in unbalances])
-    every = pieces.peaks(offset, TOLERANCE, np.tile(np.arange(count), sets))
-    each = zip(*(np.split(part, sets) for part in every), strict=True)
+    return Search(("shaft",), found.curves, np.tile(np.arange(count), sets), offset)
+
+
+def of_shaft_each(scene: Prepared, found: ShaftCurves, unbalances: Sequence[Complex | None]) -> tuple[Bracket, ...]:
+    """The same as :func:`of_shaft` with several sets of counterweights, all peaks searched together."""
+    every = peaks_of(scene, shaft_search(found, unbalances))
+    each = zip(*(np.split(part, len(unbalances)) for part in every), strict=True)
     return tuple(_times_square(scene, Bracket(*parts)) for parts in each)
 
 
-def at_least(scene: Prepared, found: ShaftCurves, unbalance: Complex | None) -> Real:
-    """What the same peaks of one machine are not below (C,): the largest at the middles of the pieces."""
-    pieces = found.curves.pieces
-    size = np.abs(pieces.cubic[..., 0] + found.offsets(unbalance)[:, None])
-    largest: Real = np.max(np.where(pieces.half > 0.0, size, 0.0), axis=-1) * scene.omega_squared
-    return largest
+def customary_search(scene: Prepared, customary: Complex) -> Search:
+    """The largest load of a bearing, and the largest bending moment, of one machine with customary counterweights."""
+    found, bearings = scene.shaft_curves, len(_reciprocating(scene).bearings)
+    kind = np.minimum(np.arange(found.curves.weights.shape[1]) // bearings, 1)
+    return Search(("customary",), found.curves, np.arange(kind.size), found.offsets(customary), group=kind)
+
+
+def of_customary(scene: Prepared, customary: Complex) -> Real:
+    """The same (2,) N, N m."""
+    return _times_square(scene, peaks_of(scene, customary_search(scene, customary))).lower
 
 
 def one_by_one(alone: int, together: int) -> Index:
@@ -131,11 +191,6 @@ def _reciprocating(scene: Prepared) -> ReciprocatingMachine:
     machine = scene.machine
     assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
     return machine
-
-
-def _curves_of_rows(whole: WholeTurn, reading: Reading, count: int) -> TurnCurves:
-    """A force of every row by itself."""
-    return whole.curves(reading, np.broadcast_to(np.eye(count), (len(whole.centre), count, count)))
 
 
 def _one(found: Bracket) -> Bracket:

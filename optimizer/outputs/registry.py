@@ -21,6 +21,7 @@ from optimizer.outputs.internal_moment import INTERNAL_MOMENT
 from optimizer.outputs.loads import LOADS
 from optimizer.outputs.orders import ORDERS
 from optimizer.outputs.output import Columns, Output
+from optimizer.outputs.peaks import searched
 from optimizer.outputs.pins import PIN_LOADS
 from optimizer.outputs.roll import ROLL
 from optimizer.outputs.stages import STAGES
@@ -90,6 +91,9 @@ def fields(
     proven : fields of the answer that tell what is proven of counterweights that were chosen.
     """
     outputs = dict.fromkeys((*always, *scene.request.outputs))
+    scene = replace(scene, brackets={})
+    searches = (search for name in outputs for search in OUTPUTS[name].searches(scene, unbalance))
+    scene.brackets.update(searched(searches))
     found = {name: OUTPUTS[name].figure(scene, unbalance) for name in outputs}
     if all(effect in scene.results for effect in FIRST_ORDER_EFFECTS):
         found["balance_quality"] = balance_quality(scene, unbalance)

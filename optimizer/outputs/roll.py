@@ -1,37 +1,50 @@
 """The roll moment on the frame, without and with balance shafts."""
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from optimizer.formulation.simulation import Prepared
-from optimizer.mechanics.roll import roll as roll_response
+from optimizer.mechanics.whole_turn import TurnCurves
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.output import Columns, Output
-from optimizer.outputs.peaks import TOLERANCE, bracket, of_torque
-from optimizer.responses.curve import TurnResponse, peaks
+from optimizer.outputs.peaks import TOLERANCE, Search, bracket, of_torque, peaks_of
+from optimizer.responses.curve import peaks
+from optimizer.responses.piecewise_cubics import Bracket
 from schemas.answer.roll import Roll, RollMoment
 
 
 def _figure(scene: Prepared, unbalance: Complex | None) -> Roll:
-    response = roll_response(scene.results["whole_turn"], scene.layout)
-    nothing = np.zeros(response.influence.shape, complex)
-    after = None
-    if unbalance is not None:
-        fitted = nothing if scene.shafts is None else np.concatenate([unbalance, scene.shafts])
-        after = _moment(scene, response, fitted)
-    return Roll(angle_deg=scene.angles, before=_moment(scene, response, nothing), after=after)
-
-
-def _moment(scene: Prepared, response: TurnResponse, unbalance: Complex) -> RollMoment:
-    """With unbalances (K + S,) kg m on all shafts."""
     angle, square = np.deg2rad(scene.angle_deg), scene.omega_squared
-    found = peaks([response], unbalance, TOLERANCE)
-    moment: Real = np.real(response.at(angle) + response.added(unbalance, angle)) * square
+    bare: Real = np.real(scene.roll.at(angle))
+    before = after = _moment(scene, bare * square, peaks_of(scene, _bare(scene)))
+    fitted = None if unbalance is None or scene.shafts is None else np.concatenate([unbalance, scene.shafts])
+    if fitted is not None:
+        # what turns with the crankshaft has no lever: of all counterweights only those of balance shafts count
+        moment = bare + np.asarray(scene.roll.added(fitted, angle)).real
+        after = _moment(scene, moment * square, peaks([scene.roll], fitted, TOLERANCE))
+    return Roll(angle_deg=scene.angles, before=before, after=None if unbalance is None else after)
+
+
+def _moment(scene: Prepared, samples: Real, found: Bracket) -> RollMoment:
+    square = scene.omega_squared
     return RollMoment(
-        moment_Nm=tuple(moment.tolist()),
+        moment_Nm=tuple(samples.tolist()),
         peak_Nm=float(found.lower[0]) * square,
         peak_bracket_Nm=bracket(found._replace(lower=found.lower * square, upper=found.upper * square), 0),
-        peak_angle_deg=float(np.mod(np.rad2deg(found.angle[0]), response.period_deg)),
+        peak_angle_deg=float(np.mod(np.rad2deg(found.angle[0]), scene.roll.period_deg)),
     )
+
+
+def _searches(scene: Prepared, _unbalance: Complex | None) -> Iterator[Search]:
+    yield _bare(scene)
+
+
+def _bare(scene: Prepared) -> Search:
+    """The moment without balance shafts."""
+    curves = scene.roll.curves
+    assert isinstance(curves, TurnCurves)  # of the rows
+    return Search(("roll",), curves, np.zeros(1, np.intp), np.zeros(1))
 
 
 def _columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
@@ -46,4 +59,5 @@ ROLL = Output(
     ("whole_turn",),
     _figure,
     Columns(_columns, needs=("torque_integrals", "whole_turn")),
+    _searches,
 )

@@ -91,9 +91,14 @@ class Pieces:
         return Known(centre, half, np.require(self.cubic, complex, ("C", "W")), rest)
 
     def peaks(
-        self, offset: Vector, tolerance: Reals, curve: Index | None = None, group: Index | None = None
+        self,
+        offset: Vector,
+        tolerance: Reals,
+        curve: Index | None = None,
+        group: Index | None = None,
+        sign: Reals = 0.0,
     ) -> Bracket:
-        """Peaks (m,) of |d + offset| over the period.
+        """Peaks (m,) of |d + offset| over the period, each as if it were searched alone.
 
         Parameters
         ----------
@@ -101,23 +106,22 @@ class Pieces:
         tolerance : (m,) or one for all, of upper - lower, relative to lower; rounding sets a limit to it.
         curve : (m,) which curve each is asked of, by default all in turn.
         group : (m,) from 0, where only the largest of each group is asked for, which costs less: peaks (groups,).
+        sign : (m,) or one for all, the same in a group: 0 for magnitudes; of scalars 1 for the largest value of
+            d + offset, -1 for the smallest, negated.
         """
         of_member = np.arange(offset.size) if curve is None else curve
         sought = np.arange(offset.size) if group is None else group
         known = np.isfinite(offset)
-        asked, count = np.broadcast_to(tolerance, offset.shape), int(np.max(sought, initial=-1)) + 1
+        count = int(np.max(sought, initial=-1)) + 1
+        asked, signs = (np.broadcast_to(each, offset.shape) for each in (tolerance, sign))
         if not np.all(known):
-            offset, of_member, asked, sought = offset[known], of_member[known], asked[known], sought[known]
-        return _bracketed(self, offset, of_member, sought, count, asked, 0.0)
-
-    def largest(self, sign: float, tolerance: float) -> Bracket:
-        """Largest values (J,) of scalars times a sign: 1 for their maxima, -1 for their minima, negated."""
-        every = np.arange(self.half.shape[0])
-        return _bracketed(self, np.zeros(every.size), every, every, every.size, np.full(every.size, tolerance), sign)
+            offset, of_member, sought = offset[known], of_member[known], sought[known]
+            asked, signs = asked[known], signs[known]
+        return _bracketed(self, offset, of_member, sought, count, asked, signs)
 
 
 def _bracketed(
-    pieces: Pieces, offset: Vector, of_member: Index, group: Index, count: int, tolerance: Real, sign: float
+    pieces: Pieces, offset: Vector, of_member: Index, group: Index, count: int, tolerance: Real, signs: Real
 ) -> Bracket:
     """Brackets (count,), nan where a peak has no member.
 
@@ -125,8 +129,7 @@ def _bracketed(
 
     Parameters
     ----------
-    offset, of_member, group, tolerance : (m,) of every member: its curve, and the peak to which it belongs.
-    sign : 0 for magnitudes; of scalars 1 for their maxima, -1 for their minima, negated.
+    offset, of_member, group, tolerance, signs : (m,) of every member: its curve, and the peak to which it belongs.
     """
     from optimizer.responses.kernel.parts import (
         MOST_CUTS,
@@ -141,9 +144,10 @@ def _bracketed(
 
     if not group.size:
         return Bracket(*(np.full(count, np.nan) for _ in range(4)))
-    scale, share = np.zeros(count), np.zeros(count)
+    scale, share, sign = np.zeros((3, count))
     np.maximum.at(scale, group, pieces.size[of_member] + np.abs(offset))
     np.maximum.at(share, group, tolerance)
+    sign[group] = signs
     curve, peak = (np.require(each, np.int64, ("C", "W")) for each in (of_member, group))
     asked = Asked(curve, peak, np.require(offset, complex, ("C", "W")), share, ROUNDING * scale, sign)
     nowhere = np.zeros(count, np.int64)
@@ -156,7 +160,7 @@ def _bracketed(
         parts = still_open(parts, asked, best, MOST_PARTS if cuts < MOST_CUTS else 0)
     value = pieces.source.values(curve[best.member], best.piece, best.angle)
     there = value + asked.offset[best.member]
-    lower = sign * there.real if sign else np.abs(there)
+    lower = np.where(sign == 0.0, np.abs(there), sign * there.real)
     return Bracket(best.angle, value, lower, best.upper + asked.rounding).where(np.isin(np.arange(count), group))
 
 

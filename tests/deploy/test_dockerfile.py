@@ -61,7 +61,7 @@ def test_kernels_are_compiled_of_what_is_installed() -> None:
     steps = instructions()
     (compiling,) = (n for n, (kind, rest) in enumerate(steps) if kind == "RUN" and "compile_kernels" in rest)
     (installed,) = (
-        n for n, (kind, rest) in enumerate(steps) if kind == "RUN" and "pip" in rest and "--no-deps" in rest
+        n for n, (kind, rest) in enumerate(steps) if kind == "RUN" and "pip" in rest and "--no-build-isolation" in rest
     )
     *_, folder = (rest for kind, rest in steps[:compiling] if kind == "WORKDIR")
     *_, sources = (rest for kind, rest in steps[:installed] if kind == "WORKDIR")

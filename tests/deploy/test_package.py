@@ -18,7 +18,7 @@ _INSTALLS = re.compile(
     r"([^`#|&;]*)"
 )
 #: options of pip whose value is no package
-_WITH_VALUE = {"--requirement", "-r", "--only-binary", "--target"}
+_WITH_VALUE = {"--requirement", "-r", "--only-binary", "--target", "--python"}
 
 
 def packages(line: str) -> list[str]:

@@ -98,7 +98,7 @@ def test_each_pattern_finds_files_of_the_locked_versions(name: str) -> None:
 
 def test_the_image_is_asked_for_what_is_missing_before_and_computes_after() -> None:
     runs = [rest for kind, rest in instructions() if kind == "RUN"]
-    (checked,) = (at for at, rest in enumerate(runs) if rest.endswith(" check"))
+    (checked,) = (at for at, rest in enumerate(runs) if "deploy/check.sh" in rest)
     (pruned,) = (at for at, rest in enumerate(runs) if "prune.py" in rest)
     (computed,) = (at for at, rest in enumerate(runs) if "counterweight optimize " in rest)
     assert checked < pruned < computed

@@ -5,12 +5,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from optimizer.formulation.simulation import Prepared
-from optimizer.mechanics.shaft import bearing_places
-from optimizer.mechanics.shaft_curves import ShaftCurves, shaft_curves, stations
+from optimizer.mechanics.shaft_curves import ShaftCurves, shaft_curves
 from optimizer.mechanics.whole_turn import TurnCurves
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.output import Columns
-from optimizer.outputs.peaks import FLOOR_TOLERANCE, bearing_and_bending_curves, bearing_influence, of_shaft, one_by_one
+from optimizer.outputs.peaks import FLOOR_TOLERANCE, bearing_influence, of_shaft, one_by_one
 from optimizer.responses.curve import floors
 from schemas.answer.outputs import labels
 from schemas.machine.drive import Bearing
@@ -35,7 +34,7 @@ def _root_mean_square(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
 def _floors(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
     """Smallest circles around the loads, and what the largest of all bending moments comes to at least."""
     count, square = len(_bearings(scene)), scene.layout.omega[..., None] ** 2
-    found = bearing_and_bending_curves(scene, stations(scene.layout, bearing_places(_machine(scene))))
+    found = scene.shaft_curves
     group = one_by_one(count, found.webs.shape[-2] - count)
     circles = [[each.circle for each in floors(one, FLOOR_TOLERANCE, None, group)] for one in _alone(found)]
     radius = np.array([[circle.radius for circle in one] for one in circles]) * square

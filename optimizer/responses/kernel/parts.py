@@ -46,7 +46,7 @@ class Asked(NamedTuple):
     offset: Complex  # (M,)
     share: Real  # (G,) of the peak that its bracket may leave open
     rounding: Real  # (G,) that no bracket is narrower than
-    sign: float  # 0 for magnitudes; of scalars 1 for their maxima, -1 for their minima, negated
+    sign: Real  # (G,) 0 for magnitudes; of scalars 1 for their maxima, -1 for their minima, negated
 
 
 class Best(NamedTuple):
@@ -162,7 +162,7 @@ def first_open(known, asked, best):  # type: ignore[no-untyped-def]
         for p in range(pieces):
             most[m, p] = -np.inf
             if known.half[curve, p] > 0.0:
-                middle = _size(known.cubic[curve, p, 0] + asked.offset[m], asked.sign)
+                middle = _size(known.cubic[curve, p, 0] + asked.offset[m], asked.sign[group])
                 # how far the curve may be from the middle of a piece
                 most[m, p] = middle + known.rest[curve, p]
                 for i in range(1, 4):
@@ -198,7 +198,7 @@ def still_open(parts, asked, best, most_parts):  # type: ignore[no-untyped-def]
     most = np.empty(number)
     for n in range(number):
         place, member = parts.place[n], parts.member[n]
-        largest, first, last = _extremes(parts.cubic[n], asked.sign)
+        largest, first, last = _extremes(parts.cubic[n], asked.sign[asked.group[member]])
         most[n] = largest + place[_REST]
         angle = place[_CENTRE] - place[_HALF] if first >= last else place[_CENTRE] + place[_HALF]
         _keep(best, asked.group[member], max(first, last) - place[_REST], angle, parts.piece[n], member)

@@ -1,0 +1,73 @@
+"""Peaks of all outputs of an answer are searched together: each as if it were searched alone."""
+
+import json
+from dataclasses import replace
+from itertools import chain
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optimizer.mechanics import curve_batch
+from optimizer.outputs.peaks import peaks_of, searched
+from optimizer.outputs.registry import OUTPUTS, fields, prepare
+from optimizer.responses import piecewise_cubics
+from schemas.request.requests import AnalyzeRequest
+from tests.benchmarks.outputs import sixteen_rows
+from tests.benchmarks.whole_turn import six_with_gas
+
+_EXAMPLES = Path(__file__).parents[2] / "examples"
+_SHOWN = ("piston_force", "rod_loads", "torque", "overturning", "roll", "loads", "main_bearings")
+
+
+def _example(name: str) -> dict[str, Any]:
+    machine: dict[str, Any] = json.loads((_EXAMPLES / f"{name}.json").read_bytes())["machine"]
+    return machine
+
+
+MACHINES = {
+    # double acting, with friction
+    "2D12": lambda: _example("2d12"),
+    # indicated pressures over two turns
+    "four-stroke": lambda: _example("inline-four-engine"),
+    # many rows, of which most curves have one
+    "16 rows": sixteen_rows,
+    "six with gas": six_with_gas,
+}
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_a_peak_does_not_depend_on_what_is_searched_beside_it(name: str) -> None:
+    # independent: each search by itself, with the curves' own expansions
+    machine = MACHINES[name]()
+    shown = _SHOWN if machine.get("bearings") else _SHOWN[:-1]
+    request = AnalyzeRequest.model_validate({"machine": machine, "outputs": shown, "angles": {"step_deg": 30}})
+    scene = prepare(request)
+    unbalance = np.full(len(machine["webs"]), 0.3 - 0.2j)
+    searches = list(chain.from_iterable(OUTPUTS[each].searches(scene, unbalance) for each in shown))
+    together = searched(searches)
+    for search in searches:
+        alone = peaks_of(replace(scene, brackets={}), search)
+        for part, other in zip(together[search.name], alone, strict=True):
+            np.testing.assert_array_equal(part, other, err_msg=str(search.name))
+
+
+def test_outputs_without_floors_need_one_search(monkeypatch: pytest.MonkeyPatch) -> None:
+    searches: list[int] = []
+    bracketed = piecewise_cubics._bracketed
+
+    def counted(pieces: piecewise_cubics.Pieces, *rest: Any) -> piecewise_cubics.Bracket:
+        searches.append(len(pieces.half))
+        assert isinstance(pieces.source, curve_batch.CurveBatch)
+        return bracketed(pieces, *rest)
+
+    monkeypatch.setattr(piecewise_cubics, "_bracketed", counted)
+    request = AnalyzeRequest.model_validate({"machine": _example("2d12"), "outputs": _SHOWN[:-1]})
+    fields(prepare(request), np.zeros(len(request.machine.webs), complex))
+    # two rows in five readings, the torque and the roll
+    assert searches == [2 * 5 + 2]
+
+
+def test_nothing_is_searched_where_no_output_shows_a_peak() -> None:
+    assert searched(()) == {}
