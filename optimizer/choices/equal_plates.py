@@ -11,11 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.choices.plate_pieces import pieces, tangents
 from optimizer.mechanics.plates import Plates
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.methods.compiled import suits_kernel, unproven
 from optimizer.program.methods.rounding import at_edge, made_up
+from optimizer.program.plate_pieces import pieces, tangents
 from optimizer.program.points import excess_at
 from optimizer.program.solution import CEILING_ROUNDING
 from optimizer.program.statement import Statement

@@ -17,7 +17,6 @@ import numpy as np
 
 from optimizer.choices.equal_plates import Cut, alike, emptied, one_size, total_mass
 from optimizer.choices.plate_guess import guessed
-from optimizer.choices.plate_pieces import Pieces, Webs, chords, closer_nodes, first_nodes, pieces, tangents
 from optimizer.formulation.demand import demand
 from optimizer.formulation.goals import cone_program
 from optimizer.formulation.limits import limits
@@ -30,6 +29,7 @@ from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import Optima, optima
 from optimizer.program.methods.rounding import dust
 from optimizer.program.methods.symmetry import symmetric
+from optimizer.program.plate_pieces import Pieces, Webs, chords, closer_nodes, first_nodes, pieces, tangents
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.program.statement import Statement

@@ -1,11 +1,10 @@
 """A plate as webs in one plane: tangents of its convex mass, which are no heavier, and chords, which are no lighter."""
 
 from dataclasses import replace
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from optimizer.mechanics.plates import Plates
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.limits import OF_WEBS, Limits
 from optimizer.program.statement import Statement
@@ -18,6 +17,30 @@ _FIRST = np.arctan(np.exp(np.linspace(-4.0, 4.0, 13)))
 _NEARER = np.array([1.0, 0.125, 0.015625])
 #: nodes that are nearer than this share of the largest half-angle are one
 _SAME = 1e-9
+
+
+class Plates(Protocol):
+    """Webs whose mass is a convex function of their unbalance, by half of their opening (..., P)."""
+
+    @property
+    def webs(self) -> np.ndarray:
+        """(P,) which webs of the program."""
+
+    @property
+    def most(self) -> Real:
+        """Largest half-angles, rad."""
+
+    def unbalance(self, half_angle: Real) -> Real:
+        """Mass times radius, kg m."""
+
+    def mass(self, half_angle: Real) -> Real:
+        """kg."""
+
+    def lever(self, half_angle: Real) -> Real:
+        """dU/dm of what is added at these openings, m."""
+
+    def opened(self, unbalance: Real) -> Real:
+        """Half-angles of unbalances, rad; the largest for more than a plate holds."""
 
 
 class Webs(NamedTuple):
