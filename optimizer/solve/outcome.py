@@ -32,7 +32,7 @@ class Outcome:
 
 def multipliers_of(proof: Proof, omega_squared: float, bounded: Bounded = "objective") -> BoundMultipliers:
     """Multipliers of a bound, of a program over omega^2, by their names and in their units."""
-    scaled = physical(proof.statement, proof.multipliers, bounded, omega_squared)
+    scaled = physical(proof.with_pieces, proof.multipliers, bounded, omega_squared)
     return named(proof.statement, scaled.of_groups(proof.statement, proof.scale))
 
 
