@@ -6,16 +6,15 @@ are chosen anew, and what is found is taken where it is within what is proven.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.choices.plate_pieces import pieces, tangents
 from optimizer.mechanics.plates import Plates
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.methods.compiled import suits_kernel, unproven
 from optimizer.program.methods.rounding import at_edge, made_up
+from optimizer.program.plate_pieces import pieces, tangents
 from optimizer.program.points import excess_at
 from optimizer.program.solution import CEILING_ROUNDING
 from optimizer.program.statement import Statement
@@ -181,7 +180,7 @@ def _admitted(whole: Statement, cut: Cut, optimum: tuple[float, float], least_ma
         optimum[0],
         float(np.maximum(optimum[1], whole.objective(u)[0])),
         float(np.maximum(excess_at(whole, u[None])[0], CEILING_ROUNDING)),
-        min(heaviest, max(cut.mass, float(whole.limits.max_total_mass[0]))),
+        heaviest,
         bool(np.isfinite(least_mass)),
     )
 
@@ -250,10 +249,6 @@ def _others(
     left, fixed = ~held & np.all(many.limits.reach > 0, axis=0), np.where(held, u, 0.0)
     if not left.any():
         return fixed
-    limits = many.limits
-    if np.isfinite(limits.max_total_mass).any():
-        spent = np.add.reduce(plates.mass_of(np.abs(fixed[:, plates.webs])), axis=-1)
-        limits = replace(limits, max_total_mass=limits.max_total_mass - spent)
-    laid = pieces(replace(many.about(fixed), limits=limits), plates, tangents(plates, nodes), left)
+    laid = pieces(many.about(fixed), plates, tangents(plates, nodes), left)
     found, _ = unproven(laid.program, np.full(len(u), share), least_mass)
     return fixed + laid.carried(found)

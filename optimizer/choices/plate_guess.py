@@ -12,11 +12,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.choices.plate_pieces import pieces, tangents
 from optimizer.mechanics.plates import Plates
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.equal_unknowns import united
 from optimizer.program.methods.compiled import suits_kernel, unproven
+from optimizer.program.plate_pieces import pieces, tangents
 from optimizer.program.statement import Statement
 
 #: Newton's steps, and how often one is halved

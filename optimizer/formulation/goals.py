@@ -20,6 +20,7 @@ from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.roll import mirrored, roll
 from optimizer.mechanics.shaft import INFLUENCES, bearing_places
 from optimizer.mechanics.shaft_curves import bearing_loads, bending_moments
+from optimizer.mechanics.shapes import closed, plates
 from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.numerics.arrays import Real, Reals
 from optimizer.program.cuts.cut import EXACT, Quantity, Scatter
@@ -130,7 +131,8 @@ def formulate(
         for each, allowed in limited_responses(responses, objective)
     )
     capped = tuple((each.quantity, each.ceiling / each.omega_squared) for each in limited)
-    program = Problem(tuple(quantities), chosen, exact, capped, limits(machine, np.shape(omega_squared)), scatter)
+    cut, most = plates(machine), limits(closed(machine), np.shape(omega_squared))
+    program = Problem(tuple(quantities), chosen, exact, capped, most, scatter, cut)
     return Goals(program, limited, tuple(cases))
 
 

@@ -63,6 +63,12 @@ def fitted(machine: Machine, half_angle: Real) -> Machine:
     return machine.model_copy(update={"webs": tuple(webs)})
 
 
+def closed(machine: Machine) -> Machine:
+    """The machine with the radius of a first gram of every plate."""
+    cut = plates(machine)
+    return machine if cut is None else fitted(machine, np.zeros(cut.webs.size))
+
+
 def fitted_masses(machine: Machine, mass_kg: Real) -> Machine:
     """The same for masses (K,) that are on the machine."""
     cut = plates(machine)

@@ -24,13 +24,16 @@ class ShadowPrices:
     ceiling: Real  # (..., I) per unit of response
 
 
-def shadow_prices(statement: Statement, u: Complex, multipliers: Multipliers) -> ShadowPrices:
+def shadow_prices(
+    statement: Statement, u: Complex, multipliers: Multipliers, budget: Real | None = None
+) -> ShadowPrices:
     """Prices of all limits, from the multipliers of the lower bound.
 
     Parameters
     ----------
     u : (..., K) kg m, an optimum.
     multipliers : admissible, with rows of sum 1.
+    budget : (...) price of the budget where it is known more closely: of plates by what is laid in their place.
     """
     limits, ceilings = statement.limits, statement.ceilings
     slope = np.add.reduce(np.conj(statement.norms.influence) * multipliers.term[..., :, None], axis=-2)
@@ -39,8 +42,9 @@ def shadow_prices(statement: Statement, u: Complex, multipliers: Multipliers) ->
     # what a kilogram on a web is worth; the budget is spent in falling order of it, and costs what the last one is
     # worth that it does not pay in full (docs/mathematics.md section 5)
     support = limits.support(-slope)
-    ends = limits.budget_ends
-    budget = limits.spent(limits.margin * support)[1] if ends.any() else np.zeros(ends.shape)
+    if budget is None:
+        ends = limits.budget_ends
+        budget = limits.spent(limits.margin * support)[1] if ends.any() else np.zeros(ends.shape)
     return ShadowPrices(
         max_mass=np.maximum(limits.radius * (support - budget[..., None] / limits.margin), 0.0),
         half_angle=np.abs(u) * limits.opening(-slope),

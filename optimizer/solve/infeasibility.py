@@ -12,6 +12,7 @@ from optimizer.formulation.formulate import RESPONSES, given_ceilings
 from optimizer.formulation.formulate import limited as limited_responses
 from optimizer.formulation.goals import Goals
 from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.shapes import closed
 from optimizer.outputs.first_order import added_peaks, first_order, smallest_peaks, smallest_proofs
 from optimizer.program.cuts.dominance import Group, Weighed
 from optimizer.program.cuts.optimum import METHOD, Found, Unkept, over_turn
@@ -19,6 +20,7 @@ from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.limits import Limits
 from optimizer.program.rows import Row, weighted_peak
 from optimizer.program.verdict import INFEASIBLE
+from optimizer.solve.cut_plates import cut_plates
 from optimizer.solve.outcome import Outcome, multipliers_of
 from optimizer.solve.proof import implied_max_mass, named_excess
 from schemas.answer.infeasibility import Closest, Infeasibility, SmallestPeak
@@ -117,8 +119,12 @@ def report(
 
 def out_of_reach(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Unkept) -> Outcome:
     """Which ceilings conflict, what each peak comes to by itself, and the best compromise."""
-    mass, angle = masses_and_angles(posed(request).machine, found.closest.unbalance, found.limits)
-    return unreachable(request, scene, asked, chosen(request, mass, angle), found.limits, found)
+    cut, there, within = cut_plates(request, scene, asked, found.closest.unbalance, found.limits)
+    program = within.program
+    limits = found.limits if program.plates is None else program.limits
+    mass, angle = masses_and_angles(posed(cut).machine, found.closest.unbalance, limits)
+    outcome = unreachable(request, there, asked, chosen(cut, mass, angle), found.limits, found)
+    return outcome if program.plates is None else replace(outcome, cut=there)
 
 
 def unreachable(
@@ -163,9 +169,9 @@ def unreachable(
     conflict, scenarios = None, tuple[str, ...]()
     if found is not None:
         scales, proof = asked.program.excess_scales(found.proof.cuts), found.proof
-        conflict = named_excess(proof.statement, proof.multipliers, scales, asked.speeds)
+        conflict = named_excess(proof.with_pieces, proof.multipliers, scales, asked.speeds)
         scenarios = _scenarios(asked.program, found)
-    implied = implied_max_mass(posed(request).machine, most[None])[0]
+    implied = implied_max_mass(closed(posed(request).machine), most[None])[0]
     fields = report(scene, shown, (*exact, *both), together, peaks, implied, conflict, scenarios)
     spent = (0.0 if found is None else found.certify_s) + sum(each.certify_s for each in least.values())
     return Outcome("infeasible", INFEASIBLE, None, None, None, spent, METHOD, 0, fields)

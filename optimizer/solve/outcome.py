@@ -39,7 +39,7 @@ def multipliers_of(
     ----------
     speeds : omega^2 by scenario, that ceilings are over.
     """
-    scaled = physical(proof.statement, proof.multipliers, bounded, omega_squared, speeds)
+    scaled = physical(proof.with_pieces, proof.multipliers, bounded, omega_squared, speeds)
     return named(proof.statement, scaled.of_groups(proof.statement, proof.scale))
 
 

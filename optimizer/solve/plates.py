@@ -2,9 +2,9 @@
 
 The mass m(U) of a plate is convex. Tangents of it are webs in one plane, each with a radius and a largest mass of its
 own, which together are no heavier than what is cut: what is proven of them is proven of the plate. What they call for
-is cut, and is the answer, but for a budget: then chords are, such webs too and no lighter, so that what they find keeps
-it. Both are laid about where the answer is guessed to be, and closer about what the tangents call for, until the gap is
-as asked.
+is cut, and is the answer. They are laid about where the answer is guessed to be, and closer about what they call for,
+until the gap is as asked. A budget holds of what is cut and not of its tangents: such programs are solved by cuts
+(:func:`optimizer.formulation.demand.by_cuts`).
 """
 
 from collections.abc import Sequence
@@ -17,33 +17,28 @@ import numpy as np
 
 from optimizer.choices.equal_plates import Cut, alike, emptied, one_size, total_mass
 from optimizer.choices.plate_guess import guessed
-from optimizer.choices.plate_pieces import Pieces, Webs, chords, closer_nodes, first_nodes, pieces, tangents
 from optimizer.formulation.demand import demand
 from optimizer.formulation.goals import cone_program
 from optimizer.formulation.limits import limits
 from optimizer.mechanics.plates import Plates
 from optimizer.mechanics.shapes import fitted, plates
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.program.certificate import mass_lower_bound
-from optimizer.program.limits import Limits
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import Optima, optima
 from optimizer.program.methods.rounding import dust
 from optimizer.program.methods.symmetry import symmetric
+from optimizer.program.plate_pieces import Pieces, Webs, closer_nodes, first_nodes, pieces, tangents
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import MASS_GAP, mass_resolution, yardstick
 from optimizer.responses.response import Response
 from optimizer.solve.certify import Certified, certified, judged
+from optimizer.solve.cut_plates import limits_of_cut, openings
 from schemas.request.requests import OptimizeRequest
 
 #: how often nodes are laid
 _ROUNDS = 12
-#: what optima may differ by under a budget, of what is asked: the rest is for what tangents reach below chords
-_WITH_CHORDS = 0.99
-#: how often it is guessed where
-_GUESSES = 3
 #: how often a point without some webs is sought, each time about what was found before
 _CLEARINGS = 4
 #: of the way from one cut to another
@@ -70,8 +65,7 @@ def certified_shapes(
     if cut is None:
         return request, certified(request.machine, request.objective, responses, omega_squared, demand(request), solver)
     end = thread_time() + request.accuracy.time_limit_s
-    closed = fitted(request.machine, np.zeros(cut.webs.size))
-    whole = within_reach(cone_program(closed, request.objective, responses, omega_squared), solver)
+    whole = within_reach(cone_program(request.machine, request.objective, responses, omega_squared), solver)
     every = np.ones(len(request.machine.webs), bool)
     task = _Task(request, whole, cut, omega_squared, solver, request.accuracy.relative_gap, every)
     nodes, tried = task.guessed(first_nodes(cut)), []
@@ -127,41 +121,26 @@ class _Task:
 
     def opened(self, u: Complex) -> Real:
         """Half-angles (P,) of what is cut for unbalances (K,), of alike webs alike, rad."""
-        angle, among = self.plates.opened(np.abs(u[self.plates.webs])), self.whole.limits.alike
-        if among is None:
-            return angle
-        return angle[np.searchsorted(self.plates.webs, np.array(among.leader)[self.plates.webs])]
+        return openings(self.plates, u, self.whole.limits.alike)
 
     def guessed(self, nodes: Real) -> Real:
         """Nodes about what is guessed from those of tangents."""
         goal = self.request.objective
         share = min(OPTIMUM_SHARE, self.request.accuracy.relative_gap) * self.size
-        # under a budget coarse tangents reach further than plates do
-        for _ in range(_GUESSES if np.isfinite(self.whole.limits.max_total_mass[0]) else 1):
-            angle = guessed(self.whole, self.plates, nodes, share, goal.least_mass)
-            if angle is None:
-                break
-            nodes = closer_nodes(nodes, angle)
-        return nodes
+        angle = guessed(self.whole, self.plates, nodes, share, goal.least_mass)
+        return nodes if angle is None else closer_nodes(nodes, angle)
 
     def round(self, nodes: Real) -> _Round:
-        """What tangents and, under a budget, chords between half-angles (n, P) come to."""
+        """What tangents at half-angles (n, P) come to."""
         goal, whole = self.request.objective, self.whole
         of_tangents, proven = self._optimum(tangents(self.plates, nodes))
         called_for = u = of_tangents.carried(proven.unbalance[0])
-        spent = proven.certify_s
-        if np.isfinite(whole.limits.max_total_mass[0]) and not proven.unreachable[0]:
-            # what tangents call for may be heavier than the budget, what chords find is not
-            of_chords, feasible = self._optimum(chords(self.plates, nodes))
-            u = of_chords.carried(feasible.unbalance[0])
-            proven = _up_to(of_tangents.program, proven, whole.objective(u) + whole.rounding(u))
-            spent = spent + feasible.certify_s
         if goal.symmetric:
             # no worse in any term, so that what is proven of those that were found holds
             u = symmetric(whole, u[None], self.kinds)[0]
         angle = self.opened(u)
         mass = float(total_mass(whole, self.plates, u, angle))
-        return _Round(replace(proven, certify_s=spent), Cut(u, angle, mass), called_for)
+        return _Round(proven, Cut(u, angle, mass), called_for)
 
     def lightest(self, tried: Sequence[_Round]) -> _Round:
         """The last round, or the lightest of all cuts with the largest bound of the mass: proofs hold for all cuts."""
@@ -190,10 +169,8 @@ class _Task:
         return bool(not proven.unreachable[0] and objective <= self._largest(proven) + rounding)
 
     def _optimum(self, webs: Webs) -> tuple[Pieces, Optima]:
-        laid, gap = pieces(self.whole, self.plates, webs, self.left), self.relative_gap
-        if np.isfinite(self.whole.limits.max_total_mass[0]):
-            gap *= _WITH_CHORDS
-        return laid, optima(laid.program, gap, self.request.objective.least_mass, self.solver)
+        laid = pieces(self.whole, self.plates, webs, self.left)
+        return laid, optima(laid.program, self.relative_gap, self.request.objective.least_mass, self.solver)
 
     def without_dust(self, found: _Round, nodes: Real) -> _Round:
         """The same with webs left empty that carry next to nothing, where what is proven of all holds for it."""
@@ -284,29 +261,9 @@ class _Task:
         machine = fitted(self.request.machine, angle[first])
         asked = self.request.model_copy(update={"machine": machine})
         stated = limits(machine, self.omega_squared.shape)
-        program = replace(self.whole, limits=_limits(stated, self.whole.limits, self.plates, angle[first]))
+        program = replace(self.whole, limits=limits_of_cut(stated, self.whole.limits, self.plates, angle[first]))
         found = replace(proven, unbalance=cut.unbalance[None])
         wanted = demand(asked)
         return asked, judged(
             machine, wanted, program, found, self.omega_squared, lambda mass, angle: (mass[..., same], angle)
         )
-
-
-def _up_to(program: Statement, proven: Optima, objective: Real) -> Optima:
-    """What is proven of the mass of all up to an objective (1,): under a budget chords may reach no smaller one.
-
-    Any target proves a bound with the same multipliers; a larger one a smaller bound.
-    """
-    if np.all(objective <= proven.mass_target):
-        return proven
-    target = np.maximum(proven.mass_target, objective)
-    bound = np.minimum(mass_lower_bound(program, proven.mass_multipliers, target), proven.mass_lower_bound)
-    return replace(proven, mass_target=target, mass_lower_bound=bound)
-
-
-def _limits(stated: Limits, reached: Limits, plates: Plates, angle: Real) -> Limits:
-    """Limits of webs with the radii of half-angles (P,); what the others may reach at most is as it was proven."""
-    most, margin = reached.max_mass.copy(), stated.radius.copy()
-    most[..., plates.webs] = stated.max_mass[..., plates.webs]
-    margin[..., plates.webs] = plates.lever(angle)
-    return replace(stated, max_mass=most, marginal_radius=margin)

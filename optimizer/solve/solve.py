@@ -1,5 +1,6 @@
 """Certified counterweights of one request, whatever it asks for and however they may be chosen."""
 
+from optimizer.formulation.demand import by_cuts
 from optimizer.formulation.simulation import Prepared
 from optimizer.program.reference.solver import Solver
 from optimizer.solve.choice import certified_choice
@@ -23,7 +24,7 @@ def solve(request: OptimizeRequest, scene: Prepared, solver: Solver, in_full: bo
     MissingInput
         if a machine lacks what the objective needs.
     """
-    if not (request.objective.over_the_turn or request.robust):
+    if not by_cuts(request):
         return certified_first(request, scene, solver)
     if request.machine.discrete or request.machine.semicontinuous:
         return certified_choice(request, scene, solver, in_full)

@@ -1,6 +1,7 @@
 """Certified counterweights of one request that asks for the whole turn: bearings, bending, goals in their order."""
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +16,7 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.fixed_weights import beside
 from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.program.certificate import ceiling_allowance, normalised
+from optimizer.program.certificate import budget_price, ceiling_allowance, normalised
 from optimizer.program.cuts.optimum import METHOD, Found, Unkept, over_turn
 from optimizer.program.cuts.proof import Proof
 from optimizer.program.cuts.semi_infinite import Problem, Values
@@ -23,6 +24,7 @@ from optimizer.program.sensitivity import shadow_prices
 from optimizer.program.verdict import CONTRADICTED, Claim, mass_resolution, verdict
 from optimizer.solve import sensitivity
 from optimizer.solve.certify import figures
+from optimizer.solve.cut_plates import cut_plates
 from optimizer.solve.cutting_plane_rounds import Ended
 from optimizer.solve.infeasibility import out_of_reach
 from optimizer.solve.outcome import Outcome, certificate, finite_or_null, multipliers_of
@@ -107,8 +109,12 @@ def fitted(
     asked : what the counterweights are judged by: the program that was solved, or one with more variants.
     in_full : with prices of the limits and what misplaced counterweights may cost.
     """
+    if asked.program.plates is not None:
+        request, scene, asked = cut_plates(request, scene, asked, found.point.unbalance, found.limits)
+        found = found.within(asked.program.limits)
     mass, angle = masses_and_angles(posed(request).machine, found.point.unbalance, found.limits)
-    return told(request, scene, asked, Candidate(mass, angle, found), wanted, in_full=in_full)
+    outcome = told(request, scene, asked, Candidate(mass, angle, found), wanted, in_full=in_full)
+    return outcome if asked.program.plates is None else replace(outcome, cut=scene)
 
 
 def told(
@@ -238,10 +244,11 @@ def _prices(
 ) -> tuple[ShadowPrice, ...]:
     """What limits cost, by the proof of the objective: every ceiling over the turn by all of its cuts."""
     usable, _ = normalised(proof.statement, proof.multipliers)
+    budget = None if proof.laid is None else budget_price(proof.laid, usable, 0.0)
     return priced(
         request.machine,
         request.objective,
-        shadow_prices(proof.statement, u, usable),
+        shadow_prices(proof.statement, u, usable, budget),
         [(each, proof.cuts[each.quantity]) for each in asked.limited],
         active,
         omega_squared,

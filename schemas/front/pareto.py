@@ -80,10 +80,8 @@ class ParetoRequest(OptimizeRequest):
         yield from self.worst_case_rules("remove it: a front is of one machine as it is given")
         yield from self._trade_rules()
         yield from no_balance_shafts(self.machine, ("machine",), "a front")
-        if self.counts is not None or self.responses is not None:
-            # but for force and moment alone
-            yield from self.envelope_rules("such a front is of counterweights of a known radius: sweep a ceiling")
         if self.counts is not None:
+            yield from self.envelope_rules("counts are of a catalogue, whose counterweights have a known radius")
             yield from self._count_rules(self.counts)
         elif self.chosen:
             message = "remove it: it proves what free masses at free angles reach, and these counterweights are chosen"

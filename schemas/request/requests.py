@@ -135,18 +135,6 @@ class OptimizeRequest(Scene, Ruled):
             scatters = squares and self.tolerances.reciprocating_mass_relative > 0
             message = "of peaks only: not with objective.bearing_measure rms"
             yield Rule(scatters, ("tolerances", "reciprocating_mass_relative"), message)
-        if not any(web.envelope is not None for web in self.machine.webs):
-            return
-        if self.objective.over_the_turn or self.robust:
-            also = "scenarios and tolerances" if self.robust else f"objective.{self.objective.over_the_turn[0]}"
-            yield from self.envelope_rules(f"not with {also}: optimise without, then give the radius that is found")
-        limits = self.machine.max_total_mass_kg is not None and any(
-            getattr(self.objective, name) is not None
-            for name in type(self.objective).model_fields
-            if "_ceiling_" in name
-        )
-        if limits:
-            yield from self.envelope_rules("not with a budget and ceilings together: sweep the budget")
 
     def envelope_rules(self, message: str) -> Iterator[Rule]:
         """Envelopes that are given where only a counterweight of a known radius can be asked for."""

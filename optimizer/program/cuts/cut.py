@@ -135,6 +135,7 @@ class Pool:
 
     def __init__(self, first: Sequence[Sequence[Cut]], scatter: Scatter) -> None:
         self.cuts = [list(cuts) for cuts in first]
+        self.nodes: Real | None = None  # (n, P) half-angles at which the masses of plates have tangents, rad
         self.scatter = scatter
 
     def count(self) -> int:

@@ -85,6 +85,12 @@ class Found:
             return self
         return replace(self, mass_proof=self.mass_proof.up_to(value - self.mass_target), mass_target=value)
 
+    def within(self, limits: Limits) -> "Found":
+        """With limits that say the same by other radii: those of what is cut from plates."""
+        goals = tuple(each._replace(proof=each.proof.within(limits)) for each in self.goals)
+        of_mass = None if self.mass_proof is None else self.mass_proof.within(limits)
+        return replace(self, goals=goals, mass_proof=of_mass, limits=limits)
+
     @property
     def mass_gap(self) -> float:
         """Of the mass above its bound, relative to it; inf where nothing is proven."""
@@ -165,7 +171,7 @@ def next_goal(
     before : all goals but the last, with the most that they may come to.
     u : (K,) kg m, within the limits, that keeps these levels and the ceilings.
     """
-    inside = Point(u, program.values(u, _TOLD), float(np.sum(np.abs(u) / program.limits.radius)))
+    inside = Point(u, program.values(u, _TOLD), program.mass(u))
     nearest = Stage(inside, None, 0, 0.0, False)
     raised, until = inside.values.excess > -_AMPLE, time.thread_time() + time_limit_s
     course = _Course(program, Pool(program.first, program.scatter), nearest, raised, False, until)
@@ -330,4 +336,10 @@ def _bounded(program: Problem, inside: Point, most: Real, room: float = 0.0) -> 
     if not np.any(far_limits(statement)):
         return program
     levels = np.append(most, inside.values.goals[most.size] + room)
-    return program.changed(limits=bounded(statement, _level(program, levels)).limits)
+    reached = bounded(statement, _level(program, levels)).limits
+    if program.plates is not None:
+        # of these the reach is stated, and speaks of the mass as if it were a multiple
+        most_held = reached.max_mass.copy()
+        most_held[program.plates.webs] = program.limits.max_mass[program.plates.webs]
+        reached = replace(reached, max_mass=most_held)
+    return program.changed(limits=reached)

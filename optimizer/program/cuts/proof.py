@@ -16,6 +16,7 @@ from optimizer.program.certificate import (
 )
 from optimizer.program.cuts.floors import floor_multipliers
 from optimizer.program.cuts.semi_infinite import Cuts, Problem
+from optimizer.program.limits import Limits
 from optimizer.program.multipliers import mass_multipliers, objective_multipliers, resting_multipliers
 from optimizer.program.statement import Statement
 
@@ -34,6 +35,7 @@ class Proof:
     cuts : of every quantity, in the order of the statement.
     price : of a bound of the mass, by which it falls where the last goal may come to one more, kg.
     scale : (groups,) what the groups of the statement are multiplied by; None where they are as they are.
+    laid : the statement with tangents in place of plates, by which it was proven; None where none count.
     """
 
     bound: float
@@ -43,6 +45,22 @@ class Proof:
     cuts: tuple[int, ...]
     price: float = 0.0
     scale: Real | None = None
+    laid: Statement | None = None
+
+    def of_webs(self, statement: Statement) -> "Proof":
+        """The same of the statement whose plates have tangents in the one of the proof."""
+        return replace(
+            self, statement=statement if self.scale is None else times(statement, self.scale), laid=self.statement
+        )
+
+    @property
+    def with_pieces(self) -> Statement:
+        """The statement whose limits price a budget: with what was laid in place of plates."""
+        return self.statement if self.laid is None else self.laid
+
+    def within(self, limits: Limits) -> "Proof":
+        """The same with other limits, of which it is true as well."""
+        return replace(self, statement=replace(self.statement, limits=limits))
 
     def up_to(self, more: float) -> "Proof":
         """That of the mass of all whose last goal comes to so much more."""

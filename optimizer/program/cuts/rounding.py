@@ -11,7 +11,10 @@ from optimizer.program.cuts.stage import Point
 from optimizer.program.methods.rounding import HEAVIER, NEAR, brought
 from optimizer.program.solution import CEILING_ROUNDING
 from optimizer.program.statement import Statement
+from optimizer.program.verdict import MASS_GAP
 
+#: relative gap of the mass that may be left where plates are opened to their limit: most of what may be claimed
+_HEAVIER_PLATES = 0.9 * MASS_GAP
 #: all at once, then dust and limits by themselves, each as far as it can be had
 _STEPS = ((NEAR[0], NEAR[0]), *((near, 0.0) for near in NEAR[1:]), *((0.0, near) for near in NEAR))
 
@@ -32,16 +35,19 @@ def settled_turn(
     rows = [responses.index(name) for name in dict.fromkeys(responses)]
     influence = np.concatenate([statement.norms.influence[rows], statement.ceilings.norms.influence])
     limits = mapped(statement.limits, lambda array: array[None])
-    heaviest = np.inf if mass_bound is None else mass_bound / (1.0 - HEAVIER)
+    # the edge of a full plate weighs much and moves little
+    heavier = HEAVIER if program.plates is None else _HEAVIER_PLATES
+    heaviest = np.inf if mass_bound is None else mass_bound / (1.0 - heavier)
     for dust, touched in _STEPS:
         u, moved = brought(limits, influence[None], point.unbalance[None], dust, touched)
         if not moved.size:
             continue
-        mass = float(np.sum(np.abs(u[0]) / statement.limits.radius))
+        mass = program.mass(u[0])
         if mass > max(point.mass, heaviest):
             continue
         old, new = program.values(point.unbalance, width), program.values(u[0], width)
         kept = np.all(new.goals <= np.maximum(most, old.goals))
+        kept &= new.over_budget <= max(old.over_budget, 0.0)
         if kept and new.excess <= max(old.excess, CEILING_ROUNDING):
             point = replace(point, unbalance=u[0], values=new, mass=mass)
     return point

@@ -27,6 +27,7 @@ from optimizer.program.cuts.samples import Samples
 from optimizer.program.cuts.terms import Terms
 from optimizer.program.limits import Limits
 from optimizer.program.norms import Norms
+from optimizer.program.plate_pieces import Plates, total_mass
 from optimizer.program.rows import Row, WeightedPeak, statement
 from optimizer.program.scaling import natural_reach
 from optimizer.program.statement import Names, Statement
@@ -60,6 +61,7 @@ class Values(NamedTuple):
     goals: Real  # (goals,)
     over: Real  # (ceilings and limited,) excess over each ceiling, relative to its size
     reached: tuple[Reached, ...]  # every quantity
+    over_budget: float = -1.0  # of the mass, relative to the budget, where plates count; below 0 some is left
 
     @property
     def excess(self) -> float:
@@ -75,6 +77,8 @@ class Problem:
 
     goals : in the order of their priority, at least one.
     ceilings, limited : responses with the largest peak allowed, and quantities, by their place, with the largest value.
+    plates : webs whose mass is no multiple of their unbalance; their radius in the limits is that of a first gram, so
+        that all that is proven with it is true of what is heavier.
     """
 
     quantities: tuple[Quantity, ...]
@@ -83,6 +87,11 @@ class Problem:
     limited: tuple[tuple[int, float], ...]
     limits: Limits
     scatter: Scatter = EXACT
+    plates: Plates | None = None
+
+    def mass(self, u: Complex) -> float:
+        """What an unbalance (K,) weighs, kg."""
+        return total_mass(self.plates, self.limits.radius, u)
 
     @cached_property
     def finite(self) -> Statement | None:
@@ -330,7 +339,14 @@ class Problem:
             float(response.to(u).peak) + self.scatter.of(response.influence, u) - cap for response, cap in self.ceilings
         ]
         over += [reached[q].upper - cap for q, cap in self.limited]
-        return Values(self.of_goals(np.array(largest)), np.array(over) / sizes, reached)
+        return Values(self.of_goals(np.array(largest)), np.array(over) / sizes, reached, self._over_budget(u))
+
+    def _over_budget(self, u: Complex) -> float:
+        budget = float(self.limits.max_total_mass)
+        if self.plates is None or budget == np.inf:
+            return -1.0
+        mass = self.mass(u)
+        return mass / budget - 1.0 if budget > 0.0 else mass
 
     def excess_scales(self, cuts: Sequence[int]) -> Real:
         """What the rows of the program of the smallest excess are divided by, with so many cuts of every quantity."""

@@ -19,6 +19,7 @@ from optimizer.program.cuts.attempts import FREELY, WITHIN, Attempt
 from optimizer.program.cuts.cut import Pool, Reached
 from optimizer.program.cuts.proof import Proof, proofs, resting_proof, times, units
 from optimizer.program.cuts.semi_infinite import Problem, Values
+from optimizer.program.plate_pieces import Pieces, Plates, first_nodes, nodes_about, pieces, tangents
 from optimizer.program.reference.assembled import NoPoint, Target, solved
 from optimizer.program.scaled_program import Stage as CostStage
 from optimizer.program.scaling import natural_reach, scale
@@ -45,6 +46,8 @@ _MISSED = 1.5
 _NARROWEST = 1e-12
 #: share of a goal below which points do not keep what is aimed at
 _LEAST_MARGIN = 1e-12
+#: share of the mass of a plate that its tangents may lack: of a mass that is proven to 1e-5, and of one to be kept
+_LIGHTER, _WITHIN_BUDGET = 1e-7, 1e-10
 #: relative width of the brackets of a point that may be the answer, and of one that only just keeps what it has to
 _JUDGED, _CLOSE = 5e-11, 1e-12
 
@@ -104,6 +107,10 @@ class Search:
         # nothing has to be kept, nor is it one that is measured by 1: an excess over ceilings, the trade of a front
         self.free = not (levels.most.size or program.ceilings or program.limited or program.goals[-1].unit)
         self.allowed = CEILING_TOLERANCE if raised else CEILING_ROUNDING
+        #: of which tangents are laid: without a budget the mass counts where it is to be small
+        budget = bool(np.isfinite(program.limits.max_total_mass))
+        self.plates = program.plates if self.of_mass or budget else None
+        self.lighter = _WITHIN_BUDGET if budget else _LIGHTER
         self.unit = units(program)
         statement = times(program.begun, 1.0 / self.unit[program.goal_of])
         needed = 2.0 * float(np.max(np.abs(inside.unbalance), initial=0.0))
@@ -216,10 +223,31 @@ class Search:
         self.margin = np.minimum(self.levels.margin, np.maximum(worth, least))
 
     def _added_cuts(self, evaluations: Sequence[Sequence[Reached]], u: Complex, matters: Real) -> bool:
-        """Whether a point has shown a cut that was not known."""
+        """Whether a point has shown a cut that was not known, or a plate that is heavier than its tangents."""
         new = self.pool.add(evaluations, u, matters)
         self.pool.forget(u)
-        return new
+        if self.plates is None:
+            return new
+        nodes = nodes_about(self.plates, self._nodes(self.plates), u, self.lighter)
+        heavier = nodes is not self.pool.nodes
+        if heavier:
+            # the next program has other variables
+            self.pool.nodes, self.about = nodes, None
+        return new or heavier
+
+    def _nodes(self, plates: Plates) -> Real:
+        if self.pool.nodes is None:
+            self.pool.nodes = first_nodes(plates)
+        return self.pool.nodes
+
+    def _laid(self, statement: Statement) -> Pieces:
+        """The statement with tangents in place of every plate whose mass counts."""
+        if self.plates is None:
+            webs = self.program.limits.radius.size
+            return Pieces(statement, np.arange(webs), webs)
+        some = np.ones(self.program.limits.radius.size, bool)
+        some[self.plates.webs] = self.program.limits.max_mass[self.plates.webs] > 0.0
+        return pieces(statement, self.plates, tangents(self.plates, self._nodes(self.plates)), some)
 
     def _promise(self, point: Point) -> float:
         """What the best that is kept between a point and those inside comes to at least, and by convexity at most if
@@ -256,7 +284,8 @@ class Search:
     def _solved(self, statement: Statement, attempt: Attempt) -> tuple[Complex, list[Proof]] | None:
         """The point of finitely many cuts, and what its multipliers prove."""
         program, goal_of, case_of = self.program, self.program.goal_of, self.program.case_of
-        posed = times(statement, 1.0 / self.unit[goal_of])
+        laid = self._laid(statement)
+        posed = times(laid.program, 1.0 / self.unit[goal_of])
         mass = (self.inside.mass or 1.0) if self.of_mass else 1.0
         lowered = -_RAISED if self.raised else attempt.margins * _LOWERED
         largest = float(np.max(np.abs(posed.norms.constant)))
@@ -286,10 +315,12 @@ class Search:
         self.about = found.variables
         worth = scaling.value / scaling.objective * (1.0 if self.of_mass else float(self.unit[-1]))
         self.price = np.bincount(of_target, found.price, aimed.size) * worth / self.unit[: aimed.size]
-        u = program.limits.into(scaling.unbalance(posed, found.solution))
+        u = posed.limits.into(scaling.unbalance(posed, found.solution))
         began = time.perf_counter()
         multipliers = scaling.multipliers(posed, found.solution)
-        proven = list(proofs(program, self.pool.cuts, statement, u, multipliers, self.levels.counted))
+        proven = list(proofs(program, self.pool.cuts, laid.program, u, multipliers, self.levels.counted))
+        if self.plates is not None:
+            u, proven = laid.carried(u), [each.of_webs(statement) for each in proven]
         self.certify_s += time.perf_counter() - began
         return u, proven
 
@@ -318,7 +349,7 @@ class Search:
         return Point(u, self.program.values(u, width), self._mass(u))
 
     def _mass(self, u: Complex) -> float:
-        return float(np.sum(np.abs(u) / self.program.limits.radius))
+        return self.program.mass(u)
 
     def _feasible(self, point: Point) -> Point:
         """The best that is kept between a point and those inside; later points are moved towards the nearest."""
@@ -346,7 +377,7 @@ class Search:
         """Over what has to be kept, each relative to its size (goals kept and ceilings,)."""
         kept = self.levels.most
         over = (values.goals[: kept.size] - kept) / self.program.units[: kept.size]
-        return np.concatenate([over, values.over - self.allowed])
+        return np.concatenate([over, values.over - self.allowed, [values.over_budget]])
 
 
 def _step(over: Real, under: Real) -> float:

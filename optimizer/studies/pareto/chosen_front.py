@@ -132,9 +132,8 @@ class _Search:
     def _corner(self, end: _Optimum, axis: int, size: Real) -> _Optimum:
         """Of all whose peak ``axis`` is the smallest, but for a share of the gap, the least of the other peak."""
         across, field = self.request.objective.direction_weights, ("force_ceiling_N", "moment_ceiling_Nm")[axis]
-        plates = any(web.envelope is not None for web in self.machine.webs)
-        if (across.x, across.y) != (1.0, 1.0) or (plates and self.machine.max_total_mass_kg is not None):
-            # a ceiling is of a whole vector, and plates take none beside a budget; the boxes find the corner
+        if (across.x, across.y) != (1.0, 1.0):
+            # a ceiling is of a whole vector; the boxes find the corner
             return end
         most = float(end.peaks[axis] + _SLACK * self.gap * size[axis])
         limit = getattr(self.request.objective, field)

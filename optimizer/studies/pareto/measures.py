@@ -9,6 +9,7 @@ import numpy as np
 from optimizer.formulation.formulate import RESPONSES, weighing
 from optimizer.formulation.goals import Case, formulate
 from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.shapes import closed
 from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.numerics.arrays import SMALLEST, Complex, Real
 from optimizer.program.cuts.dominance import Group, Weighed
@@ -107,7 +108,7 @@ def measures(request: OptimizeRequest, names: tuple[Traded, ...], scene: Prepare
     turn : of the machine, where anything is asked of the whole turn.
     """
     objective = alone(request.objective, names)
-    machine, square = request.machine, scene.omega_squared
+    machine, square = closed(request.machine), scene.omega_squared
     case = Case(machine, square, (scene.responses,), None if turn is None else (turn, scene.laden))
     program = formulate(machine, objective, [case], square, request.fidelity).program
     every = tuple(row for group in program.groups for row in group.rows)

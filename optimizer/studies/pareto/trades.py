@@ -59,7 +59,7 @@ def traded_front(request: ParetoRequest, machine: Machine, scene: Prepared) -> T
     asked = needed(request, names).model_copy(update={"machine": machine, "accuracy": request.accuracy})
     # what is traded counts, whatever the objective weighs
     scene = replace(scene, request=asked)
-    if machine.discrete or machine.semicontinuous:
+    if request.chosen:
         return chosen_trades(asked, names, [*_places(len(names), request.points)], scene)
     turn = whole_turn_of(scene) if asked.objective.of_the_revolution else None
     traded = measures(asked, names, scene, turn)

@@ -58,7 +58,10 @@ def _row(request: OptimizeRequest, best: Outcome, multipliers: bool) -> dict[str
     fitted = best.fields["counterweights"]
     assert isinstance(fitted, tuple)
     masses = {one.web: (one.mass_kg, one.angle_deg) for one in fitted}
+    openings = {one.web: one.shape.half_angle_deg for one in fitted if one.shape is not None}
     for web in request.machine.webs:
+        if web.envelope is not None:
+            row[f"half_angle_deg.{web.name}"] = openings.get(web.name, np.nan)
         row[f"mass_kg.{web.name}"], row[f"angle_deg.{web.name}"] = masses.get(web.name, (np.nan, np.nan))
     if multipliers:
         row[MULTIPLIERS] = _as_text(certificate, best.fields.get("infeasibility"))

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optimizer.errors import OutOfRange
+from optimizer.formulation.demand import by_cuts
 from optimizer.formulation.placement import on_webs
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.registry import columns, input_rules
@@ -187,8 +188,7 @@ def _fill_one_by_one(table: Rows, group: Group, designs: Designs, solver: Solver
         assert isinstance(alone, OptimizeRequest)  # nothing else chooses counterweights
         if not _refuse(table, at, all_rules(alone)).size:
             continue
-        turning = alone.objective.over_the_turn
-        lacking = next(missing(alone), None) if turning else None
+        lacking = next(missing(alone), None) if alone.objective.over_the_turn else None
         if not _refuse(table, at, [Rule(True, *lacking)] if lacking else []).size:
             continue
         if not _with_inputs(table, group, at, {design} if alone.objective.of_the_shaft else set()).size:
@@ -196,7 +196,7 @@ def _fill_one_by_one(table: Rows, group: Group, designs: Designs, solver: Solver
         try:
             columns, unbalance = (
                 optimal_over_turn([alone], solver, group.multipliers)
-                if turning
+                if by_cuts(alone)
                 else optimal_alone(alone, solver, group.multipliers)
             )
         except OutOfRange as refusal:

@@ -1,16 +1,15 @@
-"""A plate as webs in one plane: tangents of its convex mass, which are no heavier, and chords, which are no lighter."""
+"""A plate as webs in one plane: tangents of its convex mass, which are no heavier."""
 
 from dataclasses import replace
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from optimizer.mechanics.plates import Plates
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.limits import OF_WEBS, Limits
 from optimizer.program.statement import Statement
 
-#: tangents reach no less far than chords, whatever the rounding of their pieces
+#: tangents reach no less far than the plate, whatever the rounding of their pieces
 _REACHES = 1.0 + 1e-13
 #: half-angles at first, by their tangents: closer both where a plate is all but closed and where it is all but full
 _FIRST = np.arctan(np.exp(np.linspace(-4.0, 4.0, 13)))
@@ -18,6 +17,30 @@ _FIRST = np.arctan(np.exp(np.linspace(-4.0, 4.0, 13)))
 _NEARER = np.array([1.0, 0.125, 0.015625])
 #: nodes that are nearer than this share of the largest half-angle are one
 _SAME = 1e-9
+
+
+class Plates(Protocol):
+    """Webs whose mass is a convex function of their unbalance, by half of their opening (..., P)."""
+
+    @property
+    def webs(self) -> np.ndarray:
+        """(P,) which webs of the program."""
+
+    @property
+    def most(self) -> Real:
+        """Largest half-angles, rad."""
+
+    def unbalance(self, half_angle: Real) -> Real:
+        """Mass times radius, kg m."""
+
+    def mass(self, half_angle: Real) -> Real:
+        """kg."""
+
+    def lever(self, half_angle: Real) -> Real:
+        """dU/dm of what is added at these openings, m."""
+
+    def opened(self, unbalance: Real) -> Real:
+        """Half-angles of unbalances, rad; the largest for more than a plate holds."""
 
 
 class Webs(NamedTuple):
@@ -42,6 +65,14 @@ class Pieces(NamedTuple):
         return found
 
 
+def total_mass(plates: Plates | None, radius: Real, u: Complex) -> float:
+    """What unbalances (K,) kg m weigh, kg."""
+    mass = np.abs(u) / radius
+    if plates is not None:
+        mass[plates.webs] = plates.mass(plates.opened(np.abs(u[plates.webs])))
+    return float(np.sum(mass))
+
+
 def first_nodes(plates: Plates) -> Real:
     """Half-angles (n, P) from 0 to the largest, for plates of which nothing is known."""
     most = plates.most
@@ -58,17 +89,35 @@ def closer_nodes(nodes: Real, angle: Real) -> Real:
     return _apart(np.concatenate([nodes[:1], below, angle[None], above, nodes[-1:]]))
 
 
-def _apart(nodes: Real) -> Real:
-    """The same, in rising order, none next to another: those that are one have the same half-angle."""
-    near = _SAME * nodes[-1]
+def nodes_about(plates: Plates, nodes: Real, u: Complex, lighter: float) -> Real:
+    """Nodes about the openings of unbalances (K,) kg m; the same where their tangents are about as heavy.
+
+    Parameters
+    ----------
+    lighter : share of its mass by which a tangent may be lighter than what is cut.
+    """
+    size = np.abs(u[plates.webs])
+    angle = plates.opened(size)
+    at = nodes[:-1]
+    tangent = plates.mass(at) + (size - plates.unbalance(at)) / plates.lever(at)
+    mass = plates.mass(angle)
+    if np.all(mass - np.maximum.reduce(tangent, axis=0) <= lighter * mass):
+        return nodes
+    # of tangents that are nearer the plate between them is no heavier than that
+    closer = _apart(closer_nodes(nodes, angle), np.sqrt(lighter))
+    return nodes if np.array_equal(closer, nodes) else closer
+
+
+def _apart(nodes: Real, share: float = _SAME) -> Real:
+    """The same, in rising order, none next to another: those that are one have the same half-angle.
+
+    Parameters
+    ----------
+    share : of the largest half-angle, by which nodes differ that are not one.
+    """
+    near = share * nodes[-1]
     inside = np.where((nodes[1:-1] - nodes[:-2] > near) & (nodes[-1] - nodes[1:-1] > near), nodes[1:-1], 0.0)
     return np.concatenate([nodes[:1], np.maximum.accumulate(inside, axis=0), nodes[-1:]])
-
-
-def chords(plates: Plates, nodes: Real) -> Webs:
-    mass, unbalance = plates.mass(nodes), plates.unbalance(nodes)
-    each = mass[1:] - mass[:-1]
-    return Webs((unbalance[1:] - unbalance[:-1]) / np.where(each > 0, each, 1.0), each)
 
 
 def tangents(plates: Plates, nodes: Real) -> Webs:
