@@ -7,8 +7,8 @@ from types import ModuleType
 
 from schemas.base.model import FieldProblem
 from schemas.request.verify import VerifyAnswer, VerifyRequest
+from service.common.examples import directory
 from service.common.validation import InvalidRequest
-from service.documents.examples import directory
 
 
 def verify(asked: VerifyRequest) -> VerifyAnswer:

@@ -1,13 +1,12 @@
 """The machines that come with the service, each an optimisation request one can post; in folders, other requests."""
 
 import json
-from functools import cache
-from pathlib import Path
 from typing import Any
 
 from pydantic import Field
 
 from schemas.base.model import Model
+from service.common.examples import directory
 
 
 class UnknownExample(LookupError):
@@ -37,13 +36,6 @@ class Examples(Model):
     """All examples, by name."""
 
     examples: tuple[Example, ...] = Field(description="the examples", examples=[[{"name": "2d12"}]])
-
-
-@cache
-def directory() -> Path:
-    """Where the examples are: inside the installed package, or beside it in a checkout."""
-    packaged = Path(__file__).parent.parent / "examples"
-    return packaged if packaged.is_dir() else Path(__file__).parents[2] / "examples"
 
 
 def names() -> list[str]:

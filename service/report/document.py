@@ -1,6 +1,7 @@
 """From a request to its document: the answer of the service, chapter by chapter."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from datetime import UTC, datetime
 
 from optimizer.errors import MissingInput
@@ -19,6 +20,7 @@ from service.report.chapters.answers import outputs
 from service.report.chapters.balance_quality import balance_quality
 from service.report.chapters.foundation import foundation_loads
 from service.report.chapters.order import workshop_order
+from service.report.chapters.verification import Check, check, sentence
 from service.report.chapters.versions import compared
 from service.report.chapters.workshop import sheets
 from service.report.chapters.worst_case import worst_case
@@ -56,7 +58,8 @@ def report(request: ReportRequest, at: datetime | None = None) -> Document:
         if the machine, or that of a version, lacks what a requested output needs.
     """
     full, missing = _with_usual(request.alone)
-    return document(request, optimize(full), missing, at or datetime.now(UTC))
+    answer = optimize(full)
+    return document(request, answer, missing, at or datetime.now(UTC), check(full, answer))
 
 
 def _with_usual(request: OptimizeRequest) -> tuple[OptimizeRequest, tuple[FieldProblem, ...]]:
@@ -69,7 +72,11 @@ def _with_usual(request: OptimizeRequest) -> tuple[OptimizeRequest, tuple[FieldP
 
 
 def document(
-    request: ReportRequest, answer: OptimizeAnswer, missing: tuple[FieldProblem, ...], at: datetime
+    request: ReportRequest,
+    answer: OptimizeAnswer,
+    missing: tuple[FieldProblem, ...],
+    at: datetime,
+    checked: Check | None = None,
 ) -> Document:
     """The document that says what an answer says.
 
@@ -77,6 +84,7 @@ def document(
     ----------
     missing : what the machine lacks for the eight stages, where the answer does not hold them.
     at : time that the document bears.
+    checked : what became of the claims of the answer; None where they were not checked, which the document then lacks.
     """
     date = at.astimezone(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
     office = request.document
@@ -101,7 +109,7 @@ def document(
         logo=None if office.logo is None else png(office.logo),
         notes=tuple(filter(None, map(str.strip, (office.notes or "").splitlines()))),
         opening=_OPENING,
-        chapters=tuple(_chapters(request, answer, missing, date)),
+        chapters=tuple(_chapters(request, answer, missing, date, checked)),
         file_stem=_file_stem(request),
         attachment=Attachment("request.json", reproduction.request_json(request)),
     )
@@ -114,7 +122,11 @@ def _file_stem(request: ReportRequest) -> str:
 
 
 def _chapters(
-    request: ReportRequest, answer: OptimizeAnswer, missing: tuple[FieldProblem, ...], date: str
+    request: ReportRequest,
+    answer: OptimizeAnswer,
+    missing: tuple[FieldProblem, ...],
+    date: str,
+    checked: Check | None,
 ) -> Iterator[Chapter]:
     # on the first page: what it comes to, and what is to be made
     built = as_built(request, answer)
@@ -132,10 +144,13 @@ def _chapters(
     yield from worst_case(answer)
     yield from balance_quality(request.machine, answer)
     yield balance.before_and_after(request, answer, built)
-    yield verdict.certificate(answer.certificate, answer.infeasibility)
+    proof = verdict.certificate(answer.certificate, answer.infeasibility)
+    if checked is not None:
+        proof = replace(proof, blocks=(*proof.blocks, sentence(checked, reproduction.digest(request))))
+    yield proof
     yield from balance.prices(request, answer)
     # of the first page
     yield from outputs(request.machine, answer.model_copy(update={"foundation_loads": None}))
     yield from sheets(request.machine, answer, built)
     yield reproduction.effects(answer.effects, request.outputs)
-    yield reproduction.appendix(request, date)
+    yield reproduction.appendix(request, date, checked)

@@ -94,6 +94,7 @@ def copied(folder: Path) -> Path:
 def noticed(copy: Path, file: Path, text: str, tests: tuple[str, ...]) -> bool:
     """Whether a test fails, or does not end, when a file has another text."""
     original = (copy / file).read_text()
+    tests = (*own_tests(copy, file, tests), *tests)
     (copy / file).write_text(text)
     command = [sys.executable, "-m", "pytest", "-x", "-q", "-m", "not nightly", "-p", "no:cacheprovider", *tests]
     environment = {**os.environ, "PYTHONPATH": str(copy), "CHECKED_ANSWERS": "every"}
@@ -104,6 +105,12 @@ def noticed(copy: Path, file: Path, text: str, tests: tuple[str, ...]) -> bool:
     finally:
         (copy / file).write_text(original)
     return ran.returncode != 0
+
+
+def own_tests(copy: Path, file: Path, tests: tuple[str, ...]) -> tuple[str, ...]:
+    """Tests that bear the name of a file, which are the first to notice a fault in it: most mutants end there."""
+    found = (path for one in tests for path in sorted((copy / one).rglob(f"test_{file.stem}.py")))
+    return tuple(str(path.relative_to(copy)) for path in found)
 
 
 def _outcome(copy: Path, file: Path, mutant: Mutant, tests: tuple[str, ...]) -> str:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.mutation.__main__ import ROOMS, ROOT, noticed, sample
+from tests.mutation.__main__ import ROOMS, ROOT, noticed, own_tests, sample
 from tests.mutation.mutants import count, mutant
 
 SOURCE = """
@@ -43,3 +43,9 @@ def test_what_is_noticed(tmp_path: Path) -> None:
     assert noticed(tmp_path, file, "LIMIT = 4\nSPARE = 1\n", ("test_code.py",))
     assert not noticed(tmp_path, file, "LIMIT = 3\nSPARE = 2\n", ("test_code.py",))
     assert (tmp_path / file).read_text() == "LIMIT = 3\nSPARE = 1\n"
+
+
+def test_the_tests_of_a_file_come_first() -> None:
+    tests = ROOMS["mechanics"].tests
+    assert own_tests(ROOT, Path("optimizer/mechanics/rod.py"), tests) == ("tests/mechanics/test_rod.py",)
+    assert own_tests(ROOT, Path("optimizer/mechanics/layout.py"), tests) == ()

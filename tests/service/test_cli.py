@@ -17,7 +17,8 @@ from typer.testing import CliRunner
 from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer
 from schemas.base.version import DISTRIBUTION
 from service.cli import app
-from service.documents.examples import catalogue, directory, load, names
+from service.common.examples import directory
+from service.documents.examples import catalogue, load, names
 from service.routes.version import processor
 
 ROOT = Path(__file__).parents[2]

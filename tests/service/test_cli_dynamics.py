@@ -8,7 +8,8 @@ import pytest
 
 from schemas.answer.effects import EffectCatalogue
 from schemas.rating.answer import RatingAnswer
-from service.documents.examples import bodies, directory, names
+from service.common.examples import directory
+from service.documents.examples import bodies, names
 from tests.service.test_cli import refused, run
 from tests.service.test_dynamics import OVER_THE_TURN
 

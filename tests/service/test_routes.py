@@ -9,7 +9,8 @@ from starlette.testclient import TestClient
 
 from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer
 from schemas.request.requests import OptimizeRequest
-from service.documents.examples import UnknownExample, directory, load, names
+from service.common.examples import directory
+from service.documents.examples import UnknownExample, load, names
 
 Post = Callable[..., Any]
 

@@ -25,6 +25,8 @@ from tests.pairs.combinations import all_pairs
 
 #: s, of searches
 _TIME_LIMIT = 0.3
+#: answers after which it is said how many there are
+_TOLD = 100
 
 
 def requests(seed: int) -> Iterator[tuple[str, Any]]:
@@ -63,11 +65,16 @@ def run(count: int, seed: int, seconds: float = float("inf")) -> tuple[Counter[s
         except Exception as error:  # whatever it is, it is a fault
             verdicts["raised"] += 1
             faults.append(f"{name}: raised {error!r}")
+            print(faults[-1], flush=True)
             continue
         if found is not None:
             verdicts[found["verdict"]] += 1
             broken = (one for one in found["claims"] if one["verdict"] == "broken")
-            faults += [f"{name}: {one['claim']} {one['margin']} {one['where']}" for one in broken]
+            new = [f"{name}: {one['claim']} {one['margin']} {one['where']}" for one in broken]
+            faults += new
+            print(*new, sep="\n", end="\n" if new else "", flush=True)
+        if verdicts.total() % _TOLD == 0:
+            print(f"{verdicts.total()} {dict(verdicts)}", file=sys.stderr, flush=True)
     return verdicts, faults
 
 
@@ -78,7 +85,6 @@ def main() -> int:
     parser.add_argument("--seconds", type=float, default=float("inf"), help="of computing, at most")
     arguments = parser.parse_args()
     verdicts, faults = run(arguments.count, arguments.seed, arguments.seconds)
-    print(*faults, sep="\n")
     print(verdicts.total(), dict(verdicts))
     return int(bool(faults))
 

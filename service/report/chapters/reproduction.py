@@ -11,6 +11,7 @@ from schemas.answer.answers import EffectUse
 from schemas.base.version import package_version
 from schemas.request.report import ReportRequest
 from service.report.blocks import Chapter, Listing, Paragraph, facts, table
+from service.report.chapters.verification import TIMES, Check
 
 #: characters of a line of the listing
 _LINE = 130
@@ -101,8 +102,13 @@ def digest(request: ReportRequest) -> str:
     return hashlib.sha256(content.encode()).hexdigest()
 
 
-def appendix(request: ReportRequest, at: str) -> Chapter:
-    """The request, then versions, time and its digest."""
+def appendix(request: ReportRequest, at: str, checked: Check | None = None) -> Chapter:
+    """The request, then versions, time and its digest.
+
+    Parameters
+    ----------
+    checked : the answer's check, where it was checked.
+    """
     own = [name for name in _DOCUMENTS if name in request.model_fields_set]
     without = f" without {' and '.join(own)}" if own else ""
     words = (
@@ -112,10 +118,18 @@ def appendix(request: ReportRequest, at: str) -> Chapter:
     )
     check = (
         "Its digest is SHA-256 of the JSON without blanks and with sorted keys, in Python "
-        'hashlib.sha256(json.dumps(request, sort_keys=True, separators=(",", ":")).encode()).hexdigest():'
+        'hashlib.sha256(json.dumps(request, sort_keys=True, separators=(",", ":")).encode()).hexdigest().'
     )
     used = ", ".join(f"{name} {version}" for name, version in versions().items())
-    made = facts("", [("computed with", used), ("at", at), ("digest of the request", digest(request))])
+    digests = [("digest of the request", digest(request))]
+    if checked is not None:
+        outputs, times = ", ".join(checked.outputs), " and ".join(TIMES)
+        check += (
+            f" That of the answer is of the JSON of /v1/optimize likewise, without {times}, where the request has the "
+            f"outputs {outputs}."
+        )
+        digests.append(("digest of the answer", checked.digest))
+    made = facts("", [("computed with", used), ("at", at), *digests])
     return Chapter(
         "Appendix: request",
         (Paragraph(words), Listing("\n".join(_lines(_without_pixels(body(request)), _LINE))), Paragraph(check), made),

@@ -1,9 +1,23 @@
 """What became of the claims of an answer."""
 
+import hashlib
+import json
 from collections.abc import Iterator
+from typing import NamedTuple
 
-from schemas.request.verify import Claim, VerifyAnswer
-from service.report.blocks import Cell, Chapter, Number, table
+from schemas.answer.answers import OptimizeAnswer
+from schemas.request.requests import OptimizeRequest
+from schemas.request.verify import Claim, VerifyAnswer, VerifyRequest
+from service.common.validation import InvalidRequest
+from service.report.blocks import Cell, Chapter, Number, Paragraph, table
+from service.verification import verify
+
+#: fields of an answer that say how long it took, and differ from one time to the next
+TIMES = ("timing", "effects")
+#: characters of a digest that are printed beside a figure; all of them stand in the appendix
+SHORT = 16
+#: names of what is not covered that are printed in a line
+_SHOWN = 6
 
 
 def verified(answer: VerifyAnswer) -> Iterator[Chapter]:
@@ -16,3 +30,57 @@ def verified(answer: VerifyAnswer) -> Iterator[Chapter]:
 
 def _margin(one: Claim) -> Cell:
     return "" if one.margin is None else Number(one.margin, f"{one.margin:.1e}")
+
+
+class Check(NamedTuple):
+    """The check of an answer by the files that share nothing with what computed it; None: too much to be checked."""
+
+    found: VerifyAnswer | None
+    digest: str  # SHA-256 of the answer
+    outputs: tuple[str, ...]  # that it was asked for
+
+
+def check(request: OptimizeRequest, answer: OptimizeAnswer) -> Check:
+    """The claims of the answer to a request."""
+    try:
+        found = verify(
+            VerifyRequest(request=request.model_dump(mode="json"), answer=json.loads(answer.model_dump_json()))
+        )
+    except InvalidRequest:
+        return Check(None, digest(answer), request.outputs)
+    return Check(found, digest(answer), request.outputs)
+
+
+def digest(answer: OptimizeAnswer) -> str:
+    """SHA-256 of an answer as JSON without blanks, keys sorted, ASCII only, without the times that it took."""
+    body = json.loads(answer.model_dump_json(exclude={*TIMES}))
+    content = json.dumps(body, sort_keys=True, separators=(",", ":"))
+    return hashlib.sha256(content.encode()).hexdigest()
+
+
+def sentence(checked: Check, request: str) -> Paragraph:
+    """How many claims were checked, what became of them, and of which request and answer.
+
+    Parameters
+    ----------
+    request : digest of the request.
+    """
+    which = f"Digests: request {request[:SHORT]}, answer {checked.digest[:SHORT]}."
+    if checked.found is None:
+        return Paragraph(f"The answer holds more than is checked at a time: nothing was checked. {which}", "warning")
+    found = checked.found
+    count = f"Checked by files that share nothing with what computed it: {found.checked} of {found.leaves} claims"
+    if found.verdict == "broken":
+        broken = ", ".join(f"{one.claim} ({_words(one.where)})" for one in found.claims if one.verdict == "broken")
+        return Paragraph(f"{count}. Broken: {broken}. {which}", "warning")
+    if found.verdict == "held":
+        return Paragraph(f"{count}, and every one holds. {which}")
+    open_claims = (one.where for one in found.claims if one.verdict == "not covered")
+    names = [*dict.fromkeys(map(_words, (*open_claims, *found.not_covered)))]
+    more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
+    return Paragraph(f"{count}; nothing is broken. Not covered: {', '.join(names[:_SHOWN])}{more}. {which}")
+
+
+def _words(pointer: str) -> str:
+    """Fields of a place in an answer or a request."""
+    return " ".join(part.replace("~1", "/").replace("~0", "~") for part in pointer.split("/")[2:])
