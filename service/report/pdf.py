@@ -14,9 +14,10 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
+from service.common.figures import typeset
 from service.common.plain import plain
 from service.drawings.svg import Drawing
-from service.report.blocks import Block, Cell, Document, Figure, Listing, Number, Paragraph, Table, typeset
+from service.report.blocks import Block, Cell, Document, Figure, Listing, Number, Paragraph, Table
 
 #: comes with the library, so that documents look the same everywhere; other scripts use fonts of the system
 _FONT = "Libertinus Serif"

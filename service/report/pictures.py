@@ -12,15 +12,15 @@ from schemas.base.model import FieldProblem
 from schemas.request.picture import PictureRequest, PictureStyle
 from schemas.request.requests import OptimizeRequest
 from schemas.scroll.pin_loads import PinLoads
+from service.drawings.front import front as drawn_front
+from service.drawings.side import side as drawn_side
 from service.drawings.svg import Drawing, beside, shortened
 from service.report.chapters.balance import shown, which
 from service.report.chapters.bearing_loci import loci
 from service.report.chapters.orders import order_hodographs
 from service.report.chapters.pins import pin_figure
 from service.report.first_order import hodographs
-from service.report.front import front as drawn_front
 from service.report.indicator import indicators
-from service.report.side import side as drawn_side
 from service.report.stage_scheme import stage_scheme
 from service.tables.as_built import as_built
 

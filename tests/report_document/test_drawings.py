@@ -9,10 +9,10 @@ import pytest
 
 from optimizer.optimize import optimize
 from schemas.answer.counterweights import Counterweight
+from service.drawings.front import front
+from service.drawings.side import side
 from service.drawings.svg import AFTER, PAGE_WIDTH, Drawing
 from service.report import charts
-from service.report.front import front
-from service.report.side import side
 from tests.report_document.conftest import asked
 
 Point = tuple[float, float]

@@ -17,9 +17,9 @@ from optimizer.optimize import optimize
 from schemas.answer.counterweights import Counterweight
 from schemas.machine.webs import Envelope
 from service.drawings.dxf import dxf
+from service.drawings.front import front
 from service.drawings.outline import outline
 from service.drawings.svg import AFTER, INK, MUTED, Drawing
-from service.report.front import front
 from tests.report_document.conftest import asked
 
 _NUMBER = r"-?\d+(?:\.\d+)?(?:e-?\d+)?"

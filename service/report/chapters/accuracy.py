@@ -3,7 +3,8 @@
 from collections.abc import Iterator
 
 from schemas.request.accuracy import AccuracyAnswer, AccuracyRequest, AccuracyRow, EffectRow, PeakRow
-from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, Table, digits, number, table
+from service.common.figures import digits
+from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, Table, number, table
 
 _METHODS = {
     "service": "the service",

@@ -12,6 +12,8 @@ from schemas.base.responses import ceilings
 from schemas.machine.machine import Machine
 from schemas.request.requests import OptimizeRequest
 from service.common.validation import pointer
+from service.drawings.front import front
+from service.drawings.side import side
 from service.report.blocks import (
     Block,
     Cell,
@@ -30,8 +32,6 @@ from service.report.chapters.making import holding, outlines
 from service.report.chapters.orders import two_orders
 from service.report.first_order import hodographs
 from service.report.formula import formula
-from service.report.front import front
-from service.report.side import side
 from service.report.stage_scheme import stage_scheme
 from service.tables.as_built import AsBuilt
 

@@ -8,9 +8,9 @@ from typing import NamedTuple
 from schemas.answer.counterweights import Counterweight
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import ReciprocatingMachine
+from service.common.figures import typeset
 from service.drawings.sheet import millimetres
 from service.drawings.svg import AFTER, BEFORE, FAINT, INK, MUTED, PAGE_WIDTH, SERIES, Anchor, Drawing, shortened
-from service.report.blocks import typeset
 
 _LEFT, _RIGHT = 44.0, PAGE_WIDTH - 30.0
 _MIDDLE = 150.0

@@ -10,8 +10,8 @@ from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.machine.scroll_machine import ScrollMachine
 from schemas.machine.webs import Web
+from service.common.figures import digits
 from service.drawings.svg import AFTER, BEFORE, FAINT, INK, MUTED, PAGE_WIDTH, SERIES, Drawing, Point, shortened
-from service.report.blocks import digits
 
 Each = TypeVar("Each", bound=tuple[float, str, object])
 
