@@ -102,7 +102,7 @@ def _block(block: Block, drawings: dict[str, bytes]) -> dict[str, Any]:
         for drawing in block.drawings:
             name = f"{len(drawings)}.svg"
             drawings[name] = drawing.svg(_FONT).encode()
-            names.append({"file": name, "label": drawing.label, "width": drawing.width})
+            names.append({"file": name, "label": drawing.label, "width": drawing.width * drawing.scale})
         return {"kind": kind, "drawings": names, "caption": block.caption}
     if isinstance(block, Paragraph):
         return {"kind": kind, "tone": block.tone, "text": _broken(block.text, _LONG_WORD)}
