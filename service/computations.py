@@ -379,6 +379,17 @@ COMPUTATIONS: dict[str, Computation] = {
             ),
             examples="drawings",
         ),
+        Computation(
+            name="layout",
+            path="/v1/layout",
+            request="schemas.request.layout:LayoutRequest",
+            answer="schemas.request.layout:LayoutAnswer",
+            compute="service.drawings.views:views",
+            summary="The views of a machine as it is typed, from the front and from the side",
+            remark="Nothing is solved. What is known of a half-typed machine is drawn, and `missing` names the fields"
+            " that the rest needs.",
+            tag="pictures",
+        ),
         _table("built", "Counterweights as built beside the optimum, with the tolerance that they bear"),
         _table("order", "The order for a workshop: sizes, pieces, where each goes, and tolerances"),
         _table("foundation_loads", "Forces and couples on the foundation, order by order"),

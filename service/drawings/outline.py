@@ -62,17 +62,19 @@ def outline(envelope: Envelope, half_angle: float) -> Outline:
     ----------
     half_angle : half the opening at the outer radius as seen from the shaft, rad, above 0 and at most a right angle.
     """
-    return _closed(
-        Arc(envelope.outer_radius_m, pi / 2 - half_angle, pi / 2 + half_angle), _inside(envelope, half_angle)
-    )
+    return bounded(envelope.outer_radius_m, envelope.inner_radius_m, half_angle, envelope.shape == "segment")
 
 
-def _inside(envelope: Envelope, half_angle: float) -> Arc | Point | None:
+def bounded(outer: float, hub: float, half_angle: float, chord: bool) -> Outline:
+    """What lies between the hub and an outer radius, m; bounded by a chord, or by two edges through the shaft."""
+    return _closed(Arc(outer, pi / 2 - half_angle, pi / 2 + half_angle), _inside(outer, hub, half_angle, chord))
+
+
+def _inside(outer: float, hub: float, half_angle: float, chord: bool) -> Arc | Point | None:
     """What bounds it towards the shaft: the hub, a corner, or nothing but the chord."""
-    hub = envelope.inner_radius_m
-    if envelope.shape == "sector":
+    if not chord:
         return Arc(hub, pi / 2 + half_angle, pi / 2 - half_angle) if hub > 0 else (0.0, 0.0)
-    height = envelope.outer_radius_m * cos(half_angle)
+    height = outer * cos(half_angle)
     if height >= hub:
         return None
     seen = acos(height / hub)

@@ -4,7 +4,8 @@ Lengths are px, 96 to the inch, x to the right and y downwards; 640 px are the w
 XML writer.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Literal
 from xml.etree import ElementTree
@@ -86,6 +87,23 @@ class Drawing:
         if halo:
             more |= {"stroke": "white", "stroke-width": "3", "stroke-linejoin": "round", "paint-order": "stroke"}
         self._add("text", x=x, y=y, fill=fill, **style, **more).text = plain(content)
+
+    @contextmanager
+    def group(self, kind: str, title: str | None = None) -> Iterator[None]:
+        """What is drawn within belongs together.
+
+        Parameters
+        ----------
+        kind : what it is, for pages that show it in colours of their own, or move it.
+        title : what a page says where it is pointed at.
+        """
+        around, self._shapes = self._shapes, []
+        yield
+        group = ElementTree.Element("g", {"class": kind})
+        if title is not None:
+            ElementTree.SubElement(group, "title").text = plain(title)
+        group.extend(self._shapes)
+        self._shapes = [*around, group]
 
     def inset(self, drawing: "Drawing", corner: Point) -> None:
         """Another drawing in this one, its upper left corner at a point."""

@@ -3,12 +3,12 @@
 Chapters build these blocks; HTML, PDF and the terminal are written from the same blocks, so that they say the same.
 """
 
-import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from operator import itemgetter
 from typing import Literal, NamedTuple
 
+from service.common.figures import digits, typeset
 from service.drawings.svg import Drawing
 
 
@@ -20,9 +20,6 @@ class Run(NamedTuple):
 
 
 _MAX_SHORT = 16
-#: between thousands, as SI has it
-NARROW = "\N{NARROW NO-BREAK SPACE}"
-_THOUSANDS = re.compile(r"(?<=[0-9])(?=(?:[0-9]{3})+$)")
 #: of an angle in a table
 _ANGLE_DECIMALS, _WHOLE_TURNS = 4, ("360", "-360")
 #: of a scale, below which a figure is what rounding leaves
@@ -173,12 +170,6 @@ def angle(value: float | None) -> Cell:
     return Number(value, "0" if text in _WHOLE_TURNS else text)
 
 
-def typeset(figure: str) -> str:
-    """A figure as it is printed: a true minus, thousands set apart; a terminal may not have them and keeps neither."""
-    whole, mark, rest = figure.partition(".")
-    return _THOUSANDS.sub(NARROW, whole).replace("-", "\N{MINUS SIGN}") + mark + rest.replace("-", "\N{MINUS SIGN}")
-
-
 def prose(value: float) -> str:
     """A figure within a sentence."""
     return typeset(digits(value))
@@ -189,13 +180,6 @@ def settled(value: float | None, scale: float) -> Cell:
     if value is not None and abs(value) < _DUST * abs(scale):
         return Number(value, "0")
     return number(value)
-
-
-def digits(value: float) -> str:
-    """Six significant digits; the integer part is never cut below a thousand million."""
-    if 1e5 <= abs(value) < 1e9:
-        return f"{value:.0f}"
-    return f"{value + 0.0:.6g}"
 
 
 def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[Cell | float | None]]) -> Table:

@@ -4,6 +4,7 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from service.common.figures import typeset
 from service.drawings.svg import (
     AFTER,
     BEFORE,
@@ -17,7 +18,7 @@ from service.drawings.svg import (
     Point,
     shortened,
 )
-from service.report.blocks import prose, turns_of, typeset
+from service.report.blocks import prose, turns_of
 
 #: more lines than this cannot be told apart
 MAX_LINES = len(SERIES)

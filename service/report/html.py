@@ -6,9 +6,10 @@ from functools import cache
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 from markupsafe import Markup
 
+from service.common.figures import typeset
 from service.common.plain import plain
 from service.drawings.svg import Drawing
-from service.report.blocks import Block, Document, Number, typeset
+from service.report.blocks import Block, Document, Number
 
 
 def html(document: Document) -> bytes:

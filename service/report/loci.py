@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from service.common.figures import digits
 from service.drawings.svg import FAINT, INK, MUTED, PAGE_WIDTH, Drawing
-from service.report.blocks import digits
 from service.report.charts import axis, prefix, tick
 
 

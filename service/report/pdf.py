@@ -14,9 +14,10 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
+from service.common.figures import typeset
 from service.common.plain import plain
 from service.drawings.svg import Drawing
-from service.report.blocks import Block, Cell, Document, Figure, Listing, Number, Paragraph, Table, typeset
+from service.report.blocks import Block, Cell, Document, Figure, Listing, Number, Paragraph, Table
 
 #: comes with the library, so that documents look the same everywhere; other scripts use fonts of the system
 _FONT = "Libertinus Serif"
@@ -101,7 +102,7 @@ def _block(block: Block, drawings: dict[str, bytes]) -> dict[str, Any]:
         for drawing in block.drawings:
             name = f"{len(drawings)}.svg"
             drawings[name] = drawing.svg(_FONT).encode()
-            names.append({"file": name, "label": drawing.label, "width": drawing.width})
+            names.append({"file": name, "label": drawing.label, "width": drawing.width * drawing.scale})
         return {"kind": kind, "drawings": names, "caption": block.caption}
     if isinstance(block, Paragraph):
         return {"kind": kind, "tone": block.tone, "text": _broken(block.text, _LONG_WORD)}

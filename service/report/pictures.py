@@ -12,15 +12,16 @@ from schemas.base.model import FieldProblem
 from schemas.request.picture import PictureRequest, PictureStyle
 from schemas.request.requests import OptimizeRequest
 from schemas.scroll.pin_loads import PinLoads
+from service.drawings.front import front as drawn_front
+from service.drawings.layout import Layout, layout_of
+from service.drawings.side import side as drawn_side
 from service.drawings.svg import Drawing, beside, shortened
 from service.report.chapters.balance import shown, which
 from service.report.chapters.bearing_loci import loci
 from service.report.chapters.orders import order_hodographs
 from service.report.chapters.pins import pin_figure
 from service.report.first_order import hodographs
-from service.report.front import front as drawn_front
 from service.report.indicator import indicators
-from service.report.side import side as drawn_side
 from service.report.stage_scheme import stage_scheme
 from service.tables.as_built import as_built
 
@@ -71,14 +72,16 @@ def styled(drawing: Drawing, style: PictureStyle) -> Drawing:
 
 
 def _front(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
-    built = as_built(request, answer)
-    return drawn_front(request.machine, shown(answer)[0], () if built is None else built.counterweights)
+    return drawn_front(_layout(request, answer))
 
 
 def _side(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
+    return drawn_side(_layout(request, answer), dimensions=True)
+
+
+def _layout(request: OptimizeRequest, answer: OptimizeAnswer) -> Layout:
     built = as_built(request, answer)
-    weights = () if built is None else built.counterweights
-    return drawn_side(request.machine, shown(answer)[0], answer.reference_plane_m, weights)
+    return layout_of(request.machine, shown(answer)[0], () if built is None else built.counterweights)
 
 
 def _hodograph(number: int, request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:

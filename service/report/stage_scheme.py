@@ -11,8 +11,8 @@ from schemas.answer.outputs import Stage
 from schemas.answer.stages import Acting, StageIron
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import ReciprocatingMachine
+from service.common.figures import digits
 from service.drawings.svg import AFTER, BEFORE, FAINT, INK, MUTED, PAGE_WIDTH, SERIES, Drawing, Point
-from service.report.blocks import digits
 
 _COLUMNS, _SIDE, _HEIGHT = 4, 154.0, 204.0
 #: radius that the largest of a stage is drawn with

@@ -7,9 +7,9 @@ from rich.console import Group, RenderableType
 from rich.table import Table as Grid
 from rich.text import Text
 
+from service.common.figures import NARROW, digits
 from service.common.plain import plain
 from service.report.blocks import (
-    NARROW,
     Block,
     Cell,
     Chapter,
@@ -21,7 +21,6 @@ from service.report.blocks import (
     Paragraph,
     Samples,
     Table,
-    digits,
     table,
     turns_of,
 )

@@ -39,6 +39,7 @@ def test_every_endpoint_has_a_method(counterweight: ModuleType, described: set[t
         *((call, {}) for call in (service.optimize, service.analyze, service.pareto, service.match, service.rating)),
         *((call, {}) for call in (service.pin_loads, service.accuracy, service.sweep, service.round)),
         (service.shaft, {}),
+        (service.layout, {}),
         (service.verify, {}, {}),
         (service.report, {}, tmp_path / "report.pdf"),
         (service.drawings, {}, tmp_path / "drawings.zip"),

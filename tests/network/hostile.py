@@ -35,6 +35,7 @@ QUESTIONS: dict[str, dict[str, Any]] = {
     "/v1/match": next(iter(bodies("match").values())),
     "/v1/round": next(iter(bodies("round").values())),
     "/v1/shaft": next(iter(bodies("shaft").values())),
+    "/v1/layout": {"machine": MACHINES["2d12"]["machine"], "counterweights": [], "fitted": []},
     "/v1/scroll/pin-loads": next(iter(bodies("pin-loads").values())),
     "/v1/sweeps": {**next(iter(bodies("sweeps").values())), "dry_run": True},
 }

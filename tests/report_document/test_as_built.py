@@ -15,12 +15,13 @@ from optimizer.optimize import optimize
 from schemas.request.drawings import DrawingsRequest
 from schemas.request.report import ReportRequest
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
+from service.common.figures import digits, typeset
 from service.documents.examples import bodies
 from service.drawings.bill import as_csv
 from service.drawings.drawn import drawings
 from service.drawings.sheet import sheet
 from service.report import pictures
-from service.report.blocks import Number, Paragraph, Table, digits, typeset
+from service.report.blocks import Number, Paragraph, Table
 from service.report.document import report
 from service.report.pictures import Picture
 from service.tables import as_built, tables

@@ -13,7 +13,8 @@ from rich.console import Console
 from optimizer.optimize import optimize
 from schemas.answer.outputs import OutputName
 from schemas.base.version import package_version
-from service.report.blocks import NARROW, Cell, Chapter, Document, Figure, Number, Paragraph, Samples, Table, angle
+from service.common.figures import NARROW
+from service.report.blocks import Cell, Chapter, Document, Figure, Number, Paragraph, Samples, Table, angle
 from service.report.chapters.answers import CHAPTERS
 from service.report.chapters.reproduction import request_json
 from service.report.document import document

@@ -11,7 +11,8 @@ from pydantic import ValidationError
 from pypdf import PdfReader
 
 from schemas.base.images import png
-from service.report.blocks import Table, typeset
+from service.common.figures import typeset
+from service.report.blocks import Table
 from service.report.document import report
 from service.report.html import html
 from service.report.pdf import pdf

@@ -16,7 +16,8 @@ import pytest
 from rich.console import Console
 
 from schemas.answer.answers import OptimizeAnswer
-from service.report.blocks import Document, Number, Table, typeset
+from service.common.figures import typeset
+from service.report.blocks import Document, Number, Table
 from service.report.html import html
 from service.report.terminal import terminal
 from service.workbook.answers import answered

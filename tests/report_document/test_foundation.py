@@ -11,8 +11,9 @@ from schemas.answer.answers import OptimizeAnswer
 from schemas.request.requests import OptimizeRequest
 from service.app import create_app
 from service.cli import app
+from service.common.figures import digits
 from service.documents.examples import bodies
-from service.report.blocks import Number, Paragraph, Table, digits
+from service.report.blocks import Number, Paragraph, Table
 from service.report.chapters.foundation import foundation_loads
 from service.settings import Settings
 from service.workbook.answers import answered

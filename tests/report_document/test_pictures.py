@@ -15,7 +15,7 @@ from tests.report_document.conftest import AT, asked
 _SVG = "{http://www.w3.org/2000/svg}"
 NAMES = sorted(name.removeprefix("picture_") for name in COMPUTATIONS if name.startswith("picture_"))
 #: all that a picture may be made of: no scripts, no styles, no references
-_SHAPES = {"svg", "g", "path", "circle", "text"}
+_SHAPES = {"svg", "g", "path", "circle", "text", "title"}
 
 
 def made(name: str, machine: str) -> ElementTree.Element:

@@ -11,7 +11,8 @@ from schemas.request.accuracy import (
     PeakRow,
     Reference,
 )
-from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, Table, digits, number, table
+from service.common.figures import digits
+from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, Table, number, table
 
 _METHODS = {
     "service": "the service",

@@ -12,6 +12,9 @@ from schemas.base.responses import ceilings
 from schemas.machine.machine import Machine
 from schemas.request.requests import OptimizeRequest
 from service.common.validation import pointer
+from service.drawings.front import front
+from service.drawings.layout import Layout, layout_of
+from service.drawings.side import side
 from service.report.blocks import (
     Block,
     Cell,
@@ -31,8 +34,6 @@ from service.report.chapters.making import holding, outlines
 from service.report.chapters.orders import two_orders
 from service.report.first_order import hodographs
 from service.report.formula import formula
-from service.report.front import front
-from service.report.side import side
 from service.report.stage_scheme import stage_scheme
 from service.tables.as_built import AsBuilt
 
@@ -102,31 +103,39 @@ def which(answer: OptimizeAnswer) -> str:
 def layout(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | None) -> Chapter:
     """The machine with its counterweights, drawn."""
     fitted, _ = shown(answer)
-    what = "counterweights of the best compromise" if answer.infeasibility is not None else "counterweights"
+    plan = layout_of(request.machine, fitted, () if built is None else built.counterweights)
     return Chapter(
         "Layout",
         (
             *(() if built is None else as_made(request.machine, fitted)),
             Figure(
-                (front(request.machine, fitted, () if built is None else built.counterweights),),
-                "Front view from +z at shaft angle 0, to scale: cranks black, row axes dash-dotted, "
-                f"{what} blue with their centres of mass as dots, angles that a web allows as green arcs. Areas of "
-                "counterweights are in proportion to their masses; their real shape is a matter of design."
-                + ("" if built is None else " As built: dashed, orange."),
+                (front(plan),),
+                "Front view from +z at shaft angle 0, to scale: cranks black, axes of rows dash-dotted, "
+                f"{_drawn(answer, plan)}, angles that a web allows as green wedges." + _as_built(plan),
             ),
             Figure(
-                (
-                    side(
-                        request.machine, fitted, answer.reference_plane_m, () if built is None else built.counterweights
-                    ),
-                ),
-                "Side view along the shaft, heights along the direction of the first crank, width of a counterweight "
-                "after its mass; the reference plane of the moments green and dash-dotted. Below: places z and "
-                "distances of the webs in mm; R is the radius of a centre of mass. Along and across the shaft the "
-                "scales differ." + ("" if built is None else " As built: dashed, orange."),
+                (side(plan, dimensions=True),),
+                "Side view along the shaft, heights along the direction of the first crank; the reference plane of "
+                "the moments green and dash-dotted. Below: places z and distances of the webs in mm; R is the radius "
+                "of a centre of mass. Along and across the shaft the scales differ." + _as_built(plan),
             ),
         ),
     )
+
+
+def _drawn(answer: OptimizeAnswer, plan: Layout) -> str:
+    """How counterweights are drawn."""
+    what = "counterweights of the best compromise" if answer.infeasibility is not None else "counterweights"
+    if all(one.shape is not None for one in plan.best):
+        return f"{what} blue and true to shape, with their centres of mass as dots"
+    return (
+        f"{what} blue with their centres of mass as dots; a dashed disc stands for one of unknown shape, and its area "
+        "is as its mass"
+    )
+
+
+def _as_built(plan: Layout) -> str:
+    return " As built: dashed, without a ground." if plan.built else ""
 
 
 def stages(machine: Machine, found: Sequence[Stage] | None, missing: Sequence[FieldProblem]) -> Chapter:

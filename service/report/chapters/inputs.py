@@ -11,7 +11,8 @@ from schemas.machine.throws import Row, Throw, row_cylinders
 from schemas.machine.webs import Web
 from schemas.request.requests import OptimizeRequest
 from schemas.scroll.over_turn import ForceTable, TorqueTable
-from service.report.blocks import Block, Cell, Chapter, Paragraph, Table, digits, facts, table
+from service.common.figures import digits
+from service.report.blocks import Block, Cell, Chapter, Paragraph, Table, facts, table
 from service.report.chapters.cylinders import cylinders
 from service.report.chapters.objective import objective
 from service.report.chapters.worst_case import asked

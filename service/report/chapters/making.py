@@ -4,7 +4,8 @@ from collections.abc import Iterator, Sequence
 
 from schemas.answer.counterweights import Counterweight
 from schemas.machine.machine import Machine
-from service.report.blocks import Block, digits, table
+from service.common.figures import digits
+from service.report.blocks import Block, table
 
 
 def holding(machine: Machine, fitted: Sequence[Counterweight]) -> Iterator[Block]:

@@ -5,7 +5,8 @@ from collections.abc import Iterator
 from schemas.front.pareto import ParetoAnswer, ParetoFront, ParetoPoint, ParetoRequest, Reason
 from schemas.front.trade import TradedFront, TradedPoint
 from schemas.request.objective import Objective
-from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, Table, digits, table
+from service.common.figures import digits
+from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, Table, table
 from service.report.chapters.balance import limits
 from service.report.chapters.counts import counted
 from service.report.chapters.verdict import reachable

@@ -4,7 +4,8 @@ from collections.abc import Iterator, Sequence
 
 from schemas.scroll.losses import Losses
 from schemas.scroll.pin_loads import Pin, PinLoads, PinLoadsAnswer, PinLoadsRequest
-from service.report.blocks import Block, Chapter, Equation, Figure, Paragraph, Table, angle, digits, facts, table
+from service.common.figures import digits
+from service.report.blocks import Block, Chapter, Equation, Figure, Paragraph, Table, angle, facts, table
 from service.report.blocks import number as number_cell
 from service.report.chapters.dynamics import figure
 from service.report.charts import Line

@@ -12,8 +12,9 @@ from schemas.answer.first_order import FirstOrder
 from schemas.base.model import FieldProblem
 from schemas.request.report import DesignVersion, ReportRequest
 from schemas.request.requests import AnalyzeRequest
+from service.common.figures import digits, typeset
 from service.common.validation import pointer
-from service.report.blocks import Block, Chapter, Paragraph, Table, digits, table, typeset
+from service.report.blocks import Block, Chapter, Paragraph, Table, table
 from service.report.chapters.balance import shown
 
 #: differences of a version that are listed; of more it is said how many there are

@@ -1,0 +1,263 @@
+"""The machine from the front: seen from +z at shaft angle 0, to scale."""
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import groupby
+from typing import NamedTuple, TypeVar
+
+from service.common.figures import digits
+from service.drawings.labels import Label, Shape, labels
+from service.drawings.layout import CrankMachine, Fitted, Layout, OrbitMachine, Outline, Pins, Place, Ring
+from service.drawings.outline import bounded, points, turned
+from service.drawings.svg import AFTER, FAINT, INK, MUTED, SERIES, Drawing, Point, shortened
+
+Each = TypeVar("Each", bound=tuple[float, str, object])
+
+#: width and height, and how far the machine and the axes of its rows reach, px
+SIZE, _MACHINE, _AXES = 400.0, 144.0, 164.0
+#: as it stands on a page of the report
+_SCALE = 0.8
+#: more names than this cannot be read
+_MAX_NAMES = 16
+_PIN, _THIN_PIN = 7.0, 4.0
+#: radius of the disc for the heaviest weight of unknown shape, as a share of the radius of its centre of mass
+_DISC = 0.34
+#: of a px: what a polygon is away from its arc
+_FINE = 0.1
+_ALLOWED = SERIES[2]
+BUILT = SERIES[3]
+
+
+class _View(NamedTuple):
+    """From metres to px."""
+
+    scale: float
+    centre: Point = (SIZE / 2, SIZE / 2)
+
+    def __call__(self, radius: float, angle_deg: float) -> Point:
+        return self.at(self.scale * radius, angle_deg)
+
+    def at(self, distance: float, angle_deg: float) -> Point:
+        """A place so many px from the shaft."""
+        angle, (x, y) = math.radians(angle_deg), self.centre
+        return x + distance * math.cos(angle), y - distance * math.sin(angle)
+
+    def arc(self, distance: float, start_deg: float, end_deg: float) -> list[Point]:
+        steps = max(2, math.ceil(abs(end_deg - start_deg) / 4))
+        return [self.at(distance, start_deg + (end_deg - start_deg) * step / steps) for step in range(steps + 1)]
+
+
+def front(layout: Layout) -> Drawing:
+    """Cranks, axes of rows and counterweights, x to the right and y upwards.
+
+    Counterweights are true to shape where their shape is known; a dashed disc stands for the others. What is built in
+    place of them has no ground.
+    """
+    machine, best, built = layout.machine, layout.best, layout.built
+    told = ", ".join(f"{one.web.name} {_weight(one)}" for one in best)
+    words = f"From the front, at shaft angle 0. Counterweights: {told or 'none'}."
+    drawing = Drawing(SIZE, SIZE, words, _SCALE)
+    view = _View(_MACHINE / _reach(layout))
+    _frame(drawing)
+    wanted: list[Label] = []
+    if isinstance(machine, CrankMachine):
+        wanted += _rows(drawing, view, machine)
+    for web in machine.places:
+        _allowed(drawing, view, web)
+    shapes = [_fitted(drawing, view, one, best) for one in sorted(best, key=lambda one: -one.mass_kg)]
+    for one in built:
+        with drawing.group("counterweight built", f"{one.web.name} as built: {_weight(one)}"):
+            drawing.area(_disc(view, one, (*best, *built)), "none", stroke=BUILT, width=1.6, dash="6 3")
+    cranks = _cranks(drawing, view, machine) if isinstance(machine, CrankMachine) else _scroll(drawing, view, machine)
+    drawing.circle(view.centre, 4, fill=INK)
+    _sense(drawing, machine.rotation)
+    pins = [_View(1.0, place).arc(_PIN, 0, 360) for place, _, _ in cranks]
+    labels(drawing, [*_crank_names(view, cranks), *_web_names(view, best, shapes), *wanted], [*shapes, *pins])
+    return drawing
+
+
+def _weight(one: Fitted) -> str:
+    return f"{digits(round(one.mass_kg, 4))} kg at {digits(round(one.angle_deg, 2))}°"
+
+
+def _reach(layout: Layout) -> float:
+    """Radius of what is drawn to scale, m; the axes of rows go on beyond it."""
+    machine = layout.machine
+    radii = [1.22 * web.reach_m for web in machine.places if web.reach_m]
+    radii += [1.22 * one.radius_m for one in (*layout.best, *layout.built) if one.shape is None]
+    if isinstance(machine, CrankMachine):
+        return max([*radii, *(1.25 * crank.crank_radius_m for _, crank in machine.cranks)], default=1.0)
+    guide = machine.anti_rotation
+    pins = [1.1 * guide.pin_circle_radius_m] if isinstance(guide, Pins) else []
+    return max([*radii, *pins, 1.5 * machine.orbit_radius_m])
+
+
+def _frame(drawing: Drawing) -> None:
+    x, y = 14.0, SIZE - 14.0
+    with drawing.group("axes"):
+        drawing.line([(x, y - 26), (x, y), (x + 26, y)], MUTED)
+        drawing.text((x + 30, y + 4), "x", size=12, fill=MUTED)
+        drawing.text((x - 4, y - 31), "y", size=12, fill=MUTED)
+
+
+def _sense(drawing: Drawing, rotation: str) -> None:
+    """An arrow in the sense of rotation, apart from the machine."""
+    view = _View(1.0, (32.0, 32.0))
+    ends = (200.0, 500.0) if rotation == "ccw" else (340.0, 40.0)
+    with drawing.group("sense", "turns counter-clockwise" if rotation == "ccw" else "turns clockwise"):
+        arc = view.arc(18, *ends)
+        drawing.line(arc, MUTED, 1.2)
+        ahead = ends[1] + (90 if rotation == "ccw" else -90)
+        tip = arc[-1]
+        left, right = (_View(1.0, tip).at(7, ahead + 180 + turn) for turn in (28, -28))
+        drawing.area([tip, left, right], MUTED)
+        drawing.text((view.centre[0], view.centre[1] + 4), rotation, "middle", 11, MUTED)
+
+
+def _rows(drawing: Drawing, view: _View, machine: CrankMachine) -> Iterator[Label]:
+    cranks = machine.cranks
+    axes = [
+        (row.axis_deg % 360.0, row.name or "", throw)
+        for throw, crank in cranks
+        for row in crank.rows
+        if row is not None
+    ]
+    for axis, group in _grouped(axes):
+        if len(cranks) > 2 and len({throw for _, _, throw in group}) == len(cranks):
+            names = "all throws"
+        else:
+            names = _joined(name if name and len(cranks) <= 2 else f"throw {throw}" for _, name, throw in group)
+        end = view.at(_AXES, axis)
+        with drawing.group("row", f"axis of {names}, {digits(axis)}°"):
+            drawing.line([view.centre, end], MUTED, 0.9, "12 3 2 3")
+            drawing.circle(end, 3, "none", MUTED)
+        # never on the axis itself
+        steep = abs(math.sin(math.radians(axis))) > 0.5
+        place = view.at(_AXES + 14, axis) if steep else (end[0], end[1] + 16)
+        yield Label(place, f"{names}, {digits(axis)}°", MUTED, 11.0)
+
+
+def _allowed(drawing: Drawing, view: _View, web: Place) -> None:
+    """Where a weight may sit, if not anywhere."""
+    if web.sector is None or web.reach_m is None or web.max_mass_kg == 0:
+        return
+    low, high = (web.sector.centre_deg + side * web.sector.half_angle_deg for side in (-1, 1))
+    wedge = [view.centre, *view.arc(1.2 * view.scale * web.reach_m, low, high)]
+    with drawing.group("sector", f"{web.name} may carry its counterweight here"):
+        drawing.area(wedge, _ALLOWED, 0.08, _ALLOWED, 1.0, "4 4")
+
+
+def _fitted(drawing: Drawing, view: _View, one: Fitted, weights: Sequence[Fitted]) -> Shape:
+    """Draws a counterweight, and gives its outline."""
+    shape = _disc(view, one, weights) if one.shape is None else _cut(view, one, one.shape)
+    kind = f"counterweight{' fixed' if one.fixed else ''}{' unknown' if one.shape is None else ''}"
+    with drawing.group(kind, f"{one.web.name}: {_weight(one)}, radius {digits(one.radius_m)} m"):
+        ground, edge = (MUTED, INK) if one.fixed else (AFTER, AFTER)
+        drawing.area(shape, ground, 0.3, edge, 1.6, "5 3" if one.shape is None else None)
+        drawing.circle(view(one.radius_m, one.angle_deg), 2.2, edge, edge)
+    return shape
+
+
+def _cut(view: _View, one: Fitted, shape: Outline) -> Shape:
+    """True to shape."""
+    hub = one.web.envelope.inner_radius_m if one.web.envelope else 0.0
+    half_angle, chord = math.radians(shape.half_angle_deg), shape.chord_height_m is not None
+    edges = bounded(shape.outer_radius_m, hub, half_angle, chord)
+    found = points(turned(edges, math.radians(one.angle_deg - 90.0)), _FINE / view.scale)
+    x0, y0 = view.centre
+    return [(x0 + view.scale * x, y0 - view.scale * y) for x, y in found]
+
+
+def _disc(view: _View, one: Fitted, weights: Sequence[Fitted]) -> Shape:
+    """What stands for a weight of which only mass and centre are known: its area is as its mass."""
+    heaviest = max(weights, key=lambda each: each.mass_kg)
+    radius = _DISC * heaviest.radius_m * math.sqrt(one.mass_kg / heaviest.mass_kg)
+    return _View(1.0, view(one.radius_m, one.angle_deg)).arc(max(3.0, view.scale * radius), 0, 360)
+
+
+#: place of the pin, names of what is there, their common name
+Crank = tuple[Point, list[str], str]
+
+
+def _cranks(drawing: Drawing, view: _View, machine: CrankMachine) -> list[Crank]:
+    for radius in sorted({crank.crank_radius_m for _, crank in machine.cranks}):
+        drawing.circle(view.centre, view.scale * radius, FAINT, dash="3 3")
+    cranks = [(crank.crank_angle_deg % 360.0, name, crank.crank_radius_m) for name, crank in machine.cranks]
+    drawn = []
+    thin = len(cranks) > _MAX_NAMES
+    for angle, group in _grouped(cranks):
+        for radius in sorted({each[2] for each in group}, reverse=True):
+            names, pin = [name for _, name, own in group if own == radius], view(radius, angle)
+            with drawing.group("throw", f"throw {_joined(names)} at {digits(angle)}°"):
+                drawing.line([view.centre, pin], INK, 1.0 if thin else 4.0)
+                drawing.circle(pin, _THIN_PIN if thin else _PIN, fill="white", width=1.0 if thin else 2.0)
+            drawn.append((pin, names, "throws"))
+    return drawn
+
+
+def _scroll(drawing: Drawing, view: _View, machine: OrbitMachine) -> list[Crank]:
+    orbit, guide = machine.orbit_radius_m, machine.anti_rotation
+    if isinstance(guide, Ring):
+        ends = [view.at(_AXES, guide.axis_deg + turn) for turn in (180.0, 0.0)]
+        with drawing.group("row", f"the Oldham ring slides along this line, {digits(guide.axis_deg)}°"):
+            drawing.line(ends, MUTED, 0.9, "12 3 2 3")
+    elif guide is not None:
+        drawing.circle(view.centre, view.scale * guide.pin_circle_radius_m, FAINT, dash="3 3")
+        for number in range(1, min(guide.count, 120) + 1):
+            angle = (1 if machine.rotation == "ccw" else -1) * 360.0 * (number - 1) / guide.count
+            with drawing.group("pin", f"pin {number} at {digits(round(angle % 360.0, 3))}°"):
+                drawing.circle(view(guide.pin_circle_radius_m, angle), 4.5, fill="white", width=1.4)
+    drawing.circle(view.centre, view.scale * orbit, MUTED, dash="3 3")
+    with drawing.group("throw", "eccentric of the orbiting scroll"):
+        drawing.line([view.centre, view(orbit, 0)], INK, 3.0)
+        drawing.circle(view(orbit, 0), 4.5, fill="white", width=1.6)
+    return [(view(orbit, 0), ["orbiting scroll"], "")]
+
+
+def _crank_names(view: _View, cranks: Sequence[Crank]) -> Iterator[Label]:
+    if len(cranks) > _MAX_NAMES:
+        return
+    for (x, y), names, common in cranks:
+        text = f"{len(names)} {common}" if len(names) > 4 else _joined(names)
+        # never on the crank itself
+        yield Label((x, y + 17 if y > view.centre[1] + 1 else y - 17), text, INK)
+
+
+def _web_names(view: _View, weights: Sequence[Fitted], shapes: Sequence[Shape]) -> Iterator[Label]:
+    """Of those in the same place one name: beyond the shape, or above it where the axes of rows run beside it."""
+    places: dict[tuple[int, str], list[int]] = {}
+    order = sorted(weights, key=lambda one: -one.mass_kg)
+    for k, one in enumerate(order):
+        places.setdefault((round(one.angle_deg), f"{one.radius_m:.2g}"), []).append(k)
+    if len(places) > _MAX_NAMES:
+        return
+    for group in places.values():
+        names = sorted(order[k].web.name for k in group)
+        text = f"{len(names)} webs" if len(names) > 4 else _joined(names)
+        first, shape = order[group[0]], shapes[group[0]]
+        top = min(y for k in group for _, y in shapes[k])
+        if abs(math.cos(math.radians(first.angle_deg))) > math.sqrt(0.5):
+            yield Label((view(first.radius_m, first.angle_deg)[0], top - 10), text, AFTER)
+            continue
+        x0, y0 = view.centre
+        distance = max(math.hypot(x - x0, y - y0) for x, y in shape) + 14
+        x, y = view.at(distance, first.angle_deg)
+        # beside a shape the name begins where the shape ends
+        yield Label((x + 3.5 * len(text) * math.cos(math.radians(first.angle_deg)), y), text, AFTER)
+
+
+def _grouped(items: Iterable[Each]) -> Iterator[tuple[float, list[Each]]]:
+    """Items by their angle."""
+    for angle, group in groupby(sorted(items, key=lambda item: item[0]), key=lambda item: item[0]):
+        yield angle, list(group)
+
+
+def _joined(names: Iterable[str]) -> str:
+    """Names as far as there is room for them."""
+    found = [shortened(name, 18) for name in dict.fromkeys(names)]
+    shown: list[str] = []
+    for name in found:
+        if shown and (len(shown) == 6 or sum(map(len, shown)) + len(name) > 36):
+            break
+        shown.append(name)
+    return ", ".join(shown) + (f" and {len(found) - len(shown)} more" if len(shown) < len(found) else "")

@@ -1,0 +1,301 @@
+"""What is drawn of a machine with its weights: places, radii, angles, names; of one that is half-typed, what is known.
+
+Lengths are m, angles deg.
+"""
+
+from collections.abc import Iterator, Sequence
+from copy import deepcopy
+from itertools import islice
+from typing import Annotated, Any, Literal, NamedTuple
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
+from pydantic_core import ErrorDetails, PydanticCustomError
+
+from schemas.answer.counterweights import Counterweight
+from schemas.base.model import FieldProblem
+from schemas.base.quantities import Angle, Count, Length, Mass, MaxMass, Name, Position
+from schemas.base.rules import REQUIRED, Path
+from schemas.base.units import Unit, non_negative
+from schemas.machine.drive import MAX_BEARINGS
+from schemas.machine.machine import Machine
+from schemas.machine.reciprocating import MAX_ROWS_TOGETHER
+from schemas.machine.rotor import MAX_WEBS
+from schemas.machine.throws import MAX_ROWS, MAX_THROWS
+from service.common.validation import MAX_ERRORS, locate, message_of
+
+#: of the heaviest counterweight: what rounding leaves of nothing is not drawn
+_DUST = 1e-6
+
+Radius = Annotated[Length | None, Unit("m")]
+
+
+class _Part(BaseModel):
+    """Reads what is drawn, of a model or of JSON, and leaves out the rest; ``None`` in a list is not known."""
+
+    model_config = ConfigDict(frozen=True, extra="ignore", allow_inf_nan=False, from_attributes=True)
+
+
+class Outline(_Part):
+    """What is cut from a plate."""
+
+    half_angle_deg: Angle
+    chord_height_m: Radius = None
+    outer_radius_m: Length
+
+
+class Weight(_Part):
+    """A counterweight on a web."""
+
+    web: Name
+    mass_kg: Mass
+    angle_deg: Angle
+    radius_m: Radius = None
+    fixed: bool = False
+    shape: Outline | None = None
+
+
+class Axis(_Part):
+    """The axis of a row."""
+
+    name: Name | None = None
+    axis_deg: Angle
+    offset_m: Position = 0.0
+
+
+class Crank(_Part):
+    """A throw."""
+
+    name: Name | None = None
+    position_m: Position
+    crank_radius_m: Length
+    crank_angle_deg: Angle
+    rows: tuple[Axis | None, ...] = Field((), max_length=MAX_ROWS)
+
+
+class Opening(_Part):
+    """The angles that a weight may take."""
+
+    centre_deg: Angle
+    half_angle_deg: Angle
+
+
+class Plate(_Part):
+    """The plate from which a weight is cut."""
+
+    inner_radius_m: Annotated[float, non_negative(1e3), Unit("m")] = 0.0
+    outer_radius_m: Length
+    thickness_m: Radius = None
+
+
+class Fixed(_Part):
+    """Where a weight sits that stays."""
+
+    radius_m: Radius = None
+
+
+class Place(_Part):
+    """A web."""
+
+    name: Name
+    position_m: Position
+    counterweight_radius_m: Radius = None
+    max_mass_kg: Annotated[MaxMass | None, Unit("kg")] = None
+    sector: Opening | None = None
+    envelope: Plate | None = None
+    fixed: Fixed | None = None
+
+    @property
+    def radius_m(self) -> float | None:
+        """Radius of the centre of mass of what it carries."""
+        return (self.fixed.radius_m if self.fixed else None) or self.counterweight_radius_m
+
+    @property
+    def reach_m(self) -> float | None:
+        """Radius to which a weight reaches: that of its centre of mass, where no more is known."""
+        return self.envelope.outer_radius_m if self.envelope else self.radius_m
+
+
+class Fitted(NamedTuple):
+    """A weight that can be seen: it has a radius."""
+
+    web: Place
+    mass_kg: float
+    angle_deg: float
+    radius_m: float
+    fixed: bool
+    shape: Outline | None
+
+
+class Support(_Part):
+    """A main bearing."""
+
+    name: Name | None = None
+    position_m: Position
+
+
+class Ring(_Part):
+    """An Oldham ring."""
+
+    type: Literal["oldham"]
+    axis_deg: Angle
+    position_m: Position
+
+
+class Pins(_Part):
+    """Crank pins of a scroll."""
+
+    type: Literal["crank_pins"]
+    count: Annotated[Count, Field(ge=1, le=1000)]
+    pin_circle_radius_m: Length
+    position_m: Position
+
+
+class _Shaft(_Part):
+    rotation: Literal["ccw", "cw"] = "ccw"
+    reference_plane_m: Annotated[Position | None, Unit("m")] = None
+    webs: tuple[Place | None, ...] = Field((), max_length=MAX_WEBS)
+
+    @property
+    def places(self) -> tuple[Place, ...]:
+        """Webs that are known."""
+        return tuple(filter(None, self.webs))
+
+
+class CrankMachine(_Shaft):
+    """A reciprocating machine."""
+
+    kind: Literal["reciprocating"]
+    throws: tuple[Crank | None, ...] = Field((), max_length=MAX_THROWS)
+    bearings: tuple[Support | None, ...] = Field((), max_length=MAX_BEARINGS)
+
+    @field_validator("throws")
+    @classmethod
+    def _few_rows(cls, throws: tuple[Crank | None, ...]) -> tuple[Crank | None, ...]:
+        if sum(len(one.rows) for one in throws if one) > MAX_ROWS_TOGETHER:
+            raise PydanticCustomError("rows", f"must hold at most {MAX_ROWS_TOGETHER} rows together")
+        return throws
+
+    @property
+    def cranks(self) -> tuple[tuple[str, Crank], ...]:
+        """Throws that are known, by name or by number from 1."""
+        return tuple((one.name or str(k), one) for k, one in enumerate(self.throws, start=1) if one)
+
+    @property
+    def supports(self) -> tuple[tuple[str, Support], ...]:
+        """Main bearings that are known, by name or by number from 1."""
+        return tuple((one.name or str(k), one) for k, one in enumerate(self.bearings, start=1) if one)
+
+
+class OrbitMachine(_Shaft):
+    """A scroll machine."""
+
+    kind: Literal["scroll"]
+    orbit_radius_m: Length
+    orbiting_position_m: Position
+    anti_rotation: Annotated[Ring | Pins | None, Field(discriminator="type")] = None
+
+
+class Layout(_Part):
+    """A machine with what is best on it, and with what is fitted in place of that."""
+
+    machine: Annotated[CrankMachine | OrbitMachine, Field(discriminator="kind")]
+    counterweights: tuple[Weight | None, ...] = ()
+    fitted: tuple[Weight | None, ...] = ()
+
+    @property
+    def best(self) -> tuple[Fitted, ...]:
+        """The counterweights that can be seen."""
+        return tuple(self._seen(self.counterweights))
+
+    @property
+    def built(self) -> tuple[Fitted, ...]:
+        """What is fitted in place of them and can be seen."""
+        return tuple(self._seen(self.fitted))
+
+    def _seen(self, weights: Sequence[Weight | None]) -> Iterator[Fitted]:
+        """Weights with the radius of their own, of the web, or of the counterweight that they stand for."""
+        webs = {web.name: web for web in self.machine.places}
+        radii = {one.web: one.radius_m for one in self.counterweights if one}
+        heaviest = max((one.mass_kg for one in weights if one), default=0.0)
+        for one in weights:
+            # weights of balance shafts are on none of these webs
+            if one is None or one.web not in webs or not one.mass_kg > _DUST * heaviest:
+                continue
+            web = webs[one.web]
+            radius = one.radius_m or web.radius_m or radii.get(one.web)
+            if radius is not None:
+                yield Fitted(web, one.mass_kg, one.angle_deg, radius, one.fixed, one.shape)
+
+    @property
+    def reference_plane_m(self) -> float:
+        """The plane of moments: where the machine names none, midway between what turns (mathematics, section 2)."""
+        machine = self.machine
+        if machine.reference_plane_m is not None:
+            return machine.reference_plane_m
+        if isinstance(machine, OrbitMachine):
+            return machine.orbiting_position_m
+        planes = [one.position_m for _, one in machine.cranks] or [one.position_m for one in machine.places]
+        return (min(planes) + max(planes)) / 2.0
+
+
+def layout_of(machine: Machine, best: Sequence[Counterweight], built: Sequence[Counterweight] = ()) -> Layout:
+    """A whole machine with its counterweights."""
+    return Layout.model_validate({"machine": machine, "counterweights": best, "fitted": built})
+
+
+def known(typed: dict[str, Any]) -> tuple[Layout | None, list[FieldProblem]]:
+    """What is known of a layout that is half-typed, and why the rest is not.
+
+    A value that cannot be read is taken away; where it has to be there, what it is part of goes with it.
+
+    Returns
+    -------
+    Layout, None where nothing can be drawn; the first reasons, by their paths.
+    """
+    rest, why = deepcopy(typed), dict[Path, str]()
+    found: Layout | None = None
+    while found is None:
+        try:
+            found = Layout.model_validate(rest)
+        except ValidationError as error:
+            if not _cut(rest, error, why):
+                break
+    if found and isinstance(found.machine, CrankMachine) and not (found.machine.cranks or found.machine.places):
+        why.setdefault(("machine", "throws"), REQUIRED)
+        found = None
+    return found, [FieldProblem(*one) for one in islice(why.items(), MAX_ERRORS)]
+
+
+def _cut(rest: dict[str, Any], error: ValidationError, why: dict[Path, str]) -> bool:
+    """Take away what is wrong, and note why; false where that would be all."""
+    wrong = []
+    for detail in error.errors(include_url=False, include_input=False):
+        missing = detail["type"] == "missing"
+        path = locate(rest, detail["loc"], missing)
+        named = (*path, *_discriminator(detail)) if path else path
+        why.setdefault(named, message_of(detail))
+        wrong.append(path[:-1] if missing else path)
+    for path in wrong:
+        if len(path) < 2:
+            return False
+        _take_away(rest, path)
+    return True
+
+
+def _discriminator(detail: ErrorDetails) -> Iterator[str]:
+    """The field that tells kinds apart, where that is wrong."""
+    if detail["type"] in ("union_tag_not_found", "union_tag_invalid"):
+        yield detail["ctx"]["discriminator"].strip("'")
+
+
+def _take_away(rest: Any, path: Path) -> None:
+    """Leave a gap in a list, so that places keep their numbers; elsewhere nothing."""
+    *around, last = path
+    inner: Any = rest
+    for element in around:
+        # gone already, with what it is part of
+        inner = inner[element] if inner else None
+    if isinstance(inner, list):
+        inner[int(last)] = None
+    elif inner:
+        inner.pop(last, None)

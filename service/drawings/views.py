@@ -1,0 +1,18 @@
+"""The views of a machine, whole or half-typed, without anything being solved."""
+
+from schemas.answer.problem import FieldError
+from schemas.request.layout import LayoutAnswer, LayoutRequest
+from service.common.validation import pointer
+from service.drawings.front import front
+from service.drawings.layout import known
+from service.drawings.side import side
+
+
+def views(request: LayoutRequest) -> LayoutAnswer:
+    """Front and side of what is known, and why the rest is not drawn."""
+    layout, missing = known(request.model_dump())
+    return LayoutAnswer(
+        front=None if layout is None else front(layout).svg(),
+        side=None if layout is None else side(layout).svg(),
+        missing=tuple(FieldError(pointer=pointer(one.path), message=one.message) for one in missing),
+    )
