@@ -179,7 +179,7 @@ def told(
         bounds.append(found.proof.bound)
     # above what it comes to by no more than rounding
     bounds = [min(bound, goal.value) for bound, goal in zip(bounds, found.goals, strict=False)]
-    levels = tuple(_levels(found, bounds, square, searched=search is not None))
+    levels = tuple(_levels(found, bounds, asked, square, searched=search is not None))
     if search is None and allowance > 0.0:
         levels += (_mass_level(found, float(np.sum(there)), printed["mass_lower_bound_kg"]),)
     if search is not None and search.levels:
@@ -218,11 +218,13 @@ def told(
     )
 
 
-def _levels(found: Found, bounds: Sequence[float], omega_squared: float, searched: bool) -> Iterator[GoalReached]:
+def _levels(
+    found: Found, bounds: Sequence[float], asked: Goals, omega_squared: float, searched: bool
+) -> Iterator[GoalReached]:
     """What goals came to in their order, as far as there are bounds of them; of those before the last with proofs."""
     for goal, bound in zip(found.goals, bounds, strict=False):
         least = finite_or_null(bound * omega_squared)
-        proof = None if searched or goal is found.goals[-1] else multipliers_of(goal.proof, omega_squared)
+        proof = None if searched or goal is found.goals[-1] else multipliers_of(goal.proof, omega_squared, asked.speeds)
         value, limit = goal.value * omega_squared, goal.most * omega_squared
         yield GoalReached(goal=goal.goal, value=value, lower_bound=least, limit=limit, multipliers=proof)
 
