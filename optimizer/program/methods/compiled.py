@@ -326,6 +326,7 @@ def _programs(statement: Statement, reach: Real, unit: Real, margin: float) -> "
     mass = reach / limits.radius
     highest = np.maximum.reduce(statement.floor, axis=-1)
     budget = limits.max_total_mass[:, None]
+    over = np.add.reduce(mass, axis=-1, keepdims=True) > budget
     programs = Programs(
         row=statement.row.astype(np.int64),
         floor=(statement.floor - highest[:, None]) / unit[:, None],
@@ -337,7 +338,8 @@ def _programs(statement: Statement, reach: Real, unit: Real, margin: float) -> "
         cosine=limits.half_angle_cos,
         sector=np.where(limits.free, 0.0, 1.0),
         mass=mass,
-        budget=np.where(np.add.reduce(mass, axis=-1, keepdims=True) > budget, mass / budget, 0.0),
+        # no share of a budget of 0, under which nothing has a mass
+        budget=np.divide(mass, budget, out=np.zeros(mass.shape), where=np.broadcast_to(over, mass.shape)),
     )
     return Programs(*(plain(values) for values in programs))
 
