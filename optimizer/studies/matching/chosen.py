@@ -101,7 +101,9 @@ class Chosen:
     def _of_any_mass(self) -> ReciprocatingMachine:
         """The machine whose counterweights have any mass within their limits; plates reach as far as they can."""
         machine, cut = self.request.machine, plates(self.request.machine)
-        return machine if cut is None else fitted(machine, np.zeros(cut.webs.size))
+        if cut is None:
+            return machine
+        return machine.model_copy(update={"webs": fitted(machine, np.zeros(cut.webs.size)).webs})
 
     def _programs(self, row_mass: Real) -> Statement:
         machine = with_masses(self._of_any_mass, row_mass)
