@@ -165,6 +165,13 @@ def test_of_a_budget_of_nothing_nothing_is_cut() -> None:
     body["machine"]["max_total_mass_kg"] = 0.0
     found = answered(body)
     assert (found.status, found.total_mass_kg) == ("optimal", 0.0)
+    # independent: what the first kilogram takes off the objective
+    body["machine"]["max_total_mass_kg"] = 1.0
+    first = answered(body)
+    assert found.certificate is not None
+    assert first.certificate is not None
+    (price,) = found.shadow_prices
+    assert price.value == pytest.approx(found.certificate.objective - first.certificate.objective, rel=1e-3)
 
 
 @pytest.mark.parametrize("share", [0.1, 0.4, 0.8])

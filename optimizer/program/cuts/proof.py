@@ -35,7 +35,7 @@ class Proof:
     cuts : of every quantity, in the order of the statement.
     price : of a bound of the mass, by which it falls where the last goal may come to one more, kg.
     scale : (groups,) what the groups of the statement are multiplied by; None where they are as they are.
-    laid : the statement with tangents in place of plates, by which it was proven; None where none count.
+    laid : that by which it was proven, with tangents in place of plates whose mass counts; None without plates.
     """
 
     bound: float
@@ -59,8 +59,8 @@ class Proof:
         return self.statement if self.laid is None else self.laid
 
     def within(self, limits: Limits) -> "Proof":
-        """The same with other limits, of which it is true as well."""
-        return replace(self, statement=replace(self.statement, limits=limits))
+        """The same with other limits, of which it is true as well; a budget stays priced by those that proved it."""
+        return replace(self, statement=replace(self.statement, limits=limits), laid=self.with_pieces)
 
     def up_to(self, more: float) -> "Proof":
         """That of the mass of all whose last goal comes to so much more."""
