@@ -162,6 +162,9 @@ def test_pairs_of_sums_are_compared_by_fewer_at_once_where_they_have_more_terms(
         evaluated(pairs, i, j)
 
     monkeypatch.setattr(halves.Pairs, "evaluated", counting)
+    # so few that several are made, however slow the machine is
+    monkeypatch.setattr(halves, "_AT_ONCE", 40_000)
+    monkeypatch.setattr(halves, "_PAIRS_AT_ONCE", 20)
     outcome = ask("twin", ["bending weight", "steps"])
     assert outcome.kind == "answered"
     # several were made, and the last of a batch may be more than fill it
