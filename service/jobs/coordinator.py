@@ -73,6 +73,8 @@ class Coordinator:
         self._name = uuid.uuid4().hex
         self._flights: list[RunningChunk] = []
         self._active: set[str] = set()
+        # jobs that are read here, and those of a later version, which services of that one compute
+        self._read, self._later = set[str](), set[str]()
         # chunks that were in a pool when it broke are tried alone, so that the one at fault is found
         self._suspects = True
         # jobs that ended badly while the database could not be told
@@ -286,7 +288,7 @@ class Coordinator:
         if not self._active:
             return
         if self._suspects and not self._flights:
-            chunk = self._leases.claim(self._name, self._pace.lease_s, attempted=True)
+            chunk = self._leases.claim(self._name, self._pace.lease_s, attempted=True, others=self._later)
             if chunk is not None:
                 self._submit(chunk)
                 return
@@ -295,7 +297,7 @@ class Coordinator:
         while not self._suspects and not self._stopping and len(self._flights) < window:
             # not all at once, as the next may be somebody else's turn
             some = min(max(1, window // _TURNS), window - len(self._flights))
-            claimed = self._leases.claim_some(self._name, self._pace.lease_s, some)
+            claimed = self._leases.claim_some(self._name, self._pace.lease_s, some, others=self._later)
             if not claimed:
                 # what is left, if anything, went wrong before or is leased
                 self._suspects = True
@@ -312,7 +314,21 @@ class Coordinator:
             for chunk in left:
                 self._leases.give_back(chunk, chunk.attempts)
 
+    def _is_later(self, chunk: Chunk) -> bool:
+        """Whether a chunk is of a job that this version does not understand."""
+        job = chunk.job
+        self._read, self._later = self._read & self._active, self._later & self._active
+        if job not in self._read | self._later:
+            later = KINDS[chunk.kind].later(chunk.request)
+            (self._later if later else self._read).add(job)
+            if later:
+                _LOG.warning("job %s says what this version does not know: a service of its own has to compute it", job)
+        return job in self._later
+
     def _submit(self, chunk: Chunk) -> None:
+        if self._is_later(chunk):
+            self._leases.give_back(chunk, chunk.attempts)
+            return
         try:
             future, covers = self._begin(chunk)
         except BrokenExecutor:

@@ -9,9 +9,12 @@ from service.jobs.piece import ChunkResult, Unanswerable
 
 if TYPE_CHECKING:
     import pyarrow as pa
+    from pydantic import BaseModel
 
 Proceed = Callable[[], None]
 
+#: errors of a request that has fields, or values of them, which a version does not know
+_UNKNOWN = ("extra_forbidden", "literal_error", "union_tag_invalid")
 #: rows with these statuses do not count as failed, nor do those of invalid designs
 _ANSWERED = ("optimal", "analyzed")
 _INVALID = ("invalid",)
@@ -24,10 +27,33 @@ class Kind:
 
     compute : request, start and stop of the rows, and what to call between blocks of rows -> piece.
     failed : request, start and stop, and the reason -> piece; None if such a job fails as a whole.
+    later : whether a request says what this version does not know, and so is one of a later version.
     """
 
     compute: Callable[[bytes, int, int, Proceed], ChunkResult]
     failed: Callable[[bytes, int, int, str], ChunkResult] | None = None
+    later: Callable[[bytes], bool] = lambda _: False
+
+
+def _later(model: "Callable[[], type[BaseModel]]") -> Callable[[bytes], bool]:
+    """Whether a model lacks fields or values of a request, which some version has taken."""
+
+    def later(request: bytes) -> bool:
+        from pydantic import ValidationError
+
+        try:
+            model().model_validate_json(request)
+        except ValidationError as error:
+            return any(each["type"] in _UNKNOWN for each in error.errors(include_url=False, include_input=False))
+        return False
+
+    return later
+
+
+def _sweep_request() -> "type[BaseModel]":
+    from schemas.sweep.request import SweepRequest
+
+    return SweepRequest
 
 
 def _sweep(request: bytes, start: int, stop: int, proceed: Proceed) -> ChunkResult:
@@ -109,6 +135,10 @@ def _answer(asked_for: Computation) -> Callable[[bytes, int, int, Proceed], Chun
 
 
 KINDS: Mapping[str, Kind] = {
-    "sweep": Kind(_sweep, _failed_rows),
-    **{one.name: Kind(_answer(one)) for one in COMPUTATIONS.values() if one.later},
+    "sweep": Kind(_sweep, _failed_rows, _later(_sweep_request)),
+    **{
+        one.name: Kind(_answer(one), later=_later(lambda one=one: one.asks))  # type: ignore[misc]
+        for one in COMPUTATIONS.values()
+        if one.later
+    },
 }

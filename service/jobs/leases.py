@@ -1,7 +1,7 @@
 """What coordinators do to the chunks of jobs. Every method is one transaction."""
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import cache
 from typing import Any
 
@@ -48,12 +48,14 @@ class Leases:
         self._limits = limits or Limits()
         self._clock = clock
 
-    def claim(self, owner: str, lease_s: float, attempted: bool = False) -> Chunk | None:
+    def claim(self, owner: str, lease_s: float, attempted: bool = False, others: Collection[str] = ()) -> Chunk | None:
         """Lease one chunk, see :meth:`claim_some`."""
-        found = self.claim_some(owner, lease_s, 1, attempted)
+        found = self.claim_some(owner, lease_s, 1, attempted, others)
         return found[0] if found else None
 
-    def claim_some(self, owner: str, lease_s: float, most: int, attempted: bool = False) -> list[Chunk]:
+    def claim_some(
+        self, owner: str, lease_s: float, most: int, attempted: bool = False, others: Collection[str] = ()
+    ) -> list[Chunk]:
         """Lease chunks of one job: of the owner with the fewest chunks in work, and of their job with the fewest, so
         that nobody waits for somebody else's large or many jobs.
 
@@ -61,12 +63,13 @@ class Leases:
         ----------
         most : there may be fewer; none if there is nothing to do.
         attempted : whether to lease chunks that went wrong before, or fresh ones.
+        others : jobs that are left to other services.
         """
         now = self._clock()
         # a lease that ends later than any can was made by a clock that has jumped since
         times = {"now": now, "latest": now + 2 * lease_s}
         with self._database.read() as connection:
-            candidates: list[str] = list(connection.scalars(_waiting(attempted), times))
+            candidates: list[str] = list(connection.scalars(_waiting(attempted), {"others": [*others], **times}))
         for job in candidates:
             with self._database.write() as connection:
                 found = rows.find(connection, job, lock=True)
@@ -287,6 +290,7 @@ def _waiting(attempted: bool) -> Select[Any]:
         .outerjoin(of_job, of_job.c.job == jobs.c.id)
         .outerjoin(of_owner, of_owner.c.owner == func.coalesce(jobs.c.owner, ""))
         .where(jobs.c.state.in_(ACTIVE), there if attempted else or_(there, jobs.c.planned < jobs.c.total))
+        .where(jobs.c.id.not_in(bindparam("others", expanding=True)))
         .order_by(func.coalesce(of_owner.c.busy, 0), func.coalesce(of_job.c.busy, 0), jobs.c.created)
         .limit(_CANDIDATES)
     )

@@ -5,11 +5,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optimizer.choices.discrete import ample, branch, halves, sums
+from optimizer.choices.discrete import ample, branch, halves, pairs, sums
 from optimizer.choices.discrete.clock import Clock, Pace
 from optimizer.choices.discrete.exchange import start
 from optimizer.choices.discrete.options import EQUAL, Incumbent, Options
-from optimizer.choices.discrete.pairs import _AT_ONCE, Pairs
+from optimizer.choices.discrete.pairs import Pairs
 from optimizer.choices.semicontinuous import inside, search, tree
 from optimizer.choices.semicontinuous.places import root
 from optimizer.program.cuts.row_generation import FEW
@@ -160,16 +160,19 @@ def test_pairs_of_sums_are_compared_by_fewer_at_once_where_they_have_more_terms(
     """Between two looks at the time as many terms, whether pairs have four or hundreds, as over the turn."""
     batches, evaluated = list[int](), Pairs.evaluated
 
-    def counting(pairs: Any, i: np.ndarray, j: np.ndarray) -> None:
-        batches.append(i.size * pairs.terms.size)
-        evaluated(pairs, i, j)
+    def counting(compared: Any, i: np.ndarray, j: np.ndarray) -> None:
+        batches.append(i.size * compared.terms.size)
+        evaluated(compared, i, j)
 
     monkeypatch.setattr(Pairs, "evaluated", counting)
+    # so few that several are made, however slow the machine is
+    monkeypatch.setattr(pairs, "_AT_ONCE", 40_000)
+    monkeypatch.setattr(pairs, "_PAIRS_AT_ONCE", 20)
     outcome = ask("twin", ["bending weight", "steps"], _ENOUGH_S)
     assert outcome.kind == "answered"
     # several were made, and the last of a batch may be more than fill it
     assert len(batches) > 1
-    assert max(batches) <= 1.5 * _AT_ONCE
+    assert max(batches) <= 1.5 * pairs._AT_ONCE
 
 
 @pytest.mark.parametrize(

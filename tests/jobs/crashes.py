@@ -91,9 +91,9 @@ def work(house: House, told: Told, least: int = TOTAL, clock: Callable[[], float
         coordinator._step()
 
 
-def live(root: Path, told: Told) -> None:
+def live(root: Path, told: Told, url: str | None = None) -> None:
     """Jobs from their order to their end: one is repaired, one cancelled and resumed, one removed."""
-    house = House(root)
+    house = House(root, url)
     job = _submit(house, told)
     work(house, told)
     damaged = house.store.pieces(job)[2]
@@ -127,9 +127,9 @@ def _submit(house: House, told: Told, **asked: bool) -> str:
     return job
 
 
-def check(root: Path, told: Told) -> tuple[int, int]:
+def check(root: Path, told: Told, url: str | None = None) -> tuple[int, int]:
     """Go on after a crash; rows that are lost or wrong, and files that belong to nobody."""
-    house = House(root)
+    house = House(root, url)
     lost = _forgotten(house, told)
     later = time.time() + 3600
     work(house, Told(), clock=lambda: later)

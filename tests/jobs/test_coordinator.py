@@ -1,6 +1,7 @@
 """Coordinators on engines: the same rows whatever happens. The value of row i is i / 7 (analytic)."""
 
 import errno
+import json
 import os
 import sqlite3
 import subprocess
@@ -15,14 +16,18 @@ from typing import Any
 
 import pytest
 
+from schemas.sweep.request import SweepRequest
 from service.jobs.engines import Engine, engine
 from service.jobs.files import JobFiles
-from service.jobs.job import Record
+from service.jobs.fingerprints import fingerprint
+from service.jobs.job import Order, Record
+from service.jobs.kinds import KINDS
 from service.jobs.pace import Pace
 from service.jobs.piece import ChunkResult
 from service.jobs.rows import Limits
 from tests.jobs import synthetic
 from tests.jobs.house import QUICK, House
+from tests.jobs.sweeps import MACHINE, analyses
 
 
 class Threads:
@@ -106,7 +111,8 @@ def test_what_workers_find_wrong_is_logged_and_counted(house: House, caplog: pyt
         return replace(synthetic.run(*chunk), faults=("a bound is wrong",))
 
     job = house.submit(total=60, chunk_rows=20)
-    coordinator = house.coordinator_on(threads(), run=run)
+    # a lease that runs out has a chunk computed, and its faults counted, once more
+    coordinator = house.coordinator_on(threads(), replace(QUICK, lease_s=600.0), run=run)
     coordinator.start()
     assert house.wait(job).state == "done"
     coordinator.stop()
@@ -292,3 +298,45 @@ def test_the_window_is_bounded(house: House, tmp_path: Path) -> None:
         go.touch()
         assert house.wait(job).state == "done"
     assert most == 4
+
+
+# ---- two versions side by side
+
+
+def _of_a_later_version(**more: Any) -> bytes:
+    """A sweep as a version stores it that has a field more, with all of its defaults."""
+    body = json.loads(SweepRequest.model_validate(analyses(4, 5)).model_dump_json())
+    return json.dumps({**body, "newest": 7, **more}).encode()
+
+
+def test_a_job_of_a_later_version_is_left_to_it(
+    house: House, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    request, columns = _of_a_later_version(), synthetic.SCHEMA.serialize().to_pybytes()
+    order = Order("sweep", request, fingerprint("sweep", request), 20, 5, columns)
+    job, _ = house.store.submit(order)
+    own = house.submit(total=20, chunk_rows=5)
+    with house.coordinator(threads(1)):
+        assert house.wait(own).state == "done"
+    found = house.store.get(job.id)
+    # before, each of its rows was tried alone, and the job failed
+    assert (found.active, found.done, found.failed, found.error) == (True, 0, 0, None)
+    assert sum("does not know" in record.getMessage() for record in caplog.records) == 1
+    # a service of that version, beside this one or after a step back and forth
+    monkeypatch.setitem(KINDS, "sweep", replace(KINDS["sweep"], later=lambda _: False))  # type: ignore[arg-type]
+    with house.coordinator(threads(1)):
+        assert house.wait(job.id).state == "done"
+    assert house.rows(job.id).equals(synthetic.rows(0, 20))
+
+
+def test_what_a_version_does_not_know_is_told_from_what_is_wrong() -> None:
+    sweep, front = KINDS["sweep"].later, KINDS["pareto"].later
+    today = SweepRequest.model_validate(analyses(4, 5)).model_dump_json()
+    base = json.loads(today)["base"]
+    assert not sweep(today.encode())
+    assert sweep(_of_a_later_version())
+    assert sweep(today.replace('"grid"', '"sobol"').encode())
+    assert sweep(json.dumps({**json.loads(today), "base": {**base, "machine": {**base["machine"], "new": 1}}}).encode())
+    assert not sweep(json.dumps({**json.loads(today), "axes": []}).encode())
+    points = {"machine": MACHINE, "points": 3}
+    assert (front(json.dumps(points).encode()), front(json.dumps({**points, "new": 1}).encode())) == (False, True)
