@@ -124,7 +124,7 @@ class MatchRequest(Ruled):
     choose_counterweights: Flag = Field(
         False,
         description="choose the counterweights together with the parts, within their limits: of any mass, from a"
-        " catalogue, at least so heavy, alike or cut from plates, as the machine says; else these fields play no part",
+        " catalogue, at least so heavy, equal or cut from plates, as the machine says; else these fields play no part",
         examples=[False],
     )
     objective: Objective = Field(

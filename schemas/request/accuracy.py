@@ -97,7 +97,7 @@ class ChoiceRow(Model):
     """One way to counterweights as a workshop makes them, and what comes of the time that it takes."""
 
     method: Literal["service", "rounding"] = Field(
-        description="service: what /v1/optimize does, with the least mass where that is asked for; rounding: the "
+        description="service: what /v1/optimize does, with the minimum mass where that is asked for; rounding: the "
         "optimum of any masses at any angles, of a group the mean, each on what is nearest of its web",
         examples=["service"],
     )
@@ -106,7 +106,7 @@ class ChoiceRow(Model):
         description="of the answer; null of a rounding, which proves nothing", examples=["optimal"]
     )
     time_ms: Milliseconds | None = Field(
-        description="median over the rounds, from the request to the answer; of one run where that takes seconds",
+        description="computing time, as limits of time count it: median over the rounds, of one run if that is long",
         examples=[310.0],
     )
     objective: float | None = Field(

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from optimizer.program.verdict import yardstick
+from tests.choices.highs import SIDES, highs
 from tests.choices.scip import scip
 from tests.choices.sets import options_of
 from tests.choices.test_search import found_of
@@ -32,3 +33,22 @@ def test_four_webs(combine: str, budget: bool, ceilings: bool, fitted: int | Non
     assert value == pytest.approx(theirs.objective, abs=_CLOSE * size)
     assert ours.lower_bound <= theirs.objective + _CLOSE * size
     assert theirs.lower_bound <= value + _CLOSE * size
+
+
+def test_two_solvers_of_others_agree() -> None:
+    """SCIP on circles and HiGHS on polygons (independent): its bound is one of the circles, its set no better."""
+    problem = random_statement(5, "sum", (1.0, 0.7), False, False, False, webs=3)
+    most = float(np.max(problem.limits.max_mass))
+    options = options_of(problem, [0.3 * most, 0.6 * most], [0.0, 90.0, 180.0, 270.0], None)
+    size = float(yardstick(problem.alone())[0])
+    theirs, others = (rival(problem, options, 1e-7, size, _LONG) for rival in (scip, highs))
+    ours = found_of(problem, options, relative_gap=1e-9)
+    value = float(problem.objective(options.of(options.unbalance, ours.chosen)))
+    assert theirs.objective == pytest.approx(value, abs=_CLOSE * size)
+    assert others.objective >= value - _CLOSE * size
+    assert others.objective <= value + 5.0 / SIDES**2 * size
+    assert others.lower_bound <= value + _CLOSE * size
+    for each in (theirs, others):
+        assert each.chosen is not None
+        judged = float(problem.objective(options.of(options.unbalance, each.chosen)))
+        assert judged == pytest.approx(each.objective, abs=_CLOSE * size)

@@ -27,7 +27,7 @@ from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
 from optimizer.solve.first_order import certified_first
-from optimizer.studies.accuracy.ladder import LADDER_S, ROUNDS_S, Clock, frontier, median_ms
+from optimizer.studies.accuracy.ladder import LADDER_S, ROUNDS_S, frontier, median_ms
 from schemas.answer.answers import Certificate
 from schemas.machine.machine import Machine
 from schemas.request.accuracy import AccuracyRequest, ChoiceRow, Reference
@@ -105,26 +105,27 @@ def choices_ladder(request: AccuracyRequest, scene: Prepared, solver: Solver) ->
     """
     task = _Task(request, scene, solver)
     task.warm_up()
-    clock, rungs = Clock.of(LADDER_S), list(task.rungs())
+    end, rungs = time.thread_time() + LADDER_S, list(task.rungs())
     enough = dict[Aim, str]()
     for rung in rungs:
-        _first(rung, clock, enough.get(rung.aim))
+        _first(rung, end - time.thread_time(), enough.get(rung.aim))
         if rung.skipped == _UNREACHABLE:
             return Ladder(None, (), True)
         if rung.made is not None and rung.aim in _ENDS and rung.made.status == _ENDS[rung.aim]:
             enough.setdefault(rung.aim, _BEYOND[rung.aim].format(rung.setting))
     for _ in range(request.repeats - 1):
         for rung in rungs:
-            if rung.made is not None and sum(rung.times_s) < ROUNDS_S and clock.left_s > 0:
-                _timed(rung, clock.left_s)
+            left_s = end - time.thread_time()
+            if rung.made is not None and sum(rung.times_s) < ROUNDS_S and left_s > 0:
+                _timed(rung, left_s)
     return task.judged(rungs)
 
 
-def _first(rung: Rung, clock: Clock, enough: str | None) -> None:
-    if enough is not None or clock.left_s <= 0:
+def _first(rung: Rung, left_s: float, enough: str | None) -> None:
+    if enough is not None or left_s <= 0:
         rung.skipped = enough or f"the {LADDER_S:.0f} s of the whole ladder were used up"
         return
-    found = _timed(rung, clock.left_s)
+    found = _timed(rung, left_s)
     if isinstance(found, Nothing):
         rung.skipped = found.reason
     else:
@@ -132,9 +133,10 @@ def _first(rung: Rung, clock: Clock, enough: str | None) -> None:
 
 
 def _timed(rung: Rung, left_s: float) -> Made | Nothing:
-    start = time.perf_counter()
+    # of this thread alone, as limits of time are
+    start = time.thread_time()
     found = rung.run(left_s)
-    rung.times_s.append(time.perf_counter() - start)
+    rung.times_s.append(time.thread_time() - start)
     return found
 
 
