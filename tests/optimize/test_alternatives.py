@@ -65,7 +65,8 @@ def test_the_cheapest_of_all_sets(combine: str) -> None:
 
 
 def test_the_machine_of_the_foundry() -> None:
-    """Published (parts.md 10): by hand two castings of 85.5 kg come to 42,252 N, 4.1 % above the best."""
+    """Published (parts.md 10): by hand two castings of 85.5 kg come to 42,252 N, 4.1 % above the best; within 5 % the
+    service has lighter ones."""
     cranks, centres = (0.0, 180.0, 90.0, 270.0), (-1.35, -0.45, 0.45, 1.35)
     rows = zip(centres, cranks, (0.0, 180.0, 0.0, 180.0), (420.0, 395.0, 410.0, 388.0), strict=True)
     body = {
@@ -92,8 +93,11 @@ def test_the_machine_of_the_foundry() -> None:
     assert found.status == "optimal"
     pieces = {one.allowance: one for one in found.alternatives if one.minimised == "pieces"}
     assert (pieces[0.05].pieces, pieces[0.05].lower_bound) == (2, 2)
-    assert pieces[0.05].total_mass_kg <= 86.0
-    assert pieces[0.05].objective == pytest.approx(42_252.0, rel=2e-3)
+    assert pieces[0.05].total_mass_kg <= 85.5
+    assert found.certificate is not None
+    assert pieces[0.05].objective <= 1.05 * found.certificate.objective * (1.0 + 1e-9)
+    # two that come to no more than 1 % above the best there are not: all pairs of webs were compared
+    assert pieces[0.01].lower_bound == 3
     assert pieces[0.01].pieces < sum(one.mass_kg > 0 for one in found.counterweights)
     assert next(iter(chapter(found))).title == "Cheaper choices"
 
