@@ -1,10 +1,14 @@
 """Cheaper choices beside the best one: against every set, what is refused, and what a stranger finds."""
 
+from importlib import import_module
 from typing import Any
 
 import pytest
 
+from optimizer.optimize import optimize
+from optimizer.solve.alternatives import for_best
 from optimizer.solve.costs import Costs
+from schemas.answer.alternatives import Alternative
 from schemas.answer.answers import OptimizeAnswer
 from schemas.base.model import Model
 from schemas.front.pareto import ParetoRequest
@@ -125,13 +129,29 @@ def test_fixed_weights_count_and_are_not_chosen() -> None:
     assert found.alternatives
 
 
+def test_all_of_it_shares_one_time_limit(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Analytic: the best choice has 6 s of 10, and the rest is what it left."""
+    asked = OptimizeRequest.model_validate(question(small(), accuracy={"time_limit_s": 10}))
+    assert (for_best(asked).accuracy.time_limit_s, for_best(asked).alternatives) == (6.0, ())
+    alone = asked.model_copy(update={"alternatives": ()})
+    assert for_best(alone) is alone
+    left: list[float] = []
+
+    def listed(*some: Any) -> tuple[Alternative, ...]:
+        left.append(some[-1])
+        return ()
+
+    monkeypatch.setattr(import_module("optimizer.optimize"), "alternatives", listed)
+    optimize(asked)
+    assert 4.0 <= left[0] < 10.0
+
+
 @pytest.mark.parametrize(
     ("more", "words"),
     [
         ({"alternatives": [-0.1]}, "greater than or equal to 0"),
         ({"alternatives": [1.5]}, "less than or equal to 1"),
         ({"machine": {"catalogue": None}}, "give a catalogue too"),
-        ({"tolerances": {"angle_deg": 1}}, "are listed without tolerances"),
         (
             {"objective": {"priorities": [{"goal": "external"}, {"goal": "mass"}]}},
             "listed beside one goal",
