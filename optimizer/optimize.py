@@ -10,7 +10,7 @@ from optimizer.outputs.registry import fields as answered
 from optimizer.outputs.registry import prepare
 from optimizer.outputs.requirements import effects_of_objective, missing
 from optimizer.program.reference.solver import Solver
-from optimizer.solve.alternatives import alternatives
+from optimizer.solve.alternatives import alternatives, for_best
 from optimizer.solve.outcome import Outcome
 from optimizer.solve.process_solver import own_solver
 from optimizer.solve.solve import solve
@@ -45,12 +45,13 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
     always = _always(request)
     # of scenarios every one is a machine of its own, simulated for itself
     scene = prepare(request, always, () if request.scenarios else effects_of_objective(request))
-    solving = time.perf_counter()
+    solving, began = time.perf_counter(), time.thread_time()
     solver = solver or own_solver()
-    best = solve(request, scene, solver)
+    best = solve(for_best(request), scene, solver)
     cheaper: tuple[Alternative, ...] = ()
     if request.alternatives and best.chosen is not None:
-        cheaper = alternatives(request, scene, best.chosen, solver)
+        left_s = request.accuracy.time_limit_s - (time.thread_time() - began)
+        cheaper = alternatives(request, scene, best.chosen, solver, left_s)
     reporting = time.perf_counter()
     figures = answered(replace(best.cut or scene, shafts=best.shafts), best.unbalance, always, best.fields)
     if request.objective.orders == "all":

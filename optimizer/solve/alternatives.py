@@ -6,8 +6,8 @@ searches; what one of them comes upon serves all.
 """
 
 import logging
-from dataclasses import dataclass
-from typing import get_args
+from collections.abc import Callable, Iterator, Sequence
+from typing import NamedTuple, get_args
 
 import numpy as np
 
@@ -23,23 +23,36 @@ from optimizer.program.cuts.optimum import Found, over_turn
 from optimizer.program.limits import Limits
 from optimizer.program.reference.solver import Solver
 from optimizer.solve.costs import COMPARED, Costs, cost
-from optimizer.solve.uncertain_program import Robust
+from optimizer.solve.uncertain_program import MOST_ROUNDS, Robust
 from schemas.answer.alternatives import Alternative, Cheaper
 from schemas.request.requests import OptimizeRequest
 
 _LOG = logging.getLogger(__name__)
-#: share of the time limit of the request that all of this may take, and of that the shares of the costs
-_TIME, _SHARES = 0.5, {"mass": 0.4, "pieces": 0.3, "sizes": 0.3}
-#: width of the brackets by which the best choice is told, as a share of the objective
-_CLOSE = 1e-10
+#: share of the time limit of the request that the best choice may take; of the rest the shares of the costs
+BEST, _SHARES = 0.6, {"mass": 0.4, "pieces": 0.3, "sizes": 0.3}
+#: what is left open at the end of every search, which looks at the time now and then
+_SPARE = 0.9
 
 
-def alternatives(request: OptimizeRequest, scene: Prepared, u: Complex, solver: Solver) -> tuple[Alternative, ...]:
+def for_best(request: OptimizeRequest) -> OptimizeRequest:
+    """The request with the time that the best choice may take."""
+    if not request.alternatives:
+        return request
+    limit = request.accuracy.time_limit_s
+    return request.model_copy(
+        update={"accuracy": request.accuracy.model_copy(update={"time_limit_s": BEST * limit}), "alternatives": ()}
+    )
+
+
+def alternatives(
+    request: OptimizeRequest, scene: Prepared, u: Complex, solver: Solver, left_s: float
+) -> tuple[Alternative, ...]:
     """What is cheaper than the best choice within each allowance, without what a smaller allowance gives already.
 
     Parameters
     ----------
     u : (K,) kg m, the best choice, without the weights that are fixed.
+    left_s : what is left of the time limit.
     """
 
     def choices(limits: Limits) -> FeasibleSet:
@@ -47,48 +60,68 @@ def alternatives(request: OptimizeRequest, scene: Prepared, u: Complex, solver: 
         assert some is not None  # there is a catalogue
         return some
 
-    allowances = sorted(set(request.alternatives))
     wanted = of_any_mass(request)
-    robust = Robust(request, scene, wanted._replace(time_limit_s=_TIME * wanted.time_limit_s))
+    robust = Robust(request, scene, wanted._replace(time_limit_s=_SPARE * max(left_s, 0.0)))
+    known = [u]
+    for _ in range(MOST_ROUNDS):
+        robust.learnt(u)
+        found = list(_cheaper(request, robust, choices, solver, known))
+        # of masses that scatter, what makes one of these worse than is known so far
+        worse = [robust.learnt(one.choice.unbalance) for one in found]
+        if not any(worse):
+            break
+        known += [one.choice.unbalance for one in found]
+    return tuple(_described(request, scene, one) for one in found)
+
+
+class _Cheap(NamedTuple):
+    """A choice that is cheaper than the best one within an allowance."""
+
+    minimised: Cheaper
+    allowance: float
+    choice: Choice
+    value: float  # of the objective, over omega^2
+    lower_bound: float  # kg, or a number
+
+
+def _cheaper(
+    request: OptimizeRequest,
+    robust: Robust,
+    choices: Callable[[Limits], FeasibleSet],
+    solver: Solver,
+    known: Sequence[Complex],
+) -> Iterator[_Cheap]:
+    """What is cheaper than the best choice, by what is known of masses that scatter.
+
+    Parameters
+    ----------
+    known : (K,) kg m each, the best choice first.
+    """
+    allowances = sorted(set(request.alternatives))
     program = robust.asked().program
-    first, size = over_turn(program, wanted.relative_gap, False, robust.left_s), float(program.units[-1])
+    first, size = over_turn(program, robust.wanted.relative_gap, False, robust.left_s), float(program.units[-1])
     assert isinstance(first, Found)  # the best choice keeps the ceilings
     costs, seconds = Costs(program, first, (), choices, solver, size=size), robust.left_s
     # to the last digit, as it is answered
-    mass, angle = masses_and_angles(request.machine, u, program.limits)
-    best = _Best(Choice(mass, angle, u, COMPARED), float(program.values(u, _CLOSE).goals[-1]))
-    costs.offer(best.choice)
-    listed: list[Alternative] = []
+    offered = [Choice(*masses_and_angles(request.machine, u, program.limits), u, COMPARED) for u in known]
+    for choice in offered:
+        costs.offer(choice)
+    best = costs.value(offered[0])
     for minimised in get_args(Cheaper):
-        known = best.choice
+        cheapest = offered[0]
         for n, allowance in enumerate(allowances):
-            level = best.value * (1.0 + allowance) + EQUAL * size
+            level = best * (1.0 + allowance) + EQUAL * size
             left = _SHARES[minimised] * seconds / (len(allowances) - n if minimised == "mass" else 1 + n)
-            found = costs.least(minimised, level, left)
-            assert found.choice is not None  # the best one keeps every level
-            if cost(found.choice, minimised) < cost(known, minimised) * (1.0 - EQUAL):
-                value = costs.value(found.choice)
-                listed.append(_described(request, scene, minimised, allowance, found.choice, value, found.lower_bound))
-                known = found.choice
-    return tuple(listed)
+            choice, bound = costs.least(minimised, level, left)
+            assert choice is not None  # the best one keeps every level
+            if cost(choice, minimised) < cost(cheapest, minimised) * (1.0 - EQUAL):
+                yield _Cheap(minimised, allowance, choice, costs.value(choice), bound)
+                cheapest = choice
 
 
-@dataclass(frozen=True)
-class _Best:
-    choice: Choice
-    value: float  # of the objective, over omega^2
-
-
-def _described(
-    request: OptimizeRequest,
-    scene: Prepared,
-    minimised: Cheaper,
-    allowance: float,
-    choice: Choice,
-    value: float,
-    bound: float,
-) -> Alternative:
+def _described(request: OptimizeRequest, scene: Prepared, one: _Cheap) -> Alternative:
     """As it is answered."""
+    minimised, allowance, choice, value, bound = one
     machine = request.machine
     mass, angle = beside(machine, choice.mass, choice.angle)
     total, own = float(np.sum(mass)), cost(choice, minimised)

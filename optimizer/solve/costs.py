@@ -15,14 +15,15 @@ import numpy as np
 
 from optimizer.choices.catalogue import Catalogue
 from optimizer.choices.catalogue_options import part_numbers
-from optimizer.choices.discrete.ample import near_options, neighbourhoods
+from optimizer.choices.discrete.ample import near_options, neighbourhoods, offer_light_sets
 from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.discrete.exchange import start
 from optimizer.choices.discrete.halves import exhaust
 from optimizer.choices.discrete.lightest import lighter, lightest
 from optimizer.choices.discrete.options import EQUAL, Incumbent
 from optimizer.choices.discrete.search import EXHAUSTED
 from optimizer.choices.feasible_set import Choice, FeasibleSet
-from optimizer.numerics.arrays import Complex
+from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.cuts.dominance import Group
 from optimizer.program.cuts.optimum import Found, Reached, Unkept, next_goal, over_turn
@@ -36,16 +37,18 @@ from schemas.request.objective import Cost
 
 #: width of the brackets by which sets are told apart, as a share of goals
 _CLOSE = 1e-10
-#: gap of a search for a number of castings, of the least mass of any masses, and of the lightest choice
-_GAP, _SHARP, _LIGHT = 1e-3, 1e-6, 1e-9
+#: gap of a search for a number of castings, of any masses on few webs, of their least mass, and of the lightest choice
+_GAP, _FAIR, _SHARP, _LIGHT = 1e-3, 1e-4, 1e-6, 1e-9
+#: share of the time of a search for so few sizes in which light sets of them are tried first
+_FIRST = 0.6
 #: options of a slot near to the optimum of any masses, and light ones of another, pass by pass
 _COUNTS = ((40, 120), (80, 300))
 #: sets of webs whose optima are looked at together
 _SUBSETS = 300
-#: of them those whose options are compared, the options near each, sets of them, and sums and pairs of halves
-_TRIED, _NEAR, _SETS, _SUMS, _PAIRS = 12, 400, 2_000_000, 40_000, 400_000
-#: what differs by less than this share of the goal is about as good
-_ALIKE = 1e-3
+#: of them those whose options near them are compared, how many near each, sets of them, and sums and pairs of halves
+_TRIED, _NEAR, _SETS, _SUMS, _PAIRS = 12, 400, 2_000_000, 200_000, 400_000
+#: sets of a few webs up to which all are compared
+_EVERY = 1e9
 #: by which sums of masses are rounded, relative
 _ROUNDING = 1e-12
 #: where a set was found that was compared with others; what that proves is told beside it
@@ -100,12 +103,17 @@ def cost(choice: Choice, kind: Cost) -> float:
 class _Few(NamedTuple):
     """What is known of any masses on few webs."""
 
-    lower_bound: float  # of the last goal
-    points: Complex  # (M, K) kg m, optima on some webs each, the best first
+    lower_bound: Real  # (M,) of the last goal, on some webs each, the best first
+    points: Complex  # (M, K) kg m, their optima
     webs: np.ndarray  # (M, K) bool, these webs
 
+    @property
+    def least(self) -> float:
+        """Of the last goal, on any of them; -inf where nothing is known."""
+        return float(np.min(self.lower_bound)) if self.lower_bound.size else -np.inf
 
-_UNKNOWN = _Few(-np.inf, np.zeros((0, 0), complex), np.zeros((0, 0), bool))
+
+_UNKNOWN = _Few(np.zeros(0), np.zeros((0, 0), complex), np.zeros((0, 0), bool))
 
 
 class Least(NamedTuple):
@@ -133,6 +141,7 @@ class Costs:
     caps: Caps = NO_CAPS
     size: float = 1.0  # what gaps of the last goal are relative to
     known: list[tuple[float, Choice]] = field(default_factory=list)  # with what they come to of the last goal
+    few: dict[int, _Few] = field(default_factory=dict)  # by the number of webs
     proven: dict[tuple[Cost, int], float] = field(default_factory=dict)  # of no more than a number, of the last goal
 
     def least(self, kind: Cost, level: float, seconds: float) -> Least:
@@ -146,16 +155,15 @@ class Costs:
         return Least(self.cheapest(kind, level), bound)
 
     def cheapest(self, kind: Cost, level: float) -> Choice | None:
-        """Of the choices that were come upon, and of equally cheap ones a light one that is about the best."""
+        """Of the choices that were come upon, of equally cheap ones the lightest, and of these the best."""
         within = [(value, choice) for value, choice in self.known if value <= level]
         if not within:
             return None
         # sums of masses are rounded
         cheap = min(cost(choice, kind) for _, choice in within) * (1.0 + EQUAL)
         equal = [each for each in within if cost(each[1], kind) <= cheap]
-        # of those that are about as good the lightest, since light is cheap
-        good = min(value for value, _ in equal) * (1.0 + _ALIKE)
-        return min((each for each in equal if each[0] <= good), key=lambda each: (cost(each[1], "mass"), each[0]))[1]
+        # what is within the level is good enough, and what is light is cheap
+        return min(equal, key=lambda each: (cost(each[1], "mass"), each[0]))[1]
 
     def value(self, choice: Choice) -> float:
         """What a choice comes to of the last goal."""
@@ -201,7 +209,7 @@ class Costs:
             some = number if kind == "pieces" else 0 if number == 0 else -1
             bound = self.proven.get((kind, number), -np.inf)
             if some >= 0:
-                bound = max(bound, self._of_few_webs(some).lower_bound)
+                bound = max(bound, self._of_few_webs(some).least)
             if not (bound > level or bound == np.inf):
                 break
             number += 1
@@ -213,13 +221,19 @@ class Costs:
         if before > level or before == np.inf:
             return before
         few = self._of_few_webs(number) if kind == "pieces" else _UNKNOWN
-        bound = max(before, few.lower_bound)
+        bound = max(before, few.least)
         if bound <= level and bound < np.inf:
             clock, caps = Clock(seconds), self.caps.lower(kind, number)
             limits = caps.within(self.best.limits)
             choices = caps.of(self.choices(limits))
             if len(few.points) and isinstance(choices, Catalogue):
-                self._near_few(few, choices, number, level, clock)
+                bound = max(bound, self._near_few(few, choices, number, level, clock))
+            elif kind == "sizes" and isinstance(choices, Catalogue):
+                self._light_sizes(choices, level, Clock(_FIRST * seconds))
+            known = self.cheapest(kind, level)
+            if bound > level or (known is not None and cost(known, kind) <= number):
+                self.proven[kind, number] = bound
+                return bound
             choice, found = in_rounds(
                 self.program,
                 replace(self.best, limits=limits, goals=(*self.reached, self.best.goals[-1])),
@@ -237,6 +251,11 @@ class Costs:
 
     def _of_few_webs(self, number: int) -> "_Few":
         """What any masses on so few webs come to at least, of one goal of the first order, and their optima."""
+        if number not in self.few:
+            self.few[number] = self._optima_of_few_webs(number)
+        return self.few[number]
+
+    def _optima_of_few_webs(self, number: int) -> "_Few":
         statement, webs = self.program.finite, self.program.limits.radius.size
         if statement is None or self.program.limits.alike is not None or math.comb(webs, number) > _SUBSETS:
             return _UNKNOWN
@@ -246,35 +265,53 @@ class Costs:
         limits = self.caps.within(self.best.limits)
         programs = replace(statement, limits=limits).alone().chosen(np.zeros(len(subsets), int))
         programs = replace(programs, limits=replace(programs.limits, max_mass=subsets * limits.max_mass))
-        found = optima(programs, _SHARP, False, self.solver)
+        found = optima(programs, _FAIR, False, self.solver)
         lower_bound = np.where(found.unreachable, np.inf, found.lower_bound)
-        value = np.where(found.unreachable, np.inf, found.objective)
-        best = np.argsort(value, kind="stable")[:_TRIED]
-        best = best[np.isfinite(value[best])]
-        return _Few(float(np.min(lower_bound)), found.unbalance[best], subsets[best])
+        best = np.argsort(np.where(found.unreachable, np.inf, found.objective), kind="stable")
+        return _Few(lower_bound[best], found.unbalance[best], subsets[best])
 
-    def _near_few(self, few: _Few, choices: Catalogue, number: int, level: float, clock: Clock) -> None:
-        """Compare the options that are near the optima on few webs, one after the other."""
+    def _near_few(self, few: _Few, choices: Catalogue, number: int, level: float, clock: Clock) -> float:
+        """Compare the options near the optima on few webs, all of them where they are few: the last goal at least."""
         statement, options = self.program.finite, choices.stock.options
         assert statement is not None  # else there are no such optima
         statement = replace(statement, limits=self.caps.within(self.best.limits))
-        incumbent = Incumbent(statement, options, EQUAL * self.size)
+        incumbent, above = Incumbent(statement, options, EQUAL * self.size), True
         # what comes to more is not worth a look
         incumbent.least = min(level, float(statement.at_rest))
         count = min(_NEAR, int(_SETS ** (1.0 / max(number, 1))))
-        for point, webs in zip(few.points, few.webs, strict=True):
+        for n in np.flatnonzero(few.lower_bound <= level).tolist():
+            webs = np.flatnonzero(few.webs[n]).tolist()
+            every = np.prod(np.sum(options.exists[webs], axis=-1, dtype=float)) <= _EVERY
+            if clock.spent() or not (every or n < _TRIED):
+                return few.least
             which = [np.array([0]) for _ in range(options.slots)]
-            for k in np.flatnonzero(webs).tolist():
-                which[k] = near_options(options, k, complex(point[k]), count)
+            for k in webs:
+                own = int(np.sum(options.exists[k])) if every else count
+                which[k] = near_options(options, k, complex(few.points[n, k]), own)
             before = incumbent.chosen
-            if not clock.spent():
-                exhaust(options, which, incumbent, _SUMS, _PAIRS, clock)
+            above &= exhaust(options, which, incumbent, _SUMS, _PAIRS, clock) and every
             if incumbent.chosen is not before and incumbent.chosen is not None:
+                above = False
                 self.offer(choices.picked(incumbent.chosen, COMPARED))
-                near, mass = min(level, incumbent.least * (1.0 + _ALIKE)), options.of(options.mass, incumbent.chosen)
-                light = lighter(statement, options, which, near, float(np.sum(mass)), clock)
+                mass = float(np.sum(options.of(options.mass, incumbent.chosen)))
+                light = lighter(statement, options, which, min(level, float(statement.at_rest)), mass, clock)
                 if light is not None:
                     self.offer(choices.picked(light, COMPARED))
+        # all that are no more than the level would have been found
+        return float(np.nextafter(level, np.inf)) if above and level <= incumbent.least else few.least
+
+    def _light_sizes(self, choices: Catalogue, level: float, clock: Clock) -> None:
+        """Try light sets of so few sizes, of one goal of the first order, until one keeps the level."""
+        statement, options = self.program.finite, choices.stock.options
+        if statement is None or options.most_parts == 0:
+            return
+        incumbent = Incumbent(statement, options, EQUAL * self.size)
+        about = self.best.point.unbalance
+        about = about if options.alike is None else options.alike.means(about)
+        start(incumbent, about[None])
+        if incumbent.chosen is not None:
+            offer_light_sets(incumbent, statement, about, lambda: incumbent.least <= level, clock)
+            self.offer(choices.picked(incumbent.chosen, COMPARED))
 
     def _lightest(self, level: float, seconds: float) -> float:
         """Look for the lightest: what none is lighter than, kg."""
@@ -305,7 +342,9 @@ class Costs:
         )
         if found.kept:
             self.offer(choice)
-        return max(found.lower_bound, bound)
+        # what is weighed may be off as well
+        off = self.program.scatter.of(1.0 / self.program.limits.radius, np.zeros(1, complex))
+        return max((max(found.lower_bound, bound) - off) / (1.0 + self.program.scatter.share), 0.0)
 
     def _compared(self, choices: Catalogue, level: float, least: float, relaxed: Complex, clock: Clock) -> float:
         """The same of one goal of the first order, by light sets that are compared outright."""
@@ -328,4 +367,4 @@ class Costs:
                         chosen = lighter(statement, options, which, level, cost(cheapest, "mass"), clock)
                     if chosen is not None:
                         self.offer(choices.picked(chosen, COMPARED))
-        return found.lower_bound
+        return options.next_mass(found.lower_bound)

@@ -16,7 +16,10 @@ _ALL = (
     " same objective has less mass."
 )
 _LIGHTEST = "Proven optimal: of all sets of counterweights none that keeps the ceilings has less mass."
-_TREE = "Proven optimal: the gap to the lower bound of all sets of counterweights is within the requested gap."
+_TREE = (
+    "Proven within the requested gap: no set of counterweights within the limits is better than this one by more than"
+    " the gap that the certificate states."
+)
 #: why a search left a gap
 LATE = "The search ended at accuracy.time_limit_s. The certificate states the gap to the proven lower bound."
 _SIZE = "The search ended at the largest size of its tree. The certificate states the gap to the proven lower bound."

@@ -111,8 +111,8 @@ class OptimizeRequest(Scene, Ruled):
         (),
         max_length=8,
         description="allowances, shares of the smallest objective, within which cheaper choices from a catalogue are"
-        " listed: less mass, fewer counterweights, fewer sizes. They take half of the time limit beside it; none are"
-        " listed if it is empty",
+        " listed: less mass, fewer counterweights, fewer sizes. The best choice has 0.6 of the time limit then, they"
+        " the rest; none are listed if it is empty",
         examples=[[0.01, 0.02, 0.05]],
     )
 
@@ -157,8 +157,6 @@ class OptimizeRequest(Scene, Ruled):
         )
         message = "cheaper choices are listed beside one goal: remove them, or let a cost be the last goal"
         yield Rule(listed and bool(self.objective.priorities), path, message)
-        scattered = self.tolerances is not None and self.tolerances.any
-        yield Rule(listed and scattered, path, "cheaper choices are listed without tolerances: remove `tolerances`")
 
     def _catalogue_rules(self) -> Iterator[Rule]:
         """What does not go with discrete choices."""

@@ -55,3 +55,15 @@ def test_without_time_nothing_is_claimed() -> None:
     every = [np.flatnonzero(some) for some in options.exists]
     found = lightest(problem, options, every, np.inf, (0.25, 10.0), Clock(0.0))
     assert (found.chosen, found.lower_bound) == (None, 0.25)
+
+
+def test_masses_in_steps_are_whole_multiples() -> None:
+    """Analytic: of 10 and 15 kg every set weighs a multiple of 5; of masses without a unit nothing is known."""
+    problem = random_statement(3, "sum", (1.0, 1.0), False, False, False, webs=3)
+    share = float(np.min(problem.limits.max_mass)) / 20.0
+    stepped = options_of(problem, [10.0 * share, 15.0 * share], [0.0, 180.0])
+    assert abs(stepped.unit_kg - 5.0 * share) <= 1e-12 * share
+    for least, expected in ((0.0, 0.0), (0.1, 5.0), (5.0, 5.0), (5.1, 10.0), (29.999, 30.0)):
+        assert abs(stepped.next_mass(least * share) - expected * share) <= 1e-7 * share
+    odd = options_of(problem, [10.0 * share, np.pi * share], [0.0, 180.0])
+    assert (odd.unit_kg, odd.next_mass(1.25)) == (0.0, 1.25)

@@ -1,10 +1,14 @@
 """Cheaper choices beside the best one: against every set, what is refused, and what a stranger finds."""
 
+from importlib import import_module
 from typing import Any
 
 import pytest
 
+from optimizer.optimize import optimize
+from optimizer.solve.alternatives import for_best
 from optimizer.solve.costs import Costs
+from schemas.answer.alternatives import Alternative
 from schemas.answer.answers import OptimizeAnswer
 from schemas.base.model import Model
 from schemas.front.pareto import ParetoRequest
@@ -65,7 +69,8 @@ def test_the_cheapest_of_all_sets(combine: str) -> None:
 
 
 def test_the_machine_of_the_foundry() -> None:
-    """Published (parts.md 10): by hand two castings of 85.5 kg come to 42,252 N, 4.1 % above the best."""
+    """Published (parts.md 10): by hand two castings of 85.5 kg come to 42,252 N, 4.1 % above the best; within 5 % the
+    service has lighter ones."""
     cranks, centres = (0.0, 180.0, 90.0, 270.0), (-1.35, -0.45, 0.45, 1.35)
     rows = zip(centres, cranks, (0.0, 180.0, 0.0, 180.0), (420.0, 395.0, 410.0, 388.0), strict=True)
     body = {
@@ -92,8 +97,11 @@ def test_the_machine_of_the_foundry() -> None:
     assert found.status == "optimal"
     pieces = {one.allowance: one for one in found.alternatives if one.minimised == "pieces"}
     assert (pieces[0.05].pieces, pieces[0.05].lower_bound) == (2, 2)
-    assert pieces[0.05].total_mass_kg <= 86.0
-    assert pieces[0.05].objective == pytest.approx(42_252.0, rel=2e-3)
+    assert pieces[0.05].total_mass_kg <= 85.5
+    assert found.certificate is not None
+    assert pieces[0.05].objective <= 1.05 * found.certificate.objective * (1.0 + 1e-9)
+    # two that come to no more than 1 % above the best there are not: all pairs of webs were compared
+    assert pieces[0.01].lower_bound == 3
     assert pieces[0.01].pieces < sum(one.mass_kg > 0 for one in found.counterweights)
     assert next(iter(chapter(found))).title == "Cheaper choices"
 
@@ -121,13 +129,29 @@ def test_fixed_weights_count_and_are_not_chosen() -> None:
     assert found.alternatives
 
 
+def test_all_of_it_shares_one_time_limit(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Analytic: the best choice has 6 s of 10, and the rest is what it left."""
+    asked = OptimizeRequest.model_validate(question(small(), accuracy={"time_limit_s": 10}))
+    assert (for_best(asked).accuracy.time_limit_s, for_best(asked).alternatives) == (6.0, ())
+    alone = asked.model_copy(update={"alternatives": ()})
+    assert for_best(alone) is alone
+    left: list[float] = []
+
+    def listed(*some: Any) -> tuple[Alternative, ...]:
+        left.append(some[-1])
+        return ()
+
+    monkeypatch.setattr(import_module("optimizer.optimize"), "alternatives", listed)
+    optimize(asked)
+    assert 4.0 <= left[0] < 10.0
+
+
 @pytest.mark.parametrize(
     ("more", "words"),
     [
         ({"alternatives": [-0.1]}, "greater than or equal to 0"),
         ({"alternatives": [1.5]}, "less than or equal to 1"),
         ({"machine": {"catalogue": None}}, "give a catalogue too"),
-        ({"tolerances": {"angle_deg": 1}}, "are listed without tolerances"),
         (
             {"objective": {"priorities": [{"goal": "external"}, {"goal": "mass"}]}},
             "listed beside one goal",

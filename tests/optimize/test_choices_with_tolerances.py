@@ -89,6 +89,37 @@ def test_no_set_has_a_better_worst_case(tolerances: dict[str, float]) -> None:
     assert price.nominal_optimum_worst_case >= best * (1.0 - 1e-9)
 
 
+@pytest.mark.parametrize("tolerances", [{"unbalance_kg_m": 0.05}, EVERY])
+def test_cheaper_choices_by_their_worst_case(tolerances: dict[str, float]) -> None:
+    """Independent: all 83,521 sets, each by its worst case."""
+    found, every = asked(tolerances, alternatives=[0.02, 0.2]), every_set()
+    values, size = worst(every, tolerances), np.abs(every) / RADIUS
+    costs = {
+        "mass": np.sum(size, axis=0),
+        "pieces": np.count_nonzero(size > 0, axis=0),
+        "sizes": sum((np.any(np.isclose(size, mass), axis=0).astype(int) for mass in MASSES), np.zeros(1, int)),
+    }
+    best, chosen = float(np.min(values)), np.argmin(values)
+    for minimised, cost in costs.items():
+        own, expected = float(cost[chosen]), []
+        for allowance in (0.02, 0.2):
+            least = float(np.min(cost[values <= best * (1.0 + allowance)]))
+            if least < own - 1e-9:
+                own = least
+                expected.append((allowance, least))
+        listed = [one for one in found.alternatives if one.minimised == minimised]
+        names = {"mass": "total_mass_kg", "pieces": "pieces", "sizes": "sizes"}
+        assert [one.allowance for one in listed] == [allowance for allowance, _ in expected]
+        for one, (allowance, least) in zip(listed, expected, strict=True):
+            assert getattr(one, names[minimised]) == pytest.approx(least, rel=1e-9)
+            assert one.lower_bound is not None
+            assert one.lower_bound <= least * (1.0 + 1e-9)
+            u = np.array([[complex(each.x_kg_m, each.y_kg_m)] for each in one.counterweights])
+            assert one.objective == pytest.approx(float(worst(u, tolerances)[0]), rel=1e-9)
+            assert one.objective <= best * (1.0 + allowance) * (1.0 + 1e-8)
+    assert found.alternatives
+
+
 def test_by_a_tree(monkeypatch: pytest.MonkeyPatch) -> None:
     """Independent: the same where halves are given no room."""
     monkeypatch.setattr("optimizer.choices.discrete.search._SUMS", 1)

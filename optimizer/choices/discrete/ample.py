@@ -9,25 +9,25 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from itertools import combinations, islice
+from typing import NamedTuple
 
 import numpy as np
 
 from optimizer.choices.discrete.clock import Clock
 from optimizer.choices.discrete.halves import exhaust
+from optimizer.choices.discrete.lightest import lighter
 from optimizer.choices.discrete.options import Incumbent, Options
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.methods.compiled import both_stages, suits_kernel
 from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.program.statement import Statement
 
-#: options of a slot near to the optimum, and light ones of another, pass by pass
-_COUNTS = ((40, 200), (60, 300))
 #: sums of a half, and pairs of them, that are compared
 _SUMS, _PAIRS = 20_000, 60_000
-#: sums of a half where sizes are tried
-_TRIED = 4_000
-#: pairs of slots that the optimum uses, and of others, that are looked at
-_MOVING, _OTHERS = 6, 28
+#: sums of a half where sizes are tried, and of those that are best
+_TRIED, _WIDE = 4_000, 500_000
+#: pairs of slots that the optimum uses that are looked at
+_MOVING = 6
 #: part numbers that are tried where any number may be used
 _SIZES = 2
 #: slots beside those of the optimum where few part numbers may be used
@@ -38,11 +38,27 @@ _MAIN = 3
 _SHARES, _STEPS = (0.025, 0.05, 0.075, 0.1, 0.15, 0.2, 0.3, 0.5), (1, -1, 2, -2, 4, -4)
 #: options near to what a slot takes and to the optimum, where four slots change; changes in a row that lead nowhere
 _CLOSE, _PATIENCE = 30, 40
+#: times that some slots change for less mass
+_LIGHTER = 24
 _SEED = 20_261_123
 #: share of the largest unbalance of the optimum from which on a slot is used by it
 _USED = 1e-3
 
 Sizes = tuple[int, ...]
+
+
+class Pass(NamedTuple):
+    """How many options of how many slots are tried together."""
+
+    near: int  # options of each of two slots that are near to the optimum
+    many: int  # light options of each other one
+    others: int  # of those
+    several: int  # sets of others that are looked at
+    sums: int  # of a half, at most
+
+
+#: the sets of each are hundreds to thousands of times as many as those of the one before
+_PASSES = (Pass(40, 200, 2, 28, _SUMS), Pass(40, 100, 4, 4, 500_000), Pass(20, 50, 6, 2, 4_000_000))
 
 
 def offer_light_sets(
@@ -63,11 +79,11 @@ def offer_light_sets(
     if incumbent.options.limits_parts:
         _PartSizes(incumbent, light, used, incumbent.options.most_parts or 0, enough, clock).run()
         return
-    for near, many in _COUNTS:
-        for which in neighbourhoods(incumbent.options, light, near, many):
+    for one in _PASSES:
+        for which in neighbourhoods(incumbent.options, light, one.near, one.many, one.others, one.several):
             if enough() or clock.spent():
                 return
-            exhaust(incumbent.options, which, incumbent, _SUMS, _PAIRS, clock)
+            exhaust(incumbent.options, which, incumbent, one.sums, _PAIRS, clock)
 
     # few sizes are few sums, and where any may be used they are among them
     _PartSizes(incumbent, light, used, _SIZES, enough, clock).run()
@@ -108,15 +124,39 @@ def _improve(
         left = _PATIENCE if incumbent.least < before - incumbent.resolution else left - 1
 
 
-def lightened(incumbent: Incumbent, limit: float) -> np.ndarray:
-    """The best set (K,), and as long as one is there a lighter one that differs on one slot, no worse than a limit.
+def lightest_near(incumbent: Incumbent, limit: float, clock: Clock) -> np.ndarray:
+    """A light set (K,) near to the best one, no worse than a limit: some slots change at a time, and each by itself.
 
     Parameters
     ----------
     limit : of the objective.
     """
-    options, statement, chosen = incumbent.options, incumbent.statement, incumbent.chosen
-    assert chosen is not None
+    options, statement = incumbent.options, incumbent.statement
+    assert incumbent.chosen is not None
+    chosen, chance = _lightened(incumbent, incumbent.chosen, limit), np.random.default_rng(_SEED)
+    free, several = np.flatnonzero(np.sum(options.exists, axis=-1) > 1), 4 if options.limits_parts else 6
+    for _ in range(_LIGHTER if free.size else 0):
+        if clock.spent():
+            break
+        loose, which = options, [np.array([option]) for option in chosen]
+        parts = options.of(options.part, chosen)
+        for k in chance.choice(free, min(free.size, several), replace=False).tolist():
+            if options.limits_parts:
+                # of the sizes that there are
+                loose = replace(options, most_parts=None)
+                which[k] = np.flatnonzero(options.exists[k] & np.isin(options.part[k], [-1, *parts[parts >= 0]]))
+            else:
+                near = near_options(options, k, complex(options.unbalance[k, chosen[k]]), _CLOSE)
+                which[k] = np.unique(np.concatenate([near, [chosen[k]], _light(options, k, _CLOSE)]))
+        mass = float(np.sum(options.of(options.mass, chosen)))
+        found = lighter(statement, loose, which, limit, mass, clock, int(np.count_nonzero(chosen)))
+        chosen = chosen if found is None else _lightened(incumbent, found, limit)
+    return chosen
+
+
+def _lightened(incumbent: Incumbent, chosen: np.ndarray, limit: float) -> np.ndarray:
+    """A set (K,), and as long as one is there a lighter one that differs on one slot, no worse than a limit."""
+    options, statement = incumbent.options, incumbent.statement
     while True:
         lighter = [
             (float(options.mass[k, option] - options.mass[k, chosen[k]]), k, int(option))
@@ -158,20 +198,23 @@ def _light(options: Options, slot: int, count: int) -> np.ndarray:
     return np.argsort(mass, kind="stable")[: min(count, int(np.sum(options.exists[slot])))]
 
 
-def neighbourhoods(options: Options, light: Complex, near: int, many: int) -> Iterator[list[np.ndarray]]:
-    """Options of every slot: near ones of two that the optimum uses, light ones of two others, and of the rest one.
+def neighbourhoods(
+    options: Options, light: Complex, near: int, many: int, beside: int = 2, several: int = 28
+) -> Iterator[list[np.ndarray]]:
+    """Options of every slot: near ones of two that the optimum uses, light ones of some others, and of the rest one.
 
     Parameters
     ----------
     light : (K,) kg m of first webs, an optimum of any masses on few webs.
     near, many : how many near ones, and how many light ones.
+    beside, several : how many others, and sets of these.
     """
     used = used_slots(light)
     base = options.nearest(light)
     largest = sorted(used, key=lambda k: -abs(light[k]))
     moving: list[tuple[int, ...]] = list(islice(combinations(largest, 2), _MOVING)) or [tuple(largest)]
     rest = [k for k in range(options.slots) if k not in used]
-    others: list[tuple[int, ...]] = list(islice(combinations(rest, 2), _OTHERS)) or [tuple(rest)]
+    others: list[tuple[int, ...]] = list(islice(combinations(rest, beside), several)) or [tuple(rest)]
     for slots in moving:
         for trims in others:
             which = [np.array([option]) for option in base]
@@ -239,11 +282,12 @@ class _PartSizes:
         if len(sizes) < most:
             for size in dict.fromkeys(self._nearest(share * float(self.mass[sizes[-1]])) for share in _SHARES):
                 small = size if self._better(sizes, size) else small
-        moved: tuple[Sizes, int] | None = (sizes, small)
-        while moved is not None and not self._over():
-            sizes, small = moved
-            moved = self._moved(sizes, small)
-        self._better(sizes, small, _SUMS)
+        for trims, sums in ((_TRIMS, _TRIED), (self.incumbent.options.slots, _WIDE)):
+            self._better(sizes, small, trims, sums)
+            moved: tuple[Sizes, int] | None = (sizes, small)
+            while moved is not None and not self._over():
+                sizes, small = moved
+                moved = self._moved(sizes, small, trims, sums)
         _improve(self.incumbent, self.loose, self._in_use, self.enough, self.clock)
 
     def _in_use(self, slot: int) -> np.ndarray:
@@ -256,18 +300,18 @@ class _PartSizes:
     def _over(self) -> bool:
         return self.enough() or self.clock.spent()
 
-    def _moved(self, main: Sizes, small: int) -> tuple[Sizes, int] | None:
+    def _moved(self, main: Sizes, small: int, trims: int, sums: int) -> tuple[Sizes, int] | None:
         """Sizes of which one is some steps up or down, with which a better set was found; None where there are none."""
         for step in _STEPS:
             for n in range(len(main) + 1):
                 moved = main if n == len(main) else (*main[:n], main[n] + step, *main[n + 1 :])
                 other = small + step if n == len(main) else small
                 inside = all(0 <= size < self.mass.size for size in (*moved, other))
-                if inside and not self._over() and self._better(moved, other):
+                if inside and not self._over() and self._better(moved, other, trims, sums):
                     return moved, other
         return None
 
-    def _better(self, main: Sizes, small: int, sums: int = _TRIED) -> bool:
+    def _better(self, main: Sizes, small: int, most_trims: int = _TRIMS, sums: int = _TRIED) -> bool:
         """Whether slots of the optimum with the main sizes, and others with the small one, make a better set."""
         before = self.incumbent.least
         for trims in self.trims:
@@ -276,12 +320,12 @@ class _PartSizes:
                 which[k] = self._of_sizes(k, main)
             for k in self.used[_MAIN:]:
                 which[k] = self._closest(k, which[k])
-            for k in trims[:_TRIMS]:
+            for k in trims[:most_trims]:
                 some = self._of_sizes(k, (small,))
                 if _half_of(which) * np.sqrt(some.size) <= sums:
                     which[k] = some
             if not self._over():
-                exhaust(self.loose, which, self.incumbent, _SUMS, _PAIRS, self.clock)
+                exhaust(self.loose, which, self.incumbent, max(_SUMS, sums), _PAIRS, self.clock)
         return self.incumbent.least < before - self.incumbent.resolution
 
     def _closest(self, slot: int, some: np.ndarray) -> np.ndarray:

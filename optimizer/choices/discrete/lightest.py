@@ -17,6 +17,8 @@ from optimizer.program.statement import Statement
 
 #: sums of a half, and pairs of them near enough to the level, that are compared
 _SUMS, _PAIRS = 100_000, 3_000_000
+#: sums of a half that are not listed
+_UNLISTED = 1_000_000
 #: steps of the mass
 _STEP = 1.15
 #: share of a mass by which another is lighter
@@ -70,17 +72,24 @@ def lighter(
     level: float,
     below_kg: float,
     clock: Clock,
+    fewer_than: int = 0,
 ) -> np.ndarray | None:
     """The lightest (K,) of some sets that keep a level and are lighter than so much; None where none was found.
 
     Parameters
     ----------
     which : (K) options of every slot that are compared.
+    fewer_than : or as heavy, on fewer slots than these.
     """
     within = Incumbent(statement, options, 0.0)
     within.least = level
-    best, cap = _Best(statement, options, level), below_kg * (1.0 - _LIGHTER)
-    split = halves(options, which, within, _SUMS, clock, cap) if cap > 0 else None
+    cap = below_kg * (1.0 - (0.0 if fewer_than else _LIGHTER))
+    best = _Best(statement, options, level, cap, fewer_than or options.slots + 1)
+    if cap <= 0:
+        return None
+    counted = options.limits_fitted or options.limits_parts
+    split = None if counted else halves(options, which, within, _UNLISTED, clock, cap, listed=False)
+    split = split or halves(options, which, within, _SUMS, clock, cap)
     if split is not None:
         _compared(split, within, cap, best.offer, clock)
     return best.chosen
@@ -93,15 +102,18 @@ def _next_mass(options: Options, least: float) -> float:
 
 
 class _Best:
-    """The lightest set so far."""
+    """The lightest set so far; of equal ones that on the fewest slots, and of these the one with the smallest value."""
 
-    def __init__(self, statement: Statement, options: Options, level: float) -> None:
+    def __init__(
+        self, statement: Statement, options: Options, level: float, mass: float = np.inf, slots: float = np.inf
+    ) -> None:
+        """``mass``, ``slots``: kg, and how many slots, of what it is to be better than."""
         self.statement, self.options, self.level = statement, options, level
         self.chosen: np.ndarray | None = None
-        self.mass = self.value = np.inf
+        self.mass, self.slots, self.value = mass, slots, -np.inf
 
     def offer(self, sets: np.ndarray) -> None:
-        """Take the lightest of sets (M, K) that keep the level and all limits, or stay."""
+        """Take the best of sets (M, K) that keep the level and all limits, or stay."""
         sets = sets[self.options.counts(self.statement, sets)]
         if not len(sets):
             return
@@ -114,10 +126,13 @@ class _Best:
         kept &= mass <= self.mass * (1.0 + _ROUNDING)
         if not kept.any():
             return
-        equal = kept & (mass <= np.min(mass[kept]) * (1.0 + _ROUNDING))
-        n = int(np.argmin(np.where(equal, value, np.inf)))
-        if mass[n] < self.mass * (1.0 - _ROUNDING) or value[n] < self.value:
-            self.chosen, self.mass, self.value = sets[n], float(mass[n]), float(value[n])
+        sets, mass, value = sets[kept], mass[kept], value[kept]
+        slots = np.count_nonzero(sets, axis=-1)
+        steps = np.round(mass / (_LIGHTER * (np.max(mass) or 1.0)))
+        n = int(np.lexsort((value, slots, steps))[0])
+        lighter = mass[n] < self.mass * (1.0 - _ROUNDING)
+        if lighter or (slots[n], value[n]) < (self.slots, self.value):
+            self.chosen, self.mass, self.slots, self.value = sets[n], float(mass[n]), int(slots[n]), float(value[n])
 
 
 def _compared(split: Halves, within: Incumbent, cap: float, offer: Callable[[np.ndarray], None], clock: Clock) -> bool:

@@ -11,6 +11,8 @@ from optimizer.program.statement import Statement
 
 #: objectives nearer than this share of the yardstick are equal
 EQUAL = 1e-9
+#: parts of the smallest mass that may be the unit of all, and what a whole multiple may be off by
+_SHARES, _WHOLE = 10, 1e-9
 _EPS = float(np.finfo(float).eps)
 
 
@@ -51,6 +53,21 @@ class Options:
     def budget(self, statement: Statement) -> float:
         """Largest total mass, kg, and what the rounding of as many masses adds to it, which bounds allow for."""
         return float(statement.limits.max_total_mass) * (1.0 + _EPS * (1 + int(np.sum(self.webs))))
+
+    @cached_property
+    def unit_kg(self) -> float:
+        """A mass of which all are whole multiples, as of steps; 0 where none is found."""
+        masses = self.mass[self.exists & (self.mass > 0)]
+        for share in range(1, _SHARES + 1) if masses.size else ():
+            unit = float(np.min(masses)) / share
+            if np.all(np.abs(masses / unit - np.round(masses / unit)) <= _WHOLE):
+                return unit
+        return 0.0
+
+    def next_mass(self, least: float) -> float:
+        """The smallest mass, kg, that a set may have where none is lighter than so much."""
+        unit = self.unit_kg
+        return max(least, float(np.ceil(least / unit * (1.0 - _WHOLE) - _WHOLE)) * unit) if unit > 0 else least
 
     def of(self, array: np.ndarray, chosen: np.ndarray) -> np.ndarray:
         """What an array (K, O) holds for the options chosen (..., K)."""

@@ -24,6 +24,8 @@ _MARGIN, _OFF = 1.0 + 1e-9, 1e-14
 _ROUNDING = 1e-14
 #: terms of pairs that are evaluated at once, between two looks at the time, and pairs at least
 _AT_ONCE, _PAIRS_AT_ONCE = 800_000, 1_000
+#: pairs that are evaluated first, twice as many each time: the best of them makes the ball smaller
+_FIRST = 2_000
 #: sums of a slab, and cells for each of them at most
 _SLAB, _CELLS = 20_000, 4.0
 #: shares of the sums of either half that are compared first, which makes the ball small, and sums at least
@@ -104,7 +106,7 @@ class Pairs:
 
     def _compared(self, ball: "_Ball", share: float, most: int, looks: float, clock: Clock) -> bool:
         """Whether every pair of a share of the sums that is in the ball was evaluated."""
-        count, found = share * self.one.size, 0
+        count, found, at_once = share * self.one.size, 0, min(_FIRST, self.at_once)
         taken = ALL if share == 1.0 else np.uint64(int(share * 2**64))
         reach = self._radius(ball)
         for slab in ball.slabs(count / _SLAB, reach):
@@ -120,9 +122,9 @@ class Pairs:
                     return True
                 met, start, looked = near(
                     first, sums, *ball.other.lists, grid.slab, grid.low, grid.side, grid.cells, taken, start, reach**2,
-                    np.array([self.at_once, _LOOKED]),
+                    np.array([at_once, _LOOKED]),
                 )  # fmt: skip
-                looks, found = looks - looked, found + met.shape[1]
+                looks, found, at_once = looks - looked, found + met.shape[1], min(2 * at_once, self.at_once)
                 if met.shape[1]:
                     self.evaluated(ball.one.place(*places[:, met[0]]), ball.other.place(met[1], met[2]))
                 if found > most or looks < 0 or clock.spent():
