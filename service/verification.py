@@ -33,9 +33,20 @@ _FILES = [
     *(f"verify_{part}" for part in ("first", "spans", "curves", "harmonics", "circle", "loads", "bearings", "shaking")),
     *(
         f"verify_{part}"
-        for part in ("cases", "cuts", "costs", "values", "misplacement", "ceilings", "levels", "goals", "turn")
+        for part in (
+            "cases",
+            "cuts",
+            "costs",
+            "values",
+            "misplacement",
+            "ceilings",
+            "levels",
+            "nominal",
+            "goals",
+            "turn",
+        )
     ),
-    *(f"verify_{part}" for part in ("single", "many", "match")),
+    *(f"verify_{part}" for part in ("turn", "single", "many", "match")),
     "verify",
 ]
 

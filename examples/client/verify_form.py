@@ -16,14 +16,15 @@ _TABLE = """
   sensitivity residual floor certificate infeasibility balance_rate
   balance_quality warnings reference_plane_m effects timing
 alternatives: minimised allowance objective total_mass_kg pieces sizes lower_bound counterweights
-counterweights: web mass_kg angle_deg position_m radius_m throw angle_from_crank_deg mass_radius_kg_m x_kg_m y_kg_m
-  centrifugal_force_N active_limits fixed shape
+counterweights nominal_counterweights: web mass_kg angle_deg position_m radius_m throw angle_from_crank_deg
+  mass_radius_kg_m x_kg_m y_kg_m centrifugal_force_N active_limits fixed shape
 shape: half_angle_deg chord_height_m outer_radius_m inertia_kg_m2
-balance_shafts: name speed_ratio gearing total_mass_kg counterweights
+balance_shafts nominal_balance_shafts: name speed_ratio gearing total_mass_kg counterweights
 shadow_prices: limit web value unit
 worst_case: force_peak_N moment_peak_Nm responses bearing_peak_N objective
 worst_case/responses closest/responses: response label unit peak
-price_of_robustness: nominal nominal_optimum nominal_optimum_worst_case
+price_of_robustness: nominal nominal_optimum nominal_optimum_worst_case nominal_lower_bound nominal_counterweights
+  nominal_balance_shafts nominal_multipliers
 sensitivity: objective_rise_per_deg objective_rise_per_percent
 residual: before after orders responses turn
 residual/responses: response label unit before after turn_before turn_after
@@ -45,8 +46,9 @@ certificate: objective lower_bound gap relative_gap yardstick objective_without_
   continuous_lower_bound nodes goals multipliers
 goals: goal value lower_bound limit multipliers
 certificate/multipliers points/multipliers: objective mass
-objective mass smallest/multipliers goals/multipliers conflict smallest_force smallest_moment: terms rows budget
-  ceilings
+objective mass smallest/multipliers goals/multipliers nominal_multipliers conflict smallest_force smallest_moment: terms
+  rows
+  budget ceilings
 terms: response part row angle_deg scenario x y
 rows: name value
 ceilings: response part angle_deg scenario x y

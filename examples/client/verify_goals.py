@@ -6,17 +6,16 @@ from typing import Dict, List, NamedTuple, Sequence
 
 from verify_answer import Fitted
 from verify_bearings import within
-from verify_cases import Case, Scatter, nominal, peak
+from verify_cases import Scatter, nominal, peak
 from verify_ceilings import kept
 from verify_claims import Claims, near
 from verify_cuts import Part
 from verify_levels import WIDE, levels
-from verify_machine import NAMES, ON_FRAME, Machine, Mass
+from verify_machine import NAMES, ON_FRAME, Machine
+from verify_nominal import NO_SCATTER, as_given, fixed_alone, optimum_as_given
 from verify_numbers import ABOUT_ONE, ONE, ZERO, Number, Place, largest
-from verify_values import Value, most
+from verify_values import Value, most, off_sizes
 from verify_weights import listed
-
-NO_SCATTER = Scatter(ZERO, ZERO)
 
 
 class Program(NamedTuple):
@@ -31,9 +30,8 @@ class Program(NamedTuple):
 
 def values(request: Place, answer: Place, program: Program, fitted: Fitted) -> Claims:
     """Objective, goals before it, the worst case and what it costs."""
-    proof, webs = answer / "certificate", program.machine.webs
-    alone = [one if web.fixed else Mass(ZERO, ONE, ZERO, web.position) for one, web in zip(fitted.turning, webs)]
-    fixed = fitted._replace(turning=alone, on_shafts=[])
+    proof = answer / "certificate"
+    fixed = fixed_alone(program.machine, fitted)
     there, rest = ([Value(part, each, program.off) for part in program.parts] for each in (fitted, fixed))
     optimal = (answer / "status").text() == "optimal"
     rooms = yield from kept(answer / "counterweights", there, rest, optimal)
@@ -55,25 +53,9 @@ def values(request: Place, answer: Place, program: Program, fitted: Fitted) -> C
     if answer / "worst_case":
         yield from _worst_case(answer / "worst_case", proof / "objective", there)
     if answer / "price_of_robustness":
-        as_given = Part(Case(request, program.machine, ONE, None), first.unweighted, program.named)
-        as_it_is = Value(as_given, fitted, NO_SCATTER).goal(last)
+        as_it_is = Value(as_given(request, program.machine, program.parts), fitted, NO_SCATTER).goal(last)
         yield within("price", answer / "price_of_robustness" / "nominal", as_it_is.low, as_it_is.high, off)
-        yield from _price(answer / "price_of_robustness", program, proof, off)
-
-
-def _price(place: Place, program: Program, proof: Place, off: float) -> Claims:
-    """The best of the machine as it is given, which has no proof in the answer.
-
-    Where nothing is limited it is no better in the worst case than what is proven of all.
-    """
-    best, worst = place / "nominal_optimum", place / "nominal_optimum_worst_case"
-    if best:
-        yield "nominal_optimum", best, None, ONE
-    if worst:
-        # a goal before it may have been kept to another limit
-        free = len(program.named) == 1 and not any(part.exact.caps or part.limited for part in program.parts)
-        broken = free and worst.double() < (proof / "lower_bound").double(0.0) - off
-        yield "nominal_optimum", worst, -ONE if broken else None, ONE
+        yield from optimum_as_given(request, program.machine, program.parts, program.off, answer)
 
 
 def _worst_case(place: Place, objective: Place, there: Sequence[Value]) -> Claims:
@@ -99,7 +81,7 @@ def _exactly(request: Place, answer: Place, program: Program, fitted: Fitted) ->
     """Values of goals of the first order, in exact numbers."""
     found = fitted.first
     proof, worst, price = answer / "certificate", answer / "worst_case", answer / "price_of_robustness"
-    sizes, nothing = [mass.product for mass in found], [ZERO for _ in found]
+    sizes, nothing = off_sizes(program.machine, fitted), [ZERO for _ in found]
     parts = [(part, part.machine.responses(found)) for part in program.parts]
     value = largest(ZERO, *(part.value(responses, program.off, sizes) for part, responses in parts))
     rest = largest(ZERO, *(part.value(part.machine.laden, program.off, nothing) for part, _ in parts))
@@ -117,6 +99,5 @@ def _exactly(request: Place, answer: Place, program: Program, fitted: Fitted) ->
             yield near("worst_case", one / "peak", largest(*peaks) * ABOUT_ONE)
     if price:
         responses = program.machine.responses(found)
-        as_given = nominal(program.machine, request / "objective", program.rows, responses)
-        yield near("price", price / "nominal", as_given)
-        yield from _price(price, program, proof, WIDE * float(rest))
+        yield near("price", price / "nominal", nominal(program.machine, request / "objective", program.rows, responses))
+        yield from optimum_as_given(request, program.machine, program.parts, program.off, answer)

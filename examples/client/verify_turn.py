@@ -307,6 +307,7 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
         yield near("yardstick", size, mass)
     goals_of = Asked([*program.parts.values()], program.named, program.off, machine, program.rows)
     yield from covered(values(request, answer, goals_of, fitted))
+    yield from covered(_as_given(request, machine, answer, implied))
     if slopes:
         yield from covered(costs(request, answer, machine, program.first, terms, slopes))
     yield from covered(misplacement(goals_of.parts, program.named[-1], fitted, answer / "sensitivity"))
@@ -324,6 +325,17 @@ def _earlier(program: Program, proof: Place, implied: Place) -> Claims:
         so_far = program.up_to(n)
         found = so_far.bound(one / "multipliers", so_far.terms(one / "multipliers"), implied)
         yield from _proven("goals", one / "lower_bound", found, implied, one / "multipliers")
+
+
+def _as_given(request: Place, machine: Machine, answer: Place, implied: Place) -> Claims:
+    """The bound of the machine as it is given, nothing off, by multipliers of its own."""
+    price = answer / "price_of_robustness"
+    if not price / "nominal_multipliers":
+        return
+    alone = Place({**request.value, "scenarios": [], "tolerances": None}, *request.path)
+    program, proof = Program(alone, machine, Place(None)), price / "nominal_multipliers"
+    found = program.bound(proof, program.terms(proof), implied)
+    yield from _proven("nominal_optimum", price / "nominal_lower_bound", found, implied, proof)
 
 
 def unreachable(request: Place, answer: Place, budget: Place, said: Place) -> Claims:

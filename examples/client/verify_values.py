@@ -9,8 +9,8 @@ from verify_answer import Fitted
 from verify_bearings import SAMPLE, peak_of
 from verify_cases import Scatter, grown, peak
 from verify_cuts import Part
-from verify_machine import ON_FRAME
-from verify_numbers import Number
+from verify_machine import ON_FRAME, Machine
+from verify_numbers import ZERO, Number
 from verify_program import phasors
 
 
@@ -36,6 +36,13 @@ def together(ranges: Sequence[Range]) -> Range:
 
 def _range(number: Number) -> Range:
     return Range(float(Number(number.low, number.low)), float(number))
+
+
+def off_sizes(machine: Machine, fitted: Fitted) -> List[Number]:
+    """What is off by a share of itself [kg m], web by web: what is fixed is as it is."""
+    webs = zip(fitted.turning, machine.webs)
+    own = [ZERO if web.fixed else one.product for one, web in webs]
+    return [*own, *(one.product for one in fitted.first[len(own) :])]
 
 
 class Value:
@@ -67,12 +74,12 @@ class Value:
         if not self.part.all:
             machine, weights = self.part.machine, self.fitted.first
             co, counter = phasors(machine.responses(weights), response)
-            return _range(abs(co) + abs(counter) + grown(machine, name, self.off, [one.product for one in weights]))
+            return _range(abs(co) + abs(counter) + grown(machine, name, self.off, off_sizes(machine, self.fitted)))
         return self.response(name, axis=axis)
 
     def of_first_order(self, name: str) -> Range:
         """A peak of the first order."""
-        machine, sizes = self.part.machine, [one.product for one in self.fitted.first]
+        machine, sizes = self.part.machine, off_sizes(self.part.machine, self.fitted)
         return _range(peak(machine, machine.responses(self.fitted.first), name, self.off, sizes))
 
     def bearings(self) -> Range:
@@ -87,9 +94,10 @@ class Value:
             return 0.0
         share, besides = float(self.off.share), float(self.off.besides)
         loads = self.part.loads
-        sizes = [(one.position, one.product.middle().real) for one in self.fitted.turning]
+        sizes = zip(self.part.machine.webs, off_sizes(self.part.machine, self.fitted))
         return sum(
-            abs(loads.factor(name, place)) * loads.square * (share * abs(size) + besides) for place, size in sizes
+            abs(loads.factor(name, web.position)) * loads.square * (share * abs(size.middle().real) + besides)
+            for web, size in sizes
         )
 
     def _external(self) -> Iterator[Range]:
@@ -101,7 +109,7 @@ class Value:
                 if name in weights:
                     yield self._weighed(name, float(weights[name]))
             return
-        sizes = [one.product for one in self.fitted.first]
+        sizes = off_sizes(self.part.machine, self.fitted)
         value = self.part.value(self.part.machine.responses(self.fitted.first), self.off, sizes)
         yield _range(value)
 

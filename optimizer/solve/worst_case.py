@@ -1,11 +1,13 @@
 """Certified counterweights of any mass, of a machine as it is given or in the worst case of several, and what the worst
 case costs."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
+from optimizer.formulation.balance_shafts import Fitted, chosen, posed
+from optimizer.formulation.counterweights import masses_and_angles, unbalance
 from optimizer.formulation.demand import demand
 from optimizer.formulation.formulate import added, counted, of_all_orders
 from optimizer.formulation.goals import Goals, bearing_responses, formulate
@@ -16,7 +18,7 @@ from optimizer.program.cuts.cut import Quantity
 from optimizer.program.cuts.optimum import Found, Unkept, over_turn
 from optimizer.responses.curve import TurnResponse
 from optimizer.solve.infeasibility import out_of_reach
-from optimizer.solve.outcome import Outcome
+from optimizer.solve.outcome import Outcome, finite_or_null, multipliers_of
 from optimizer.solve.uncertain_program import Machine, Measure, Robust
 from optimizer.solve.whole_turn import certified_turn, fitted
 from schemas.answer.answers import Certificate
@@ -27,6 +29,7 @@ from schemas.request.requests import OptimizeRequest
 
 #: width of brackets of what is shown, relative; and of those that tell which of several peaks may be the largest
 _CLOSE, _ABOUT = 1e-10, 1e-2
+_NO_PROOF: Mapping[str, object] = {}
 _NO_PRICE = " The time limit ended before the nominal optimum of price_of_robustness was found."
 
 
@@ -59,21 +62,45 @@ def certified_robust(request: OptimizeRequest, scene: Prepared) -> Outcome:
         return out_of_reach(request, scene, asked, found)
     told = fitted(request, scene, asked, found, demand(request))
     assert told.chosen is not None
-    return with_worst_case(robust, told, *_nominal_optimum(robust))
+    best, late = _nominal_optimum(robust)
+    if best is None:
+        return with_worst_case(robust, told, None, late)
+    # of the masses that are printed, like every figure
+    mass, angle = masses_and_angles(posed(request).machine, best.point.unbalance, best.limits)
+    u = unbalance(mass, angle, best.limits.radius)
+    return with_worst_case(robust, told, u, late, _proof_of(scene, best, chosen(request, mass, angle)))
 
 
-def with_worst_case(robust: Robust, told: Outcome, nominal: Complex | None, late: bool) -> Outcome:
+def _proof_of(scene: Prepared, best: Found, shown: Fitted) -> dict[str, object]:
+    """The best counterweights of the machine as it is given, and of one goal what is proven of them."""
+    fields: dict[str, object] = {
+        "nominal_counterweights": shown.counterweights,
+        "nominal_balance_shafts": shown.balance_shafts,
+    }
+    if len(best.goals) > 1:
+        return fields
+    square = scene.omega_squared
+    return fields | {
+        "nominal_lower_bound": finite_or_null(best.proof.bound * square),
+        "nominal_multipliers": multipliers_of(best.proof, square),
+    }
+
+
+def with_worst_case(
+    robust: Robust, told: Outcome, nominal: Complex | None, late: bool, proof: Mapping[str, object] = _NO_PROOF
+) -> Outcome:
     """What is told of counterweights, with what the worst case costs.
 
     Parameters
     ----------
     nominal : (K,) kg m, the best counterweights of the machine as it is given, if any are known.
     late : the limit of time left them open.
+    proof : fields of the price that prove the nominal optimum.
     """
     u, certificate = told.chosen, told.fields["certificate"]
     assert u is not None
     assert isinstance(certificate, Certificate)
-    price = _price(robust, u, nominal)
+    price = _price(robust, u, nominal).model_copy(update=dict(proof))
     worst = {"worst_case": _worst_case(robust, u, certificate.objective), "price_of_robustness": price}
     return replace(told, reason=f"{told.reason}{_NO_PRICE if late else ''}", fields={**told.fields, **worst})
 
@@ -140,15 +167,15 @@ def _bearing_responses(machine: Machine) -> Iterator[TurnResponse]:
     yield from bearing_responses(made, machine.request.fidelity, machine.turn, scene.laden)
 
 
-def _nominal_optimum(robust: Robust) -> tuple[Complex | None, bool]:
-    """The best counterweights (K,) of the machine as it is given, if any keep its ceilings; whether the limit of time,
+def _nominal_optimum(robust: Robust) -> tuple[Found | None, bool]:
+    """The best counterweights of the machine as it is given, if any keep its ceilings; whether the limit of time,
     of which the search has what is left, leaves that open."""
     nominal, wanted, left = _nominal(robust), robust.wanted, robust.left_s
     if left == 0.0:
         return None, True
     found = over_turn(nominal.program, wanted.relative_gap, wanted.least_mass, left)
     late = isinstance(found, Found) and found.timed_out
-    return found.point.unbalance if isinstance(found, Found) and not late else None, late
+    return found if isinstance(found, Found) and not late else None, late
 
 
 def _price(robust: Robust, u: Complex, best: Complex | None) -> PriceOfRobustness:

@@ -4,7 +4,9 @@ from typing import Annotated
 
 from pydantic import Field
 
+from schemas.answer.counterweights import Counterweight, FittedShaft
 from schemas.answer.first_order import ResponsePeak
+from schemas.answer.proof import BoundMultipliers
 from schemas.base.model import Model
 from schemas.base.quantities import NewtonMetres, Newtons
 from schemas.base.units import Unit
@@ -63,4 +65,22 @@ class PriceOfRobustness(Model):
         description="what the counterweights of that optimum come to in the worst case, whether or not they keep the"
         " ceilings there; null likewise",
         examples=[32004.8],
+    )
+    nominal_lower_bound: float | None = Field(
+        None,
+        description="certified: nothing within the limits is smaller on that machine, nothing off; null where goals are"
+        " met in their order or choices were searched, and likewise",
+        examples=[30344.97],
+    )
+    nominal_counterweights: tuple[Counterweight, ...] = Field(
+        (),
+        description="those of that optimum, which other figures of the answer say nothing of; none where choices were"
+        " searched, and likewise",
+        examples=[[]],
+    )
+    nominal_balance_shafts: tuple[FittedShaft, ...] = Field(
+        (), description="unbalances of the balance shafts at that optimum", examples=[[]]
+    )
+    nominal_multipliers: BoundMultipliers | None = Field(
+        None, description="of nominal_lower_bound; null likewise", examples=[None]
     )

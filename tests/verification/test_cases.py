@@ -1,11 +1,15 @@
 """Scenarios, tolerances and goals in their order: bounds are held, and nobody calls doing nothing an optimum."""
 
 import copy
+import json
 from typing import Any
 
 import pytest
 
+from optimizer.optimize import optimize
+from schemas.request.requests import OptimizeRequest
 from service.verification import checker
+from tests.pairs.asking import body_of
 from tests.verification.answers import pair
 from tests.verification.checking import broken
 from tests.verification.fabricated import KINDS, fabricated, verdict
@@ -85,3 +89,33 @@ def test_what_a_minimum_mass_came_to_is_held(field: str, factor: float) -> None:
     assert mass["goal"] == "mass"
     mass[field] *= factor
     assert any(one.startswith("goals") for one in broken(request, answer))
+
+
+@pytest.mark.parametrize("name", ["scenarios", "tolerances", "tolerances over the turn"])
+def test_the_best_of_the_machine_as_it_is_given_is_proven(name: str) -> None:
+    request, answer = pair(name)
+    assert checker().verify(request, answer)["verdict"] == "held"
+    price = answer["price_of_robustness"]
+    for field, factor in (
+        ("nominal_optimum", 1.001),
+        ("nominal_optimum_worst_case", 0.999),
+        ("nominal_lower_bound", 1.001),
+        ("nominal", 1.001),
+    ):
+        value = price[field]
+        price[field] = value * factor
+        assert broken(request, answer), field
+        price[field] = value
+    heavy = max(price["nominal_counterweights"], key=lambda one: float(one["mass_kg"]))
+    heavy["mass_kg"] *= 1.001
+    assert any(one.startswith("counterweights") for one in broken(request, answer))
+
+
+@pytest.mark.parametrize("base", ["twin", "scroll"])
+def test_what_is_fixed_is_not_off(base: str) -> None:
+    """Regression: the checker scattered weights that are there already, which the service takes as they are."""
+    body = body_of(base, ["tolerances of masses and angles", "all fixed"], 2.0)
+    assert body is not None
+    answer = json.loads(optimize(OptimizeRequest.model_validate(body)).model_dump_json())
+    assert not broken(body, answer)
+    assert answer["worst_case"]["objective"] == answer["price_of_robustness"]["nominal"]

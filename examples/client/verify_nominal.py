@@ -1,0 +1,81 @@
+"""What the worst case costs: the best of the machine as it is given, nothing off.
+
+The counterweights of that optimum are in the answer, like the multipliers that prove its bound. Its own figures are
+evaluated from them, on the machine as it is given and in every case.
+"""
+
+from __future__ import annotations
+
+from typing import Sequence
+
+from verify_answer import Fitted, fitted
+from verify_bearings import within
+from verify_cases import Case, Scatter
+from verify_ceilings import kept
+from verify_claims import Claims
+from verify_cuts import Part
+from verify_levels import WIDE
+from verify_machine import Machine, Mass
+from verify_numbers import ONE, ZERO, Place, real
+from verify_values import Value, most
+from verify_weights import usual_gap
+
+NO_SCATTER = Scatter(ZERO, ZERO)
+
+
+def as_given(request: Place, machine: Machine, parts: Sequence[Part]) -> Part:
+    """The machine without scenarios, nothing off."""
+    first = parts[0]
+    return Part(Case(request, machine, ONE, None), first.unweighted, first.named)
+
+
+def optimum_as_given(request: Place, machine: Machine, parts: Sequence[Part], off: Scatter, answer: Place) -> Claims:
+    """Every figure of the best of the machine as it is given, but what multipliers prove."""
+    place = answer / "price_of_robustness"
+    best, worst = place / "nominal_optimum", place / "nominal_optimum_worst_case"
+    if not best:
+        yield "nominal_optimum", worst, -ONE if worst else ONE, ONE
+        return
+    goal, given = parts[0].named[-1], as_given(request, machine, parts)
+    none = all(one.high == 0 for one in off) and not list(request / "scenarios")
+    if none:
+        # nothing is off: the optimum is the answer's own
+        value = (answer / "certificate" / "objective").double()
+        for one in (best, worst):
+            yield within("nominal_optimum", one, value, value, 1e-12 * abs(value))
+        return
+    if not list(place / "nominal_counterweights"):
+        yield from _nothing_told(place, parts, answer)
+        return
+    there = yield from fitted(request, machine, place / "nominal_counterweights", place / "nominal_balance_shafts")
+    found, bare = Value(given, there, NO_SCATTER), Value(given, fixed_alone(machine, there), NO_SCATTER)
+    value, rest = found.goal(goal), bare.goal(goal)
+    wide = WIDE * rest.high
+    yield within("nominal_optimum", best, value.low, value.high, wide)
+    yield from kept(place, [found], [bare], True)
+    of_all = most([Value(one, there, off).goal(goal) for one in parts])
+    yield within("nominal_optimum", worst, of_all.low, of_all.high, WIDE * of_all.high + wide)
+    lowest = place / "nominal_lower_bound"
+    gap = (request / "accuracy" / "relative_gap").double(usual_gap(request / "machine"), least=0)
+    near_it = lowest and best.double() - lowest.double() <= gap * rest.high + wide
+    yield "nominal_optimum", best, ONE if near_it else None, ONE
+    if lowest:
+        yield "nominal_optimum", lowest, real(best.double() - lowest.double() + wide), ONE
+
+
+def fixed_alone(machine: Machine, there: Fitted) -> Fitted:
+    """What is on the machine where nothing is chosen."""
+    webs = zip(there.turning, machine.webs)
+    return there._replace(
+        turning=[one if web.fixed else Mass(ZERO, ONE, ZERO, web.position) for one, web in webs], on_shafts=[]
+    )
+
+
+def _nothing_told(place: Place, parts: Sequence[Part], answer: Place) -> Claims:
+    """Of choices: where nothing is limited the optimum is no better in the worst case than what is proven of all."""
+    worst, lowest = place / "nominal_optimum_worst_case", answer / "certificate" / "lower_bound"
+    yield "nominal_optimum", place / "nominal_optimum", None, ONE
+    # a goal before it may have been kept to another limit
+    free = len(parts[0].named) == 1 and not any(part.exact.caps or part.limited for part in parts)
+    broken = free and worst.double() < lowest.double(0.0) * (1 - WIDE)
+    yield "nominal_optimum", worst, -ONE if broken else None, ONE
