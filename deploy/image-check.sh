@@ -76,6 +76,9 @@ root=$(buildah mount "$container")
 
 size=$(du --summarize --block-size=1000000 "$root" | cut --fields=1)
 echo "image: $size MB, of which $(du --summarize --block-size=1000000 "$root/opt/counterweight" | cut --fields=1) MB are not of the base"
+echo "what weighs most of it, MB:"
+du --block-size=1000000 --max-depth=1 "$root"/opt/counterweight/lib/python3.*/site-packages \
+    | sort --numeric-sort --reverse | sed -n '2,13s|\t.*/|  |p'
 if [ "$size" -gt "$limit_mb" ]; then
     echo "FAILED  more than $limit_mb MB: deploy/unused.txt" >&2
     exit 1

@@ -59,8 +59,10 @@ def _alone(*parts: Callable[[], None]) -> None:
     # the compiler makes millions of objects and lets few go: looking for those is a sixth of its time
     gc.disable()
     link_first()
-    for part in parts:
+    for left, part in zip(range(len(parts) - 1, -1, -1), parts, strict=True):
+        begun = time.perf_counter()
         part()
+        _say(f"  {part.__name__.replace('_', ' ')}: {time.perf_counter() - begun:.0f} s; {left} left in this process")
     # nor are they looked through at the end
     gc.freeze()
 

@@ -1,4 +1,5 @@
-"""Ways to solve a sweep side by side, on one core: cvxpy, cvxpy with parameters, clarabel, moreau in batches, and ours.
+"""Ways to solve a sweep side by side, on one core: cvxpy, cvxpy with parameters, clarabel as it comes and tuned, moreau
+in batches, C that is generated for the program, and ours.
 
 ``python -m tests.benchmarks.sweep``; part of `make bench`. The methods take turns, so that a slow moment of the
 machine meets them all, and what counts is CPU time, as others may use it too. The others get the formulated program of
@@ -27,11 +28,11 @@ from rich.table import Table
 from optimizer.program.solution import INTERIOR_POINT
 from schemas.sweep.request import SweepRequest
 from service.jobs.kinds import KINDS
-from tests.benchmarks import sweep_time
+from tests.benchmarks import sweep_generated, sweep_time
 from tests.benchmarks.sweep_case import Program, programs, sweep
 from tests.benchmarks.sweep_rivals import Batch, Direct, Gaps, Parametrised, Stages, gaps, rebuilt
 
-OURS = "(e) ours, axes to Parquet"
+OURS = "(g) ours, axes to Parquet"
 
 
 @dataclass
@@ -62,19 +63,27 @@ def compare(request: SweepRequest, designs: tuple[int, int, int, int], turns: in
 
     Parameters
     ----------
-    designs : number of designs in a turn of (a) to (d), spread over the sweep; for (d) one batch; (e) takes all.
+    designs : number of designs in a turn of (a), (b), (c) and (d), and (e) and (f), spread over the sweep; for the last
+        two one batch, and (f) only where there is a compiler; (g) takes all.
     """
     chosen = programs(request, np.linspace(0, request.total - 1, max(designs), dtype=int))
-    parametrised, direct = Parametrised(chosen[0]), Direct(chosen[0])
+    parametrised, direct, tuned = Parametrised(chosen[0]), Direct(chosen[0]), Direct(chosen[0], tuned=True)
     prepared = [direct.prepare(program) for program in chosen]
-    batch = Batch([chosen[i] for i in _picks(len(chosen), designs[3])])
+    picked = [chosen[i] for i in _picks(len(chosen), designs[3])]
+    batch = Batch(picked)
     methods: dict[str, Callable[[list[int]], list[Stages]]] = {
         "(a) cvxpy, rebuilt for each design": lambda picks: [rebuilt(chosen[i]) for i in picks],
         "(b) cvxpy, compiled once (DPP)": lambda picks: [parametrised(chosen[i]) for i in picks],
         "(c) clarabel, prepared matrices": lambda picks: [direct.solve(chosen[i], prepared[i]) for i in picks],
-        "(d) moreau, stacked matrices": lambda _: batch.solve(),
+        "(d) clarabel, tuned": lambda picks: [tuned.solve(chosen[i], prepared[i]) for i in picks],
+        "(e) moreau, stacked matrices": lambda _: batch.solve(),
     }
-    rates = {name: Rate(count) for name, count in zip(methods, designs, strict=True)}
+    counts = [*designs[:3], designs[2], designs[3]]
+    if sweep_generated.available():
+        generated = sweep_generated.Generated(picked)
+        methods["(f) QOCOGEN, C for this program"] = lambda _: generated.solve()
+        counts.append(designs[3])
+    rates = {name: Rate(count) for name, count in zip(methods, counts, strict=True)}
     rates[OURS] = Rate(request.total)
     # compiled, and the caches filled
     our_rows(request)

@@ -54,7 +54,7 @@ def gaps(program: Program, found: Stages) -> Gaps:
     return Gaps((float(statement.objective(last)) - bound) / rest, (mass - lightest) / mass if mass > 0 else 0.0)
 
 
-def _vectors(dual: Real) -> Complex:
+def vectors_of(dual: Real) -> Complex:
     """Multipliers of vectors (J, 2) in cones, as complex numbers."""
     return -(dual[:, 0] + 1j * dual[:, 1])
 
@@ -77,7 +77,7 @@ class _Built(NamedTuple):
 
     def found(self) -> Stages:
         duals = [np.reshape(cone.dual_value[1].T, (-1, 2)) for cone in (self.terms, self.terms2)]
-        return Stages(self.p.value, self.p2.value, *map(_vectors, duals), float(self.budget.dual_value))
+        return Stages(self.p.value, self.p2.value, *map(vectors_of, duals), float(self.budget.dual_value))
 
 
 def _build(constant: Any, influence: Any, mass: Any, most: Any, terms: int, webs: int) -> _Built:
@@ -129,25 +129,37 @@ class Prepared(NamedTuple):
 
 
 class Direct:
-    """(c) clarabel without a modelling layer: sparse matrices prepared beforehand, only their data updated.
+    """(c) and (d) clarabel without a modelling layer: sparse matrices prepared beforehand, only their data updated.
 
     clarabel solves A v + s = b with s in the cones.
+
+    tuned : to no more digits than the gaps of the table need, without equilibration and refinement, which these well
+        scaled programs do without.
     """
 
-    def __init__(self, like: Program) -> None:
+    def __init__(self, like: Program, tuned: bool = False) -> None:
         self._terms, self._webs = like.influence.shape
         prepared = self.prepare(like)
-        costs = np.concatenate([np.zeros(2 * self._webs), np.ones(self._terms)]), prepared.mass
+        costs = self.first_cost, prepared.mass
         plane, settings = clarabel.SecondOrderConeT(3), clarabel.DefaultSettings()
         settings.verbose = settings.presolve_enable = False
+        if tuned:
+            settings.equilibrate_enable = settings.iterative_refinement_enable = False
+            settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = 1e-7
+            settings.max_step_fraction = 0.995
         cones = (
             [plane] * (self._webs + self._terms),
             [clarabel.NonnegativeConeT(self._webs + 1), *[plane] * (self._webs + self._terms)],
         )
         self._solvers = [
             clarabel.DefaultSolver(sparse.csc_matrix((cost.size, cost.size)), cost, matrix, side, cone, settings)
-            for cost, matrix, side, cone in zip(costs, self._matrices(like), prepared.sides, cones, strict=True)
+            for cost, matrix, side, cone in zip(costs, self.matrices(like), prepared.sides, cones, strict=True)
         ]
+
+    @property
+    def first_cost(self) -> Real:
+        """Costs of the first stage."""
+        return np.concatenate([np.zeros(2 * self._webs), np.ones(self._terms)])
 
     def prepare(self, program: Program) -> Prepared:
         """The data of a design."""
@@ -157,10 +169,10 @@ class Direct:
         first = np.concatenate([discs, constant])
         second = np.concatenate([np.ones(webs), [0.0], np.zeros(3 * webs), constant])
         mass = np.concatenate([np.zeros(2 * webs), program.mass, np.zeros(terms)])
-        one, two = self._matrices(program)
+        one, two = self.matrices(program)
         return Prepared((one.data, two.data), (first, second), mass)
 
-    def _matrices(self, program: Program) -> tuple[sparse.csc_matrix, sparse.csc_matrix]:
+    def matrices(self, program: Program) -> tuple[sparse.csc_matrix, sparse.csc_matrix]:
         """Variables p (x and y of each web in turn), f in the second stage, t."""
         terms, webs = self._terms, self._webs
         place = np.zeros((3 * webs, 2 * webs))
@@ -193,11 +205,11 @@ class Direct:
         lightest = second.solve()
         duals = [np.array(found.z[-3 * terms :]).reshape(-1, 3)[:, 1:] for found in (smallest, lightest)]
         places = [np.array(found.x[: 2 * webs]).reshape(-1, 2) for found in (smallest, lightest)]
-        return Stages(*places, *map(_vectors, duals), lightest.z[webs])
+        return Stages(*places, *map(vectors_of, duals), lightest.z[webs])
 
 
 class Batch:
-    """(d) moreau, the designs of a batch solved together: the same matrices, stacked beforehand."""
+    """(e) moreau, the designs of a batch solved together: the same matrices, stacked beforehand."""
 
     def __init__(self, programs: Sequence[Program]) -> None:
         self._programs = programs
@@ -205,12 +217,11 @@ class Batch:
         direct = Direct(programs[0])
         stages = [
             [matrix.tocsr() for matrix in matrices]
-            for matrices in zip(*(direct._matrices(program) for program in programs), strict=True)
+            for matrices in zip(*(direct.matrices(program) for program in programs), strict=True)
         ]
         self._values = [np.stack([matrix.data for matrix in matrices]) for matrices in stages]
         prepared = [direct.prepare(program) for program in programs]
-        first_cost = np.concatenate([np.zeros(2 * self._webs), np.ones(self._terms)])
-        self._costs = np.tile(first_cost, (len(programs), 1)), np.stack([one.mass for one in prepared])
+        self._costs = np.tile(direct.first_cost, (len(programs), 1)), np.stack([one.mass for one in prepared])
         self._sides = [np.stack(sides) for sides in zip(*(one.sides for one in prepared), strict=True)]
         planes = [3] * (self._webs + self._terms)
         cones = moreau.Cones(so_cone_dims=planes), moreau.Cones(num_nonneg_cones=self._webs + 1, so_cone_dims=planes)
@@ -238,6 +249,6 @@ class Batch:
         places = [found.x[:, : 2 * self._webs].reshape(-1, self._webs, 2) for found in (smallest, lightest)]
         prices = lightest.z[:, self._webs]
         return [
-            Stages(p, p2, _vectors(terms), _vectors(terms2), price)
+            Stages(p, p2, vectors_of(terms), vectors_of(terms2), price)
             for p, p2, terms, terms2, price in zip(*places, *duals, prices, strict=True)
         ]

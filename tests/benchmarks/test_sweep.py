@@ -4,7 +4,7 @@ import psutil
 import pytest
 
 from schemas.sweep.request import SweepRequest
-from tests.benchmarks import sweep_memory, sweep_outputs, sweep_scaling, sweep_time
+from tests.benchmarks import sweep_generated, sweep_memory, sweep_outputs, sweep_scaling, sweep_time
 from tests.benchmarks.operations import Counted, operations_per_program
 from tests.benchmarks.sweep import OURS, at_limits, compare
 from tests.benchmarks.sweep_case import programs, sweep
@@ -18,7 +18,7 @@ def request_() -> SweepRequest:
 
 def test_every_method_certifies_both_stages(request_: SweepRequest) -> None:
     rates, rows = compare(request_, (2, 3, 5, 6), turns=1)
-    assert len(rates) == 5
+    assert len(rates) == (7 if sweep_generated.available() else 6)
     for rate in rates.values():
         # the asked gap; of the mass what calls an answer inaccurate (optimizer.optimize.MASS_GAP)
         assert rate.worst.objective <= 1e-6
@@ -30,14 +30,16 @@ def test_every_method_certifies_both_stages(request_: SweepRequest) -> None:
 
 
 def test_the_methods_find_the_same_mass(request_: SweepRequest) -> None:
-    # independent: three formulations, two modelling layers, two solvers
+    # independent: three formulations, two modelling layers, three solvers
     chosen = programs(request_, (0, 17, 39))
-    for program, of_batch in zip(chosen, Batch(chosen).solve(), strict=True):
-        direct = Direct(program)
-        alone = direct.solve(program, direct.prepare(program))
-        found = [rebuilt(program), Parametrised(program)(program), alone, of_batch]
+    batches = [Batch(chosen).solve()]
+    if sweep_generated.available():
+        batches.append(sweep_generated.Generated(chosen).solve())
+    for program, *of_batches in zip(chosen, *batches, strict=True):
+        alone = [one.solve(program, one.prepare(program)) for one in (Direct(program), Direct(program, tuned=True))]
+        found = [rebuilt(program), Parametrised(program)(program), *alone, *of_batches]
         masses = [float(program.statement.mass(program.unbalance(stages.lightest))) for stages in found]
-        assert masses == pytest.approx([masses[0]] * 4, rel=1e-5)
+        assert masses == pytest.approx([masses[0]] * len(masses), rel=1e-5)
         assert max(gaps(program, stages).objective for stages in found) <= 1e-6
 
 
