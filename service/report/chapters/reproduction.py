@@ -6,11 +6,10 @@ from collections.abc import Iterator, Mapping
 from importlib.metadata import version
 from typing import Any
 
-from optimizer.effects.registry import EFFECTS
 from schemas.answer.answers import EffectUse
 from schemas.base.version import package_version
 from schemas.request.report import ReportRequest
-from service.report.blocks import Chapter, Listing, Paragraph, facts, table
+from service.report.blocks import Chapter, Listing, Paragraph, facts
 
 #: characters of a line of the listing
 _LINE = 130
@@ -22,20 +21,15 @@ _PACKAGES = ("numpy", "scipy", "clarabel", "cvxpy")
 
 
 def effects(uses: Mapping[str, EffectUse], asked: tuple[str, ...]) -> Chapter:
-    """Every effect, whether it was simulated and for what."""
-    rows = [
-        (name.replace("_", " "), EFFECTS[name].meaning, ", ".join(use.needed_by) or None)
-        for name, use in uses.items()
-        if use.simulated
-    ]
+    """Every effect, and whether it was simulated; GET /v1/effects says what each is for."""
+    used = [name.replace("_", " ") for name, use in uses.items() if use.simulated]
     idle = [name.replace("_", " ") for name, use in uses.items() if not use.simulated]
     words = (
         f"Asked for: {', '.join(asked)}. Only the effects that these need were simulated; the first order of force and "
         "moment needs nothing but masses and geometry."
     )
-    rest = (Paragraph(f"Not simulated: {', '.join(idle)}."),) if idle else ()
-    heads = ["effect", "<what it simulates", "<for"]
-    return Chapter("Which effects were simulated", (Paragraph(words), table("", heads, rows), *rest))
+    told = [f"Simulated: {', '.join(used)}.", *([f"Not simulated: {', '.join(idle)}."] if idle else [])]
+    return Chapter("Which effects were simulated", (Paragraph(words), Paragraph(" ".join(told))))
 
 
 def versions() -> dict[str, str]:
@@ -47,6 +41,11 @@ def body(request: ReportRequest) -> dict[str, Any]:
     """The request as it was read; what is the document's own only where it is given."""
     found = request.model_dump(mode="json")
     return {name: value for name, value in found.items() if name not in _DOCUMENTS or name in request.model_fields_set}
+
+
+def _given(request: ReportRequest) -> dict[str, Any]:
+    """The request without the defaults of what nobody gave."""
+    return request.model_dump(mode="json", exclude_unset=True)
 
 
 def request_json(request: ReportRequest) -> str:
@@ -107,16 +106,16 @@ def appendix(request: ReportRequest, at: str) -> Chapter:
     without = f" without {' and '.join(own)}" if own else ""
     words = (
         "This request, posted to /v1/report or given to the command counterweight report, makes this document again; "
-        f"posted to /v1/optimize{without} it answers the same figures as JSON. It is the request as it was read: "
-        "numbers in SI units, defaults filled in."
+        f"posted to /v1/optimize{without} it answers the same figures as JSON. It is the request as it was read, in SI "
+        "units; fields that nobody gave have their defaults, and the PDF has them all in request.json."
     )
     check = (
-        "Its digest is SHA-256 of the JSON without blanks and with sorted keys, in Python "
+        "Its digest is SHA-256 of request.json without blanks and with sorted keys, in Python "
         'hashlib.sha256(json.dumps(request, sort_keys=True, separators=(",", ":")).encode()).hexdigest():'
     )
     used = ", ".join(f"{name} {version}" for name, version in versions().items())
     made = facts("", [("computed with", used), ("at", at), ("digest of the request", digest(request))])
     return Chapter(
         "Appendix: request",
-        (Paragraph(words), Listing("\n".join(_lines(_without_pixels(body(request)), _LINE))), Paragraph(check), made),
+        (Paragraph(words), Listing("\n".join(_lines(_without_pixels(_given(request)), _LINE))), Paragraph(check), made),
     )
