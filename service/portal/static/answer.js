@@ -3,7 +3,7 @@
 import { beside as tables } from "./beside.js";
 import { h, table } from "./dom.js";
 import { beside, figure, number, share } from "./format.js";
-import { ofTheShaft, refusal, weighed } from "./objective.js";
+import { COSTS, ofTheShaft, refusal, weighed } from "./objective.js";
 import { order } from "./order.js";
 import { reports } from "./report.js";
 import { change, responses } from "./responses.js";
@@ -50,7 +50,7 @@ function proof(request, { status, certificate, infeasibility, floor, timing, res
     sentences.push(`No counterweights within these limits can bring ${how} below ${figure(bound, 8)}; `
       + `these come to ${figure(objective, 8)}. The gap is ${gap === null ? "not known" : share(Math.max(0, gap))}. Without counterweights it is ${figure(bare, 8)}.`);
   }
-  const costs = (certificate.goals ?? []).filter((one) => ["mass", "pieces", "sizes"].includes(one.goal));
+  const costs = (certificate.goals ?? []).filter((one) => COSTS.includes(one.goal));
   if (costs.length) sentences.push("The gap holds what the goals before leave to those after them; the table below says what is proven of each.");
   if (status === "inaccurate" && costs.length) sentences.push("One of the goals is not proven as closely as was asked.");
   else if (status === "inaccurate") sentences.push("That gap is wider than was asked for: take the figure as it stands, not as the optimum.");
