@@ -107,10 +107,10 @@ def appendix(request: ReportRequest, at: str) -> Chapter:
     words = (
         "This request, posted to /v1/report or given to the command counterweight report, makes this document again; "
         f"posted to /v1/optimize{without} it answers the same figures as JSON. It is the request as it was read, in SI "
-        "units; fields that nobody gave have their defaults, and the PDF has them all in request.json."
+        "units. Fields that nobody gave have their defaults; request.json in the PDF has them all, and has the digest."
     )
     check = (
-        "Its digest is SHA-256 of request.json without blanks and with sorted keys, in Python "
+        "Its digest is SHA-256 of the JSON without blanks and with sorted keys, in Python "
         'hashlib.sha256(json.dumps(request, sort_keys=True, separators=(",", ":")).encode()).hexdigest():'
     )
     used = ", ".join(f"{name} {version}" for name, version in versions().items())
