@@ -134,7 +134,7 @@ def _rows(drawing: Drawing, view: _View, machine: CrankMachine) -> Iterator[Labe
         # never on the axis itself
         steep = abs(math.sin(math.radians(axis))) > 0.5
         place = view.at(_AXES + 14, axis) if steep else (end[0], end[1] + 16)
-        yield Label(place, f"{names}, {digits(axis)}°", MUTED, 11.0)
+        yield Label(place, f"{names}, {digits(axis)}°", MUTED, 12.0)
 
 
 def _allowed(drawing: Drawing, view: _View, web: Place) -> None:

@@ -4,7 +4,6 @@ Lengths are m, angles deg.
 """
 
 from collections.abc import Iterator, Sequence
-from copy import deepcopy
 from itertools import islice
 from typing import Annotated, Any, Literal, NamedTuple
 
@@ -23,6 +22,8 @@ from schemas.machine.rotor import MAX_WEBS
 from schemas.machine.throws import MAX_ROWS, MAX_THROWS
 from service.common.validation import MAX_ERRORS, locate, message_of
 
+#: from the root down to the axis of a row
+_DEEPEST = 8
 #: of the heaviest counterweight: what rounding leaves of nothing is not drawn
 _DUST = 1e-6
 
@@ -252,7 +253,7 @@ def known(typed: dict[str, Any]) -> tuple[Layout | None, list[FieldProblem]]:
     -------
     Layout, None where nothing can be drawn; the first reasons, by their paths.
     """
-    rest, why = deepcopy(typed), dict[Path, str]()
+    rest, why = _copied(typed, _DEEPEST), dict[Path, str]()
     found: Layout | None = None
     while found is None:
         try:
@@ -264,6 +265,15 @@ def known(typed: dict[str, Any]) -> tuple[Layout | None, list[FieldProblem]]:
         why.setdefault(("machine", "throws"), REQUIRED)
         found = None
     return found, [FieldProblem(*one) for one in islice(why.items(), MAX_ERRORS)]
+
+
+def _copied(value: Any, deep: int) -> Any:
+    """JSON as far down as anything is drawn: what somebody types may be nested as deeply as can be read."""
+    if isinstance(value, dict):
+        return {key: _copied(each, deep - 1) for key, each in value.items()} if deep else None
+    if isinstance(value, list | tuple):
+        return [_copied(each, deep - 1) for each in value] if deep else None
+    return value
 
 
 def _cut(rest: dict[str, Any], error: ValidationError, why: dict[Path, str]) -> bool:

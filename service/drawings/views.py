@@ -10,7 +10,8 @@ from service.drawings.side import side
 
 def views(request: LayoutRequest) -> LayoutAnswer:
     """Front and side of what is known, and why the rest is not drawn."""
-    layout, missing = known(request.model_dump())
+    # field by field: what stands in them may be nested more deeply than a model writes
+    layout, missing = known({name: getattr(request, name) for name in ("machine", "counterweights", "fitted")})
     return LayoutAnswer(
         front=None if layout is None else front(layout).svg(),
         side=None if layout is None else side(layout).svg(),

@@ -1,6 +1,7 @@
 """The page as a reader sees it, watched for what must never happen."""
 
 import json
+import os
 import urllib.request
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -151,6 +152,9 @@ class Portal:
         return [json.loads(request.post_data or "") for request in self.requests if urlsplit(request.url).path == path]
 
     def screenshot(self, name: str) -> None:
+        """For those who look (``SCREENSHOTS=1``): a picture of the whole page costs as much as to draw it."""
+        if not os.environ.get("SCREENSHOTS"):
+            return
         ARTEFACTS.mkdir(parents=True, exist_ok=True)
         self.page.screenshot(path=ARTEFACTS / f"{name}.png", full_page=True)
 

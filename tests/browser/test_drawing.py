@@ -1,81 +1,104 @@
-"""The drawing: true to shape, without dust, names never hidden; and the counterweights as a workshop makes them."""
-
-import re
-from typing import Any
+"""The drawings while one types: the latest is drawn, what is missing is said; and counterweights as they are made."""
 
 import pytest
+from playwright.sync_api import Route, expect
 
-from service.portal.assets import STATIC
-from service.portal.bundle import bundle
 from tests.browser.portal import Portal, ask, cells, number
 
-#: in the page: pairs of names that overlap by more than a pixel, and names with a counterweight above them
+THROW = "/machine/throws/0"
+#: in the page: names, and pairs of them that overlap by more than a pixel
 _HIDDEN = """(drawing) => {
-  const names = [...drawing.querySelectorAll("text.name:not(.faint)")];
+  const names = [...drawing.querySelectorAll(".names text")];
   const boxes = names.map((one) => one.getBoundingClientRect());
   const over = (one, other) => Math.min(one.right, other.right) - Math.max(one.left, other.left) > 1
     && Math.min(one.bottom, other.bottom) - Math.max(one.top, other.top) > 3;
   const pairs = names.flatMap((name, i) => names.slice(i + 1).filter((_, j) => over(boxes[i], boxes[i + 1 + j]))
     .map((other) => [name.textContent, other.textContent]));
-  const below = names.filter((name) => [...drawing.querySelectorAll(".counterweight, .throw")]
-    .some((shape) => name.compareDocumentPosition(shape) & Node.DOCUMENT_POSITION_FOLLOWING));
-  return [names.length, pairs, below.map((name) => name.textContent)];
+  return [names.length, pairs];
 }"""
 
 
-@pytest.mark.parametrize("example", ["2d12", "plate-single", "inline-six", "m-type-four", "v8-cross-plane"])
-def test_no_name_is_hidden(portal: Portal, example: str) -> None:
-    portal.open(example)
+def test_no_name_is_hidden(portal: Portal) -> None:
+    """In the letters that a browser has; tests/drawings/test_views.py looks at more machines."""
+    portal.open("v8-cross-plane")
     for view in ("front", "side"):
-        count, pairs, below = portal.page.locator(f"#drawings .{view}").evaluate(_HIDDEN)
+        count, pairs = portal.page.locator(f"#drawings .{view}").evaluate(_HIDDEN)
         assert count > 1
-        assert (pairs, below) == ([], [])
+        assert pairs == []
 
 
-@pytest.mark.parametrize(
-    ("example", "webs", "found"), [("2d12", 2, 4), ("v8-cross-plane", 2, 4), ("plate-single", 2, 2)]
-)
-def test_names_stand_clear_of_counterweights(portal: Portal, example: str, webs: int, found: int) -> None:
-    portal.open(example)
-    boxes = """(all) => all.map((one) => one.getBoundingClientRect())
-      .map((box) => [box.left, box.top, box.right, box.bottom])"""
-    names = portal.page.locator("#drawings .front text.name.web").evaluate_all(boxes)
-    shapes = portal.page.locator("#drawings .front .counterweight :is(circle, polygon)").evaluate_all(boxes)
-    assert (len(names), len(shapes)) == (webs, found)
-    for left, top, right, bottom in names:
-        assert all(right < one[0] or left > one[2] or bottom < one[1] or top > one[3] for one in shapes)
+def _last_angle(portal: Portal, angles: list[str]) -> None:
+    """Type angles of the first crank, all of them in one moment."""
+    portal.input(f"{THROW}/crank_angle_deg").evaluate(
+        """(input, angles) => {
+          for (const angle of angles) {
+            input.value = angle;
+            input.dispatchEvent(new InputEvent("input", { bubbles: true }));
+          }
+        }""",
+        angles,
+    )
 
 
-def _module(portal: Portal, name: str, call: str, given: Any) -> Any:
-    text = bundle(STATIC, name)
-    last = re.findall(r"^const (module\d+) = ", text, re.MULTILINE)[-1]
-    return portal.page.evaluate(f"(given) => {{\n{text}const module = {last};\nreturn {call};\n}}", given)
+def _pointed(portal: Portal, angle: int) -> None:
+    title = portal.page.locator("#drawings .front .throw title", has_text=f"throw 1 at {angle}°")
+    title.wait_for(state="attached")
 
 
-def test_plates_are_drawn_as_they_are_cut(portal: Portal, url: str) -> None:
-    """Independent: mass and centre of mass of the polygon (shoelace) are those of the answer."""
-    portal.open("plate-single")
-    request = ask(url, "/v1/examples/plate-single")
-    answer = ask(url, "/v1/optimize", request)
-    for one, web in zip(answer["counterweights"], request["machine"]["webs"], strict=True):
-        outline = _module(
-            portal, "drawing/outline.js", "module.outline(given.one, given.web)", {"one": one, "web": web}
-        )
-        sides = list(zip(outline, outline[1:] + outline[:1], strict=True))
-        area = sum(a[0] * b[1] - b[0] * a[1] for a, b in sides) / 2
-        along = sum((a[0] + b[0]) * (a[0] * b[1] - b[0] * a[1]) for a, b in sides) / 6 / area
-        thickness = float(web["envelope"]["thickness_m"].split()[0]) / 1e3
-        # a polygon of 24 sides instead of an arc
-        assert area * thickness * 7850 == pytest.approx(one["mass_kg"], rel=5e-3)
-        assert along == pytest.approx(one["radius_m"], rel=5e-3)
-    assert portal.page.locator("#drawings .counterweight.unknown").count() == 0
+def test_the_latest_of_many_key_strokes_is_drawn(portal: Portal) -> None:
+    """One question at a time; one whose answer comes late is neither drawn, nor does it stand in the answer's place."""
+    portal.open("single-vertical")
+    held: list[Route] = []
+    most = 1
+
+    def hold(route: Route) -> None:
+        if len(held) < most:
+            held.append(route)
+        else:
+            route.continue_()
+
+    portal.page.route("**/v1/layout", hold)
+    before = len(portal.bodies("/v1/layout"))
+    with portal.page.expect_request("**/v1/layout"):
+        _last_angle(portal, ["1", "2", "3"])
+    _last_angle(portal, [str(angle) for angle in range(10, 30)])
+    fitted = portal.page.locator("#drawings .counterweight")
+    # what stands there is that of the answer before, until there is another
+    count = fitted.count()
+    assert count > 0
+    held[0].continue_()
+    _pointed(portal, 29)
+    typed = [body["machine"]["throws"][0]["crank_angle_deg"] for body in portal.bodies("/v1/layout")[before:]]
+    assert typed == [3, 29]
+    assert fitted.count() == 0
+    most = 2
+    with portal.page.expect_request("**/v1/layout"):
+        _last_angle(portal, ["40"])
+    with portal.asking():
+        with portal.page.expect_response("**/v1/optimize"):
+            portal.page.click("#optimise")
+        held[1].continue_()
+    assert fitted.count() > 0
 
 
-def test_dust_is_not_drawn(portal: Portal) -> None:
-    portal.open("2d12")
-    masses = [{"web": "a", "mass_kg": 60}, {"web": "b", "mass_kg": 1e-9}, {"web": "c", "mass_kg": 0}]
-    drawn = _module(portal, "drawing/outline.js", "module.carried(given)", masses)
-    assert [one["web"] for one in drawn] == ["a"]
+def test_the_page_stays_usable_where_nothing_is_drawn(portal: Portal) -> None:
+    portal.open("single-vertical")
+    drawings = portal.page.locator("#drawings")
+    portal.page.route("**/v1/layout", lambda route: route.fulfill(status=404, json={"detail": "Gone."}))
+    portal.refusals = {404}
+    _last_angle(portal, ["50"])
+    expect(drawings).to_contain_text("Not drawn anew: Gone.")
+    expect(drawings).to_have_class("drawings old")
+    assert drawings.locator(".front").count() == 1
+    portal.page.unroute("**/v1/layout")
+    _last_angle(portal, ["60"])
+    _pointed(portal, 60)
+    expect(drawings).to_have_class("drawings")
+    # half-typed: what is known is drawn, and what is missing is said in the page's words
+    _last_angle(portal, [""])
+    expect(drawings).to_contain_text("Not drawn yet: throw 1: crank angle: this field is required.")
+    assert drawings.locator(".front .throw").count() == 0
+    assert drawings.locator(".side").count() == 1
 
 
 def test_counterweights_come_first(portal: Portal, url: str) -> None:

@@ -133,7 +133,7 @@ def test_rows_are_added_to_a_throw(portal: Portal) -> None:
     portal.input(f"{rows}/2/axis_deg").fill("200")
     portal.optimise()
     assert portal.bodies("/v1/optimize")[-1]["machine"]["throws"][0]["rows"][2]["axis_deg"] == 200
-    assert portal.page.locator("#answer .front .row line").count() == 3
+    assert portal.page.locator("#answer .front .row").count() == 3
 
 
 def test_another_kind_of_machine_holds_nothing_that_nobody_typed(portal: Portal) -> None:
@@ -188,7 +188,7 @@ def test_a_machine_is_uploaded(portal: Portal) -> None:
     portal.page.locator("#paste > summary").click()
     portal.page.set_input_files("#file", "examples/w60.json")
     portal.drawn(2)
-    assert portal.page.locator("#answer .front .row line").count() == 3
+    assert portal.page.locator("#answer .front .row").count() == 3
     assert portal.page.locator("#example").input_value() == ""
 
 

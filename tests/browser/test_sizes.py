@@ -1,5 +1,7 @@
 """Standard sizes that counterweights are chosen from, and how the page words what is not closed to the bound."""
 
+import json
+
 from tests.browser.portal import Portal, ask
 
 
@@ -38,3 +40,11 @@ def test_one_gap_is_told_and_nothing_is_proved_beside_it(portal: Portal, url: st
     said = words.partition("gap is ")[2].partition(" %")[0]
     gap = 100 * answer["certificate"]["relative_gap"]
     assert said == "0" if gap <= 0 else float(said.removeprefix("less than ")) >= 0.99 * gap
+    # what counterweights cost is no part of the objective: it is told of force and moment alone
+    goals = [{"goal": "external", "allowance": 0.01}, {"goal": "pieces"}, {"goal": "mass"}]
+    request = {"machine": portal.bodies("/v1/optimize")[-1]["machine"], "objective": {"priorities": goals}}
+    portal.page.locator("#paste > summary").click()
+    portal.page.fill("#json", json.dumps(request))
+    with portal.asking():
+        portal.page.click("#read")
+    assert "can bring the weighted peaks of force and moment below" in portal.page.locator(".proof").inner_text()

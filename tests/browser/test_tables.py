@@ -156,24 +156,6 @@ def test_headings_and_drawing_follow_what_is_typed(portal: Portal) -> None:
     assert len(portal.bodies("/v1/optimize")) == asked
 
 
-def test_a_drawing_that_waited_does_not_take_the_place_of_the_answers(portal: Portal) -> None:
-    # the page is never idle until the test says so
-    portal.page.add_init_script(
-        """globalThis.waiting = new Map();
-        globalThis.requestIdleCallback = (work) => { waiting.set(waiting.size + 1, work); return waiting.size; };
-        globalThis.cancelIdleCallback = (number) => waiting.set(number, () => {});"""
-    )
-    portal.open("2d12")
-    fitted = portal.page.locator("#drawings .counterweight")
-    before = portal.page.evaluate("waiting.size")
-    portal.input(f"{THROWS}/1/rotating_mass_kg").fill("12")
-    portal.page.wait_for_function("before => waiting.size > before", arg=before)
-    portal.optimise()
-    count = fitted.count()
-    portal.page.evaluate("() => [...waiting.values()].forEach((work) => work())")
-    assert fitted.count() == count > 0
-
-
 def test_the_keyboard_goes_through_a_table(portal: Portal) -> None:
     portal.open("two-rows-180")
     portal.input(f"{THROWS}/0/rotating_mass_kg").focus()

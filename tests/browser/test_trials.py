@@ -1,12 +1,14 @@
 """Three engineers with a machine each: what they have to type and to click until they have what they came for.
 
-Screenshots of each are left in `artefacts/portal`: wide, narrow and dark, on paper; the report of the first as a PDF.
+With SCREENSHOTS=1 pictures of each are left in `artefacts/portal`: wide, narrow and dark, on paper. The report of the
+first is there as a PDF.
 """
 
 from typing import Any
 
 import pytest
 from playwright.sync_api import expect
+from pypdf import PdfReader
 
 from tests.browser.hand import Hand
 from tests.browser.portal import ARTEFACTS, Portal, ask
@@ -68,6 +70,8 @@ def test_a_compressor_becomes_a_filed_report_with_castings(portal: Portal) -> No
     ARTEFACTS.mkdir(parents=True, exist_ok=True)
     download.value.save_as(ARTEFACTS / "trial-a.pdf")
     assert "K-1047" in download.value.suggested_filename
+    # what is filed on an ordinary machine
+    assert len(PdfReader(ARTEFACTS / "trial-a.pdf").pages) <= 8
     assert hand.fields <= 25
     assert hand.clicks <= 12
     asked = portal.bodies("/v1/report")[-1]

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from optimizer.optimize import optimize
 from schemas.request.layout import LayoutRequest
 from schemas.request.requests import OptimizeRequest
+from service.common.validation import check
 from service.documents.examples import bodies
 from service.drawings.layout import CrankMachine, known, layout_of
 from service.drawings.views import views
@@ -105,6 +106,16 @@ def test_a_machine_is_no_larger_than_the_service_takes() -> None:
     rows = [{"axis_deg": 0}] * 51
     assert "rows together" in reasons(machine(*[{**THROW, "rows": rows}] * 10))["throws"]
     assert "500" in reasons(machine(*[THROW] * 501))["throws"]
+
+
+@pytest.mark.parametrize("place", ["machine", "counterweights", "fitted"])
+def test_what_is_nested_as_deeply_as_can_be_read_is_answered(place: str) -> None:
+    deep: Any = {"kind": "reciprocating"}
+    for _ in range(900):
+        deep = {"throws": [deep], "kind": "reciprocating"}
+    given: Any = {"machine": EXAMPLES["2d12"]} | {place: deep if place == "machine" else [deep]}
+    found = views(check(LayoutRequest, given))
+    assert (found.front is None) == (place == "machine")
 
 
 _JSON = st.recursive(

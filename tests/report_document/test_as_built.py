@@ -131,9 +131,9 @@ def test_pictures_show_as_built_beside_the_optimum(picture: Picture) -> None:
     alone = picture(OptimizeRequest.model_validate(bodies()["2d12"])).svg()
     both = picture(OptimizeRequest.model_validate(request())).svg()
     assert len(both) > len(alone)
-    dashes = "5 3" if picture in (pictures.front, pictures.side) else "9 3 2 3"
+    dashes = "6 3" if picture in (pictures.front, pictures.side) else "9 3 2 3"
     # three weights are fitted; a hodograph has a curve and its key
-    assert both.count(f'"{dashes}"') - alone.count(f'"{dashes}"') == (3 if dashes == "5 3" else 2)
+    assert both.count(f'"{dashes}"') - alone.count(f'"{dashes}"') == (3 if dashes == "6 3" else 2)
 
 
 def test_the_hodograph_tells_the_peak_as_built() -> None:

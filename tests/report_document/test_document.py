@@ -147,15 +147,16 @@ def test_a_machine_without_a_place_for_counterweights(made: Make) -> None:
         ("overturning", "Overturning couple", 1),
         ("roll", "Roll moment", 1),
         ("main_bearings", "Main bearings", 4),
-        ("orders", "Orders", 1),
+        ("orders", "Orders", 0),
     ],
 )
 def test_every_output_asked_for_has_its_chapter(made: Make, output: str, title: str, figures: int) -> None:
     found = made("2d12", outputs=[output])
     assert sum(isinstance(block, Figure) for block in chapter(found, title).blocks) == figures
-    used = [row[0] for row in values(next(tables(found, "Which effects were simulated")))]
+    used, _, idle = words(found, "Which effects were simulated").partition("Not simulated: ")
+    assert "rotating inertia" in used
     assert "pin loads" not in used
-    assert "pin loads" in words(found, "Which effects were simulated")
+    assert "pin loads" in idle
     # only what was asked for
     assert ("Torque" in [one.title for one in found.chapters]) == (output == "torque")
 
@@ -233,3 +234,15 @@ def test_an_angle_of_a_whole_turn_is_printed_as_none(value: float, text: str) ->
     assert isinstance(found, Number)
     # to all its digits where it is computed with
     assert (found.text, found.value) == (text, value)
+
+
+def test_of_inertia_alone_nothing_is_filed_that_is_zero(made: Make) -> None:
+    """No curves that are cosines, no powers and errors of none, no samples of crank pins."""
+    dry, driven = (made(name, outputs=["torque", "rod_loads", "orders"]) for name in ("v8-cross-plane", "2d12"))
+    counts = [sum(isinstance(one, Figure) for one in chapter(found, "Rod loads").blocks) for found in (dry, driven)]
+    assert counts == [0, 4]
+    names = [[row[0] for row in values(next(tables(found, "Torque")))] for found in (dry, driven)]
+    assert names[0] == ["largest torque over the cycle, N m", "fluctuation energy ΔE, J"]
+    assert "shaft power, W" in names[1]
+    # the orders stand in their chapter alone
+    assert [table.title for table in tables(dry, "First order before and after")] == [""]

@@ -25,13 +25,14 @@ def test_orders_that_are_more_than_small_are_listed_and_ellipses_that_are_no_lin
     found, chapter = _orders("2d12")
     (listed,) = [block for block in chapter.blocks if isinstance(block, Table)]
     assert [row[0] for row in listed.rows] == ["1", "2", "4"]
-    assert [figure.caption.split(":")[0] for figure in _figures(chapter.blocks)] == ["Order 1"]
+    # the first order is drawn in a chapter of its own
+    assert _figures(chapter.blocks) == []
     words = " ".join(block.text for block in chapter.blocks if isinstance(block, Paragraph))
     assert "Of order 6 force and moment are below a thousandth of the largest." in words
     assert "The vectors of order 2, 4 run along straight lines" in words
     # the picture by itself has them all
     assert [figure.caption.split(":")[0] for figure in order_hodographs(found)] == ["Order 1", "Order 2", "Order 4"]
-    assert len(_figures(_orders("v60")[1].blocks)) > 1
+    assert len(_figures(_orders("v60")[1].blocks)) >= 1
 
 
 def _figures(blocks: Iterable[Block]) -> list[Figure]:

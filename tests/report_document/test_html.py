@@ -75,9 +75,9 @@ def test_the_policy_forbids_what_is_not_there(page: Page) -> None:
 def test_whoever_cannot_see_it_is_told_what_is_what(page: Page) -> None:
     assert ("html", {"lang": "en"}) in page.elements
     drawings = [attributes for tag, attributes in page.elements if tag == "svg"]
-    # four of machine and first order, the stages, the torque, and two of order 1: higher orders of horizontal rows act
-    # along x alone, and straight lines are not drawn
-    assert len(drawings) == 8
+    # four of machine and first order, the stages, the torque: higher orders of horizontal rows act along x alone, and
+    # straight lines are not drawn
+    assert len(drawings) == 6
     assert all(found["role"] == "img" and found["aria-label"] for found in drawings)
     assert all(found["scope"] in ("col", "row") for tag, found in page.elements if tag == "th")
     assert [tag for tag, _ in page.elements if re.fullmatch("h[1-6]", tag)][:2] == ["h1", "h2"]

@@ -2,15 +2,14 @@
 
 import { beside as tables } from "./beside.js";
 import { h, table } from "./dom.js";
-import { pair } from "./drawing/pair.js";
 import { beside, figure, number, share } from "./format.js";
-import { ofTheShaft, refusal, weighed } from "./objective.js";
+import { COSTS, ofTheShaft, refusal, weighed } from "./objective.js";
 import { order } from "./order.js";
 import { reports } from "./report.js";
 import { change, responses } from "./responses.js";
 import { scales } from "./scales.js";
 
-export function showAnswer(place, request, answer, outputs) {
+export function showAnswer(place, request, answer, outputs, drawings) {
   const { counterweights: fitted, balance_shafts: shafts } = found(answer);
   // what keeps no ceilings is nothing to fit
   const title = answer.infeasibility ? "The closest compromise, which does not keep the ceilings" : undefined;
@@ -18,7 +17,7 @@ export function showAnswer(place, request, answer, outputs) {
     h("h2", { class: `status ${answer.status}` }, headline(request, answer)),
     ...(fitted.length ? [order(fitted, null, title)] : []),
     ...(shafts ?? []).map((shaft) => order(shaft.counterweights, shaft.name, title)),
-    h("div", { class: "drawings", id: "drawings" }, pair(request.machine, fitted, answer.reference_plane_m, request.fitted ?? [])),
+    drawings,
     h("div", { class: "proof" }, proof(request, answer).map((sentence) => h("p", {}, sentence))),
     h("div", { class: "cautions" }, (answer.warnings ?? []).map((warning) => h("p", {}, warning.message))),
     ...comparison(request, answer),
@@ -27,7 +26,7 @@ export function showAnswer(place, request, answer, outputs) {
 }
 
 // what was found, or the closest compromise where the ceilings cannot be met
-const found = (answer) => (answer.counterweights.length ? answer : answer.infeasibility?.closest ?? answer);
+export const found = (answer) => (answer.counterweights.length ? answer : answer.infeasibility?.closest ?? answer);
 
 // what got worse is said as what got better is
 function headline(request, answer) {
@@ -51,7 +50,7 @@ function proof(request, { status, certificate, infeasibility, floor, timing, res
     sentences.push(`No counterweights within these limits can bring ${how} below ${figure(bound, 8)}; `
       + `these come to ${figure(objective, 8)}. The gap is ${gap === null ? "not known" : share(Math.max(0, gap))}. Without counterweights it is ${figure(bare, 8)}.`);
   }
-  const costs = (certificate.goals ?? []).filter((one) => ["mass", "pieces", "sizes"].includes(one.goal));
+  const costs = (certificate.goals ?? []).filter((one) => COSTS.includes(one.goal));
   if (costs.length) sentences.push("The gap holds what the goals before leave to those after them; the table below says what is proven of each.");
   if (status === "inaccurate" && costs.length) sentences.push("One of the goals is not proven as closely as was asked.");
   else if (status === "inaccurate") sentences.push("That gap is wider than was asked for: take the figure as it stands, not as the optimum.");

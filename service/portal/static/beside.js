@@ -13,13 +13,13 @@ function decision({ alternatives, certificate, counterweights, total_mass_kg: ma
   const counted = (value) => ({ number: true, text: String(value) });
   const rows = alternatives.map((one) => {
     const own = { mass: one.total_mass_kg, pieces: one.pieces, sizes: one.sizes }[one.minimised];
-    const proven = one.lower_bound !== null && one.lower_bound >= own * (1 - 1e-9) ? "proven" : one.lower_bound === null ? "found"
+    const proven = one.lower_bound !== null && one.lower_bound >= own * (1 - 1e-9) ? "proven least" : one.lower_bound === null ? "nothing proven"
       : `found; none is below ${figure(one.lower_bound)}`;
-    return [`${LEAST[one.minimised]} within ${share(one.allowance)}`, number(one.objective), number(one.total_mass_kg), counted(one.pieces), counted(one.sizes),
-      { number: true, text: best > 0 ? `+${share(Math.max(one.objective / best - 1, 0))}` : "–" }, proven];
+    return [`${LEAST[one.minimised]} within ${share(one.allowance)}`, number(one.objective),
+      { number: true, text: best > 0 ? share(Math.max(one.objective / best - 1, 0)) : "–" }, number(one.total_mass_kg), counted(one.pieces), counted(one.sizes), proven];
   });
-  return table("The best choice, and cheaper ones", ["option", "objective", "kg", "pieces", "sizes", "difference", "cheapest"],
-    [["best objective", number(best), number(mass), counted(masses.length), counted(new Set(masses).size), { number: true, text: "–" }, "–"], ...rows]);
+  return table("The best choice, and cheaper ones", ["option", "objective", "rises by", "mass, kg", "pieces", "sizes", "cost"],
+    [["best objective", number(best), { number: true, text: "–" }, number(mass), counted(masses.length), counted(new Set(masses).size), "–"], ...rows]);
 }
 
 export function beside(answer) {

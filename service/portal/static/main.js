@@ -3,6 +3,7 @@
 import { get } from "./api.js";
 import { choices } from "./beginning.js";
 import { byId } from "./dom.js";
+import { Drawings } from "./drawing/views.js";
 import { Embedding } from "./embed.js";
 import { fileName, saveJson } from "./files.js";
 import { Form } from "./form/form.js";
@@ -24,7 +25,6 @@ import { versions } from "./panels/versions.js";
 import { whatIf } from "./panels/what_if.js";
 import { Run } from "./run.js";
 import { schemas } from "./schema.js";
-import { sketching } from "./sketch.js";
 import { starter } from "./starter.js";
 import { theme } from "./theme.js";
 import { Work } from "./work.js";
@@ -44,7 +44,7 @@ const panels = new Panels(byId("panels"), PANELS, {
 });
 const work = new Work(() => [...panels.wanted]);
 const embedding = new Embedding({ take: (request) => take(request, null), request: () => work.request });
-const sketch = sketching(() => work.request);
+const drawings = new Drawings();
 
 // what an answer on this machine can hold, of all panels or of some
 const outputs = (of) => ({ machine: given }) => {
@@ -53,7 +53,7 @@ const outputs = (of) => ({ machine: given }) => {
 };
 
 const run = new Run({
-  work, panels, embedding, schema, sketch, examples, form: () => form, outputs: { all: outputs(PANELS), first: outputs([hodographs, orders, foundation]) },
+  work, panels, embedding, schema, drawings, examples, form: () => form, outputs: { all: outputs(PANELS), first: outputs([hodographs, orders, foundation]) },
   context: { schema, model: MODEL, keep, adopt: (other) => take(other, null) },
 });
 const opening = new Opening({ take, complain: (error) => run.complain(error), open: (ids) => panels.open(ids), fresh: () => run.count === 0, work, form: () => form });
@@ -75,7 +75,8 @@ function changed(why = "Edited: press Optimise.") {
   byId("results").classList.add("stale");
   byId("progress").textContent = why;
   tools();
-  sketch.ask();
+  if (!drawings.element.isConnected) byId("answer").append(drawings.element);
+  drawings.ask(work.request);
 }
 
 function tools() {

@@ -3,6 +3,8 @@
 import { figure } from "./format.js";
 
 const GOALS = { external: "force and moment", bearings: "the largest bearing load", bending: "the largest bending moment" };
+// goals that are no part of the objective: what the counterweights cost
+export const COSTS = ["mass", "pieces", "sizes"];
 const MEASURES = { rms: "the largest root mean square of a bearing load", specific: "the largest specific bearing load" };
 
 export const CEILINGS = {
@@ -20,7 +22,7 @@ export function weighed(objective = {}, others = []) {
     bearing_weight: bearing = 0, bending_weight: bending = 0, roll_weight: roll = 0, priorities = [] } = objective;
   const all = orders === "all" ? " of all orders" : "";
   const bearings = MEASURES[measure] ?? GOALS.bearings;
-  const goals = priorities.map(({ goal }) => goal).filter((goal) => goal !== "mass");
+  const goals = priorities.map(({ goal }) => goal).filter((goal) => !COSTS.includes(goal));
   if (goals.length) {
     const words = goals.map((goal) => (goal === "external" ? `the weighted peaks of force${roll ? ", moment and roll" : " and moment"}${all}` : goal === "bearings" ? bearings : GOALS[goal]));
     return words.length > 1 ? `${words.at(-1)}, after ${words.slice(0, -1).join(" and ")},` : words[0];

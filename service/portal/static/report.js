@@ -44,7 +44,8 @@ function asked(request, outputs) {
   const document = { date: today(), ...texts, ...(revisions ? { revisions: table(revisions) } : {}) };
   const others = versions().filter((one) => compared.has(one.name))
     .map((one) => ({ name: one.name, machine: one.request.machine, ...(one.request.objective ? { objective: one.request.objective } : {}) }));
-  return { ...request, outputs, document, ...(others.length ? { versions: others } : {}) };
+  // every report draws the hodographs of the first order: of their samples nobody reads
+  return { ...request, outputs: outputs.filter((one) => one !== "hodograph"), document, ...(others.length ? { versions: others } : {}) };
 }
 
 // Buttons for the report, with everything that the machine has data for.

@@ -1,6 +1,6 @@
 // The question to the service: one at a time, and what is shown of its answer or of what is wrong.
 
-import { showAnswer } from "./answer.js";
+import { found, showAnswer } from "./answer.js";
 import { post, Problem } from "./api.js";
 import { beginning } from "./beginning.js";
 import { showChecked } from "./checked.js";
@@ -14,7 +14,7 @@ export class Run {
   count = 0;
   #running = new AbortController();
 
-  /** @param {any} page {work, panels, embedding, schema, form, outputs, sketch, examples, context} */
+  /** @param {any} page {work, panels, embedding, schema, form, outputs, drawings, examples, context} */
   constructor(page) {
     this.page = page;
   }
@@ -32,6 +32,7 @@ export class Run {
     byId("problem").replaceChildren();
     byId("trouble").textContent = "";
     byId("answer").replaceChildren();
+    this.page.drawings.clear();
     byId("results").classList.add("empty");
     byId("results").removeAttribute("aria-busy");
     byId("progress").textContent = "A new machine: type it, then press Optimise.";
@@ -54,9 +55,10 @@ export class Run {
     try {
       const answer = await post("v1/optimize", body, { signal: this.#running.signal, waiting: (why) => { progress.textContent = why; } });
       if (number !== this.count) return;
-      this.#answered(request, answer, work.changes === asked);
+      const drawn = this.#answered(request, answer, work.changes === asked);
       if (work.changes === asked) progress.textContent = `Answered in ${Math.round(performance.now() - started)} ms.`;
       await panels.show({ ...this.page.context, request, answer, number, kept: work.kept, call: { method: "POST", path: "v1/optimize", body } });
+      await drawn;
       if (number !== this.count) return;
       Object.assign(results.dataset, { drawn: number, ms: Math.round(performance.now() - started) });
       // never before it is shown, and nobody waits for it
@@ -72,21 +74,20 @@ export class Run {
     }
   }
 
+  // resolves when it is drawn
   #answered(request, answer, current) {
-    const { work, embedding, outputs, form, sketch } = this.page;
+    const { work, embedding, outputs, form, drawings } = this.page;
     form()?.errors.clear();
     byId("problem").replaceChildren();
     byId("trouble").textContent = "";
-    // what was typed before is drawn no more: it would take the place of the answer's drawing
-    if (current) sketch.cancel();
-    showAnswer(byId("answer"), request, answer, outputs.all(request));
+    showAnswer(byId("answer"), request, answer, outputs.all(request), drawings.element);
     byId("results").classList.remove("empty");
     // what was typed meanwhile is not answered
     byId("results").classList.toggle("stale", !current);
     if (current) work.unsaved = false;
-    else sketch.ask();
     work.keep();
     embedding.say("answer", { request, answer });
+    return current ? drawings.ask(request, found(answer).counterweights, request.fitted) : drawings.ask(work.request);
   }
 
   async complain(error) {

@@ -16,4 +16,4 @@ export function scales(machine, answer) {
 }
 
 // The range of an axis on which rounding does not look like a result; none where there is something to see.
-export const calm = (peak, scale) => (peak > 1e-6 * scale || !(scale > 0) ? {} : { range: [-scale, scale] });
+export const calm = (peak, scale) => (peak > 1e-5 * scale || !(scale > 0) ? {} : { range: [-scale, scale] });

@@ -68,6 +68,8 @@ _SOURCES = (
     "Sources: Qian and Qu (2017), inertia force and torque equilibrium of piston compressors; Balancing "
     "(Уравновешивание), lecture slides on compressors, which name neither author nor year."
 )
+#: of a peak, below which a figure is what rounding leaves
+_DUST = 1e-6
 _VERDICT = {"fully": "fully", "partly": "partly", "no": "not"}
 
 
@@ -307,7 +309,8 @@ def limits(names: Sequence[str]) -> str:
 def before_and_after(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | None) -> Chapter:
     """First-order force and moment, what the counterweights leave, and what those that are fitted do."""
     _, left = shown(answer)
-    shown_orders = two_orders(answer.residual.orders)
+    # where all orders are asked for they have a chapter
+    shown_orders = two_orders(answer.residual.orders) if answer.orders is None else None
     filed = None if built is None else built.left
     return first_order(request.machine, answer.residual.before, left, answer.floor, which(answer), shown_orders, filed)
 
@@ -318,7 +321,7 @@ def first_order(
     left: FirstOrder | None,
     floor: Floor,
     label: str,
-    beside: Table,
+    beside: Table | None,
     built: FirstOrder | None = None,
 ) -> Chapter:
     """First-order force and moment: ellipses as figures and as hodographs.
@@ -327,7 +330,7 @@ def first_order(
     ----------
     left : with counterweights, if there are any.
     label : what these are.
-    beside : the second order.
+    beside : the second order, where it stands nowhere else.
     built : with what is fitted, if anything is.
     """
     scales = {"force": was.force.peak_N, "moment": was.moment.peak_Nm}
@@ -340,13 +343,16 @@ def first_order(
             number(floors[name]) if name in floors else "",
         )
         for title, vector, name in _FIRST_ORDER
+        # along an axis of which nothing is and nothing comes, there is nothing to file
+        if name in floors
+        or any(getattr(getattr(one, vector), name) > _DUST * scales[vector] for one in (was, left) if one)
     ]
     return Chapter(
         "First order before and after",
         (
             Equation(formula("F(theta) = f e^{j s theta} + b e^{-j s theta},   peak |f| + |b|,   floor |b|")),
             table("", ["quantity", "#without counterweights", f"#{label}", "#floor"], rows),
-            beside,
+            *(() if beside is None else (beside,)),
             Figure(
                 hodographs(machine, was, left, floor, label, built),
                 "Hodographs: the tips of first-order force and moment run along these ellipses once a revolution. No "

@@ -165,10 +165,13 @@ def _rod_loads(machine: Machine, found: RodLoads) -> Chapter:
         # without gas there is one case: what turns and moves to and fro
         if (row.throw, row.row) not in dry or case.case == "running"
     ]
+    # of inertia alone the largest forces tell all: the curves are cosines and their products
+    inertia = len(dry) == len(found.rows)
     others = [
         (f"{row_name(machine, row.throw, row.row)}: {quantity}", values)
         for row in found.rows
         for quantity, values in (("side", row.side_N), ("tangential", row.tangential_N), ("radial", row.radial_N))
+        if quantity == "side" or not inertia
     ]
     heads = ["row", "load case", "#tension, N", "#at, deg", "#compression, N", "#at, deg"]
     series: tuple[tuple[str, str, list[Line]], ...] = (
@@ -184,8 +187,11 @@ def _rod_loads(machine: Machine, found: RodLoads) -> Chapter:
             *((Paragraph(_DRY, "warning"),) if dry else ()),
             facts("", [("largest rod force of the machine, N", found.governing_load_N)]),
             table("Rod force by load case", heads, cases),
-            extremes("Forces on guide and crank pin, N", found.angle_deg, others),
-            *(figure(title, "N", found.angle_deg, lines, f"{caption} {_SIGNS}") for title, caption, lines in series),
+            extremes(f"Forces on guide{'' if inertia else ' and crank pin'}, N", found.angle_deg, others),
+            *(
+                figure(title, "N", found.angle_deg, lines, f"{caption} {_SIGNS}")
+                for title, caption, lines in (() if inertia else series)
+            ),
         ),
     )
 
@@ -202,6 +208,16 @@ def _torque(machine: Machine, found: Torque) -> Chapter:
     total = Line("machine", found.torque_Nm)
     mean = Line("mean", [found.mean_torque_Nm] * len(found.angle_deg))
     tangential = [] if found.tangential_N is None else [Line("tangential force, N", found.tangential_N)]
+    # inertia alone gives and takes: without gas and friction there is no mean, and no power
+    driven = any(mean for _, mean in rows) or bool(found.rotating_friction_Nm or found.friction_power_W)
+    means = [
+        ("mean torque, N m", found.mean_torque_Nm),
+        ("estimate of its error, N m", found.mean_torque_error_Nm),
+        ("rotating friction, N m", found.rotating_friction_Nm),
+        ("indicated power, W", found.indicated_power_W),
+        ("friction power, W", found.friction_power_W),
+        ("shaft power, W", found.shaft_power_W),
+    ]
     lines = [total, mean, *(by_row if len(by_row) <= MAX_LINES - 2 else ())]
     drawn = figure("torque", "N m", found.angle_deg, lines, f"Torque of the shaft. {_SIGNS}")
     return Chapter(
@@ -211,18 +227,13 @@ def _torque(machine: Machine, found: Torque) -> Chapter:
             facts(
                 "",
                 [
-                    ("mean torque, N m", found.mean_torque_Nm),
-                    ("estimate of its error, N m", found.mean_torque_error_Nm),
-                    ("rotating friction, N m", found.rotating_friction_Nm),
+                    *(means if driven else ()),
                     ("largest torque over the cycle, N m", found.peak_Nm),
-                    ("indicated power, W", found.indicated_power_W),
-                    ("friction power, W", found.friction_power_W),
-                    ("shaft power, W", found.shaft_power_W),
                     ("fluctuation energy ΔE, J", found.fluctuation_energy_J),
-                    ("estimate of its error, J", found.fluctuation_energy_error_J),
+                    *([("estimate of its error, J", found.fluctuation_energy_error_J)] if driven else ()),
                 ],
             ),
-            table("Mean torque of the rows", ["row", "#mean torque, N m"], rows),
+            *((table("Mean torque of the rows", ["row", "#mean torque, N m"], rows),) if driven else ()),
             extremes(f"{_EXTREMES}: torque of rows and machine, N m", found.angle_deg, [*by_row, total, *tangential]),
             replace(drawn, samples=Samples("torque", "N m", found.angle_deg, [*by_row, total, *tangential])),
         ),

@@ -51,7 +51,7 @@ def _general(machine: Machine, reference_plane_m: float) -> Table:
             ("reference plane of the moments z, m", reference_plane_m),
             ("reference plane", "as given" if given else "midway between the outermost throws"),
             ("axial span of throws and webs, m", float(span(machine))),
-            ("largest total mass of counterweights, kg", _limit(machine.max_total_mass_kg)),
+            *_limit("largest total mass of counterweights, kg", machine.max_total_mass_kg),
             *_catalogue(machine),
         ],
     )
@@ -73,12 +73,14 @@ def _catalogue(machine: Machine) -> Iterator[tuple[str, Cell | float]]:
             yield f"masses of {web.name}, kg", ", ".join(f"{mass:g}" for mass in web.catalogue_masses_kg)
         if web.hole_angles_deg is not None:
             yield f"holes of {web.name}, deg", ", ".join(f"{angle:g}" for angle in web.hole_angles_deg)
-    yield "most counterweights", _limit(machine.max_counterweights)
-    yield "most part numbers", _limit(general.max_part_numbers)
+    yield from _limit("most counterweights", machine.max_counterweights)
+    yield from _limit("most part numbers", general.max_part_numbers)
 
 
-def _limit(value: float | None) -> Cell | float:
-    return "no limit" if value is None else value
+def _limit(title: str, value: float | None) -> Iterator[tuple[str, float]]:
+    """A limit, where there is one."""
+    if value is not None:
+        yield title, value
 
 
 def throw_name(throw: Throw, number: int) -> str:

@@ -1,5 +1,7 @@
 """What was asked to be small."""
 
+from collections.abc import Iterable, Iterator
+
 from optimizer.formulation.formulate import given_ceilings, weights
 from schemas.base.responses import ResponseFields, counted
 from schemas.base.titles import field_title
@@ -29,9 +31,12 @@ def _per(unit: str) -> str:
     return f"1/({unit})" if " " in unit else f"1/{unit}"
 
 
-def _ceiling(goal: Objective, response: ResponseFields) -> float | str:
-    allowed: float | None = getattr(goal, response.ceilings[0].field)
-    return "none" if allowed is None else allowed
+def _ceilings(goal: Objective, responses: Iterable[ResponseFields]) -> Iterator[tuple[ResponseFields, float]]:
+    """Ceilings that there are of whole responses."""
+    for each in responses:
+        allowed: float | None = getattr(goal, each.ceilings[0].field)
+        if allowed is not None:
+            yield each, allowed
 
 
 def objective(request: OptimizeRequest) -> Table:
@@ -52,9 +57,12 @@ def objective(request: OptimizeRequest) -> Table:
             ("aim", combined[goal.combine]),
             *((f"weight of the peak {each.label}, {_per(each.unit)}", float(wanted[each.name])) for each in count),
             *((field_title("Objective", field), getattr(goal, field)) for each in count for field in each.parameters),
-            ("weight of components along x", goal.direction_weights.x),
-            ("weight of components along y", goal.direction_weights.y),
-            *((f"ceiling of the peak {each.label}, {each.unit}", _ceiling(goal, each)) for each in count),
+            *(
+                (f"weight of components along {axis}", weight)
+                for axis, weight in (("x", goal.direction_weights.x), ("y", goal.direction_weights.y))
+                if weight != 1
+            ),
+            *((f"ceiling of the peak {each.label}, {each.unit}", most) for each, most in _ceilings(goal, count)),
             *(
                 (f"ceiling of the {each.label}, {each.unit}", allowed)
                 for each, allowed in given_ceilings(goal)

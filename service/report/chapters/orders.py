@@ -33,8 +33,9 @@ def orders(found: OrdersComparison) -> Chapter:
     small = [str(one.order) for one in found.before if one not in listed and (one.force.peak_N or one.moment.peak_Nm)]
     if small:
         words.append(f"Of order {', '.join(small)} force and moment are below a thousandth of the largest.")
-    drawn = [one for one in listed if one.order == 1 or not _straight(one)]
-    lines = [str(one.order) for one in listed if one not in drawn]
+    # the first order has its hodographs already
+    drawn = [one for one in listed if one.order > 1 and not _straight(one)]
+    lines = [str(one.order) for one in listed if one.order > 1 and one not in drawn]
     if lines:
         words.append(f"The vectors of order {', '.join(lines)} run along straight lines, which are not drawn.")
     figures = [_hodographs(one, left.get(one.order)) for one in drawn]

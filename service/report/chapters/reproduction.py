@@ -6,11 +6,10 @@ from collections.abc import Iterator, Mapping
 from importlib.metadata import version
 from typing import Any
 
-from optimizer.effects.registry import EFFECTS
 from schemas.answer.answers import EffectUse
 from schemas.base.version import package_version
 from schemas.request.report import ReportRequest
-from service.report.blocks import Chapter, Listing, Paragraph, facts, table
+from service.report.blocks import Chapter, Listing, Paragraph, facts
 from service.report.chapters.verification import TIMES, Check
 
 #: characters of a line of the listing
@@ -23,20 +22,15 @@ _PACKAGES = ("numpy", "scipy", "clarabel", "cvxpy")
 
 
 def effects(uses: Mapping[str, EffectUse], asked: tuple[str, ...]) -> Chapter:
-    """Every effect, whether it was simulated and for what."""
-    rows = [
-        (name.replace("_", " "), EFFECTS[name].meaning, ", ".join(use.needed_by) or None)
-        for name, use in uses.items()
-        if use.simulated
-    ]
+    """Every effect, and whether it was simulated; GET /v1/effects says what each is for."""
+    used = [name.replace("_", " ") for name, use in uses.items() if use.simulated]
     idle = [name.replace("_", " ") for name, use in uses.items() if not use.simulated]
     words = (
         f"Asked for: {', '.join(asked)}. Only the effects that these need were simulated; the first order of force and "
         "moment needs nothing but masses and geometry."
     )
-    rest = (Paragraph(f"Not simulated: {', '.join(idle)}."),) if idle else ()
-    heads = ["effect", "<what it simulates", "<for"]
-    return Chapter("Which effects were simulated", (Paragraph(words), table("", heads, rows), *rest))
+    told = [f"Simulated: {', '.join(used)}.", *([f"Not simulated: {', '.join(idle)}."] if idle else [])]
+    return Chapter("Which effects were simulated", (Paragraph(words), Paragraph(" ".join(told))))
 
 
 def versions() -> dict[str, str]:
@@ -48,6 +42,11 @@ def body(request: ReportRequest) -> dict[str, Any]:
     """The request as it was read; what is the document's own only where it is given."""
     found = request.model_dump(mode="json")
     return {name: value for name, value in found.items() if name not in _DOCUMENTS or name in request.model_fields_set}
+
+
+def _given(request: ReportRequest) -> dict[str, Any]:
+    """The request without the defaults of what nobody gave."""
+    return request.model_dump(mode="json", exclude_unset=True)
 
 
 def request_json(request: ReportRequest) -> str:
@@ -113,8 +112,8 @@ def appendix(request: ReportRequest, at: str, checked: Check | None = None) -> C
     without = f" without {' and '.join(own)}" if own else ""
     words = (
         "This request, posted to /v1/report or given to the command counterweight report, makes this document again; "
-        f"posted to /v1/optimize{without} it answers the same figures as JSON. It is the request as it was read: "
-        "numbers in SI units, defaults filled in."
+        f"posted to /v1/optimize{without} it answers the same figures as JSON. It is the request as it was read, in SI "
+        "units. Fields that nobody gave have their defaults; request.json in the PDF has them all, and has the digest."
     )
     check = (
         "Its digest is SHA-256 of the JSON without blanks and with sorted keys, in Python "
@@ -132,5 +131,5 @@ def appendix(request: ReportRequest, at: str, checked: Check | None = None) -> C
     made = facts("", [("computed with", used), ("at", at), *digests])
     return Chapter(
         "Appendix: request",
-        (Paragraph(words), Listing("\n".join(_lines(_without_pixels(body(request)), _LINE))), Paragraph(check), made),
+        (Paragraph(words), Listing("\n".join(_lines(_without_pixels(_given(request)), _LINE))), Paragraph(check), made),
     )

@@ -112,7 +112,8 @@ export class Panels {
     const ask = (path, body) => {
       part.call = { method: "POST", path, body };
       part.wait.textContent = "Computing …";
-      return turn(() => post(path, body, { signal: context.signal, waiting: (why) => { part.wait.textContent = why; } }));
+      const asked = () => post(path, body, { signal: context.signal, waiting: (why) => { part.wait.textContent = why; } });
+      return turn(asked).finally(() => { if (context === this.context) part.wait.textContent = ""; });
     };
     try {
       await panel.draw(part.body, { ...context, ask, told: (call) => { part.call = call; } });

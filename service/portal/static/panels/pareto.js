@@ -1,7 +1,7 @@
 // The trade-off of any two or three responses, or of numbers: every point is a set of counterweights.
 
 import { h, table } from "../dom.js";
-import { front } from "../drawing/front.js";
+import { view, Views } from "../drawing/views.js";
 import { figure, number, share } from "../format.js";
 import { complaint } from "../naming.js";
 import { colours, plot } from "../plots.js";
@@ -55,6 +55,8 @@ export const pareto = {
     }
     const node = h("div");
     const picked = h("div", { class: "picked", "aria-live": "polite" });
+    const drawing = h("div", {});
+    const views = new Views((one) => drawing.replaceChildren(view(one.front, "front")), (why) => drawing.replaceChildren(h("p", { class: "about" }, why)));
     const slider = h("input", { id: "pareto-point", type: "range", min: 0, max: found.points.length - 1, step: 1,
       input: () => pick(Number(slider.value)) });
     let chosen = 0;
@@ -62,8 +64,8 @@ export const pareto = {
     const choose = (index) => {
       chosen = index;
       slider.value = index;
-      show(picked, request.machine, found, index);
-      return draw();
+      show(picked, drawing, found, index);
+      return Promise.all([draw(), views.ask(request, found.points[index].counterweights)]);
     };
     const pick = (index) => {
       keep("point", index + 1);
@@ -151,7 +153,7 @@ function picture({ points, titles, bare, whole }, chosen, click) {
   };
 }
 
-function show(place, machine, { points, titles }, index) {
+function show(place, drawing, { points, titles }, index) {
   const point = points[index];
   const weighed = titles.some((title) => title.startsWith(WORDS.mass));
   place.replaceChildren(
@@ -159,5 +161,5 @@ function show(place, machine, { points, titles }, index) {
     table("The chosen point", [...titles, ...(weighed ? [] : ["all counterweights, kg"]), "gap"],
       [[figure(point.values[0]), ...point.values.slice(1).map((value) => number(value)), ...(weighed ? [] : [number(point.total_mass_kg)]),
         { number: true, text: point.certificate.relative_gap === null ? "none" : share(Math.max(0, point.certificate.relative_gap)) }]]),
-    h("div", { class: "beside" }, front(machine, point.counterweights), counterweightTable(point.counterweights)));
+    h("div", { class: "beside" }, drawing, counterweightTable(point.counterweights)));
 }

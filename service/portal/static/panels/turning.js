@@ -1,8 +1,8 @@
 // The machine as it turns, with the force and the moment that it shakes its foundation with: the answer's own figures.
 
 import { h, s } from "../dom.js";
-import { front } from "../drawing/front.js";
 import { circle, degrees, line, metres, points, polar, WIDTH } from "../drawing/view.js";
+import { question, view } from "../drawing/views.js";
 import { figure } from "../format.js";
 import { turner } from "./turner.js";
 
@@ -16,10 +16,10 @@ const PARTS = [
 export const turning = {
   id: "turning", title: "The turning crank, with force and moment",
   about: "First order: dashed without counterweights, solid with them. Arrows and curves of one picture have one scale.",
-  draw(body, { answer, request }) {
+  async draw(body, { answer, request, ask }) {
     const { hodograph, counterweights } = answer;
     const sense = request.machine.rotation === "cw" ? -1 : 1;
-    const machine = front(request.machine, counterweights, { named: false });
+    const machine = view((await ask("v1/layout", question(request.machine, counterweights))).front, "front");
     machine.setAttribute("aria-label", "The machine from the front, as it turns.");
     const moving = machine.querySelectorAll(".counterweight, .throw");
     const sliders = rows(request.machine, sense);
