@@ -262,6 +262,11 @@ def _whole_turn(context: Context) -> WholeTurn:
     return whole_turn(rows, _breaks(context))
 
 
+def _frame_forces(context: Context) -> WholeTurn:
+    rows = row_data(context.layout, context.fidelity.kinematics == "exact", None, None, ())
+    return whole_turn(rows, break_angles(context.layout))
+
+
 DYNAMICS = (
     Effect("kinematics", "motion of the rows", _kinematics, inputs=RODS, problems=_motion_problems),
     Effect(
@@ -308,6 +313,12 @@ DYNAMICS = (
         "forces of the rows between the angles at which something jumps, for exact peaks",
         _whole_turn,
         needs=("gas", "friction"),
+    ),
+    Effect(
+        "frame_forces",
+        "inertia of the rows over the revolution, for exact peaks on the frame, where gas and friction are none",
+        _frame_forces,
+        needs=("kinematics",),
     ),
     Effect("torque", "torque of rows and shaft against rotation", _torque, needs=("rod_forces", "friction")),
     Effect(

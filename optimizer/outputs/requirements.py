@@ -7,10 +7,11 @@ from optimizer.formulation.goals import missing_sizes
 from optimizer.outputs.registry import OUTPUTS
 from schemas.base.model import FieldProblem
 from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.objective import Objective
 from schemas.request.requests import OptimizeRequest
 
-#: effects that an objective over the whole turn needs
-_TURN = ("whole_turn",)
+#: effects that an objective over the whole turn needs, and one about peaks on the frame alone
+_TURN, _ON_FRAME = ("whole_turn",), ("frame_forces",)
 #: why the bending of a shaft without bearings cannot be told
 _FREE = (
     "a free shaft bends in a known way only where its loads balance at every angle, which those of pistons never do:"
@@ -18,9 +19,11 @@ _FREE = (
 )
 
 
-def effects_of_objective(request: OptimizeRequest) -> tuple[str, ...]:
-    """Effects that the objective needs of a machine, beyond the first order."""
-    return _TURN if request.objective.of_the_revolution else ()
+def effects_of_objective(objective: Objective) -> tuple[str, ...]:
+    """Effects that an objective needs of a machine, beyond the first order: none, or one."""
+    if not objective.of_the_revolution:
+        return ()
+    return _TURN if objective.of_the_shaft or objective.roll_weight > 0 else _ON_FRAME
 
 
 def missing(request: OptimizeRequest) -> Iterator[FieldProblem]:
@@ -28,7 +31,7 @@ def missing(request: OptimizeRequest) -> Iterator[FieldProblem]:
     machine, goal = request.machine, request.objective
     if not goal.of_the_revolution:
         return
-    needs = OUTPUTS["main_bearings"].needs if goal.of_the_shaft else _TURN
+    needs = OUTPUTS["main_bearings"].needs if goal.of_the_shaft else effects_of_objective(goal)
     field = goal.of_the_revolution[0]
     for path, message in problems_of(machine, needs):
         why = _FREE if path == ("bearings",) and field.startswith("bending") else message

@@ -25,7 +25,7 @@ def with_turn(residual: Residual, scene: Prepared, unbalance: Complex | None) ->
     unbalance : (K + S,) kg m, of the counterweights that were chosen and, behind them, on the balance shafts; None
         where there are none to show.
     """
-    turn, goal = whole_turn_of(scene), scene.objective
+    turn, goal = whole_turn_of(scene, scene.objective), scene.objective
     before = _peaks(of_all_orders(turn, scene.layout, goal), scene.layout)
     after = None if unbalance is None else _peaks(of_all_orders(turn, scene.laden, goal), scene.laden, unbalance)
     changes = tuple(

@@ -97,7 +97,7 @@ class Machine:
     @cached_property
     def turn(self) -> WholeTurn:
         """The forces of its rows over the turn."""
-        return whole_turn_of(self.scene)
+        return whole_turn_of(self.scene, self.request.objective)
 
     def case(self, known: Sequence[Real] = ()) -> Case:
         """What the program asks of it, with the masses as they should be or with changes of these signs (rows,)."""
@@ -188,7 +188,7 @@ def _scenarios(request: OptimizeRequest, share: float) -> Iterator[Machine]:
         if lacking:
             place = ("scenarios", i, "changes")
             raise MissingInput(FieldProblem(place, f"{pointer(path)}: {message}") for path, message in lacking)
-        scene = prepare(made, ("residual",), effects_of_objective(made))
+        scene = prepare(made, ("residual",), effects_of_objective(made.objective))
         yield Machine(made, scene, scenario.name, scenario.weight, share)
 
 

@@ -16,6 +16,7 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.fixed_weights import beside
 from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.outputs.requirements import effects_of_objective
 from optimizer.program.certificate import budget_price, ceiling_allowance, normalised
 from optimizer.program.cuts.optimum import METHOD, Found, Unkept, over_turn
 from optimizer.program.cuts.proof import Proof
@@ -34,6 +35,7 @@ from optimizer.solve.search_claims import told_ample, told_status
 from schemas.answer.answers import GoalReached
 from schemas.answer.limits import MachineLimit, ShadowPrice, WebLimit
 from schemas.answer.proof import Multipliers
+from schemas.request.objective import Objective
 from schemas.request.requests import OptimizeRequest
 
 #: width of the brackets by which the counterweights of an answer are judged, as a share of goals and ceilings
@@ -89,7 +91,7 @@ def certified_turn(request: OptimizeRequest, scene: Prepared, in_full: bool = Tr
     if request.objective.orders == "all":
         responses = tuple(each.unmirrored() for each in responses)
     machine, square = together.machine, scene.omega_squared
-    turn = (whole_turn_of(scene), scene.laden) if request.objective.of_the_revolution else None
+    turn = (whole_turn_of(scene, request.objective), scene.laden) if request.objective.of_the_revolution else None
     case = Case(machine, square, (responses,), turn)
     asked = formulate(machine, together.objective, [case], square, request.fidelity)
     accuracy, least = request.accuracy, request.objective.least_mass
@@ -259,9 +261,10 @@ def _prices(
     )
 
 
-def whole_turn_of(scene: Prepared) -> WholeTurn:
-    """The forces of the rows over the turn."""
-    turn: WholeTurn = scene.simulated.result("whole_turn", "objective")
+def whole_turn_of(scene: Prepared, objective: Objective) -> WholeTurn:
+    """The forces of the rows over the turn, as far as an objective looks at them."""
+    (effect,) = effects_of_objective(objective)
+    turn: WholeTurn = scene.simulated.result(effect, "objective")
     return turn
 
 

@@ -18,7 +18,9 @@ from schemas.request.requests import AnalyzeRequest
 from schemas.request.scene import Fidelity
 from tests.effects.machines import EVERY, complete
 
-_ASKED = {name: OUTPUTS[name].needs for name in EVERY}
+#: of every output, and of an objective that serves itself
+_OF_OBJECTIVES = ("frame_forces",)
+_ASKED = {name: OUTPUTS[name].needs for name in EVERY} | {"objective": _OF_OBJECTIVES}
 
 
 def test_every_output_of_the_contract_is_registered_and_answered() -> None:
@@ -43,7 +45,8 @@ def test_outputs_need_effects_that_exist_and_every_effect_serves_one() -> None:
     for output in OUTPUTS.values():
         assert output.meaning
         assert set(output.needs) <= set(EFFECTS)
-    assert {name for output in OUTPUTS.values() for name in closure(machine, output.needs)} == set(EFFECTS)
+    served = {name for output in OUTPUTS.values() for name in closure(machine, output.needs)}
+    assert served | set(closure(machine, _OF_OBJECTIVES)) == set(EFFECTS)
 
 
 def _fields(model: Any, path: list[str]) -> bool:

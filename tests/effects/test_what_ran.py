@@ -12,6 +12,7 @@ from optimizer.effects.effect import Context, Effect
 from schemas.front.pareto import ParetoRequest
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from service.documents.examples import bodies
+from tests.pairs.asking import body_of
 
 EXAMPLES = bodies("")
 INERTIA = {"rotating_inertia", "reciprocating_inertia", "second_order"}
@@ -52,8 +53,9 @@ REQUESTS: dict[str, tuple[dict[str, Any], set[str]]] = {
     "catalogue": (_with(machine={"catalogue": {"masses_kg": [20, 60], "angle_step_deg": 90}}), set()),
     "tolerances": (_with(tolerances={"mass_relative": 0.02}), set()),
     "scenarios": (_with(scenarios=SCENARIOS), set()),
-    "all orders": (_with(objective={"orders": "all"}), {"whole_turn"}),
-    "all orders, scenarios": (_with(objective={"orders": "all"}, scenarios=SCENARIOS), {"whole_turn"}),
+    "all orders": (_with(objective={"orders": "all"}), {"frame_forces"}),
+    "all orders, scenarios": (_with(objective={"orders": "all"}, scenarios=SCENARIOS), {"frame_forces"}),
+    "roll": (_with("single-balance-shaft", objective={"roll_weight": 1}), {"whole_turn"}),
     "priorities": (_with(objective={"priorities": [{"goal": "external", "allowance": 0.01}]}), set()),
     "bearings": (_with(objective={"bearing_weight": 1}, machine=BEARINGS), {"whole_turn"}),
     "kinematics": (_with(outputs=["kinematics"]), {"kinematics"}),
@@ -73,15 +75,29 @@ def test_an_optimum_tells_what_ran(ran: Counter[str], name: str) -> None:
     assert beyond or told <= INERTIA
     for effect, use in answer.effects.items():
         assert (use.time_ms > 0) == bool(use.needed_by) == (effect in ran), effect
-    turn = answer.effects["whole_turn"]
-    assert turn.simulated == ("whole_turn" in beyond)
-    if turn.simulated:
-        assert set(turn.needed_by) & {"objective", "scenarios"}
+    for effect in ("whole_turn", "frame_forces"):
+        turn = answer.effects[effect]
+        assert turn.simulated == (effect in beyond)
+        if turn.simulated:
+            assert set(turn.needed_by) & {"objective", "scenarios"}
     if not request.scenarios:
         # of one machine nothing runs twice
         assert set(ran.values()) == {1}
     else:
         assert "scenarios" in answer.effects["rotating_inertia"].needed_by
+
+
+def test_peaks_on_the_frame_ask_for_no_gas(ran: Counter[str]) -> None:
+    """Gas and friction are internal forces: with them all orders are as without, and they are not simulated."""
+    body = body_of("twin", ("gas", "orders all"))
+    bare = body_of("twin", ("orders all",))
+    assert body is not None
+    assert bare is not None
+    ran.clear()
+    with_gas = optimize(OptimizeRequest.model_validate(body))
+    assert not {"gas", "friction", "whole_turn"} & set(ran)
+    without = optimize(OptimizeRequest.model_validate(bare))
+    assert with_gas.certificate == without.certificate
 
 
 def test_an_analysis_and_a_front_tell_what_ran(ran: Counter[str]) -> None:

@@ -109,7 +109,7 @@ class _Search:
 
     def __init__(self, asked: OptimizeRequest, names: tuple[Traded, ...], scene: Prepared) -> None:
         self.asked, self.names = asked, names
-        turn = whole_turn_of(scene) if asked.objective.of_the_revolution else None
+        turn = whole_turn_of(scene, asked.objective) if asked.objective.of_the_revolution else None
         self.traded: Measures = measures(asked, names, scene, turn)
         self.square = np.array([1.0 if name == "mass" else scene.omega_squared for name in names])
         self.fixed = float(np.sum(fixed_masses(asked.machine)))

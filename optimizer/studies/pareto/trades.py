@@ -61,7 +61,7 @@ def traded_front(request: ParetoRequest, machine: Machine, scene: Prepared) -> T
     scene = replace(scene, request=asked)
     if request.chosen:
         return chosen_trades(asked, names, [*_places(len(names), request.points)], scene)
-    turn = whole_turn_of(scene) if asked.objective.of_the_revolution else None
+    turn = whole_turn_of(scene, asked.objective) if asked.objective.of_the_revolution else None
     traded = measures(asked, names, scene, turn)
     found = _ends(traded)
     if found is None:
