@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from optimizer.choices.discrete import branch, halves, search
+from optimizer.choices.discrete import branch, halves, pairs, search
 from optimizer.choices.discrete.clock import Clock, Pace
 from optimizer.choices.discrete.options import EQUAL, Incumbent, Options
 from optimizer.choices.discrete.search import EXHAUSTED, TREE, Found
@@ -29,8 +29,14 @@ def found_of(problem: Statement, options: Options, relative_gap: float = 1e-12, 
     )
 
 
-@pytest.fixture(params=["halves", "tree"])
+@pytest.fixture(params=["halves", "quarters", "tree"])
 def method(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> str:
+    if request.param == "quarters":
+        # sums of halves that are not listed, however few they are
+        monkeypatch.setattr(halves, "_LISTED", 0)
+        monkeypatch.setattr(halves, "_FEW", 0)
+        monkeypatch.setattr(pairs, "_FEWEST", 10)
+        monkeypatch.setattr(pairs, "_SLAB", 7)
     if request.param == "tree":
         monkeypatch.setattr(search, "_SUMS", 0)
         monkeypatch.setattr(branch, "_SETS", 1)
@@ -104,6 +110,29 @@ def test_half_a_million_sets() -> None:
     options = options_of(problem, [0.2 * most, 0.45 * most, 0.9 * most], [40.0 * n for n in range(9)])
     assert np.prod(np.sum(options.exists, axis=-1)) >= 1e5
     check(problem, options, "halves")
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("seed", range(3))
+def test_ten_million_sets(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Independent: four webs, eleven masses at five angles, 9,834,496 sets one web after the other."""
+    problem = random_statement(seed, "sum", (1.0, 1.0), False, False, False, webs=4)
+    most = float(np.min(problem.limits.max_mass))
+    options = options_of(problem, [most * n / 11.0 for n in range(1, 12)], [72.0 * n for n in range(5)])
+    assert np.prod(np.sum(options.exists, axis=-1)) >= 9e6
+    rest = np.stack(np.meshgrid(*[np.arange(options.mass.shape[1])] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
+    rest = rest[np.all(options.exists[np.arange(1, 4), rest], axis=-1)]
+    best = np.inf
+    for first in np.flatnonzero(options.exists[0]):
+        sets = np.column_stack([np.full(len(rest), first), rest])
+        best = min(best, float(np.min(problem.objective(options.of(options.unbalance, sets)))))
+    size = float(yardstick(problem.alone())[0])
+    for listed in (20_000, 0):
+        monkeypatch.setattr(halves, "_LISTED", listed)
+        found = found_of(problem, options)
+        assert (found.method, found.proven) == (EXHAUSTED, True)
+        assert abs(float(problem.objective(options.of(options.unbalance, found.chosen))) - best) <= EQUAL * size
+        assert abs(found.lower_bound - best) <= EQUAL * size
 
 
 def test_whole_masses_make_ties(method: str) -> None:
