@@ -105,14 +105,19 @@ class Machine:
         self.there = [Mass(mass * web.radius, direction(angle), ZERO, web.position) for web, mass, angle in there]
         self.fixed = total(mass for _, mass, _ in there)
         self.left = largest(self.budget - self.fixed, ZERO) if self.budget is not None else None
-        self.before, self.laden = self.responses([]), self.responses(self.there)
+        self.before = self._plus(dict.fromkeys(ON_FRAME, (ZERO, ZERO)), masses)
+        self.laden = self.responses(self.there)
+        #: phasors of higher orders without balance shafts, where they were needed; None where a row has no rod
+        self.higher: Dict[int, Optional[Responses]] = {}
 
     def responses(self, weights: Sequence[Mass]) -> Responses:
         """With counterweights."""
+        return self._plus(self.before, weights)
+
+    def _plus(self, responses: Responses, weights: Sequence[Mass]) -> Responses:
         found = {}
-        for name in ON_FRAME:
-            co = counter = ZERO
-            for mass in (*self.masses, *weights):
+        for name, (co, counter) in responses.items():
+            for mass in weights:
                 arm = self.arm(name, mass.position, self.wide)
                 size = mass.product * self.wide * self.square * arm
                 co = co + (mass.co + self.blur) * size if mass.co is not ZERO else co

@@ -10,6 +10,8 @@ from verify_machine import NAMES, NOTHING, Machine, Mass, Responses, row_masses
 from verify_numbers import BLUR, HALF, ONE, ZERO, Number, Place, direction, real
 from verify_shafts import power
 
+#: kg m, what turns with and against the shaft, and where it is along it [m]
+_Turning = Tuple[Number, Number, Number, Number]
 _EITHER_WAY = Number((-ONE).low, ONE.high)
 SERIES = 1e-12  # share by which the sum of a series in doubles may be off
 _FIGURES: Dict[str, Callable[[Number, Number], Number]] = {
@@ -42,11 +44,20 @@ def of_order(
     request: Place, machine: Machine, order: int, shafts: Sequence[Tuple[int, Mass]] = ()
 ) -> Optional[Responses]:
     """Phasors that turn ``order`` times, an even number; None where a row has no rod."""
+    if order not in machine.higher:
+        machine.higher[order] = _of_rows(request, machine, order)
+    own = machine.higher[order]
+    geared = [(mass.product * real(order * order), mass) for ratio, mass in shafts if ratio == order]
+    if own is None or not geared:
+        return own
+    return _plus(own, machine, [(size, mass.co, mass.counter, mass.position) for size, mass in geared])
+
+
+def _of_rows(request: Place, machine: Machine, order: int) -> Optional[Responses]:
     asked = request / "machine"
     # the series cut off behind its second term
     cut_off = (request / "fidelity" / "kinematics").text(default="exact") == "order_2"
-    found = {name: [ZERO, ZERO] for name in NAMES}
-    parts: List[Tuple[Number, Number, Number, Number]] = []
+    parts: List[_Turning] = []
     for throw in asked / "throws":
         radius, crank = (throw / "crank_radius_m").number(), direction((throw / "crank_angle_deg").double())
         for row in throw / "rows":
@@ -60,10 +71,11 @@ def of_order(
             turned = power(crank * axis.conjugate(), order)
             where = (throw / "position_m").number() + (row / "offset_m").number(0.0)
             parts.append((size, axis * turned, axis * turned.conjugate(), where))
-    for ratio, mass in shafts:
-        if ratio == order:
-            larger = mass.product * real(order * order)
-            parts.append((larger, mass.co, mass.counter, mass.position))
+    return _plus(dict.fromkeys(NAMES, (ZERO, ZERO)), machine, parts)
+
+
+def _plus(responses: Responses, machine: Machine, parts: Sequence[_Turning]) -> Responses:
+    found = {name: [*responses[name]] for name in NAMES}
     for size, co, counter, where in parts:
         for name, pair in found.items():
             arm = ONE if name == "force" else where * machine.wide - machine.plane * machine.wide

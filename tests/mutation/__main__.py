@@ -38,7 +38,14 @@ ROOMS = {
     "program": Room("optimizer/program/**/*.py", ("tests/program", "tests/optimize/test_optimize.py"), 0.9),
     "formulation": Room("optimizer/formulation/*.py", ("tests/optimize",), 0.9),
     "verify": Room("examples/client/verify*.py", ("tests/verification",), 0.9),
-    "guard": Room("service/guard/*.py", ("tests/network/test_access.py", "tests/network/test_key_command.py"), 0.9),
+    "guard": Room(
+        "service/guard/*.py",
+        tuple(
+            f"tests/network/test_{name}.py"
+            for name in ("access", "key_command", "size_limits", "hosts", "users", "accounts")
+        ),
+        0.9,
+    ),
     "leases": Room("service/jobs/coordinator.py", ("tests/jobs/test_coordinator.py", "tests/jobs/test_store.py"), 0.8),
     "report": Room("service/report/**/*.py", ("tests/report_document",), 0.8),
 }
@@ -63,10 +70,11 @@ def main() -> int:
                 print(f"{name:<12} its tests fail without a fault: nothing can be said", flush=True)
                 short = True
                 continue
-            outcomes = Counter(
-                _outcome(copy, file, mutant, room.tests)
-                for file, mutant in sample(room, arguments.count, arguments.seed)
-            )
+            outcomes = Counter[str]()
+            for file, mutant in sample(room, arguments.count, arguments.seed):
+                outcomes[_outcome(copy, file, mutant, room.tests)] += 1
+                # a run that is ended has said what it knows
+                print(f"{name:<12} {dict(outcomes)}", file=sys.stderr, flush=True)
             share = outcomes["killed"] / max(1, outcomes.total())
             print(f"{name:<12} {outcomes['killed']} of {outcomes.total()} noticed, {share:.0%}", flush=True)
             short |= share < room.least
