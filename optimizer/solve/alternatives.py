@@ -104,8 +104,8 @@ def _cheaper(
     costs, seconds = Costs(program, first, (), choices, solver, size=size), robust.left_s
     # to the last digit, as it is answered
     offered = [Choice(*masses_and_angles(request.machine, u, program.limits), u, COMPARED) for u in known]
-    for choice in offered:
-        costs.offer(choice)
+    for one in offered:
+        costs.offer(one)
     best = costs.value(offered[0])
     for minimised in get_args(Cheaper):
         cheapest = offered[0]
