@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from optimizer.choices.discrete import branch, halves, pairs, search
+from optimizer.choices.discrete import branch, halves, pairs, search, sums
 from optimizer.choices.discrete.clock import Clock, Pace
 from optimizer.choices.discrete.options import EQUAL, Incumbent, Options
 from optimizer.choices.discrete.search import EXHAUSTED, TREE, Found
@@ -215,4 +215,4 @@ def test_halves_hold_no_sums_that_counts_rule_out(fitted: int | None, parts: int
     options = options_of(problem, [0.11 * most, 0.37 * most], [0.0, 50.0, 110.0, 170.0, 230.0, 310.0], fitted, parts)
     every = [np.flatnonzero(some) for some in options.exists]
     _, effect = Incumbent(problem, options, 0.0).coordinates
-    assert len(halves.sums_of(options, effect, every, (0, 1), Pace(Clock(_LONG))).code) == count
+    assert len(sums.sums_of(options, effect, every, (0, 1), Pace(Clock(_LONG))).code) == count
