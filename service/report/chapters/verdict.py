@@ -70,7 +70,7 @@ def _certified(request: OptimizeRequest, answer: OptimizeAnswer) -> Paragraph:
     costs = any(goal.goal in COSTS for goal in proof.goals)
     left = " It is what this goal leaves to those after it, at most its allowance." if costs else ""
     return Paragraph(
-        "Proven optimal: no counterweights within these limits bring the objective below "
+        "Certified: no counterweights within these limits bring the objective below "
         f"{prose(proof.lower_bound)}, and those below reach {prose(proof.objective)}. The difference is "
         f"{_percent(proof.relative_gap)} of the objective without counterweights.{left}",
         "key",
