@@ -267,7 +267,8 @@ def _this(chunk: Chunk) -> ColumnElement[bool]:
 def _may_be_given_out(attempted: bool) -> tuple[tuple[ColumnElement[bool], ColumnElement[bool]], ColumnElement[bool]]:
     """Chunks that nobody holds, those that were never given out apart from others, and whether they were tried."""
     over = or_(chunks.c.lease_until < bindparam("now"), chunks.c.lease_until > bindparam("latest"))
-    free = (chunks.c.state == "pending", and_(chunks.c.state == "leased", over))
+    # those of a service that is gone first: however long a sweep is, nobody waits for its first rows to the end
+    free = (and_(chunks.c.state == "leased", over), chunks.c.state == "pending")
     return free, chunks.c.attempts > 0 if attempted else chunks.c.attempts == 0
 
 

@@ -1,8 +1,8 @@
 """How long the chunks of a service that is killed wait for another one.
 
 Two services with the settings that they have by default share a folder and a database. One of them is ended by SIGKILL
-in the middle of its chunks, again and again, in turn. Its time is over when each chunk that it had is another one's, or
-done.
+while it has some of the last chunks of a sweep, again and again, in turn. The time is over when each of them is another
+one's, or done.
 
 ``python -m tests.jobs.failover --kills 10`` uses a PostgreSQL server, with ``--sqlite`` a file.
 """
@@ -12,6 +12,7 @@ import json
 import sys
 import tempfile
 import time
+from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
 
@@ -25,8 +26,8 @@ from tests.jobs.house import House
 from tests.jobs.process import Service
 from tests.jobs.sweeps import analyses
 
-#: a sweep that outlives the kills, of chunks that take so long at least [s]
-BODY, CHUNK_S = analyses(500, 1000), 0.5
+#: a sweep of few chunks, which take so long at least [s]
+BODY, CHUNK_S = analyses(10, 20), 1.0
 #: most that is waited for a service to have a chunk, or to lose it [s]
 PATIENCE_S = 300.0
 #: what was asked of a failover [s]
@@ -38,8 +39,8 @@ Chunks = dict[tuple[str, int], str]
 class Leases:
     """Who has which chunks, as the database knows it."""
 
-    def __init__(self, house: House) -> None:
-        self._house = house
+    def __init__(self, house: House, submit: Callable[[], object]) -> None:
+        self._house, self._submit = house, submit
 
     def now(self) -> Chunks:
         """Owners of the chunks that are in work, by job and first row."""
@@ -47,13 +48,15 @@ class Leases:
         with self._house.database.read() as connection:
             return {(job, start): owner for job, start, owner in connection.execute(leased)}
 
-    def stranger(self, known: set[str]) -> str:
-        """An owner that is not known, once it has a chunk."""
+    def until(self, is_one: Callable[[str], bool]) -> str:
+        """An owner that is one of those, once it has a chunk; there is something to do until then."""
         until = time.monotonic() + PATIENCE_S
-        while not (owners := {*self.now().values()} - known):
+        while not (found := {*filter(is_one, owners := {*self.now().values()})}):
             assert time.monotonic() < until, "a service takes no chunk"
-            time.sleep(0.05)
-        (owner,) = owners
+            if not owners:
+                self._submit()
+            time.sleep(0.02)
+        (owner,) = found
         return owner
 
     def until_lost(self, owner: str) -> float:
@@ -81,26 +84,24 @@ def failovers(folder: Path, kills: int, sqlite: bool = False, lease_s: float | N
 
         house = House(folder, where)
         stack.callback(house.database.close)
-        leases, owners = Leases(house), list[str]()
-        services: list[Service] = []
+        services, owners = list[Service](), list[str]()
+        leases = Leases(house, lambda: services[-1].send("POST", "/v1/sweeps", BODY))
         stack.callback(lambda: [each.kill() for each in services])
         for _ in range(2):
             services.append(begin())
             services[-1].wait()
-            if not owners:
-                services[0].send("POST", "/v1/sweeps", BODY)
-            owners.append(leases.stranger({*owners}))
+            owners.append(leases.until(lambda owner: owner not in owners))
         found = []
-        for number in range(kills):
-            which, gone = number % 2, owners[number % 2]
-            # it has one chunk or the other nearly always
-            while gone not in leases.now().values():
-                time.sleep(0.02)
-            services[which].kill()
+        for _ in range(kills):
+            # the last one submits
+            services.append(services.pop(0))
+            owners.append(gone := owners.pop(0))
+            leases.until(lambda owner, gone=gone: owner == gone)  # type: ignore[misc]
+            services.pop().kill()
             found.append(leases.until_lost(gone))
-            services[which] = begin()
-            services[which].wait()
-            owners[which] = leases.stranger({*owners})
+            services.append(begin())
+            services[-1].wait()
+            owners[-1] = leases.until(lambda owner: owner not in owners)
         return found
 
 

@@ -252,3 +252,19 @@ def test_what_postgresql_needs_is_named_where_it_is_not_installed(monkeypatch: p
 def test_connection_strings_that_are_none(url: str) -> None:
     with pytest.raises(ValueError, match="not a database"):
         Database(url)
+
+
+def test_chunks_of_a_service_that_is_gone_are_given_out_first(any_house: House) -> None:
+    seconds = [1000.0]
+    leases = Leases(any_house.database, clock=lambda: seconds[0])
+    any_house.submit(total=40, chunk_rows=10)
+    had = leases.claim("gone", 15.0)
+    assert had is not None
+    seconds[0] += 10.0
+    fresh = leases.claim("other", 15.0)
+    assert fresh is not None
+    assert fresh.start == 10
+    seconds[0] += 10.0
+    again = leases.claim("other", 15.0)
+    # before, when nothing fresh was left: at the end of the sweep
+    assert again == had
