@@ -68,10 +68,10 @@ def certified_robust(request: OptimizeRequest, scene: Prepared) -> Outcome:
     # of the masses that are printed, like every figure
     mass, angle = masses_and_angles(posed(request).machine, best.point.unbalance, best.limits)
     u = unbalance(mass, angle, best.limits.radius)
-    return with_worst_case(robust, told, u, late, _proof_of(scene, asked, best, chosen(request, mass, angle)))
+    return with_worst_case(robust, told, u, late, _proof_of(scene, best, chosen(request, mass, angle)))
 
 
-def _proof_of(scene: Prepared, asked: Goals, best: Found, shown: Fitted) -> dict[str, object]:
+def _proof_of(scene: Prepared, best: Found, shown: Fitted) -> dict[str, object]:
     """The best counterweights of the machine as it is given, and of one goal what is proven of them."""
     fields: dict[str, object] = {
         "nominal_counterweights": shown.counterweights,
@@ -82,7 +82,7 @@ def _proof_of(scene: Prepared, asked: Goals, best: Found, shown: Fitted) -> dict
     square = scene.omega_squared
     return fields | {
         "nominal_lower_bound": finite_or_null(best.proof.bound * square),
-        "nominal_multipliers": multipliers_of(best.proof, square, asked.speeds),
+        "nominal_multipliers": multipliers_of(best.proof, square, {None: square}),
     }
 
 
