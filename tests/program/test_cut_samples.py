@@ -26,7 +26,8 @@ def bearings_with_gas() -> tuple[Quantity, ...]:
     request = asked(six_with_gas(), **ALONE, bearing_weight=1)
     scene = prepare(request)
     assert isinstance(scene.machine, ReciprocatingMachine)
-    return tuple(map(Quantity, bearing_responses(scene.machine, request.fidelity, whole_turn_of(scene), scene.laden)))
+    turn = whole_turn_of(scene, request.objective)
+    return tuple(map(Quantity, bearing_responses(scene.machine, request.fidelity, turn, scene.laden)))
 
 
 def drawn(seed: int, webs: int) -> Complex:

@@ -8,6 +8,7 @@ import pytest
 
 from optimizer.formulation.formulate import of_all_orders
 from optimizer.formulation.goals import bearing_responses
+from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.registry import prepare
 from optimizer.responses import worst_masses as scattered
@@ -15,7 +16,6 @@ from optimizer.responses.boxes import Cells, Seen, worst_masses
 from optimizer.responses.component import component
 from optimizer.responses.curve import TurnResponse, peaks
 from optimizer.responses.mass_scatter import peaks_astray
-from optimizer.solve.uncertain_program import Machine
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.objective import Objective
 from schemas.request.requests import OptimizeRequest
@@ -31,7 +31,7 @@ def _responses(name: str, gas: bool, shaft: str) -> tuple[TurnResponse, ...]:
     request = OptimizeRequest.model_validate({"machine": body, "fidelity": {"shaft": shaft}})
     scene = prepare(request, ("residual",))
     assert isinstance(request.machine, ReciprocatingMachine)
-    turn = Machine(request, scene, None, 1.0, 0.0).turn
+    turn: WholeTurn = scene.simulated.result("whole_turn", "objective")
     loads = bearing_responses(request.machine, request.fidelity, turn, scene.laden)
     frame = of_all_orders(turn, scene.laden, Objective())
     return (*loads, *frame, component(frame[0], "y", float(scene.laden.sense)))
