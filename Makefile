@@ -80,7 +80,7 @@ validate: .venv/development $(kernels)
 
 # hours: every test, with ten times the examples and every answer through the checker; the references against references of
 # their own, and what the tests do a few times, thousands of times; the image needs root
-long := tests.choices.against_rounding tests.hard.bodies tests.hard.boundary tests.hard.checked tests.hard.far_limits tests.hard.tampered tests.hard.worst_case tests.jobs.clocks tests.jobs.crashes \
+long := tests.choices.against_rounding tests.hard.bodies tests.hard.boundary tests.hard.checked tests.hard.far_limits tests.hard.tampered tests.hard.worst_case tests.jobs.clocks tests.jobs.crashes tests.jobs.failover \
     tests.jobs.flips tests.jobs.history tests.jobs.kills tests.jobs.statements tests.network.attacks tests.network.bystander tests.network.load \
     tests.network.schema tests.verification.fabricated tests.verification.genuine
 nightly: .venv/development $(kernels)

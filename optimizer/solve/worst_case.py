@@ -17,6 +17,7 @@ from optimizer.program.cuts.brackets import Brackets
 from optimizer.program.cuts.cut import Quantity
 from optimizer.program.cuts.optimum import Found, Unkept, over_turn
 from optimizer.responses.curve import TurnResponse
+from optimizer.solve.cut_plates import cut_plates
 from optimizer.solve.infeasibility import out_of_reach
 from optimizer.solve.outcome import Outcome, finite_or_null, multipliers_of
 from optimizer.solve.uncertain_program import Machine, Measure, Robust
@@ -66,6 +67,9 @@ def certified_robust(request: OptimizeRequest, scene: Prepared) -> Outcome:
     if best is None:
         return with_worst_case(robust, told, None, late)
     # of the masses that are printed, like every figure
+    if asked.program.plates is not None:
+        request, scene, asked = cut_plates(request, scene, asked, best.point.unbalance, best.limits)
+        best = best.within(asked.program.limits)
     mass, angle = masses_and_angles(posed(request).machine, best.point.unbalance, best.limits)
     u = unbalance(mass, angle, best.limits.radius)
     return with_worst_case(robust, told, u, late, _proof_of(scene, best, chosen(request, mass, angle)))
