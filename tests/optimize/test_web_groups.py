@@ -9,8 +9,6 @@ from scipy.optimize import minimize
 
 from optimizer.errors import OutOfRange
 from schemas.answer.answers import OptimizeAnswer
-from schemas.match.request import MatchRequest
-from schemas.request.accuracy import AccuracyRequest
 from schemas.request.requests import OptimizeRequest
 from tests.verification.checking import broken, optimized
 
@@ -201,12 +199,3 @@ def test_unlike_webs_are_refused(change: dict[str, Any], words: str) -> None:
         optimized(asked)
     assert found.value.problems[0].path == ("machine", "web_groups", 0, "webs", 1)
     assert words in found.value.problems[0].message
-
-
-def test_where_they_are_not_counted() -> None:
-    assert refused(body([NAMES]), AccuracyRequest)[0] == ("machine", "web_groups")
-    match = {
-        "machine": body([NAMES])["machine"],
-        "parts": [{"class": "piston", "names": list("abc"), "masses_kg": [1, 2, 3]}],
-    }
-    assert refused(match, MatchRequest)[0] == ("machine", "web_groups")
