@@ -26,7 +26,7 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
-from optimizer.solve.first_order import certified_first
+from optimizer.solve.solve import solve
 from optimizer.studies.accuracy.ladder import LADDER_S, ROUNDS_S, frontier, median_ms
 from schemas.answer.answers import Certificate
 from schemas.machine.machine import Machine
@@ -184,7 +184,7 @@ class _Task:
         return run
 
     def _optimum(self, request: AccuracyRequest) -> Made | Nothing:
-        found = certified_first(request, self.scene, self.solver)
+        found = solve(request, self.scene, self.solver, in_full=False)
         if found.chosen is None:
             return Nothing(_UNREACHABLE if found.status == "infeasible" else found.reason)
         proof = found.fields["certificate"]
@@ -194,7 +194,7 @@ class _Task:
 
     def _rounded(self) -> Made | Nothing:
         """The optimum of any masses, of a group the mean, each on what is nearest of its web."""
-        machine, free = self.request.machine, certified_first(self.free, self.scene, self.solver)
+        machine, free = self.request.machine, solve(self.free, self.scene, self.solver, in_full=False)
         if free.chosen is None:
             return Nothing(free.reason)
         mass, angle = _nearest(machine, free.chosen)
