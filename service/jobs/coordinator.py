@@ -319,7 +319,8 @@ class Coordinator:
         job = chunk.job
         self._read, self._later = self._read & self._active, self._later & self._active
         if job not in self._read | self._later:
-            later = KINDS[chunk.kind].later(chunk.request)
+            kind = KINDS.get(chunk.kind)
+            later = kind is None or kind.later(chunk.request)
             (self._later if later else self._read).add(job)
             if later:
                 _LOG.warning("job %s says what this version does not know: a service of its own has to compute it", job)

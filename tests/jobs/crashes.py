@@ -193,6 +193,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--points", type=int, default=1_000_000)
     began, asked = time.monotonic(), parser.parse_args()
+    synthetic.register()
     try:
         with tempfile.TemporaryDirectory(dir=_MEMORY) as folder:
             # messages that services left elsewhere are none of theirs, and looking for them takes more or fewer calls

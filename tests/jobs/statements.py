@@ -22,7 +22,7 @@ import psycopg
 from sqlalchemy import Engine, event
 from sqlalchemy.pool import Pool
 
-from tests.jobs import postgres
+from tests.jobs import postgres, synthetic
 from tests.jobs.crashes import Told, check, live
 
 #: what SQLAlchemy calls the points
@@ -100,6 +100,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--points", type=int, default=1_000_000)
     began, asked = time.monotonic(), parser.parse_args()
+    synthetic.register()
     try:
         with postgres.server() as server:
             tried, of, lost, orphans = crashes(server.url, asked.points)

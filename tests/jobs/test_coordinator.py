@@ -329,6 +329,19 @@ def test_a_job_of_a_later_version_is_left_to_it(
     assert house.rows(job.id).equals(synthetic.rows(0, 20))
 
 
+def test_a_kind_of_a_later_version_is_left_to_it(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
+    columns = synthetic.SCHEMA.serialize().to_pybytes()
+    job, _ = house.store.submit(Order("newest", b"{}", fingerprint("newest", b"{}"), 20, 5, columns))
+    own = house.submit(total=20, chunk_rows=5)
+    with house.coordinator(threads(1)):
+        assert house.wait(own).state == "done"
+    found = house.store.get(job.id)
+    assert (found.active, found.done, found.failed, found.error) == (True, 0, 0, None)
+    monkeypatch.setitem(KINDS, "newest", synthetic.KIND)  # type: ignore[arg-type]
+    with house.coordinator(threads(1)):
+        assert house.wait(job.id).state == "done"
+
+
 def test_what_a_version_does_not_know_is_told_from_what_is_wrong() -> None:
     sweep, front = KINDS["sweep"].later, KINDS["pareto"].later
     today = SweepRequest.model_validate(analyses(4, 5)).model_dump_json()
