@@ -12,7 +12,6 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.choices.discrete.clock import Clock
-from optimizer.choices.discrete.kernel.near_sums import ALL, gridded, near
 from optimizer.choices.discrete.options import Incumbent
 from optimizer.choices.discrete.sums import Half
 from optimizer.numerics.arrays import SMALLEST, Complex, Real
@@ -106,6 +105,9 @@ class Pairs:
 
     def _compared(self, ball: "_Ball", share: float, most: int, looks: float, clock: Clock) -> bool:
         """Whether every pair of a share of the sums that is in the ball was evaluated."""
+        # the compiler is loaded when it is first needed
+        from optimizer.choices.discrete.kernel.near_sums import ALL, gridded, near
+
         count, found, at_once = share * self.one.size, 0, min(_FIRST, self.at_once)
         taken = ALL if share == 1.0 else np.uint64(int(share * 2**64))
         reach = self._radius(ball)
