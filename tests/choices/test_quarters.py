@@ -19,6 +19,7 @@ from tests.benchmarks.discrete import choice
 from tests.verification.checking import optimized
 
 
+@pytest.mark.nightly
 def test_what_no_tree_closes_is_found_to_a_ten_thousandth() -> None:
     """Regression: 32 webs whose options reach the floor, 10^32 sets; few slots with all options left 4e-4."""
     body = choice(32, None, 5)

@@ -66,6 +66,10 @@ MADE: dict[str, Callable[[], Machine]] = {
 }
 
 
+#: half a minute
+LONG = ("minimum masses in groups",)
+
+
 def measured(machine: Machine, **more: Any) -> AccuracyAnswer:
     return accuracy({"machine": machine, "repeats": 1, **more})
 
@@ -74,7 +78,9 @@ def answered(rows: tuple[ChoiceRow, ...]) -> list[ChoiceRow]:
     return [row for row in rows if row.skipped is None]
 
 
-@pytest.mark.parametrize("kind", MADE)
+@pytest.mark.parametrize(
+    "kind", [pytest.param(kind, marks=pytest.mark.nightly) if kind in LONG else kind for kind in MADE]
+)
 def test_every_kind_has_rows_that_agree_with_the_service(kind: str) -> None:
     """Each row is what /v1/optimize answers to that gap or time (independent), and no bound is above a value."""
     machine = MADE[kind]()
