@@ -96,3 +96,22 @@ def test_what_has_no_ceiling_is_not_named_where_another_cannot_be_met(portal: Po
     words = portal.page.locator(".proof").inner_text()
     assert "cannot be met" in words
     assert "– N" not in words
+
+
+@pytest.mark.parametrize("theme", ["system", "chosen"])
+def test_paper_is_light_whatever_the_screen_is(portal: Portal, theme: str) -> None:
+    """In the colours of a dark screen nobody could read what is printed."""
+    portal.page.emulate_media(color_scheme="dark" if theme == "system" else "light")
+    portal.open("2d12", ("hodographs",))
+    if theme == "chosen":
+        portal.page.evaluate("document.documentElement.dataset.theme = 'dark'")
+    ink = "() => getComputedStyle(document.documentElement).getPropertyValue('--ink').trim()"
+    title = "() => document.querySelector('#panel-hodographs .xtitle').style.fill"
+    dark = portal.page.evaluate(ink)
+    portal.page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    light = portal.page.evaluate(ink)
+    assert (dark, light) == ("#e8ecf0", "#1a1f25")
+    assert portal.page.evaluate(title) == "rgb(26, 31, 37)"
+    portal.page.evaluate("dispatchEvent(new Event('afterprint'))")
+    assert portal.page.evaluate(ink) == dark
+    portal.page.wait_for_function(f"({title})() === 'rgb(232, 236, 240)'")

@@ -136,11 +136,17 @@ export function recolour() {
 const pictures = () => document.querySelectorAll(".plot .main-svg");
 addEventListener("beforeprint", () => {
   const plotly = Reflect.get(globalThis, "Plotly");
-  if (plotly) for (const node of [...due.keys()]) take(plotly, node);
+  document.documentElement.dataset.paper = "";
+  if (plotly) {
+    for (const node of [...due.keys()]) take(plotly, node);
+    for (const [node, make] of drawn) if (node.isConnected && node.offsetParent) draw(plotly, node, /** @type {any} */ (make()));
+  }
   for (const one of pictures()) one.setAttribute("viewBox", `0 0 ${one.getAttribute("width")} ${one.getAttribute("height")}`);
 });
 addEventListener("afterprint", () => {
+  delete document.documentElement.dataset.paper;
   for (const one of pictures()) one.removeAttribute("viewBox");
+  recolour();
 });
 
 // one turn is a closed line, or two where gas takes two
