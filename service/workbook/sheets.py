@@ -279,10 +279,12 @@ class _Reader:
         return "machine", _THROWS, int(throw), _ROWS, len(rows) - 1
 
 
-@lru_cache(512)
 def _text(value: Any) -> Any:
-    """A number as the text that it stands for."""
-    return f"{value:.15g}" if isinstance(value, int | float) and not isinstance(value, bool) else value
+    """A number as the text that it stands for; what is none, truths among them, as it is."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return value
+    # no float holds a whole number of hundreds of digits
+    return str(value) if isinstance(value, int) else f"{value:.15g}"
 
 
 @lru_cache(512)
