@@ -56,7 +56,14 @@ def problem(fault: Fault, instance: str) -> Problem:
         type="/problems/" + fault.title.lower().replace(" ", "-"),
         title=fault.title,
         status=fault.status,
-        detail=fault.detail,
+        detail=_whole(fault.detail),
         instance=quote(instance[:_LONGEST_PATH], errors="replace"),
-        errors=tuple(FieldError(pointer=pointer(path), message=message) for path, message in fault.problems),
+        errors=tuple(
+            FieldError(pointer=_whole(pointer(path)), message=_whole(message)) for path, message in fault.problems
+        ),
     )
+
+
+def _whole(text: str) -> str:
+    """The text without halves of surrogate pairs, which JSON may have brought along and no answer can carry."""
+    return text.encode("utf-8", "replace").decode()

@@ -234,3 +234,11 @@ def test_what_is_wrong_is_said_by_its_cell_where_nothing_is_solved(
     assert post_workbook(bomb, CONVERT).status_code == 400
     assert client.post(CONVERT, content="x", headers={"Content-Type": "text/plain"}).status_code == 415
     assert post_workbook(workbook(written(body)), CONVERT, Accept="text/html").status_code == 406
+
+
+def test_half_of_a_surrogate_pair_in_a_refusal_is_no_fault(post_workbook: Callable[..., Any]) -> None:
+    """JSON in a cell may name a throw so, and the refusal lists the names of throws."""
+    sheets = {"throws": [["name"], ['"\\ud800"']], "rows": [["throw"], [7]]}
+    answer = post_workbook(workbook(sheets))
+    assert answer.status_code == 422
+    assert "the name of its throw" in answer.text
