@@ -114,4 +114,4 @@ def test_paper_is_light_whatever_the_screen_is(portal: Portal, theme: str) -> No
     assert portal.page.evaluate(title) == "rgb(26, 31, 37)"
     portal.page.evaluate("dispatchEvent(new Event('afterprint'))")
     assert portal.page.evaluate(ink) == dark
-    portal.page.wait_for_function(f"({title})() === 'rgb(232, 236, 240)'")
+    expect(portal.page.locator("#panel-hodographs .xtitle").first).to_have_css("fill", "rgb(232, 236, 240)")
