@@ -190,7 +190,7 @@ class _Task:
         proof = found.fields["certificate"]
         assert isinstance(proof, Certificate)  # of every optimum
         mass = np.abs(found.chosen) / _radius((found.cut or self.scene).request.machine)
-        return Made(mass, proof.objective, proof.lower_bound, True, found.status)
+        return Made(mass, proof.objective, proof.lower_bound, self._keeps_limits(mass, found.chosen), found.status)
 
     def _rounded(self) -> Made | Nothing:
         """The optimum of any masses, of a group the mean, each on what is nearest of its web."""
@@ -199,9 +199,13 @@ class _Task:
             return Nothing(free.reason)
         mass, angle = _nearest(machine, free.chosen)
         u = unbalance(mass, angle, _radius(machine))
+        value = float(self.program.objective(u)) * self.scene.omega_squared
+        return Made(mass, value, None, self._keeps_limits(mass, u), None)
+
+    def _keeps_limits(self, mass: Real, u: Complex) -> bool:
+        """Whether masses (K,) kg of unbalances (K,) kg m keep ceilings, budget and numbers, however they came about."""
         excess = np.max(self.program.ceilings.excess(u), initial=-np.inf)
-        kept = bool(excess <= CEILING_TOLERANCE) and _counts(machine, mass)
-        return Made(mass, float(self.program.objective(u)) * self.scene.omega_squared, None, kept, None)
+        return bool(excess <= CEILING_TOLERANCE) and _counts(self.request.machine, mass)
 
     def judged(self, rungs: Sequence[Rung]) -> Ladder:
         """What is known of all rows together, and each against it."""

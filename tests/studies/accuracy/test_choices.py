@@ -97,6 +97,7 @@ def test_every_kind_has_rows_that_agree_with_the_service(kind: str) -> None:
         answer = optimize({"machine": machine, "accuracy": {"relative_gap": gap}})
         assert answer.certificate is not None
         assert row.status == answer.status == "optimal"
+        assert row.limits_kept
         assert row.objective == pytest.approx(answer.certificate.objective, rel=1e-12)
         assert row.lower_bound == pytest.approx(answer.certificate.lower_bound, rel=1e-12)
         assert row.total_mass_kg == pytest.approx(answer.total_mass_kg, rel=1e-12)
