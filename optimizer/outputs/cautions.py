@@ -151,7 +151,7 @@ def _bare_crank(told: Told) -> Iterator[Caution]:
         yield Caution(
             code="bare_crank",
             message=f"{len(bare)} of {len(machine.throws)} throws have less than half of their rotating mass balanced "
-            f"by their own webs (throw {name}: {rate:.2f}). What leaves the machine needs no more, but "
+            f"by their own webs (throw {name}: {rate:z.2f}). What leaves the machine needs no more, but "
             "its main bearings carry the rest: ask for main_bearings, or weigh them.",
             pointer="/objective",
         )
