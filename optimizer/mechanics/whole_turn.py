@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 
-from optimizer.mechanics.expansions import Expansions
+from optimizer.mechanics.curve_series import CurveSeries
 from optimizer.mechanics.indicated import SLIVER, TURN, Trace, entries, turns_of
 from optimizer.mechanics.kinematics import own_angle, steep_angles
 from optimizer.mechanics.layout import Layout
@@ -127,16 +127,6 @@ class WholeTurn:
     def _bounded(self, order: int) -> RowSeries:
         centre, half = self._cut
         return RowSeries(self.rows, centre, half, centre, order)
-
-    def expansions(self, reading: Reading) -> Expansions:
-        """Series of a force about angles within pieces."""
-        if reading not in self._expansions:
-            self._expansions[reading] = Expansions(self.rows, self.centre, reading)
-        return self._expansions[reading]
-
-    @cached_property
-    def _expansions(self) -> dict[Reading, Expansions]:
-        return {}
 
     @cached_property
     def _cut(self) -> tuple[Real, Real]:
@@ -266,32 +256,21 @@ class TurnCurves:
 
     def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
         """Series about other centres (m,) within pieces; the process that counts is that of the piece."""
-        design, weights, constant = self._of(curve)
-        found = np.einsum("mr,kmr->mk", weights, self._expansions.cubics(design, piece, centre))
-        found[:, 0] += constant
-        return found * half[:, None] ** np.arange(4)
+        return self._series.cubics(curve, piece, centre, half)
 
     def rests(self, curve: Index, piece: Index, centre: Real, half: Real) -> Real:
         """Bounds within half widths (m,) rad about other centres."""
-        design, weights, _ = self._of(curve)
-        middle, radius = self._expansions.fourths(design, piece, centre, half)
-        largest: Real = np.abs(np.sum(weights * middle, axis=-1)) + np.sum(np.abs(weights) * radius.real, axis=-1)
-        return largest * half**4
+        return self._series.rests(curve, piece, centre, half)
 
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
         """The curves at angles (m,) within pieces, ends included."""
-        design, weights, constant = self._of(curve)
-        values: Complex = np.sum(weights * self._expansions.values(design, piece, angle), axis=-1)
-        return values + constant
+        return self._series.values(curve, piece, angle)
 
-    @property
-    def _expansions(self) -> Expansions:
-        return self.whole.expansions(self.reading)
-
-    def _of(self, curve: Index) -> tuple[Index, Complex | Real, Complex | Real]:
-        """Design, weights (m, R) and constant of each of (m,) curves."""
-        design, number = np.divmod(curve, self.weights.shape[1])
-        return design, self.weights[design, number], self.constant[design, number]
+    @cached_property
+    def _series(self) -> CurveSeries:
+        whole, curves = self.whole, self.weights.shape[0] * self.weights.shape[1]
+        weights, constant = self.weights.reshape(curves, -1), self.constant.reshape(curves)
+        return CurveSeries(whole.rows, whole.centre, (self.reading,), weights, constant)
 
 
 def _sums(series: Taylor, weights: Complex | Real, constant: Complex | Real) -> Complex:
