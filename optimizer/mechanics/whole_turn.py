@@ -66,12 +66,14 @@ class WholeTurn:
 
     centre, half : (N, P) rad; half is 0 where breaks coincide.
     turns : of the shaft, after which all repeats.
+    means : (N, R) N, of the tangential forces, where there is a closed form.
     """
 
     rows: RowData
     centre: Real
     half: Real
     turns: int = 1
+    means: Real | None = None
 
     def curves(self, reading: Reading, weights: Complex | Real, constant: Complex | Real | float = 0.0) -> "TurnCurves":
         """Sums of a force of the rows over weights (N, C, R), with constants (N, C): N C curves."""
@@ -80,7 +82,8 @@ class WholeTurn:
     def of_design(self, number: int) -> "WholeTurn":
         """The turn of one of the designs alone."""
         one = slice(number, number + 1)
-        return WholeTurn(self.rows.of_design(number), self.centre[one], self.half[one], self.turns)
+        means = None if self.means is None else self.means[one]
+        return WholeTurn(self.rows.of_design(number), self.centre[one], self.half[one], self.turns, means)
 
     def of_rows(self, reading: Reading) -> "TurnCurves":
         """A force of every row by itself."""
@@ -135,8 +138,13 @@ class WholeTurn:
         return (centre, half) if len(centre) == len(half) else (self.centre, self.half)
 
 
-def whole_turn(rows: RowData, breaks: Real) -> WholeTurn:
-    """The turn cut at breaks (..., B) rad and at regular angles; the leading axes become one."""
+def whole_turn(rows: RowData, breaks: Real, means: Real | None = None) -> WholeTurn:
+    """The turn cut at breaks (..., B) rad and at regular angles; the leading axes become one.
+
+    Parameters
+    ----------
+    means : (..., R) N, of the tangential forces, where there is a closed form.
+    """
     turns = turns_of(rows.traces)
     turn = panels(breaks, _WIDEST, turns=turns)
     pieces = turn.width.shape[-1]
@@ -144,7 +152,8 @@ def whole_turn(rows: RowData, breaks: Real) -> WholeTurn:
     centre = turn.start.reshape(half.shape) + half
     half = np.where(half > 0.5 * SLIVER, half, 0.0)
     shape = (rows.designs, pieces)
-    return WholeTurn(rows, np.broadcast_to(centre, shape), np.broadcast_to(half, shape), turns)
+    every = None if means is None else np.broadcast_to(means.reshape(-1, means.shape[-1]), (shape[0], means.shape[-1]))
+    return WholeTurn(rows, np.broadcast_to(centre, shape), np.broadcast_to(half, shape), turns, every)
 
 
 @dataclass(frozen=True)
@@ -191,6 +200,10 @@ class TurnCurves:
     @cached_property
     def mean(self) -> Complex:
         """Means over the turn (N C,)."""
+        means = self.whole.means
+        if self.reading == "tangential" and means is not None:
+            closed: Complex = np.sum(self.weights * means[:, None], axis=-1) + self.constant
+            return closed.reshape(-1)
         values, shares = self._quadrature
         return np.sum(values * shares, axis=-1).reshape(-1)
 
