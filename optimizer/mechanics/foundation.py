@@ -42,12 +42,10 @@ def foundation_load(
     dead_centre_deg : (...) shaft angle from which phases count.
     negligible : force [N] and couple [N m] that rounding alone leaves, (...) each.
     """
-    loads = (
-        _oscillation(phasor, order, sense, dead_centre_deg, least)
-        for pair, least in zip(wrench, negligible, strict=True)
-        for phasor in _along(pair)
-    )
-    return FoundationLoad(*loads)
+    phasors = np.stack([phasor for pair in wrench for phasor in _along(pair)])
+    least = np.stack([np.broadcast_to(each, phasors.shape[1:]) for each in negligible for _ in range(2)])
+    loads = _oscillation(phasors, order, sense, dead_centre_deg, least)
+    return FoundationLoad(*(Oscillation(*each) for each in zip(*loads, strict=True)))
 
 
 def _along(pair: Phasors) -> tuple[Complex, Complex]:

@@ -75,7 +75,7 @@ def bending_moments(turn: WholeTurn, layout: Layout, places: Real, influence: In
     Parameters as for :func:`bearing_loads`.
     """
     corners = stations(layout, places)
-    moment = bending_influence(layout, places, influence, corners)
+    moment = bending_influence(layout, places, influence(places, planes(layout)), corners)
     some = np.any(np.abs(moment) > 0.0, axis=-1)
     if not np.any(some):
         # every load sits on a bearing of its own
@@ -100,12 +100,16 @@ def stations(layout: Layout, places: Real) -> Real:
     return every[..., np.any(apart, axis=tuple(range(every.ndim - 1)))]
 
 
-def bending_influence(layout: Layout, places: Real, influence: Influence, corners: Real) -> Real:
-    """Bending moments at corners (..., S) m for one unit of load in every plane, (..., S, L) m."""
+def bending_influence(layout: Layout, places: Real, reaction: Real, corners: Real) -> Real:
+    """Bending moments at corners (..., S) m for one unit of load in every plane, (..., S, L) m.
+
+    Parameters
+    ----------
+    reaction : (..., B, L) of the bearings at places (..., B) m, for the same loads.
+    """
     loaded = planes(layout)
-    reaction = influence(places, loaded).astype(complex)
     unit = np.broadcast_to(np.eye(loaded.shape[-1], dtype=complex), (*loaded.shape, loaded.shape[-1]))
-    return bending_moment(places, reaction, loaded, unit, corners).real
+    return bending_moment(places, reaction.astype(complex), loaded, unit, corners).real
 
 
 def planes(layout: Layout) -> Real:

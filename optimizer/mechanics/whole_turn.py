@@ -27,6 +27,7 @@ from optimizer.responses.piecewise_cubics import Index, Pieces
 _WIDEST = np.deg2rad(5.0)
 #: nodes of the quadrature in each part of a piece: exact for the square of a polynomial of one degree less
 _GAUSS = 8
+_NODES, _SHARES = leggauss(_GAUSS)
 #: what such a polynomial leaves out of a part, as a share of the size of the curve, and the parts of a piece at most
 _LEFT_OUT, _MOST_PARTS = 1e-11, 512
 #: of a mean square, in units of the magnitudes of the terms that are added up in the curve
@@ -242,13 +243,13 @@ class TurnCurves:
     @cached_property
     def _quadrature(self) -> tuple[Complex, Real]:
         """Values (N, C, n) at the Gauss nodes of all parts, and the share of the turn for which each stands."""
-        whole, parts, (nodes, weights) = self.whole, self._parts.astype(np.intp), leggauss(_GAUSS)
+        whole, parts = self.whole, self._parts.astype(np.intp)
         piece = np.repeat(np.arange(parts.size), parts)
         number = np.arange(piece.size) - np.repeat(np.cumsum(parts) - parts, parts)
         wide, centre = whole.half[:, piece], whole.centre[:, piece]
         half = wide / parts[piece]
-        angle = (centre + wide * ((2.0 * number + 1.0) / parts[piece] - 1.0))[..., None] + half[..., None] * nodes
-        shares = (half[..., None] * (weights / (TURN * whole.turns))).reshape(len(half), -1)
+        angle = (centre + wide * ((2.0 * number + 1.0) / parts[piece] - 1.0))[..., None] + half[..., None] * _NODES
+        shares = (half[..., None] * (_SHARES / (TURN * whole.turns))).reshape(len(half), -1)
         within = np.repeat(centre, _GAUSS, axis=-1)
         series = RowSeries(whole.rows, angle.reshape(within.shape), None, within, 0).of(self.reading)
         return _sums(series, self.weights, self.constant)[..., 0], shares[:, None]

@@ -10,8 +10,7 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.curve_batch import CurveBatch
 from optimizer.mechanics.indicated import TURN
 from optimizer.mechanics.row_series import Reading
-from optimizer.mechanics.shaft import INFLUENCES, bearing_places
-from optimizer.mechanics.shaft_curves import ShaftCurves, planes
+from optimizer.mechanics.shaft_curves import ShaftCurves
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.responses.piecewise_cubics import Bracket, Index
@@ -127,12 +126,6 @@ def torque_search(scene: Prepared, constant: Real | float = 0.0) -> Search:
 def of_torque(scene: Prepared, constant: Real | float = 0.0) -> Bracket:
     """The same: (...)."""
     return _one(_reshaped(scene, peaks_of(scene, torque_search(scene, constant))))
-
-
-def bearing_influence(scene: Prepared) -> Real:
-    """Loads of the main bearings for unit loads in all planes, (..., B, L)."""
-    influence = INFLUENCES[scene.request.fidelity.shaft]
-    return influence(bearing_places(_reciprocating(scene)), planes(scene.layout))
 
 
 def of_shaft(scene: Prepared, found: ShaftCurves, unbalance: Complex | None, group: Index | None = None) -> Bracket:
