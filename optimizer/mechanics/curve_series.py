@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from optimizer.mechanics.row_data import RowData, compact
 from optimizer.mechanics.row_series import AT_ONCE, Reading, pressures
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, spread
 from optimizer.responses.piecewise_cubics import Index
 
 if TYPE_CHECKING:
@@ -87,11 +87,17 @@ class CurveSeries:
         """What is compiled takes places (q,) as."""
         from optimizer.mechanics.kernel.rows import Places
 
-        pressure, slope = pressures(self.rows, design, angle[:, None], within[:, None])
-        count, size = len(self.rows.traces), angle.size
-        traces = (np.broadcast_to(each, (count, size, 1)).reshape(count, size) for each in (pressure, slope))
-        numbers = (angle, np.zeros(0) if half is None else half, within, *map(compact, traces))
+        numbers = (angle, np.zeros(0) if half is None else half, within, *self._pressures(design, angle, within))
         return Places(np.require(design, np.int64, ("C", "W")), *map(compact, numbers))
+
+    def _pressures(self, design: Index, angle: Real, within: Real) -> tuple[Real, Real]:
+        """Pressures and slopes of the traces at places, (T, q)."""
+        count, size = len(self.rows.traces), angle.size
+        if not count:
+            return np.zeros((0, size)), np.zeros((0, size))
+        pressure, slope = pressures(self.rows, design, angle[:, None], within[:, None])
+        shape = (count, size, 1)
+        return spread(pressure, shape).reshape(count, size), spread(slope, shape).reshape(count, size)
 
 
 def alike(places: tuple[NDArray[Any], ...]) -> tuple[Index, Index]:

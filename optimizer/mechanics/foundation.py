@@ -6,7 +6,7 @@ import numpy as np
 
 from optimizer.mechanics.inertia import Wrench, web_arms
 from optimizer.mechanics.layout import Layout
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, spread
 from optimizer.responses.response import Phasors
 
 #: of a sum, relative to the sum of the magnitudes, is what rounding leaves
@@ -43,7 +43,7 @@ def foundation_load(
     negligible : force [N] and couple [N m] that rounding alone leaves, (...) each.
     """
     phasors = np.stack([phasor for pair in wrench for phasor in _along(pair)])
-    least = np.stack([np.broadcast_to(each, phasors.shape[1:]) for each in negligible for _ in range(2)])
+    least = np.stack([spread(each, phasors.shape[1:]) for each in negligible for _ in range(2)])
     loads = _oscillation(phasors, order, sense, dead_centre_deg, least)
     return FoundationLoad(*(Oscillation(*each) for each in zip(*loads, strict=True)))
 

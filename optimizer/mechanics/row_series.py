@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optimizer.mechanics.row_data import RowData, compact
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, spread
 from optimizer.responses.piecewise_cubics import Index
 
 if TYPE_CHECKING:
@@ -108,9 +108,9 @@ class RowSeries:
         once = len(rows.motion) == len(self.centre) == 1 and pressure.shape[1] <= 1
         design = self.design[:1] if once else self.design
         shape = (design.size, angles)
-        centre, within = (np.broadcast_to(each, shape) for each in (self.centre, self.within))
-        half = None if self.half is None else np.broadcast_to(self.half, shape)
-        traces = [np.broadcast_to(each, (len(pressure), *shape)) for each in (pressure, slope)]
+        centre, within = (spread(each, shape) for each in (self.centre, self.within))
+        half = None if self.half is None else spread(self.half, shape)
+        traces = [spread(each, (len(pressure), *shape)) for each in (pressure, slope)]
         parts = max(1, min(-(-design.size * rows.motion.shape[1] * angles // AT_ONCE), angles))
         ends = [angles * part // parts for part in range(parts + 1)]
         for first, last in pairwise(ends):

@@ -18,7 +18,7 @@ from optimizer.mechanics.bearings import bending_moment
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.row_series import Reading
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, spread
 from optimizer.responses.curve import TurnResponse
 
 #: bearing loads for unit loads: (..., B) and (..., L) m to (..., B, L)
@@ -116,7 +116,7 @@ def planes(layout: Layout) -> Real:
     """Planes of rows, rotating masses and webs (..., L) m."""
     parts = (layout.reciprocating.position, layout.rotating.position, layout.webs.position)
     leading = np.broadcast_shapes(*(part.shape[:-1] for part in parts))
-    return np.concatenate([np.broadcast_to(part, (*leading, part.shape[-1])) for part in parts], axis=-1)
+    return np.concatenate([spread(part, (*leading, part.shape[-1])) for part in parts], axis=-1)
 
 
 def shaft_curves(turn: WholeTurn, layout: Layout, influence: Real, reading: Reading = "on_shaft") -> ShaftCurves:
@@ -130,8 +130,8 @@ def shaft_curves(turn: WholeTurn, layout: Layout, influence: Real, reading: Read
     return ShaftCurves(
         turn.curves(
             reading,
-            np.broadcast_to(weights, (*designs, count, row_count)).reshape(total, count, row_count),
-            np.broadcast_to(still, (*designs, count)).reshape(total, count),
+            spread(weights, (*designs, count, row_count)).reshape(total, count, row_count),
+            spread(still, (*designs, count)).reshape(total, count),
         ),
         of_webs,
     )

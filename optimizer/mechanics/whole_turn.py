@@ -20,7 +20,7 @@ from optimizer.mechanics.row_data import RowData, compact, shared
 from optimizer.mechanics.row_parts import RowParts
 from optimizer.mechanics.row_series import Reading, RowSeries, Taylor
 from optimizer.mechanics.turn import Turn, panels
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, spread
 from optimizer.responses.piecewise_cubics import Index, Pieces
 
 #: rad, width of pieces that no break shortens
@@ -78,7 +78,7 @@ class WholeTurn:
 
     def curves(self, reading: Reading, weights: Complex | Real, constant: Complex | Real | float = 0.0) -> "TurnCurves":
         """Sums of a force of the rows over weights (N, C, R), with constants (N, C): N C curves."""
-        return TurnCurves(self, reading, weights, np.broadcast_to(constant, weights.shape[:2]))
+        return TurnCurves(self, reading, weights, spread(np.asarray(constant), weights.shape[:2]))
 
     def of_design(self, number: int) -> "WholeTurn":
         """The turn of one of the designs alone."""
@@ -90,9 +90,7 @@ class WholeTurn:
         """A force of every row by itself."""
         if reading not in self._of_rows:
             count = self.rows.crank_radius.shape[-1]
-            self._of_rows[reading] = self.curves(
-                reading, np.broadcast_to(np.eye(count), (len(self.centre), count, count))
-            )
+            self._of_rows[reading] = self.curves(reading, spread(np.eye(count), (len(self.centre), count, count)))
         return self._of_rows[reading]
 
     @cached_property
@@ -103,7 +101,7 @@ class WholeTurn:
     def torque(self) -> "TurnCurves":
         """Torque of all rows against rotation, N m."""
         radius = self.rows.crank_radius[:, None, :]
-        return self.curves("tangential", np.broadcast_to(radius, (len(self.centre), *radius.shape[1:])))
+        return self.curves("tangential", spread(radius, (len(self.centre), *radius.shape[1:])))
 
     def tangential(self, turn: Turn) -> Real:
         """Tangential force of every row (N, R, n) N at the nodes of panels between breaks, which have leading axes."""
@@ -154,7 +152,7 @@ def whole_turn(rows: RowData, breaks: Real, means: Real | None = None) -> WholeT
     half = np.where(half > 0.5 * SLIVER, half, 0.0)
     shape = (rows.designs, pieces)
     every = None if means is None else np.broadcast_to(means.reshape(-1, means.shape[-1]), (shape[0], means.shape[-1]))
-    return WholeTurn(rows, np.broadcast_to(centre, shape), np.broadcast_to(half, shape), turns, every)
+    return WholeTurn(rows, spread(centre, shape), spread(half, shape), turns, every)
 
 
 @dataclass(frozen=True)
