@@ -64,7 +64,7 @@ class CurveSeries:
         """Coefficients (m, order + 1) at angles (m,) rad; over half widths that of the last (m, 1) and its radius."""
         from optimizer.mechanics.kernel.curves import series_of_curves
 
-        designs, rows = len(self.middle), self.weights.shape[1]
+        curve, designs, rows = _integers(curve), len(self.middle), self.weights.shape[1]
         design = curve // (len(self.weights) // designs) if designs > 1 else np.zeros_like(curve)
         places = (design, piece, angle) if half is None else (design, piece, angle, half)
         first, number = alike(places) if curve.size * rows > _FEW else (slice(None), np.arange(curve.size))
@@ -88,7 +88,7 @@ class CurveSeries:
         from optimizer.mechanics.kernel.rows import Places
 
         numbers = (angle, np.zeros(0) if half is None else half, within, *self._pressures(design, angle, within))
-        return Places(np.require(design, np.int64, ("C", "W")), *map(compact, numbers))
+        return Places(_integers(design), *map(compact, numbers))
 
     def _pressures(self, design: Index, angle: Real, within: Real) -> tuple[Real, Real]:
         """Pressures and slopes of the traces at places, (T, q)."""
@@ -108,3 +108,11 @@ def alike(places: tuple[NDArray[Any], ...]) -> tuple[Index, Index]:
     number = np.empty_like(order)
     number[order] = np.cumsum(other) - 1
     return order[other], number
+
+
+def _integers(values: Index) -> Index:
+    """Numbers as what is compiled takes them: of any other layout it would be compiled once more."""
+    flags = values.flags
+    if values.dtype == np.int64 and flags.c_contiguous and flags.writeable:
+        return values
+    return np.require(values, np.int64, ("C", "W"))

@@ -5,6 +5,7 @@ the torque, the load of a bearing as the shaft sees it. Its pieces are what :mod
 brackets peaks with.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -151,8 +152,10 @@ def whole_turn(rows: RowData, breaks: Real, means: Real | None = None) -> WholeT
     centre = turn.start.reshape(half.shape) + half
     half = np.where(half > 0.5 * SLIVER, half, 0.0)
     shape = (rows.designs, pieces)
-    every = None if means is None else np.broadcast_to(means.reshape(-1, means.shape[-1]), (shape[0], means.shape[-1]))
-    return WholeTurn(rows, spread(centre, shape), spread(half, shape), turns, every)
+    if means is not None:
+        count = means.shape[-1]
+        means = spread(means.reshape(math.prod(means.shape[:-1]), count), (rows.designs, count))
+    return WholeTurn(rows, spread(centre, shape), spread(half, shape), turns, means)
 
 
 @dataclass(frozen=True)

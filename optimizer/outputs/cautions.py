@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 
@@ -259,7 +259,19 @@ def _width(bracket: Sequence[float]) -> float:
 @cache
 def _bracketed(model: type[Model]) -> bool:
     """Whether there are brackets anywhere in a model; most answers hold none, and are not looked through."""
-    return "_bracket_" in str(model.model_json_schema())
+    return any(
+        "_bracket_" in name or any(map(_bracketed, _models(field.annotation)))
+        for name, field in model.model_fields.items()
+    )
+
+
+def _models(annotation: Any) -> Iterator[type[Model]]:
+    """Models that a type names, within others too."""
+    parts = get_args(annotation)
+    if not parts and isinstance(annotation, type) and issubclass(annotation, Model):
+        yield annotation
+    for part in parts:
+        yield from _models(part)
 
 
 def _of(name: str, unit: str) -> bool:
