@@ -7,6 +7,7 @@ import numpy as np
 from optimizer.mechanics.inertia import Wrench, web_arms
 from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Complex, Real, spread
+from optimizer.responses.piecewise_cubics import Index
 from optimizer.responses.response import Phasors
 
 #: of a sum, relative to the sum of the magnitudes, is what rounding leaves
@@ -30,9 +31,9 @@ class FoundationLoad(NamedTuple):
 
 
 def foundation_load(
-    wrench: Wrench, order: int, sense: Real, dead_centre_deg: Real, negligible: tuple[Real, Real]
+    wrench: Wrench, order: int | Index, sense: Real, dead_centre_deg: Real, negligible: tuple[Real, Real]
 ) -> FoundationLoad:
-    """Loads of one order along x and y.
+    """Loads of one order along x and y, or of one each (...).
 
     Parameters
     ----------
@@ -54,7 +55,7 @@ def _along(pair: Phasors) -> tuple[Complex, Complex]:
     return pair.co + mirrored, -1j * (pair.co - mirrored)
 
 
-def _oscillation(phasor: Complex, order: int, sense: Real, dead_centre_deg: Real, least: Real) -> Oscillation:
+def _oscillation(phasor: Complex, order: int | Index, sense: Real, dead_centre_deg: Real, least: Real) -> Oscillation:
     amplitude = np.where(np.abs(phasor) > least, np.abs(phasor), 0.0)
     turned = -sense * np.rad2deg(np.angle(phasor)) - order * np.asarray(dead_centre_deg)
     # twice, because a hair below 0 comes to 360
