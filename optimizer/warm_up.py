@@ -51,13 +51,13 @@ def _solved(budget: float | None) -> "OptimizeRequest":
 
 
 def follow_a_turn() -> None:
-    """Loads of a rod and of bearings over the whole turn, with their exact peaks and floors."""
+    """Loads of a rod and of bearings, and the torque, over the whole turn: with their peaks, floors and integrals."""
     from optimizer.analyze import analyze
     from schemas.request.requests import AnalyzeRequest
 
     bearings = [{"name": name, "position_m": position} for name, position in (("a", -0.2), ("b", 0.2))]
     machine = {**_machine(), "bearings": bearings}
-    analyze(AnalyzeRequest.model_validate({"machine": machine, "outputs": ["rod_loads", "main_bearings"]}))
+    analyze(AnalyzeRequest.model_validate({"machine": machine, "outputs": ["rod_loads", "torque", "main_bearings"]}))
 
 
 def match_parts() -> None:
