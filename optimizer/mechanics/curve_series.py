@@ -64,11 +64,17 @@ class CurveSeries:
         """Coefficients (m, order + 1) at angles (m,) rad; over half widths that of the last (m, 1) and its radius."""
         from optimizer.mechanics.kernel.curves import series_of_curves
 
-        curve, designs, rows = _integers(curve), len(self.middle), self.weights.shape[1]
-        design = curve // (len(self.weights) // designs) if designs > 1 else np.zeros_like(curve)
-        places = (design, piece, angle) if half is None else (design, piece, angle, half)
-        first, number = alike(places) if curve.size * rows > _FEW else (slice(None), np.arange(curve.size))
-        design, piece, angle, *widths = (each[first] for each in places)
+        curve, rows = _integers(curve), self.weights.shape[1]
+        places = (piece, angle) if half is None else (piece, angle, half)
+        if len(self.middle) > 1:
+            places = (*places, curve // (len(self.weights) // len(self.middle)))
+        if curve.size * rows > _FEW:
+            first, number = alike(places)
+            places = tuple(place[first] for place in places)
+        else:
+            number = np.arange(curve.size)
+        piece, angle, *widths = places
+        design = widths.pop() if len(self.middle) > 1 else np.zeros(piece.size, np.int64)
         within, step = self.middle[design, piece], max(1, AT_ONCE // max(rows, 1))
         if within.size <= step:
             there = self._places(design, angle, within, *widths)
