@@ -158,8 +158,8 @@ def of_shaft_each(scene: Prepared, found: ShaftCurves, unbalances: Sequence[Comp
 def _parts(found: Bracket, number: int) -> Iterator[Bracket]:
     """So many parts of equal size, one after the other."""
     size = found.angle.size // number
-    for first in range(0, size * number, size or 1):
-        yield Bracket._make(part[first : first + size] for part in found)
+    for k in range(number):
+        yield Bracket._make(part[k * size : (k + 1) * size] for part in found)
 
 
 def customary_search(scene: Prepared, customary: Complex) -> Search:
