@@ -1,8 +1,6 @@
 """POST /v1/accuracy and ``counterweight accuracy``: answers, tables, pictures, refusals."""
 
-import builtins
 import json
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
