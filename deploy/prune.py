@@ -1,4 +1,5 @@
-"""Take out of an environment what unused.txt names, and out of the packages' own lists of files as well.
+"""Take out of an environment what unused.txt names, and out of the packages' own lists of files as well; and out of its
+shared libraries what only debuggers and linkers read.
 
     /opt/counterweight/bin/python deploy/prune.py deploy/unused.txt
 
@@ -7,10 +8,16 @@ Of the environment whose interpreter runs it. A line that finds nothing is an er
 
 import csv
 import io
+import struct
 import sys
 import sysconfig
 from importlib.metadata import distributions
 from pathlib import Path
+
+#: how a file of the Executable and Linkable Format begins that is of 64 bits, the lowest first
+_ELF = b"\x7fELF\x02\x01"
+#: places in its header (System V ABI, chapter 4): of the table of segments, of that of sections; numbers of both
+_SEGMENTS, _SECTIONS, _SIZE_OF_SEGMENT, _NUMBER_OF_SECTIONS = 32, 40, 54, 60
 
 
 def entries(text: str) -> dict[str, str]:
@@ -64,9 +71,39 @@ def shorten(record: Path, site: Path) -> None:
         record.write_text(text.getvalue(), "utf-8")
 
 
+def strip(library: Path) -> int:
+    """Leave of a shared library what is loaded, and say by how many bytes it is smaller.
+
+    What stands behind the last segment is names and lines for debuggers, and the table of sections, which only linkers
+    read. A file of another format stays as it is.
+    """
+    content = library.read_bytes()
+    if not content.startswith(_ELF):
+        return 0
+    (table,) = struct.unpack_from("<Q", content, _SEGMENTS)
+    size, number = struct.unpack_from("<HH", content, _SIZE_OF_SEGMENT)
+    end = table + size * number
+    for k in range(number):
+        offset, length = (struct.unpack_from("<Q", content, table + size * k + place)[0] for place in (8, 32))
+        end = max(end, offset + length)
+    if end >= len(content):
+        return 0
+    bare = bytearray(content[:end])
+    struct.pack_into("<Q", bare, _SECTIONS, 0)
+    struct.pack_into("<HH", bare, _NUMBER_OF_SECTIONS, 0, 0)
+    # never in place: the file may be linked to where packages are kept
+    new = library.with_name(f"{library.name}.new")
+    new.write_bytes(bare)
+    new.chmod(library.stat().st_mode)
+    new.replace(library)
+    return len(content) - end
+
+
 if __name__ == "__main__":
     unused = entries(Path(sys.argv[1]).read_text("utf-8"))
-    freed = prune(Path(sysconfig.get_path("purelib")), list(unused))
+    site = Path(sysconfig.get_path("purelib"))
+    freed = prune(site, list(unused))
+    freed["symbols"] = sum(strip(path) for path in site.rglob("*.so*") if path.is_file() and not path.is_symlink())
     for name, size in sorted(freed.items(), key=lambda one: -one[1]):
         sys.stdout.write(f"{size / 1e6:7.1f} MB  {name}\n")
     sys.stdout.write(f"{sum(freed.values()) / 1e6:7.1f} MB  removed\n")

@@ -51,11 +51,13 @@ def _solved(budget: float | None) -> "OptimizeRequest":
 
 
 def follow_a_turn() -> None:
-    """Loads of a rod over the whole turn, with their exact peaks."""
+    """Loads of a rod and of bearings, and the torque, over the whole turn: with their peaks, floors and integrals."""
     from optimizer.analyze import analyze
     from schemas.request.requests import AnalyzeRequest
 
-    analyze(AnalyzeRequest.model_validate({"machine": _machine(), "outputs": ["rod_loads"]}))
+    bearings = [{"name": name, "position_m": position} for name, position in (("a", -0.2), ("b", 0.2))]
+    machine = {**_machine(), "bearings": bearings}
+    analyze(AnalyzeRequest.model_validate({"machine": machine, "outputs": ["rod_loads", "torque", "main_bearings"]}))
 
 
 def match_parts() -> None:

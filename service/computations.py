@@ -75,7 +75,7 @@ class Computation:
     tag : the group of operations in OpenAPI.
     forms : in which the answer is there; of several the header `Accept` chooses, the first for those who take all.
     options : fields of the request that the command line may give in place of the file.
-    picture : () -> (title, answer) -> SVG, for the command line.
+    picture : title, answer -> SVG, for the command line.
     workbook : request, answer -> xlsx, for the command line; then requests may be workbooks too.
     examples : folder of example bodies.
     long : takes seconds: such computations have turns of their own, behind all others.
@@ -235,7 +235,7 @@ COMPUTATIONS: dict[str, Computation] = {
             help="Show what accuracy costs in time on a machine.",
             chapters="service.report.chapters.accuracy:measured",
             options=("repeats",),
-            picture="service.report.accuracy_picture:artist",
+            picture="service.report.accuracy_picture:draw",
             long=True,
             later=True,
         ),

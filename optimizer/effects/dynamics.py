@@ -259,7 +259,9 @@ def _whole_turn(context: Context) -> WholeTurn:
         results["gas"].chambers if "gas" in results else None,
         results["gas"].traces if "gas" in results else (),
     )
-    return whole_turn(rows, _breaks(context))
+    closed = _row_work(context)
+    means = None if closed is None else closed.of_a_turn / (TURN * context.layout.reciprocating.crank_radius)
+    return whole_turn(rows, _breaks(context), means)
 
 
 def _frame_forces(context: Context) -> WholeTurn:

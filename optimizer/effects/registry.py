@@ -32,7 +32,10 @@ _UNUSED = EffectUse(simulated=False, needed_by=(), time_ms=0.0)
 def closure(machine: Machine, needs: Sequence[str]) -> list[str]:
     """Effects that have to run for these, in the order in which they can; those that do not apply left out."""
     names = effects_of(needs)
-    return [*names] if _universal(names) else [name for name in names if EFFECTS[name].applies(machine)]
+    if _universal(names):
+        return [*names]
+    absent = _absent(machine)
+    return [name for name in names if name not in absent]
 
 
 def effects_of(needs: Sequence[str]) -> tuple[str, ...]:
@@ -47,6 +50,12 @@ def _effects_of(needs: tuple[str, ...]) -> tuple[str, ...]:
         if name in wanted:
             wanted.update(EFFECTS[name].needs)
     return tuple(name for name in EFFECTS if name in wanted)
+
+
+@remembered
+def _absent(machine: Machine) -> frozenset[str]:
+    """Effects that a machine does not have."""
+    return frozenset(name for name, effect in EFFECTS.items() if not effect.applies(machine))
 
 
 @lru_cache(maxsize=256)

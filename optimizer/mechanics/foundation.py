@@ -6,7 +6,8 @@ import numpy as np
 
 from optimizer.mechanics.inertia import Wrench, web_arms
 from optimizer.mechanics.layout import Layout
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, spread
+from optimizer.responses.piecewise_cubics import Index
 from optimizer.responses.response import Phasors
 
 #: of a sum, relative to the sum of the magnitudes, is what rounding leaves
@@ -30,9 +31,9 @@ class FoundationLoad(NamedTuple):
 
 
 def foundation_load(
-    wrench: Wrench, order: int, sense: Real, dead_centre_deg: Real, negligible: tuple[Real, Real]
+    wrench: Wrench, order: int | Index, sense: Real, dead_centre_deg: Real, negligible: tuple[Real, Real]
 ) -> FoundationLoad:
-    """Loads of one order along x and y.
+    """Loads of one order along x and y, or of one each (...).
 
     Parameters
     ----------
@@ -42,12 +43,10 @@ def foundation_load(
     dead_centre_deg : (...) shaft angle from which phases count.
     negligible : force [N] and couple [N m] that rounding alone leaves, (...) each.
     """
-    loads = (
-        _oscillation(phasor, order, sense, dead_centre_deg, least)
-        for pair, least in zip(wrench, negligible, strict=True)
-        for phasor in _along(pair)
-    )
-    return FoundationLoad(*loads)
+    phasors = np.stack([phasor for pair in wrench for phasor in _along(pair)])
+    least = np.stack([spread(each, phasors.shape[1:]) for each in negligible for _ in range(2)])
+    loads = _oscillation(phasors, order, sense, dead_centre_deg, least)
+    return FoundationLoad(*(Oscillation(*each) for each in zip(*loads, strict=True)))
 
 
 def _along(pair: Phasors) -> tuple[Complex, Complex]:
@@ -56,7 +55,7 @@ def _along(pair: Phasors) -> tuple[Complex, Complex]:
     return pair.co + mirrored, -1j * (pair.co - mirrored)
 
 
-def _oscillation(phasor: Complex, order: int, sense: Real, dead_centre_deg: Real, least: Real) -> Oscillation:
+def _oscillation(phasor: Complex, order: int | Index, sense: Real, dead_centre_deg: Real, least: Real) -> Oscillation:
     amplitude = np.where(np.abs(phasor) > least, np.abs(phasor), 0.0)
     turned = -sense * np.rad2deg(np.angle(phasor)) - order * np.asarray(dead_centre_deg)
     # twice, because a hair below 0 comes to 360

@@ -11,7 +11,7 @@ from optimizer.mechanics.gas import Chambers
 from optimizer.mechanics.indicated import Trace
 from optimizer.mechanics.kinematics import own_angle
 from optimizer.mechanics.layout import Layout
-from optimizer.numerics.arrays import Real
+from optimizer.numerics.arrays import Real, spread
 
 if TYPE_CHECKING:
     from optimizer.mechanics.kernel.rows import Rows
@@ -66,7 +66,7 @@ class RowData:
         for number, trace in enumerate(self.traces):
             given[trace.row, trace.side] = number
         designs = max(len(motion), len(gas))
-        motion, gas = (compact(np.broadcast_to(each, (designs, *each.shape[1:]))) for each in (motion, gas))
+        motion, gas = (compact(spread(each, (designs, *each.shape[1:]))) for each in (motion, gas))
         return Rows(motion, scale, compact(area), gas, given, self.exact)
 
     @property
@@ -92,7 +92,7 @@ def row_data(
     designs, count = int(np.prod(leading)), rows.mass.shape[-1]
 
     def flat(value: Any, *own: int) -> Any:
-        return shared(np.broadcast_to(value, (*leading, *own)).reshape(designs, *own))
+        return shared(spread(np.asarray(value), (*leading, *own)).reshape(designs, *own))
 
     gas: dict[str, Any] = {"area": None}
     if chambers is not None:
@@ -131,7 +131,7 @@ def compact(values: Real) -> Real:
 def _together(values: Sequence[Real], shape: tuple[int, ...]) -> Real:
     """Values (D, *shape) on a last axis; D is 1 where all designs have the same."""
     designs = max(len(each) for each in values)
-    return np.stack([np.broadcast_to(each, (designs, *shape)) for each in values], axis=-1).astype(float)
+    return np.stack([spread(each, (designs, *shape)) for each in values], axis=-1).astype(float)
 
 
 def shared(values: Real) -> Real:

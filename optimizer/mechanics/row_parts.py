@@ -5,10 +5,12 @@ Gas and friction do not depend on masses, so that a curve is affine in them, row
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from optimizer.mechanics.expansions import Expansions
+from optimizer.mechanics.curve_series import CurveSeries
 from optimizer.mechanics.row_data import RowData
 from optimizer.mechanics.row_series import Reading, RowSeries, Taylor
 from optimizer.numerics.arrays import Complex, Real
@@ -47,15 +49,15 @@ class RowParts:
 
     def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
         """Taylor polynomials (m, R, 4) about centres (m,) rad within pieces, in units of half widths (m,)."""
-        design = np.zeros_like(piece)
-        found = np.moveaxis(self._expansions.cubics(design, piece, centre), 0, -1)
-        parts: Complex = self.weights[curve][..., None] * found * half[:, None, None] ** np.arange(4)
+        found = self._of_rows.cubics(*self._by_row(piece, centre, half)).reshape(piece.size, self.weights.shape[1], 4)
+        parts: Complex = self.weights[curve][..., None] * found
         return parts
 
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
         """Values (m, R) at angles (m,) rad within pieces, ends included."""
-        found: Complex = self.weights[curve] * self._expansions.values(np.zeros_like(piece), piece, angle)
-        return found
+        found = self._of_rows.values(*self._by_row(piece, angle)).reshape(piece.size, self.weights.shape[1])
+        parts: Complex = self.weights[curve] * found
+        return parts
 
     def at(self, curve: int, angle: Real) -> Complex:
         """Values (n, R) at angles (n,) rad."""
@@ -71,8 +73,15 @@ class RowParts:
         return found
 
     @cached_property
-    def _expansions(self) -> Expansions:
-        return Expansions(self._inertia, self.centre[None], self.reading)
+    def _of_rows(self) -> CurveSeries:
+        """The force of every row by itself."""
+        count = self.weights.shape[1]
+        return CurveSeries(self._inertia, self.centre[None], (self.reading,), np.eye(count), np.zeros(count))
+
+    def _by_row(self, *places: NDArray[Any]) -> tuple[NDArray[Any], ...]:
+        """Every row, and places (m,), at each of these all rows: (m R,)."""
+        count = self.weights.shape[1]
+        return np.tile(np.arange(count), places[0].size), *(np.repeat(each, count) for each in places)
 
     @cached_property
     def _inertia(self) -> RowData:

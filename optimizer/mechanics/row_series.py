@@ -15,14 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optimizer.mechanics.row_data import RowData, compact
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, spread
 from optimizer.responses.piecewise_cubics import Index
 
 if TYPE_CHECKING:
     from optimizer.mechanics.kernel.rows import Functions
 
 #: rows times places of which it is kept what forces are made of, which bounds the memory
-_AT_ONCE = 50_000
+AT_ONCE = 50_000
 
 #: a force of the rows
 Reading = Literal[
@@ -102,16 +102,16 @@ class RowSeries:
         if known := self._functions_by_pressure.get(True, self._functions_by_pressure.get(pressed)):
             yield known, self.centre.shape[1]
             return
-        pressure, slope = self._pressure
+        pressure, slope = pressures(self.data, self.design, self.centre, self.within)
         rows, angles = self.data.packed, self.centre.shape[1]
         # the pressures may differ between designs that have all else in common
         once = len(rows.motion) == len(self.centre) == 1 and pressure.shape[1] <= 1
         design = self.design[:1] if once else self.design
         shape = (design.size, angles)
-        centre, within = (np.broadcast_to(each, shape) for each in (self.centre, self.within))
-        half = None if self.half is None else np.broadcast_to(self.half, shape)
-        traces = [np.broadcast_to(each, (len(pressure), *shape)) for each in (pressure, slope)]
-        parts = max(1, min(-(-design.size * rows.motion.shape[1] * angles // _AT_ONCE), angles))
+        centre, within = (spread(each, shape) for each in (self.centre, self.within))
+        half = None if self.half is None else spread(self.half, shape)
+        traces = [spread(each, (len(pressure), *shape)) for each in (pressure, slope)]
+        parts = max(1, min(-(-design.size * rows.motion.shape[1] * angles // AT_ONCE), angles))
         ends = [angles * part // parts for part in range(parts + 1)]
         for first, last in pairwise(ends):
             place = slice(first, last)
@@ -131,22 +131,29 @@ class RowSeries:
     def _functions_by_pressure(self) -> "dict[bool, Functions]":
         return {}
 
-    @property
-    def _pressure(self) -> tuple[Real, Real]:
-        """Pressures [Pa] and their slopes [Pa/rad] of the traces (T, N or 1, P)."""
-        if not self.data.traces:
-            return np.zeros((0, 1, 1)), np.zeros((0, 1, 1))
-        found = []
-        for trace in self.data.traces:
-            ahead = self._of_design(self.data.ahead[:, trace.row, None])
-            one = replace(trace, table=self._of_design(trace.table), lead=self._of_design(trace.lead))
-            found.append(one.at(self.centre + ahead, self.within + ahead))
-        pressure, slope = (np.stack(np.broadcast_arrays(*each)) for each in zip(*found, strict=True))
-        return pressure, np.broadcast_to(slope, pressure.shape)
 
-    def _of_design(self, values: NDArray[Any]) -> NDArray[Any]:
+def pressures(data: RowData, design: Index, centre: Real, within: Real) -> tuple[Real, Real]:
+    """Pressures [Pa] and their slopes [Pa/rad] of the traces (T, N or 1, P) at angles (N or 1, P) rad.
+
+    Parameters
+    ----------
+    design : (N,) which design each row of angles is of.
+    within : angles that say which process counts.
+    """
+    if not data.traces:
+        return np.zeros((0, 1, 1)), np.zeros((0, 1, 1))
+
+    def of_design(values: NDArray[Any]) -> NDArray[Any]:
         """Values (N or 1, ...) of each row of angles; once where all designs have the same."""
-        return values[self.design] if len(values) > 1 else values
+        return values[design] if len(values) > 1 else values
+
+    found = []
+    for trace in data.traces:
+        ahead = of_design(data.ahead[:, trace.row, None])
+        one = replace(trace, table=of_design(trace.table), lead=of_design(trace.lead))
+        found.append(one.at(centre + ahead, within + ahead))
+    pressure, slope = (np.stack(np.broadcast_arrays(*each)) for each in zip(*found, strict=True))
+    return pressure, np.broadcast_to(slope, pressure.shape)
 
 
 def _flat(values: Real) -> Real:

@@ -16,12 +16,11 @@ from optimizer.mechanics.gas import Chambers, head_sides, indicated_work, log_ra
 from optimizer.mechanics.indicated import TURN
 from optimizer.mechanics.kinematics import motion
 from optimizer.mechanics.layout import Layout
+from optimizer.mechanics.row_data import compact
 from optimizer.mechanics.whole_turn import TurnCurves
 from optimizer.numerics.arrays import Real
 from optimizer.responses.piecewise_cubics import ROUNDING, Index
 
-#: halvings of an interval, between which Newton's method takes over
-_STEPS = 24
 #: of the secant method by the torque itself, from the roots and slopes of its cubics
 _EXACT_STEPS = 5
 
@@ -145,26 +144,16 @@ def _growth(power: Real) -> Real:
 def _crossings(torque: TurnCurves, mean: Real) -> tuple[Real, Real]:
     """Shaft angles (N, n) rad at which one curve each crosses its mean (N,), jumps included, and what the integral up
     to there may be off by (N,); where a design has fewer than another its angles are 0."""
+    from optimizer.mechanics.kernel.crossings import crossings
+
     pieces = torque.pieces
-    cubic, half = pieces.cubic.real.copy(), pieces.half
-    cubic[..., 0] -= mean[:, None]
-    # between its ends and where it turns a cubic has at most one root
-    ends = np.stack([np.full(half.shape, -1.0), *_turning(cubic), np.ones(half.shape)], axis=-1)
-    value, there = _cubic_at(cubic[..., None, :], ends), half > 0.0
-    design, piece, number = np.nonzero((value[..., :-1] * value[..., 1:] < 0.0) & there[..., None])
-    low, high = ends[design, piece, number], ends[design, piece, number + 1]
-    place = _roots(cubic[design, piece], low, high, value[design, piece, number])
-    angle, off = _polished(torque, mean, (design, piece), place, (low, high))
-    error = np.zeros(len(half))
-    np.maximum.at(error, design, off)
-    # what comes before each piece, of those that have a width
-    known = np.maximum.accumulate(np.where(there, np.arange(half.shape[1]), -1), axis=-1)
-    before = np.concatenate([known[:, -1:], known[:, :-1]], axis=-1)
-    before = np.where(before < 0, known[:, -1:], before)
-    last = np.take_along_axis(value[..., -1], before, axis=-1)
-    jumped, at = np.nonzero((last * value[..., 0] <= 0.0) & there)
-    every = np.concatenate([design, jumped])
-    return _by_design(every, np.concatenate([angle, (pieces.centre - half)[jumped, at]]), len(half)), 2.0 * error
+    where, place, between, (jumped, at) = crossings(pieces.known.cubic, pieces.known.half, compact(mean))
+    angle, off = _polished(torque, mean, where, place, between)
+    error = np.zeros(len(pieces.half))
+    np.maximum.at(error, where[0], off)
+    every = np.concatenate([where[0], jumped])
+    found = np.concatenate([angle, (pieces.centre - pieces.half)[jumped, at]])
+    return _by_design(every, found, len(pieces.half)), 2.0 * error
 
 
 def _polished(
@@ -192,36 +181,6 @@ def _by_design(design: Index, values: Real, designs: int) -> Real:
     found = np.zeros((designs, int(np.max(count, initial=0)) + 2))
     found[design[order], column] = values[order]
     return found
-
-
-def _turning(cubic: Real) -> tuple[Real, Real]:
-    """Places in [-1, 1] at which cubics (..., 4) turn, rising; where they do not, an end."""
-    _, slope, bend, third = np.moveaxis(cubic, -1, 0)
-    square = bend**2 - 3.0 * slope * third
-    # the larger root first, the smaller by it: nothing cancels
-    larger = -(bend + np.copysign(np.sqrt(np.maximum(square, 0.0)), bend))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        found = np.stack([larger / (3.0 * third), slope / larger])
-    found = np.where((square > 0.0) & np.isfinite(found), np.clip(found, -1.0, 1.0), 1.0)
-    return np.min(found, axis=0), np.max(found, axis=0)
-
-
-def _roots(cubic: Real, low: Real, high: Real, at_low: Real) -> Real:
-    """Roots (m,) of cubics (m, 4) that change their sign once between low and high (m,)."""
-    low, high, place = low.copy(), high.copy(), 0.5 * (low + high)
-    for _ in range(_STEPS):
-        value = _cubic_at(cubic, place)
-        same = value * at_low > 0.0
-        low, high = np.where(same, place, low), np.where(same, high, place)
-        slope = _slope_at(cubic, place)
-        step = place - value / np.where(slope == 0.0, 1.0, slope)
-        place = np.where((step > low) & (step < high), step, 0.5 * (low + high))
-    return place
-
-
-def _cubic_at(cubic: Real, place: Real) -> Real:
-    value: Real = cubic[..., 0] + place * (cubic[..., 1] + place * (cubic[..., 2] + place * cubic[..., 3]))
-    return value
 
 
 def _slope_at(cubic: Real, place: Real) -> Real:

@@ -18,7 +18,7 @@ from optimizer.mechanics.bearings import bending_moment
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.row_series import Reading
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, spread
 from optimizer.responses.curve import TurnResponse
 
 #: bearing loads for unit loads: (..., B) and (..., L) m to (..., B, L)
@@ -75,7 +75,7 @@ def bending_moments(turn: WholeTurn, layout: Layout, places: Real, influence: In
     Parameters as for :func:`bearing_loads`.
     """
     corners = stations(layout, places)
-    moment = bending_influence(layout, places, influence, corners)
+    moment = bending_influence(layout, places, influence(places, planes(layout)), corners)
     some = np.any(np.abs(moment) > 0.0, axis=-1)
     if not np.any(some):
         # every load sits on a bearing of its own
@@ -100,19 +100,23 @@ def stations(layout: Layout, places: Real) -> Real:
     return every[..., np.any(apart, axis=tuple(range(every.ndim - 1)))]
 
 
-def bending_influence(layout: Layout, places: Real, influence: Influence, corners: Real) -> Real:
-    """Bending moments at corners (..., S) m for one unit of load in every plane, (..., S, L) m."""
+def bending_influence(layout: Layout, places: Real, reaction: Real, corners: Real) -> Real:
+    """Bending moments at corners (..., S) m for one unit of load in every plane, (..., S, L) m.
+
+    Parameters
+    ----------
+    reaction : (..., B, L) of the bearings at places (..., B) m, for the same loads.
+    """
     loaded = planes(layout)
-    reaction = influence(places, loaded).astype(complex)
     unit = np.broadcast_to(np.eye(loaded.shape[-1], dtype=complex), (*loaded.shape, loaded.shape[-1]))
-    return bending_moment(places, reaction, loaded, unit, corners).real
+    return bending_moment(places, reaction.astype(complex), loaded, unit, corners).real
 
 
 def planes(layout: Layout) -> Real:
     """Planes of rows, rotating masses and webs (..., L) m."""
     parts = (layout.reciprocating.position, layout.rotating.position, layout.webs.position)
     leading = np.broadcast_shapes(*(part.shape[:-1] for part in parts))
-    return np.concatenate([np.broadcast_to(part, (*leading, part.shape[-1])) for part in parts], axis=-1)
+    return np.concatenate([spread(part, (*leading, part.shape[-1])) for part in parts], axis=-1)
 
 
 def shaft_curves(turn: WholeTurn, layout: Layout, influence: Real, reading: Reading = "on_shaft") -> ShaftCurves:
@@ -126,8 +130,8 @@ def shaft_curves(turn: WholeTurn, layout: Layout, influence: Real, reading: Read
     return ShaftCurves(
         turn.curves(
             reading,
-            np.broadcast_to(weights, (*designs, count, row_count)).reshape(total, count, row_count),
-            np.broadcast_to(still, (*designs, count)).reshape(total, count),
+            spread(weights, (*designs, count, row_count)).reshape(total, count, row_count),
+            spread(still, (*designs, count)).reshape(total, count),
         ),
         of_webs,
     )

@@ -5,6 +5,7 @@ the torque, the load of a bearing as the shaft sees it. Its pieces are what :mod
 brackets peaks with.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -12,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 
-from optimizer.mechanics.expansions import Expansions
+from optimizer.mechanics.curve_series import CurveSeries
 from optimizer.mechanics.indicated import SLIVER, TURN, Trace, entries, turns_of
 from optimizer.mechanics.kinematics import own_angle, steep_angles
 from optimizer.mechanics.layout import Layout
@@ -20,13 +21,14 @@ from optimizer.mechanics.row_data import RowData, compact, shared
 from optimizer.mechanics.row_parts import RowParts
 from optimizer.mechanics.row_series import Reading, RowSeries, Taylor
 from optimizer.mechanics.turn import Turn, panels
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, spread
 from optimizer.responses.piecewise_cubics import Index, Pieces
 
 #: rad, width of pieces that no break shortens
 _WIDEST = np.deg2rad(5.0)
 #: nodes of the quadrature in each part of a piece: exact for the square of a polynomial of one degree less
 _GAUSS = 8
+_NODES, _SHARES = leggauss(_GAUSS)
 #: what such a polynomial leaves out of a part, as a share of the size of the curve, and the parts of a piece at most
 _LEFT_OUT, _MOST_PARTS = 1e-11, 512
 #: of a mean square, in units of the magnitudes of the terms that are added up in the curve
@@ -66,29 +68,30 @@ class WholeTurn:
 
     centre, half : (N, P) rad; half is 0 where breaks coincide.
     turns : of the shaft, after which all repeats.
+    means : (N, R) N, of the tangential forces, where there is a closed form.
     """
 
     rows: RowData
     centre: Real
     half: Real
     turns: int = 1
+    means: Real | None = None
 
     def curves(self, reading: Reading, weights: Complex | Real, constant: Complex | Real | float = 0.0) -> "TurnCurves":
         """Sums of a force of the rows over weights (N, C, R), with constants (N, C): N C curves."""
-        return TurnCurves(self, reading, weights, np.broadcast_to(constant, weights.shape[:2]))
+        return TurnCurves(self, reading, weights, spread(np.asarray(constant), weights.shape[:2]))
 
     def of_design(self, number: int) -> "WholeTurn":
         """The turn of one of the designs alone."""
         one = slice(number, number + 1)
-        return WholeTurn(self.rows.of_design(number), self.centre[one], self.half[one], self.turns)
+        means = None if self.means is None else self.means[one]
+        return WholeTurn(self.rows.of_design(number), self.centre[one], self.half[one], self.turns, means)
 
     def of_rows(self, reading: Reading) -> "TurnCurves":
         """A force of every row by itself."""
         if reading not in self._of_rows:
             count = self.rows.crank_radius.shape[-1]
-            self._of_rows[reading] = self.curves(
-                reading, np.broadcast_to(np.eye(count), (len(self.centre), count, count))
-            )
+            self._of_rows[reading] = self.curves(reading, spread(np.eye(count), (len(self.centre), count, count)))
         return self._of_rows[reading]
 
     @cached_property
@@ -99,7 +102,7 @@ class WholeTurn:
     def torque(self) -> "TurnCurves":
         """Torque of all rows against rotation, N m."""
         radius = self.rows.crank_radius[:, None, :]
-        return self.curves("tangential", np.broadcast_to(radius, (len(self.centre), *radius.shape[1:])))
+        return self.curves("tangential", spread(radius, (len(self.centre), *radius.shape[1:])))
 
     def tangential(self, turn: Turn) -> Real:
         """Tangential force of every row (N, R, n) N at the nodes of panels between breaks, which have leading axes."""
@@ -128,16 +131,6 @@ class WholeTurn:
         centre, half = self._cut
         return RowSeries(self.rows, centre, half, centre, order)
 
-    def expansions(self, reading: Reading) -> Expansions:
-        """Series of a force about angles within pieces."""
-        if reading not in self._expansions:
-            self._expansions[reading] = Expansions(self.rows, self.centre, reading)
-        return self._expansions[reading]
-
-    @cached_property
-    def _expansions(self) -> dict[Reading, Expansions]:
-        return {}
-
     @cached_property
     def _cut(self) -> tuple[Real, Real]:
         """Centres and half widths, once where all designs have the same."""
@@ -145,8 +138,13 @@ class WholeTurn:
         return (centre, half) if len(centre) == len(half) else (self.centre, self.half)
 
 
-def whole_turn(rows: RowData, breaks: Real) -> WholeTurn:
-    """The turn cut at breaks (..., B) rad and at regular angles; the leading axes become one."""
+def whole_turn(rows: RowData, breaks: Real, means: Real | None = None) -> WholeTurn:
+    """The turn cut at breaks (..., B) rad and at regular angles; the leading axes become one.
+
+    Parameters
+    ----------
+    means : (..., R) N, of the tangential forces, where there is a closed form.
+    """
     turns = turns_of(rows.traces)
     turn = panels(breaks, _WIDEST, turns=turns)
     pieces = turn.width.shape[-1]
@@ -154,7 +152,10 @@ def whole_turn(rows: RowData, breaks: Real) -> WholeTurn:
     centre = turn.start.reshape(half.shape) + half
     half = np.where(half > 0.5 * SLIVER, half, 0.0)
     shape = (rows.designs, pieces)
-    return WholeTurn(rows, np.broadcast_to(centre, shape), np.broadcast_to(half, shape), turns)
+    if means is not None:
+        count = means.shape[-1]
+        means = spread(means.reshape(math.prod(means.shape[:-1]), count), (rows.designs, count))
+    return WholeTurn(rows, spread(centre, shape), spread(half, shape), turns, means)
 
 
 @dataclass(frozen=True)
@@ -201,6 +202,10 @@ class TurnCurves:
     @cached_property
     def mean(self) -> Complex:
         """Means over the turn (N C,)."""
+        means = self.whole.means
+        if self.reading == "tangential" and means is not None:
+            closed: Complex = np.sum(self.weights * means[:, None], axis=-1) + self.constant
+            return closed.reshape(-1)
         values, shares = self._quadrature
         return np.sum(values * shares, axis=-1).reshape(-1)
 
@@ -239,13 +244,13 @@ class TurnCurves:
     @cached_property
     def _quadrature(self) -> tuple[Complex, Real]:
         """Values (N, C, n) at the Gauss nodes of all parts, and the share of the turn for which each stands."""
-        whole, parts, (nodes, weights) = self.whole, self._parts.astype(np.intp), leggauss(_GAUSS)
+        whole, parts = self.whole, self._parts.astype(np.intp)
         piece = np.repeat(np.arange(parts.size), parts)
         number = np.arange(piece.size) - np.repeat(np.cumsum(parts) - parts, parts)
         wide, centre = whole.half[:, piece], whole.centre[:, piece]
         half = wide / parts[piece]
-        angle = (centre + wide * ((2.0 * number + 1.0) / parts[piece] - 1.0))[..., None] + half[..., None] * nodes
-        shares = (half[..., None] * (weights / (TURN * whole.turns))).reshape(len(half), -1)
+        angle = (centre + wide * ((2.0 * number + 1.0) / parts[piece] - 1.0))[..., None] + half[..., None] * _NODES
+        shares = (half[..., None] * (_SHARES / (TURN * whole.turns))).reshape(len(half), -1)
         within = np.repeat(centre, _GAUSS, axis=-1)
         series = RowSeries(whole.rows, angle.reshape(within.shape), None, within, 0).of(self.reading)
         return _sums(series, self.weights, self.constant)[..., 0], shares[:, None]
@@ -266,32 +271,21 @@ class TurnCurves:
 
     def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
         """Series about other centres (m,) within pieces; the process that counts is that of the piece."""
-        design, weights, constant = self._of(curve)
-        found = np.einsum("mr,kmr->mk", weights, self._expansions.cubics(design, piece, centre))
-        found[:, 0] += constant
-        return found * half[:, None] ** np.arange(4)
+        return self._series.cubics(curve, piece, centre, half)
 
     def rests(self, curve: Index, piece: Index, centre: Real, half: Real) -> Real:
         """Bounds within half widths (m,) rad about other centres."""
-        design, weights, _ = self._of(curve)
-        middle, radius = self._expansions.fourths(design, piece, centre, half)
-        largest: Real = np.abs(np.sum(weights * middle, axis=-1)) + np.sum(np.abs(weights) * radius.real, axis=-1)
-        return largest * half**4
+        return self._series.rests(curve, piece, centre, half)
 
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
         """The curves at angles (m,) within pieces, ends included."""
-        design, weights, constant = self._of(curve)
-        values: Complex = np.sum(weights * self._expansions.values(design, piece, angle), axis=-1)
-        return values + constant
+        return self._series.values(curve, piece, angle)
 
-    @property
-    def _expansions(self) -> Expansions:
-        return self.whole.expansions(self.reading)
-
-    def _of(self, curve: Index) -> tuple[Index, Complex | Real, Complex | Real]:
-        """Design, weights (m, R) and constant of each of (m,) curves."""
-        design, number = np.divmod(curve, self.weights.shape[1])
-        return design, self.weights[design, number], self.constant[design, number]
+    @cached_property
+    def _series(self) -> CurveSeries:
+        whole, curves = self.whole, self.weights.shape[0] * self.weights.shape[1]
+        weights, constant = self.weights.reshape(curves, -1), self.constant.reshape(curves)
+        return CurveSeries(whole.rows, whole.centre, (self.reading,), weights, constant)
 
 
 def _sums(series: Taylor, weights: Complex | Real, constant: Complex | Real) -> Complex:

@@ -15,7 +15,6 @@ from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.peaks import (
     FLOOR_TOLERANCE,
     Search,
-    bearing_influence,
     bracket,
     customary_search,
     of_shaft,
@@ -43,8 +42,9 @@ def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
     before, *fitted_too = of_shaft_each(scene, found, _sets(unbalance))
     after = fitted_too[0] if fitted_too else None
     alone = found.first(count)
-    loads = _loads(scene, alone, before, circles, None)
-    fitted = None if after is None else _loads(scene, alone, after, circles, unbalance)
+    samples = _samples(scene)
+    loads = _loads(scene, alone, samples, before, circles, None)
+    fitted = None if after is None else _loads(scene, alone, samples, after, circles, unbalance)
     shown = before if after is None else after
     worst = int(np.argmax(shown.lower[count:]))
     return MainBearings(
@@ -84,19 +84,34 @@ def _searches(scene: Prepared, unbalance: Complex | None) -> Iterator[Search]:
         yield customary_search(scene, cranks(machine).customary)
 
 
+def _samples(scene: Prepared) -> Complex:
+    """Loads of the bearings of one machine without counterweights (B, T) N."""
+    _, loads = scene.results["shaft_loads"]
+    # the webs come last
+    found: Complex = scene.bearing_influence[:, : len(loads)] @ loads
+    return found
+
+
 def _loads(
-    scene: Prepared, found: ShaftCurves, peak: Bracket, circles: Sequence[Circle], unbalance: Complex | None
+    scene: Prepared,
+    found: ShaftCurves,
+    bare: Complex,
+    peak: Bracket,
+    circles: Sequence[Circle],
+    unbalance: Complex | None,
 ) -> tuple[BearingLoad, ...]:
-    """Loads of the bearings of one machine, by their curves, without or with counterweights (webs,) kg m."""
+    """Loads of the bearings of one machine, by their curves, without or with counterweights (webs,) kg m.
+
+    Parameters
+    ----------
+    bare : (B, T) N, without counterweights.
+    """
     machine = scene.machine
     assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
     bearings = machine.bearings
     square, turn = scene.omega_squared, np.deg2rad(scene.angle_deg)
     offset = found.offsets(unbalance)
-    _, loads = scene.results["shaft_loads"]
-    # the webs come last
-    samples = bearing_influence(scene)[:, : len(loads)] @ loads
-    samples = samples + offset[:, None] * turned(scene.layout.sense, turn) * square
+    samples = bare + offset[:, None] * turned(scene.layout.sense, turn) * square
     centre = (np.array([circle.centre for circle in circles[: len(bearings)]]) + offset) * square
     rms = np.sqrt(found.curves.variance + np.abs(found.curves.mean + offset) ** 2) * square
     return tuple(

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 
@@ -228,14 +228,15 @@ def _not_closed(told: Told) -> Iterator[Caution]:
     """Peaks over the turn of which less is proven than a designer takes for granted."""
     force, moment = told.sizes
     for output, field in told.fields.items():
-        if not isinstance(field, Model) or not _bracketed(field.__class__):
+        if not isinstance(field, Model) or not any(_bracketed(field.__class__)):
             continue
-        values = list(_values(field))
+        brackets = list(_brackets(field))
         for unit, size in (("N", force), ("Nm", moment)):
-            brackets = [found for name, found in values if name.endswith(f"_bracket_{unit}")]
-            wide = [found for found in brackets if _width(found) > _ALIKE * max(abs(found[0]), abs(found[1]))]
+            of_unit = [found for name, found in brackets if _of(name, unit)]
+            wide = [found for found in of_unit if _width(found) > _ALIKE * max(abs(found[0]), abs(found[1]))]
             if not wide:
                 continue
+            values = _values(field)
             # of the same unit: what cancels between rows or bearings is as large in each of them
             most = max(float(np.max(np.abs(found), initial=size)) for name, found in values if _of(name, unit))
             open_ = [found for found in wide if _width(found) > _CANCELLED * most]
@@ -256,10 +257,37 @@ def _width(bracket: Sequence[float]) -> float:
     return bracket[1] - bracket[0]
 
 
+def _brackets(field: Any) -> Iterator[tuple[str, tuple[float, float]]]:
+    """Names and contents of all brackets in the models of an answer."""
+    if isinstance(field, Model):
+        own, others = _bracketed(field.__class__)
+        for name in own:
+            content = getattr(field, name)
+            if content is not None:
+                yield name, content
+        for name in others:
+            yield from _brackets(getattr(field, name))
+    elif isinstance(field, tuple):
+        for item in field:
+            yield from _brackets(item)
+
+
 @cache
-def _bracketed(model: type[Model]) -> bool:
-    """Whether there are brackets anywhere in a model; most answers hold none, and are not looked through."""
-    return "_bracket_" in str(model.model_json_schema())
+def _bracketed(model: type[Model]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Fields of a model that are brackets, and those that hold some; most answers have none of both."""
+    fields = model.model_fields
+    own = tuple(name for name in fields if "_bracket_" in name)
+    others = (name for name in fields if any(any(_bracketed(one)) for one in _models(fields[name].annotation)))
+    return own, tuple(others)
+
+
+def _models(annotation: Any) -> Iterator[type[Model]]:
+    """Models that a type names, within others too."""
+    parts = get_args(annotation)
+    if not parts and isinstance(annotation, type) and issubclass(annotation, Model):
+        yield annotation
+    for part in parts:
+        yield from _models(part)
 
 
 def _of(name: str, unit: str) -> bool:

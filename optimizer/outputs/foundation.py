@@ -14,12 +14,15 @@ from optimizer.mechanics.shapes import fitted_masses
 from optimizer.numerics.arrays import Complex
 from optimizer.outputs.orders import ORDERS, by_order
 from optimizer.outputs.output import Output
+from optimizer.outputs.phasors import vectors_of
 from optimizer.responses.response import Phasors
 from schemas.answer.foundation import OrderOfFoundation
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.requests import OptimizeRequest
 
+#: of an order that a machine has not
+_NOTHING = Wrench(*(Phasors(np.zeros((), complex), np.zeros((), complex)) for _ in range(2)))
 _UNITS = {"force_x": "N", "force_y": "N", "couple_of_x_forces": "Nm", "couple_of_y_forces": "Nm"}
 
 
@@ -66,18 +69,16 @@ def _as_built(scene: Prepared) -> tuple[Prepared, Complex] | None:
 
 
 def _loads(scene: Prepared, vectors: Complex | None, weights: Complex, reference: float) -> dict[int, dict[str, Any]]:
-    wrenches = by_order(scene, vectors)
+    wrenches, orders = by_order(scene, vectors), scene.request.foundation_orders
     sense, negligible = scene.layout.sense, rounding(scene.layout, weights)
-    nothing = Phasors(np.zeros((), complex), np.zeros((), complex))
-    found = {}
-    for order in scene.request.foundation_orders:
-        # odd orders above the first vanish for a slider-crank
-        wrench = wrenches.get(order, Wrench(nothing, nothing))
-        loads = foundation_load(wrench, order, sense, np.asarray(reference), negligible)
-        found[order] = {
-            name: {f"amplitude_{_UNITS[name]}": float(load.amplitude), "phase_deg": float(load.phase_deg)}
-            for name, load in loads._asdict().items()
-        }
+    # odd orders above the first vanish for a slider-crank
+    phasors = vectors_of([wrenches.get(order, _NOTHING) for order in orders])
+    pairs = (Phasors(phasors[:, k, 0], phasors[:, k, 1]) for k in range(2))
+    loads = foundation_load(Wrench(*pairs), np.array(orders), sense, np.asarray(reference), negligible)
+    found: dict[int, dict[str, Any]] = {order: {} for order in orders}
+    for name, load in loads._asdict().items():
+        for order, amplitude, phase in zip(orders, load.amplitude.tolist(), load.phase_deg.tolist(), strict=True):
+            found[order][name] = {f"amplitude_{_UNITS[name]}": amplitude, "phase_deg": phase}
     return found
 
 

@@ -1,6 +1,6 @@
 """Peaks over the whole turn: bracketed whatever the samples, of one machine and of many designs."""
 
-from collections.abc import Hashable, Iterable, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -10,8 +10,7 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.curve_batch import CurveBatch
 from optimizer.mechanics.indicated import TURN
 from optimizer.mechanics.row_series import Reading
-from optimizer.mechanics.shaft import INFLUENCES, bearing_places
-from optimizer.mechanics.shaft_curves import ShaftCurves, planes
+from optimizer.mechanics.shaft_curves import ShaftCurves
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.responses.piecewise_cubics import Bracket, Index
@@ -93,16 +92,16 @@ def rows_search(scene: Prepared, reading: Reading) -> Search:
     whole: WholeTurn = scene.results["whole_turn"]
     curves = whole.of_rows(reading)
     count = curves.weights.shape[0] * curves.weights.shape[1]
-    return Search(
-        ("rows", reading), curves, np.tile(np.arange(count), 2), np.zeros(2 * count), np.repeat([1.0, -1.0], count)
-    )
+    number, sign = np.arange(2 * count), np.ones(2 * count)
+    number[count:] -= count
+    sign[count:] = -1.0
+    return Search(("rows", reading), curves, number, np.zeros(2 * count), sign)
 
 
 def of_rows(scene: Prepared, reading: Reading) -> Extremes:
     """Of a force of every row, (..., rows)."""
     found = peaks_of(scene, rows_search(scene, reading))
-    both = zip(*(np.split(part, 2) for part in found), strict=True)
-    return Extremes(*(_reshaped(scene, Bracket(*parts)) for parts in both))
+    return Extremes(*(_reshaped(scene, part) for part in _parts(found, 2)))
 
 
 def largest_of_rows(scene: Prepared, reading: Reading) -> Bracket:
@@ -129,12 +128,6 @@ def of_torque(scene: Prepared, constant: Real | float = 0.0) -> Bracket:
     return _one(_reshaped(scene, peaks_of(scene, torque_search(scene, constant))))
 
 
-def bearing_influence(scene: Prepared) -> Real:
-    """Loads of the main bearings for unit loads in all planes, (..., B, L)."""
-    influence = INFLUENCES[scene.request.fidelity.shaft]
-    return influence(bearing_places(_reciprocating(scene)), planes(scene.layout))
-
-
 def of_shaft(scene: Prepared, found: ShaftCurves, unbalance: Complex | None, group: Index | None = None) -> Bracket:
     """Peaks of loads [N] or moments [N m] without or with counterweights (..., webs) kg m: (..., C).
 
@@ -159,8 +152,14 @@ def shaft_search(found: ShaftCurves, unbalances: Sequence[Complex | None]) -> Se
 def of_shaft_each(scene: Prepared, found: ShaftCurves, unbalances: Sequence[Complex | None]) -> tuple[Bracket, ...]:
     """The same as :func:`of_shaft` with several sets of counterweights, all peaks searched together."""
     every = peaks_of(scene, shaft_search(found, unbalances))
-    each = zip(*(np.split(part, len(unbalances)) for part in every), strict=True)
-    return tuple(_times_square(scene, Bracket(*parts)) for parts in each)
+    return tuple(_times_square(scene, part) for part in _parts(every, len(unbalances)))
+
+
+def _parts(found: Bracket, number: int) -> Iterator[Bracket]:
+    """So many parts of equal size, one after the other."""
+    size = found.angle.size // number
+    for k in range(number):
+        yield Bracket._make(part[k * size : (k + 1) * size] for part in found)
 
 
 def customary_search(scene: Prepared, customary: Complex) -> Search:

@@ -5,6 +5,7 @@ the shaft takes the share k away along the axis and brings k of it across. Its p
 phasor: k = 1/2 removes A1 and leaves the counter-rotating phasor alone (Balancing, slides, stages III and VII).
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Literal
 
@@ -13,7 +14,7 @@ import numpy as np
 from optimizer.mechanics.angles import angle_deg
 from optimizer.mechanics.inertia import Wrench, reciprocating, rotating
 from optimizer.mechanics.layout import Layout
-from optimizer.numerics.arrays import Complex
+from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.rules_of_thumb import ONE_PLANE_M
 from optimizer.responses.response import Phasors
 from schemas.answer.stages import Acting, StageIron
@@ -23,53 +24,66 @@ _SHAPE = 1e-6
 Motion = Literal["none", "with_shaft", "against_shaft", "fixed", "ellipse"]
 
 
-def acting(pair: Phasors, order: int, speed: float, moment: bool, noise: float) -> Acting:
-    """One force or moment.
+def actings(parts: Sequence[tuple[Wrench, int]], speed: float, noise: tuple[float, float]) -> tuple[Acting, ...]:
+    """Force and moment of each of some wrenches of an order.
 
     Parameters
     ----------
     speed : rad/s.
-    noise : what is no larger than this is none.
+    noise : force and moment that are none where they are no larger than this.
     """
-    motion, direction = _motion(pair, noise)
-    none = motion == "none"
-    return Acting(
-        quantity="moment" if moment else "force",
-        order=order,
-        frequency_Hz=order * speed / (2.0 * np.pi),
-        unit="N m" if moment else "N",
-        peak=0.0 if none else float(pair.peak),
-        minor=0.0 if none else float(pair.minor),
-        motion=motion,
-        direction_deg=direction,
+    pairs = [pair for wrench, _ in parts for pair in wrench]
+    every = Phasors(np.array([pair.co for pair in pairs]), np.array([pair.counter for pair in pairs]))
+    motions = _motions(every, np.tile(noise, len(parts)))
+    sizes = zip(every.peak.tolist(), every.minor.tolist(), strict=True)
+    orders = [(order, moment) for _, order in parts for moment in (False, True)]
+    return tuple(
+        Acting(
+            quantity="moment" if moment else "force",
+            order=order,
+            frequency_Hz=order * speed / (2.0 * np.pi),
+            unit="N m" if moment else "N",
+            peak=0.0 if motion == "none" else peak,
+            minor=0.0 if motion == "none" else minor,
+            motion=motion,
+            direction_deg=direction,
+        )
+        for (order, moment), (motion, direction), (peak, minor) in zip(orders, motions, sizes, strict=True)
     )
 
 
-def of_wrench(wrench: Wrench, order: int, speed: float, noise: tuple[float, float]) -> tuple[Acting, Acting]:
-    """Force and moment of one order."""
-    force = acting(wrench.force, order, speed, False, noise[0])
-    return force, acting(wrench.moment, order, speed, True, noise[1])
+def _motions(pairs: Phasors, noise: Real) -> list[tuple[Motion, float | None]]:
+    """How pairs (n,) move, and in which direction."""
+    co, counter, peak = np.abs(pairs.co), np.abs(pairs.counter), pairs.peak
+    with_shaft, against = counter <= _SHAPE * co, co <= _SHAPE * counter
+    fixed, axis = pairs.minor <= _SHAPE * peak, np.mod(pairs.major_axis_deg, 180.0)
+    turning = np.mod(angle_deg(np.where(with_shaft, pairs.co, pairs.counter)), 360.0)
+    found: list[tuple[Motion, float | None]] = []
+    for k, some in enumerate((peak > noise).tolist()):
+        if not some:
+            found.append(("none", None))
+        elif with_shaft[k] or against[k]:
+            found.append(("with_shaft" if with_shaft[k] else "against_shaft", float(turning[k])))
+        else:
+            found.append(("fixed" if fixed[k] else "ellipse", float(axis[k])))
+    return found
 
 
-def _motion(pair: Phasors, noise: float) -> tuple[Motion, float | None]:
-    co, counter = np.abs(pair.co), np.abs(pair.counter)
-    if pair.peak <= noise:
-        return "none", None
-    if counter <= _SHAPE * co:
-        return "with_shaft", float(np.mod(angle_deg(pair.co), 360.0))
-    if co <= _SHAPE * counter:
-        return "against_shaft", float(np.mod(angle_deg(pair.counter), 360.0))
-    fixed = pair.minor <= _SHAPE * pair.peak
-    return "fixed" if fixed else "ellipse", float(np.mod(pair.major_axis_deg, 180.0))
+def about_centre(layout: Layout, turning: Wrench, first: Wrench) -> tuple[Layout, Wrench, Wrench]:
+    """A machine and its rotating and first-order forces with couples about the centre: a far reference plane would
+    cost digits."""
+    if layout.central:
+        return layout, turning, first
+    centred = replace(layout, reference_plane=layout.centre_plane)
+    return centred, rotating(centred), reciprocating(centred, 1)
 
 
-def iron(layout: Layout) -> tuple[StageIron, ...]:
+def iron(layout: Layout, turning: Wrench, first: Wrench) -> tuple[StageIron, ...]:
     """Stage VII in the two outermost planes of the webs; in one where all webs are in one; none without webs."""
     planes = layout.webs.position
     if planes.size == 0:
         return ()
-    centred = replace(layout, reference_plane=layout.centre_plane)
-    turning, first = rotating(centred), reciprocating(centred, 1)
+    layout, turning, first = about_centre(layout, turning, first)
     low, high = float(np.min(planes)), float(np.max(planes))
     ends = (low, high) if high - low > ONE_PLANE_M else (low,)
     parts = [_against(ends, float(layout.centre_plane), *pair) for pair in (_co(turning, 1.0), _co(first, 2.0))]

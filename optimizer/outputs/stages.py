@@ -12,22 +12,20 @@ counterweights every ``remaining`` equals its ``value``. Where there are webs in
 this way exists.
 """
 
-from dataclasses import replace
 from typing import Literal, NamedTuple
 
 import numpy as np
 
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.angles import angle_deg
-from optimizer.mechanics.inertia import Wrench, counterweights, reciprocating, rotating
+from optimizer.mechanics.inertia import Wrench, counterweights
 from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.rules_of_thumb import ONE_PLANE_M, SHAPE_TOLERANCE, force_rules, moment_rules
-from optimizer.outputs.stage_parts import iron, of_wrench
+from optimizer.outputs.stage_parts import about_centre, actings, iron
 from optimizer.responses.response import Phasors
 from schemas.answer.outputs import STAGE_UNITS, Stage
-from schemas.answer.stages import Acting
 
 Balanceable = Literal["fully", "partly", "no"]
 
@@ -117,16 +115,19 @@ def stages(
     remaining = None if unbalance is None else amounts(layout, turning, first, second, unbalance)
     planes = layout.webs.position
     span = float(np.ptp(planes)) if planes.size else 0.0
+    in_planes = iron(layout, turning, first)
     rules = {_III: force_rules(first.force, float(square)), _IV: moment_rules(first.moment, float(square), span)}
     turning, first, second = (part.times(square) for part in (turning, first, second))
     fitted = None if unbalance is None else counterweights(layout, unbalance).times(square)
     scale = _scale(layout)
     noise = (_ROUNDING * scale[0], _ROUNDING * scale[1])
-    before = _data(turning, first, second, speed, noise)
-    after = None if fitted is None else _data(*_superpose(turning, first, fitted), second, speed, noise)
+    own = ((turning, 1), (first, 1), (second, 2))
+    kept = None if fitted is None else _superpose(turning, first, fitted)
+    left = () if kept is None else ((kept[0], 1), (kept[1], 1), (second, 2))
     whole = turning.plus(first) if fitted is None else turning.plus(first).plus(fitted)
-    all_left = (*of_wrench(whole, 1, speed, noise), *of_wrench(second, 2, speed, noise))
-    of_all = (*of_wrench(turning.plus(first), 1, speed, noise), *of_wrench(second, 2, speed, noise))
+    both = ((turning.plus(first), 1), (second, 2), (whole, 1), (second, 2))
+    shown = actings((*own, *left, *both), speed, noise)
+    before, after, of_all, all_left = shown[:6], None if kept is None else shown[6:-8], shown[-8:-4], shown[-4:]
 
     def shape(heading: _Heading, order: int, wrench: Wrench) -> _Shape:
         pair = wrench.force if heading.unit == "N" else wrench.moment
@@ -150,19 +151,11 @@ def stages(
             remaining=None if remaining is None else float(remaining[k]),
             acting=of_all if heading is _VIII else before[k : k + 1],
             left=None if after is None else all_left if heading is _VIII else after[k : k + 1],
-            iron=iron(layout) if heading is _VII else (),
+            iron=in_planes if heading is _VII else (),
             rules_of_thumb=rules.get(heading, ()),
         )
         for k, (heading, found) in enumerate(shapes.items())
     )
-
-
-def _data(
-    turning: Wrench, first: Wrench, second: Wrench, speed: float, noise: tuple[float, float]
-) -> tuple[Acting, ...]:
-    """Stages I to VI, one each."""
-    parts = ((turning, 1), (first, 1), (second, 2))
-    return tuple(one for wrench, order in parts for one in of_wrench(wrench, order, speed, noise))
 
 
 def amounts(layout: Layout, turning: Wrench, first: Wrench, second: Wrench, unbalance: Complex | None) -> Real:
@@ -174,7 +167,7 @@ def amounts(layout: Layout, turning: Wrench, first: Wrench, second: Wrench, unba
     turning, first, second : as for :func:`stages`.
     """
     square = layout.omega**2
-    missing = _missing(layout, unbalance)
+    missing = _missing(*about_centre(layout, turning, first), unbalance)
     turning, first, second = (part.times(square) for part in (turning, first, second))
     both = turning.plus(first)
     if unbalance is not None:
@@ -204,15 +197,13 @@ def _split(turning: Phasors, first: Phasors, fitted: Phasors) -> tuple[Phasors, 
     )
 
 
-def _missing(layout: Layout, unbalance: Complex | None) -> Real:
+def _missing(centred: Layout, turning: Wrench, first: Wrench, unbalance: Complex | None) -> Real:
     """Stage VII: |u1| + |u2| of two planes that cancel all that turns with the shaft, (...) kg m."""
-    # couples about the centre: a far reference plane would cost digits
-    centred = replace(layout, reference_plane=layout.centre_plane)
-    wrench = rotating(centred).plus(reciprocating(centred, 1))
+    wrench = turning.plus(first)
     if unbalance is not None:
         wrench = wrench.plus(counterweights(centred, unbalance))
     force, couple = wrench.force.co, wrench.moment.co
-    planes, centre = layout.webs.position, layout.centre_plane
+    planes, centre = centred.webs.position, centred.centre_plane
     if planes.shape[-1] == 0:
         return np.abs(force)
     low, high = np.min(planes, axis=-1), np.max(planes, axis=-1)

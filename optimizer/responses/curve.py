@@ -19,7 +19,6 @@ import numpy as np
 from optimizer.numerics.arrays import Complex, Real, Reals
 from optimizer.numerics.enclosing_circle import Circle, smallest_circle
 from optimizer.responses.added_harmonics import Harmonics, moved
-from optimizer.responses.curve_envelope import Outline, nearer
 from optimizer.responses.piecewise_cubics import Bracket, Index, Pieces
 from optimizer.responses.worst_masses import Parts
 
@@ -199,7 +198,7 @@ class Floor(NamedTuple):
 def floors(
     curves: Curves, tolerance: float, numbers: Sequence[int] | None = None, group: Index | None = None
 ) -> list[Floor]:
-    """The smallest circles around curves, each radius known to a tolerance relative to it.
+    """The smallest circles around curves of one machine, each radius known to a tolerance relative to it.
 
     Parameters
     ----------
@@ -207,52 +206,74 @@ def floors(
     group : (numbers,) from 0, where only the largest radius of each group is asked for: of the others no more is found
         out than that they are smaller.
     """
-    pieces = curves.pieces
+    from optimizer.responses.kernel.outlines import PLACES, farthest, nearer, outlines
+
+    pieces, every = curves.pieces, curves.pieces.known
     number: Index = np.arange(len(pieces.half)) if numbers is None else np.array(numbers, dtype=np.intp)
     if not number.size:
         return []
     together = np.arange(number.size) if group is None else group
-    outlines = [Outline(pieces, one) for one in number.tolist()]
-    rounding = np.array([_ROUNDING * each.size for each in outlines])
-    circles = [each.circle for each in outlines]
+    outline = outlines(every, number, np.flatnonzero(pieces.half[number[0]] > 0.0))
+    rounding = _ROUNDING * np.max(np.abs(outline.values), axis=-1)
     # the first points of a curve are those that hold its outline
-    places = [each.support for each in outlines]
-    of = np.repeat(np.arange(number.size), [where.size for where, _ in places])
-    where, at = (np.concatenate(part) for part in zip(*places, strict=True))
-    value = pieces.source.values(number[of], where, at)
-    angle, point = [at[of == k] for k in range(number.size)], [value[of == k] for k in range(number.size)]
-    upper, most = np.array([each.upper for each in outlines]), np.full(np.max(together) + 1, -np.inf)
-    np.maximum.at(most, together, [each.lower for each in outlines])
+    of, (piece, place) = outline.curve, np.divmod(outline.place, PLACES.size)
+    piece = outline.piece[piece]
+    at = pieces.centre[number[of], piece] + pieces.half[number[of], piece] * PLACES[place]
+    points = _Points(number.size)
+    points.add(of, at, pieces.source.values(number[of], piece, at))
+    centre, radius, upper = outline.centre, outline.radius, outline.upper
+    most = np.full(np.max(together) + 1, -np.inf)
+    np.maximum.at(most, together, outline.lower)
     open_ = np.flatnonzero(upper >= most[together])
-    for k in np.flatnonzero(upper < most[together]).tolist():
-        circles[k] = smallest_circle(point[k])
+    circles: dict[int, Circle] = {k: points.circle(k) for k in np.flatnonzero(upper < most[together]).tolist()}
     for _ in range(_MOST_POINTS):
         # all points that may hold a circle about this centre, not only the farthest
-        found = [outlines[k].farthest(circles[k].centre) for k in open_.tolist()]
-        of = np.repeat(open_, [where.size for where, _ in found])
-        where, near = (np.concatenate(part) for part in zip(*found, strict=True))
-        near = nearer(pieces, number[of], where, near, np.array([circles[k].centre for k in of]))
-        value = pieces.source.values(number[of], where, near)
+        which, piece, near = farthest(every, number, outline, open_, centre[open_])
+        of = open_[which]
+        there = (number[of], piece)
+        middle, half = pieces.centre[there], pieces.half[there]
+        step = nearer(np.require(pieces.source.cubics(*there, near, half), complex, ("C", "W")), centre[of])
+        near = np.clip(near + half * step, middle - half, middle + half)
+        points.add(of, near, pieces.source.values(*there, near))
         for k in open_.tolist():
-            angle[k], point[k] = np.append(angle[k], near[of == k]), np.append(point[k], value[of == k])
-            circles[k] = smallest_circle(point[k])
-        peak = pieces.peaks(-np.array([circles[k].centre for k in open_]), 0.5 * tolerance, number[open_])
-        radius = np.array([circle.radius for circle in circles])
+            circles[k] = points.circle(k)
+            centre[k], radius[k] = circles[k].centre, circles[k].radius
+        peak = pieces.peaks(-centre[open_], 0.5 * tolerance, number[open_])
         upper[open_] = peak.upper
         most[:] = 0.0
         np.maximum.at(most, together, radius)
         beyond = peak.upper > radius[open_] * (1.0 + tolerance) + rounding[open_]
         beyond &= peak.upper > most[together[open_]]
-        for n in np.flatnonzero(beyond).tolist():
-            k = int(open_[n])
-            angle[k], point[k] = np.append(angle[k], peak.angle[n]), np.append(point[k], peak.value[n])
-            circles[k] = smallest_circle(point[k])
         open_ = open_[beyond]
+        points.add(open_, peak.angle[beyond], peak.value[beyond])
+        for k in open_.tolist():
+            circles[k] = points.circle(k)
+            centre[k], radius[k] = circles[k].centre, circles[k].radius
         if not open_.size:
             break
-    return [
-        Floor(circle, angle[k][circle.support], point[k][circle.support], upper[k]) for k, circle in enumerate(circles)
-    ]
+    return [Floor(circles[k], *points.at(k, circles[k].support), upper[k]) for k in range(number.size)]
+
+
+class _Points:
+    """Points of curves, of each those that may hold its smallest circle."""
+
+    def __init__(self, curves: int) -> None:
+        self._angle: list[list[float]] = [[] for _ in range(curves)]
+        self._value: list[list[complex]] = [[] for _ in range(curves)]
+
+    def add(self, of: Index, angle: Real, value: Complex) -> None:
+        """Points (m,) of curves (m,), at angles rad."""
+        for k, there, point in zip(of.tolist(), angle.tolist(), value.tolist(), strict=True):
+            self._angle[k].append(there)
+            self._value[k].append(point)
+
+    def circle(self, k: int) -> Circle:
+        """The smallest one around those of a curve."""
+        return smallest_circle(np.array(self._value[k]))
+
+    def at(self, k: int, some: Index) -> tuple[Real, Complex]:
+        """Angles and values of some of those of a curve."""
+        return np.array(self._angle[k])[some], np.array(self._value[k])[some]
 
 
 def floor(response: TurnResponse, tolerance: float) -> Floor:

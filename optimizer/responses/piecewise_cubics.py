@@ -161,7 +161,9 @@ def _bracketed(
     value = pieces.source.values(curve[best.member], best.piece, best.angle)
     there = value + asked.offset[best.member]
     lower = np.where(sign == 0.0, np.abs(there), sign * there.real)
-    return Bracket(best.angle, value, lower, best.upper + asked.rounding).where(np.isin(np.arange(count), group))
+    some = np.zeros(count, dtype=bool)
+    some[group] = True
+    return Bracket(best.angle, value, lower, best.upper + asked.rounding).where(some)
 
 
 def _expanded(pieces: Pieces, asked: "Asked", best: "Best", parts: "Parts") -> "Parts":

@@ -40,9 +40,7 @@ _OPTIONS: dict[str, Any] = {
     ],
     "repeats": Annotated[int | None, typer.Option(help="Rounds of timing, in place of `repeats` in the file.")],
 }
-_Picture = Annotated[
-    Path | None, typer.Option(metavar="FILE.svg", help="Draw the answer; needs counterweight\\[pictures].")
-]
+_Picture = Annotated[Path | None, typer.Option(metavar="FILE.svg", help="Draw the answer.")]
 _Workbook = Annotated[
     Path | None, typer.Option("-o", "--to", metavar="FILE.xlsx", help="Write request and answer to a workbook too.")
 ]
@@ -55,13 +53,12 @@ def command(one: Computation) -> Callable[..., None]:
     def run(file: str, as_json: bool, picture: Path | None = None, to: Path | None = None, **given: Any) -> None:
         if to is not None and to.suffix.lower() != WORKBOOK:
             fail(f"the name of the workbook must end in {WORKBOOK}")
-        draw = _artist(one) if picture is not None else None
         request, where = asked(one.asks, file, {name: _read(value) for name, value in given.items() if value})
         found = answer(one.function, request, where)
         name = getattr(getattr(request, "machine", request), "name", None) or one.title
-        if draw is not None and picture is not None:
+        if picture is not None:
             try:
-                picture.write_text(draw(name, found))
+                picture.write_text(resolve_name(one.picture or "")(name, found))
             except OSError as error:
                 fail(f"cannot write {picture}: {error.strerror}")
         if to is not None:
@@ -102,16 +99,6 @@ def _seldom_collected() -> Iterator[None]:
         yield
     finally:
         gc.set_threshold(*before)
-
-
-def _artist(one: Computation) -> Callable[[str, Any], str]:
-    from service.report.accuracy_picture import NoMatplotlib
-
-    try:
-        found: Callable[[str, Any], str] = resolve_name(one.picture or "")()
-    except NoMatplotlib as error:
-        fail(str(error))
-    return found
 
 
 def _read(given: Any) -> Any:

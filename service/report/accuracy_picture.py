@@ -1,96 +1,114 @@
-"""Error against time, method by method, with the frontier: a picture for the command line and the documents.
+"""Error against time, method by method, with the frontier: a picture for the command line and the documents."""
 
-matplotlib is needed by nothing else in the package: it comes with the extra ``pictures``.
-"""
-
-from collections.abc import Callable
-from io import StringIO
-from itertools import groupby
+import math
+from collections.abc import Iterator
+from itertools import groupby, pairwise
 
 from schemas.request.accuracy import AccuracyAnswer, AccuracyRow, ChoiceRow
+from service.drawings.svg import DASHES, FAINT, INK, MUTED, SERIES, Drawing, Point, shortened
 from service.report.chapters.accuracy import method_name
 
-#: distinct for the colour-blind as well
-_COLOURS = ("#000000", "#0072b2", "#56b4e9", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#882255")
-_MARKS = ("*", "o", "s", "^", "D", "v", "P", "X")
+_WIDTH, _HEIGHT = 860.0, 460.0
+#: px, of the plot; names of methods stand on its right
+_LEFT, _RIGHT, _TOP, _BOTTOM = 74.0, 640.0, 34.0, 412.0
+_LEGEND, _LINE = 656.0, 20.0
+#: decades between the smallest value and the axis
+_MARGIN = 0.1
+_FONT = "sans-serif"
 
-
-class NoMatplotlib(RuntimeError):
-    """A picture was asked for, and there is nothing to draw it with."""
-
-    def __init__(self) -> None:
-        super().__init__("a picture needs the extra `pictures`: pip install '.[pictures]' beside pyproject.toml")
-
-
-def artist() -> Callable[[str, AccuracyAnswer], str]:
-    """What draws an answer.
-
-    Raises
-    ------
-    NoMatplotlib
-        if matplotlib is not installed.
-    """
-    try:
-        import matplotlib  # noqa: F401
-    except ImportError:
-        raise NoMatplotlib from None
-    return draw
+Row = AccuracyRow | ChoiceRow
 
 
 def draw(title: str, answer: AccuracyAnswer) -> str:
-    """The picture as SVG; errors below the resolution are drawn there.
-
-    Raises
-    ------
-    NoMatplotlib
-        if matplotlib is not installed.
-    """
-    artist()
-    from matplotlib import rc_context
-    from matplotlib.backends.backend_svg import FigureCanvasSVG
-    from matplotlib.figure import Figure
-
+    """The picture as SVG; errors below the resolution are drawn there."""
     resolution = answer.reference.resolution if answer.reference else 0.0
+    ladder: tuple[Row, ...] = answer.choices_ladder or answer.ladder
+    shown = [(row, at) for row in ladder if (at := _place(row, resolution)) is not None]
+    drawing = Drawing(_WIDTH, _HEIGHT, f"{title}: true relative error against time of one solve")
+    drawing.text((_LEFT, 18), shortened(title, 80), size=13)
+    errors = [error for _, (_, error) in shown] + ([resolution] if resolution > 0.0 else [])
+    x = _Decades([time for _, (time, _) in shown], _LEFT, _RIGHT)
+    y = _Decades(errors, _BOTTOM, _TOP)
+    _axes(drawing, x, y)
+    best = sorted(at for row, at in shown if row.on_frontier)
+    if best:
+        drawing.line([(x(time), y(error)) for time, error in _steps(best)], FAINT, 6.0)
+    if resolution > 0.0:
+        drawing.line([(_LEFT, y(resolution)), (_RIGHT, y(resolution))], MUTED, 1.0, "1 3")
+    row_of_legend = _TOP + 6
+    for number, (method, rows) in enumerate(groupby(shown, key=lambda one: one[0].method)):
+        stroke, dash = SERIES[number % len(SERIES)], DASHES[number % len(DASHES)]
+        points = []
+        for row, (time, error) in rows:
+            points.append((x(time), y(error)))
+            drawing.circle(points[-1], 3.0, stroke, stroke)
+            drawing.text((points[-1][0] + 5, points[-1][1] - 4), _setting(row), size=9, fill=stroke, halo=True)
+        drawing.line(points, stroke, 1.0, dash)
+        _named(drawing, row_of_legend, method_name(method), stroke, 1.5, dash)
+        row_of_legend += _LINE
+    if best:
+        _named(drawing, row_of_legend, "frontier", FAINT, 6.0)
+        row_of_legend += _LINE
+    if resolution > 0.0:
+        _named(drawing, row_of_legend, "errors are known to here", MUTED, 1.0, "1 3")
+    return drawing.svg(_FONT)
 
-    ladder: tuple[AccuracyRow | ChoiceRow, ...] = answer.choices_ladder or answer.ladder
 
-    def place(row: AccuracyRow | ChoiceRow) -> tuple[float, float] | None:
-        if row.time_ms is None or row.relative_error is None:
-            return None
-        return row.time_ms, max(row.relative_error, resolution)
+class _Decades:
+    """From values above 0 to px, by their logarithms: whole decades around all of them, none on an axis."""
 
-    with rc_context({"svg.hashsalt": "counterweight", "font.family": "sans-serif", "svg.fonttype": "none"}):
-        figure = Figure(figsize=(9, 5.6), layout="constrained")
-        FigureCanvasSVG(figure)
-        axis = figure.add_subplot()
-        axis.set(xscale="log", yscale="log", xlabel="time of one solve [ms]", ylabel="true relative error")
-        axis.set_title(title, loc="left")
-        axis.grid(alpha=0.3, linewidth=0.4)
-        for n, (method, rows) in enumerate(groupby(ladder, key=lambda row: row.method)):
-            shown = [(row, at) for row in rows if (at := place(row)) is not None]
-            if not shown:
-                continue
-            times, errors = zip(*(at for _, at in shown), strict=True)
-            colour = _COLOURS[n % len(_COLOURS)]
-            mark = _MARKS[n % len(_MARKS)]
-            axis.plot(times, errors, marker=mark, color=colour, linewidth=0.8, markersize=6, label=method_name(method))
-            for row, at in shown:
-                axis.annotate(
-                    row.setting.split()[0] if row.setting[0].isdigit() else row.setting.split()[-1],
-                    at,
-                    textcoords="offset points",
-                    xytext=(5, 4),
-                    fontsize=7,
-                    color=colour,
-                )
-        best = sorted(at for row in ladder if row.on_frontier and (at := place(row)) is not None)
-        if best:
-            times, errors = zip(*best, strict=True)
-            axis.step(times, errors, where="post", color="#7f7f7f", linewidth=6, alpha=0.3, label="frontier", zorder=0)
-        if answer.reference is not None:
-            axis.axhline(resolution, color="#7f7f7f", linestyle=":", linewidth=1, label="errors are known to here")
-        if axis.get_legend_handles_labels()[0]:
-            axis.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), fontsize=8, frameon=False)
-        drawn = StringIO()
-        figure.savefig(drawn, format="svg", metadata={"Date": None, "Creator": None})
-    return drawn.getvalue()
+    def __init__(self, values: list[float], start: float, end: float) -> None:
+        logs = [math.log10(value) for value in values if value > 0.0] or [0.0]
+        self.low = math.floor(min(logs) - _MARGIN)
+        self.high = max(math.ceil(max(logs)), self.low + 1)
+        self._start, self._end = start, end
+
+    def __call__(self, value: float) -> float:
+        share = (math.log10(value) - self.low) / (self.high - self.low) if value > 0.0 else 0.0
+        return self._start + share * (self._end - self._start)
+
+    @property
+    def ticks(self) -> Iterator[float]:
+        """Decades, of many every second or third."""
+        step = 1 + (self.high - self.low - 1) // 8
+        return (10.0**power for power in range(self.low, self.high + 1, step))
+
+
+def _axes(drawing: Drawing, x: _Decades, y: _Decades) -> None:
+    for value in x.ticks:
+        drawing.line([(x(value), _TOP), (x(value), _BOTTOM + 4)], FAINT, 0.8)
+        drawing.text((x(value), _BOTTOM + 18), f"{value:g}", "middle", 10)
+    for value in y.ticks:
+        drawing.line([(_LEFT - 4, y(value)), (_RIGHT, y(value))], FAINT, 0.8)
+        drawing.text((_LEFT - 8, y(value) + 3.5), f"{value:.0e}", "end", 10)
+    drawing.line([(_LEFT, _TOP), (_LEFT, _BOTTOM), (_RIGHT, _BOTTOM)], INK, 0.8)
+    drawing.text((0.5 * (_LEFT + _RIGHT), _BOTTOM + 38), "time of one solve [ms]", "middle", 11)
+    drawing.text((16, 0.5 * (_TOP + _BOTTOM)), "true relative error", "middle", 11, turned=True)
+
+
+def _named(drawing: Drawing, place: float, name: str, stroke: str, width: float, dash: str | None = None) -> None:
+    """A line of the legend."""
+    drawing.line([(_LEGEND, place), (_LEGEND + 24, place)], stroke, width, dash)
+    drawing.text((_LEGEND + 32, place + 4), shortened(name, 30), size=10)
+
+
+def _place(row: Row, resolution: float) -> Point | None:
+    """Time [ms] and error of a row; None where it has no place on axes of logarithms."""
+    if row.time_ms is None or row.relative_error is None:
+        return None
+    error = max(row.relative_error, resolution)
+    return (row.time_ms, error) if row.time_ms > 0.0 and error > 0.0 else None
+
+
+def _steps(best: list[Point]) -> Iterator[Point]:
+    """What is reached with time: no better until the next is."""
+    yield best[0]
+    for (_, error), (time, lower) in pairwise(best):
+        yield time, error
+        yield time, lower
+
+
+def _setting(row: Row) -> str:
+    """What a method is set to, in a word."""
+    words = row.setting.split()
+    return words[0] if row.setting[0].isdigit() else words[-1]

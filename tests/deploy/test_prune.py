@@ -1,9 +1,12 @@
 """What the image does without: the list, and what removes it. `make image-check` runs what is left."""
 
+import subprocess
+import sys
 from importlib.metadata import distribution, version
 from pathlib import Path
 
 import pytest
+from markupsafe import _speedups as speedups
 
 from schemas.base.version import DISTRIBUTION
 from tests.deploy.files import DEPLOY, instructions, module
@@ -68,6 +71,43 @@ def test_nothing_is_removed_when_a_line_finds_nothing(site: Path, name: str) -> 
     with pytest.raises(FileNotFoundError, match=rf"found by {name}$"):
         pruning.prune(site, ["two", name])
     assert left(site) == before
+
+
+def test_a_library_without_its_symbols_works_as_before(tmp_path: Path) -> None:
+    whole = Path(str(speedups.__file__))
+    bare = tmp_path / whole.name
+    bare.write_bytes(whole.read_bytes())
+    freed = pruning.strip(bare)
+    assert freed > 0
+    assert bare.stat().st_size == whole.stat().st_size - freed
+    assert pruning.strip(bare) == 0
+    code = f"""
+import importlib.util
+spec = importlib.util.spec_from_file_location("markupsafe._speedups", {str(bare)!r})
+module = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(module)
+print(module._escape_inner("<a & b>"))
+"""
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True)
+    assert ran.stdout == "&lt;a &amp; b&gt;\n"
+
+
+def test_a_library_that_is_linked_elsewhere_stays_there_as_it_is(tmp_path: Path) -> None:
+    """As in an environment whose files are links to where an installer keeps them."""
+    whole, linked = tmp_path / "whole.so", tmp_path / "linked.so"
+    whole.write_bytes(Path(str(speedups.__file__)).read_bytes())
+    before = whole.read_bytes()
+    linked.hardlink_to(whole)
+    assert pruning.strip(linked) > 0
+    assert whole.read_bytes() == before
+
+
+@pytest.mark.parametrize("content", [b"", b"\x7fELF", b"\x7fELF\x01\x01" + bytes(100), b"GROUP ( libc.so.6 )"])
+def test_what_is_no_such_library_stays_as_it_is(tmp_path: Path, content: bytes) -> None:
+    file = tmp_path / "other.so"
+    file.write_bytes(content)
+    assert pruning.strip(file) == 0
+    assert file.read_bytes() == content
 
 
 def test_each_line_has_a_reason() -> None:

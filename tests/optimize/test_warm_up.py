@@ -10,9 +10,10 @@ import pytest
 from optimizer.choices.discrete.kernel import near_sums
 from optimizer.compile_kernels import any_limits, budgets
 from optimizer.compile_kernels import near_sums as sums
-from optimizer.mechanics.kernel import curves, readings, rows
-from optimizer.numerics.kernel import knapsack
+from optimizer.mechanics.kernel import crossings, curves, readings, rows
+from optimizer.numerics.kernel import circle, knapsack
 from optimizer.program.kernel import bounds, cancelling, discs, interior_point, outlines, settling, symmetries, values
+from optimizer.responses.kernel import outlines as of_curves
 from optimizer.responses.kernel import parts
 from optimizer.studies.matching.kernel import joined, meeting, quarters
 from optimizer.warm_up import follow_a_turn, match_parts, plain_discs, warm_up
@@ -58,8 +59,11 @@ def test_what_is_compiled_is_what_answers_need() -> None:
         cancelling: ("least_changes",),
         rows: ("row_functions",),
         readings: ("row_series",),
-        curves: ("sums_of_rows",),
+        crossings: ("crossings",),
+        curves: ("series_of_curves", "sums_of_rows"),
         knapsack: ("filled",),
+        circle: ("smallest",),
+        of_curves: ("farthest", "nearer", "outlines"),
         parts: ("first_open", "narrowed", "still_open"),
         quarters: ("tabled",),
         joined: ("joined",),

@@ -1,11 +1,33 @@
 """Curves over the turn as sums over the rows, piece by piece; compiled.
 
-Shapes: N designs of C curves, R rows, P pieces.
+Shapes: N designs of C curves, R rows, P pieces; m curves at Q places, angles within pieces.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.numerics.compiling import inner, kernel
+from optimizer.mechanics.kernel.readings import READINGS, WITHOUT_GAS, row_series
+from optimizer.mechanics.kernel.rows import row_functions
+from optimizer.numerics.arrays import Complex
+from optimizer.numerics.compiling import inner, inner_with_arrays, kernel
+
+#: of each reading
+_WITHOUT_GAS = np.array([reading in WITHOUT_GAS for reading in READINGS])
+#: angles of each place, as numpy's integer like all else that is handed on
+_ONE = np.int64(1)
+
+
+class Sums(NamedTuple):
+    """J curves, each a sum of one force of the rows.
+
+    reading : (J,) which.
+    weights, constant : (J, R), (J,).
+    """
+
+    reading: np.ndarray
+    weights: Complex
+    constant: Complex
 
 
 @kernel
@@ -70,3 +92,50 @@ def sums_of_rows(weights, constant, points, bounds, radius, half):  # type: igno
 def _length(along, across):  # type: ignore[no-untyped-def]
     """Magnitude of a vector; of a scalar for less."""
     return abs(along) if across == 0.0 else np.hypot(along, across)
+
+
+@kernel
+def series_of_curves(rows, sums, curve, place, places, order):  # type: ignore[no-untyped-def]
+    """Coefficients (m, order + 1) of curves (m,) about places, each of one of them (m,), and nothing (0,).
+
+    Over half widths the middle of the last alone, (m, 1), and its radius (m,).
+    """
+    bounded, count = places.half.size > 0, curve.size
+    terms = 1 if bounded else order + 1
+    found, off = np.zeros((count, terms), np.complex128), np.zeros(count if bounded else 0)
+    wanted, pressed = _wanted(sums, curve)
+    functions = row_functions(rows, places, order, pressed)
+    for reading in range(wanted.size):
+        if not wanted[reading]:
+            continue
+        middle, radius = row_series(rows, functions, places.design, _ONE, reading)
+        for n in range(count):
+            if sums.reading[curve[n]] != reading:
+                continue
+            for r in range(sums.weights.shape[1]):
+                weight = sums.weights[curve[n], r]
+                for k in range(terms):
+                    found[n, k] += weight * _vector(middle, k, place[n], r)
+                if bounded:
+                    off[n] += abs(weight) * radius[place[n], r, 0]
+    if not bounded:
+        for n in range(count):
+            found[n, 0] += sums.constant[curve[n]]
+    return found, off
+
+
+@inner_with_arrays
+def _wanted(sums, curve):  # type: ignore[no-untyped-def]
+    """Which readings curves (m,) are sums of, and whether gas is a part of any."""
+    wanted, pressed = np.zeros(_WITHOUT_GAS.size, np.bool_), False
+    for n in range(curve.size):
+        reading = sums.reading[curve[n]]
+        wanted[reading] = True
+        pressed = pressed or not _WITHOUT_GAS[reading]
+    return wanted, pressed
+
+
+@inner
+def _vector(series, k, n, r):  # type: ignore[no-untyped-def]
+    """A coefficient (1 or 2, k, N, R, 1) as one number."""
+    return complex(series[0, k, n, r, 0], series[1, k, n, r, 0] if series.shape[0] > 1 else 0.0)

@@ -122,7 +122,12 @@ def row_functions(rows, places, order, pressed):  # type: ignore[no-untyped-def]
                 motion = rows.motion[places.design[q] if designs > 1 else 0, r]
                 angle, within = places.centre[q] + motion[0], places.within[q] + motion[0]
                 lane[_RATIO, p], lane[_SHORT, p] = motion[1], motion[2] * (1.0 + motion[1])
-                _turn(cranks[_INSIDE], p, within)
+                if p > 0 and places.within[q] == places.within[q - 1] and designs == 1:
+                    # many places of one piece stand side by side
+                    for f in range(4):
+                        cranks[_INSIDE, f, p] = cranks[_INSIDE, f, p - 1]
+                else:
+                    _turn(cranks[_INSIDE], p, within)
                 if bounded:
                     _turn(cranks[_FIRST], p, angle - places.half[q])
                     _turn(cranks[_LAST], p, angle + places.half[q])

@@ -9,7 +9,7 @@ from optimizer.mechanics.shaft_curves import ShaftCurves, shaft_curves
 from optimizer.mechanics.whole_turn import TurnCurves
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.output import Columns
-from optimizer.outputs.peaks import FLOOR_TOLERANCE, bearing_influence, of_shaft, one_by_one
+from optimizer.outputs.peaks import FLOOR_TOLERANCE, of_shaft, one_by_one
 from optimizer.responses.curve import floors
 from schemas.answer.outputs import labels
 from schemas.machine.drive import Bearing
@@ -49,7 +49,7 @@ def _floors(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
 
 
 def _bearing_curves(scene: Prepared) -> ShaftCurves:
-    return shaft_curves(scene.results["whole_turn"], scene.layout, bearing_influence(scene))
+    return shaft_curves(scene.results["whole_turn"], scene.layout, scene.bearing_influence)
 
 
 def _alone(found: ShaftCurves) -> Iterator[TurnCurves]:

@@ -99,7 +99,7 @@ def _curves(machine: ReciprocatingMachine, layout: Layout) -> Mapping[Quantity, 
         influence, places = INFLUENCES[Fidelity().shaft], bearing_places(machine)
         loads = influence(places, planes(layout))
         stations = np.unique(np.concatenate([planes(layout), places]))
-        moments = bending_influence(layout, places, influence, stations)
+        moments = bending_influence(layout, places, loads, stations)
         made["peak_bearing_load"] = lambda whole: shaft_curves(whole, layout, loads).curves
         made["peak_bending_moment"] = lambda whole: shaft_curves(whole, layout, moments).curves
     made["peak_torque"] = lambda whole: whole.torque

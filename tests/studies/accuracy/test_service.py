@@ -1,8 +1,6 @@
 """POST /v1/accuracy and ``counterweight accuracy``: answers, tables, pictures, refusals."""
 
-import builtins
 import json
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -141,22 +139,3 @@ def test_the_picture_holds_every_method_and_the_frontier(tmp_path: Path) -> None
 def test_an_empty_ladder_can_be_drawn() -> None:
     found = run("-", "--json", given=request(objective={"force_ceiling_N": 1.0}))
     assert draw("nothing", AccuracyAnswer.model_validate_json(found.stdout)).count("<svg") == 1
-
-
-def test_without_matplotlib_a_picture_is_refused_at_once(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """The extra is named, nothing is computed, and everything else works."""
-    real = builtins.__import__
-
-    def without(name: str, *rest: Any, **more: Any) -> Any:
-        if name.split(".")[0] == "matplotlib":
-            raise ImportError(name)
-        return real(name, *rest, **more)
-
-    for name in [name for name in sys.modules if name.split(".")[0] == "matplotlib"]:
-        monkeypatch.delitem(sys.modules, name)
-    monkeypatch.setattr(builtins, "__import__", without)
-    result = run("-", "--picture", str(tmp_path / "p.svg"), given=request())
-    assert result.exit_code == 2
-    assert "'.[pictures]'" in result.stderr
-    assert not (tmp_path / "p.svg").exists()
-    assert run("-", "--json", given=request(objective={"force_ceiling_N": 1.0})).exit_code == 1

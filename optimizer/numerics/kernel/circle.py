@@ -1,0 +1,90 @@
+"""The smallest circle around points, compiled: :mod:`optimizer.numerics.enclosing_circle` says how it is found."""
+
+import numpy as np
+
+from optimizer.numerics.arrays import SMALLEST
+from optimizer.numerics.compiling import inner, kernel
+
+#: a point this share of the extent outside a circle is on it
+_ON = 1e-14
+
+
+@kernel
+def smallest(points):  # type: ignore[no-untyped-def]
+    """Centre, radius, support (1 to 3,) and its weights, of the smallest circle around points (n,), n >= 1."""
+    low, high = points[0], points[0]
+    for point in points:
+        low = complex(min(low.real, point.real), min(low.imag, point.imag))
+        high = complex(max(high.real, point.real), max(high.imag, point.imag))
+    # about their own middle, so that a common offset costs no digits
+    middle = 0.5 * (low + high)
+    first = _farthest(points, middle, 0j)
+    slack = _ON * abs(points[first] - middle)
+    support, weights, count = np.zeros(3, np.int64), np.ones(3), 1
+    support[0] = first
+    centre, radius = points[first] - middle, 0.0
+    trial, held, of_held, few = np.zeros(4, np.int64), np.zeros(3, np.int64), np.ones(3), np.zeros(4, np.complex128)
+    while True:
+        farthest = _farthest(points, middle, centre)
+        if abs(points[farthest] - middle - centre) <= radius + slack:
+            break
+        trial[:count], trial[count] = support[:count], farthest
+        for k in range(count + 1):
+            few[k] = points[trial[k]] - middle
+        of_few, larger, number = _around(few, count, held, of_held)
+        if larger <= radius:
+            # what is left is rounding
+            break
+        centre, radius, count = of_few, larger, number
+        for k in range(count):
+            support[k], weights[k] = trial[held[k]], of_held[k]
+    return centre + middle, radius, support[:count].copy(), weights[:count].copy()
+
+
+@inner
+def _farthest(points, middle, centre):  # type: ignore[no-untyped-def]
+    """Which point is farthest from a centre, both about the middle; of several the first."""
+    most, found = -1.0, 0
+    for k in range(points.size):
+        place = points[k] - middle - centre
+        along, across = abs(place.real), abs(place.imag)
+        # neither overflows nor vanishes, and costs less than a hypotenuse
+        long, short = max(along, across), min(along, across)
+        share = short / max(long, SMALLEST)
+        distance = long * np.sqrt(1.0 + share * share)
+        if distance > most:
+            most, found = distance, k
+    return found
+
+
+@inner
+def _around(few, last, held, weights):  # type: ignore[no-untyped-def]
+    """The smallest circle around two to four points of which the last is on it: centre, radius, how many hold it.
+
+    The largest that is held by its own points, by trying each few with the last one: every one is a floor of the
+    smallest around all.
+    """
+    centre, radius, number = few[last], 0.0, 1
+    held[0], weights[0] = last, 1.0
+    for k in range(last):
+        middle = 0.5 * few[k] + 0.5 * few[last]
+        size = max(abs(few[k] - middle), abs(few[last] - middle))
+        if size > radius:
+            centre, radius, number = middle, size, 2
+            held[0], held[1], weights[0], weights[1] = k, last, 0.5, 0.5
+    for k in range(last):
+        for m in range(k + 1, last):
+            # barycentric weights of the circumcentre: sin 2A : sin 2B : sin 2C, positive for an acute triangle
+            a, b, c = abs(few[m] - few[last]) ** 2, abs(few[last] - few[k]) ** 2, abs(few[k] - few[m]) ** 2
+            one, two, three = a * (b + c - a), b * (c + a - b), c * (a + b - c)
+            if not min(one, two, three) > 0.0:
+                continue
+            total = one + two + three
+            one, two, three = one / total, two / total, three / total
+            middle = one * few[k] + two * few[m] + three * few[last]
+            size = max(abs(few[k] - middle), abs(few[m] - middle), abs(few[last] - middle))
+            if size > radius:
+                centre, radius, number = middle, size, 3
+                held[0], held[1], held[2] = k, m, last
+                weights[0], weights[1], weights[2] = one, two, three
+    return centre, radius, number

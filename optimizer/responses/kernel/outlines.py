@@ -1,0 +1,126 @@
+"""Outlines of curves: cubics at some places of every piece, the smallest circles around these; compiled.
+
+Shapes: J of the curves, P pieces, S places of each.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.compiling import inner, kernel
+from optimizer.numerics.kernel.circle import smallest
+
+#: at which the cubic of every piece is looked at
+PLACES = np.linspace(-1.0, 1.0, 17)
+#: how far the farthest places may be from these
+BETWEEN = float(PLACES[1] - PLACES[0])
+#: share of the largest distance by which others that may hold a circle are less
+_ALIKE = 1e-3
+#: Newton's steps to the farthest place
+_STEPS = 2
+
+
+class Outlines(NamedTuple):
+    """Of J curves.
+
+    piece : (P',) those that have a width.
+    values : (J, P' S) of the cubics at the places.
+    centre, radius : (J,) of the smallest circles around them.
+    lower, upper : (J,) what the radius of the smallest circle around the curve is not below, and what none of its
+        points is farther than from the centre.
+    curve, place : (m,) which places hold which circle.
+    """
+
+    piece: np.ndarray
+    values: Complex
+    centre: Complex
+    radius: Real
+    lower: Real
+    upper: Real
+    curve: np.ndarray
+    place: np.ndarray
+
+
+@kernel
+def outlines(known, number, held):  # type: ignore[no-untyped-def]
+    """Outlines of curves (J,), by their pieces that have a width (P',).
+
+    Between two places a cubic is no farther from its chord than an eighth of the square of their distance times its
+    largest second derivative.
+    """
+    curves, share = number.size, PLACES.size
+    values = np.empty((curves, held.size * share), np.complex128)
+    centre, radius = np.empty(curves, np.complex128), np.empty(curves)
+    lower, upper = np.empty(curves), np.empty(curves)
+    curve, place, count = np.empty(3 * curves, np.int64), np.empty(3 * curves, np.int64), 0
+    for j in range(curves):
+        for p in range(held.size):
+            cubic = known.cubic[number[j], held[p]]
+            for s in range(share):
+                at = PLACES[s]
+                square = at * at
+                values[j, p * share + s] = cubic[0] + cubic[1] * at + cubic[2] * square + cubic[3] * (square * at)
+        centre[j], radius[j], support, _ = smallest(values[j])
+        for k in range(support.size):
+            curve[count], place[count] = j, support[k]
+            count += 1
+        rest, most = 0.0, -np.inf
+        for p in range(held.size):
+            farthest = 0.0
+            for s in range(share):
+                farthest = max(farthest, abs(values[j, p * share + s] - centre[j]))
+            cubic = known.cubic[number[j], held[p]]
+            bend = 2.0 * abs(cubic[2]) + 6.0 * abs(cubic[3])
+            rest = max(rest, known.rest[number[j], held[p]])
+            most = max(most, farthest + 0.125 * BETWEEN**2 * bend + known.rest[number[j], held[p]])
+        lower[j], upper[j] = radius[j] - rest, most
+    return Outlines(held, values, centre, radius, lower, upper, curve[:count].copy(), place[:count].copy())
+
+
+@kernel
+def farthest(known, number, outline, chosen, centre):  # type: ignore[no-untyped-def]
+    """Where some outlines (n,) are about as far from centres (n,) as anywhere: of which, pieces, angles (m,) rad."""
+    share, pieces = PLACES.size, outline.piece
+    most = outline.values.shape[1]
+    distance, which = np.empty(most), np.empty(chosen.size * most, np.int64)
+    piece, angle, count = np.empty(chosen.size * most, np.int64), np.empty(chosen.size * most), 0
+    for n in range(chosen.size):
+        largest = 0.0
+        for k in range(most):
+            distance[k] = abs(outline.values[chosen[n], k] - centre[n])
+            largest = max(largest, distance[k])
+        for k in range(most):
+            beside = max(distance[k - 1 if k > 0 else most - 1], distance[k + 1 if k + 1 < most else 0])
+            if distance[k] < (1.0 - _ALIKE) * largest or distance[k] < beside:
+                continue
+            curve, there = number[chosen[n]], pieces[k // share]
+            at = _farthest(known.cubic[curve, there], centre[n], PLACES[k % share])
+            which[count], piece[count] = n, there
+            angle[count] = known.centre[curve, there] + known.half[curve, there] * at
+            count += 1
+    return which[:count].copy(), piece[:count].copy(), angle[:count].copy()
+
+
+@kernel
+def nearer(cubic, centre):  # type: ignore[no-untyped-def]
+    """Places (m,) near 0 at which cubics (m, 4) are farthest from centres (m,)."""
+    places = np.empty(centre.size)
+    for n in range(centre.size):
+        places[n] = _farthest(cubic[n], centre[n], 0.0)
+    return places
+
+
+@inner
+def _farthest(cubic, centre, place):  # type: ignore[no-untyped-def]
+    """The place within [-1, 1], near a given one, at which a cubic (4,) is farthest from a centre; by Newton."""
+    constant, linear, square, cube = cubic[0] - centre, cubic[1], cubic[2], cubic[3]
+    for _ in range(_STEPS):
+        value = constant + place * (linear + place * (square + place * cube))
+        slope = linear + place * (2.0 * square + 3.0 * place * cube)
+        bend = 2.0 * square + 6.0 * place * cube
+        first = value.real * slope.real + value.imag * slope.imag
+        second = abs(slope) ** 2 + value.real * bend.real + value.imag * bend.imag
+        step = -first / second if second < 0.0 else 0.0
+        place = min(max(place + min(max(step, -BETWEEN), BETWEEN), -1.0), 1.0)
+    return place
