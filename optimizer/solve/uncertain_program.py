@@ -1,6 +1,7 @@
-"""The program of several machines with counterweights that may be a little off: scenarios and tolerances.
+"""The program of one request: of the machine as it is given, or of several; counterweights may be a little off.
 
-Scenarios are cases of one program. What counterweights are off by is part of it. Of reciprocating masses that scatter
+Scenarios are cases of one program; without any the machine as it is given is the only one. What counterweights are off
+by is part of it. Of reciprocating masses that scatter
 the worst corner of every peak is known once the counterweights are; such corners are added as variants of their case
 until the counterweights have none that is worse: then the program is that of all corners.
 """
@@ -14,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.errors import MissingInput
+from optimizer.formulation.balance_shafts import posed
 from optimizer.formulation.demand import Demand
 from optimizer.formulation.formulate import counted, given_ceilings, responses, weights
 from optimizer.formulation.goals import Case, Goals, formulate
@@ -61,7 +63,7 @@ def scatter_of(tolerances: Tolerances | None) -> Scatter:
 class Machine:
     """The machine as it is given, or that of a scenario, with reciprocating masses that scatter."""
 
-    request: OptimizeRequest  # with its machine
+    request: OptimizeRequest  # with its machine, and the webs of its balance shafts behind those of the crankshaft
     scene: Prepared
     scenario: str | None
     weight: float
@@ -70,7 +72,9 @@ class Machine:
     @cached_property
     def nominal(self) -> tuple[Response, ...]:
         """Responses with the masses as they should be."""
-        return tuple(replace(each, scenario=self.scenario) for each in self.scene.responses)
+        every = (replace(each, scenario=self.scenario) for each in self.scene.responses)
+        # over all orders nothing is mirrored
+        return tuple(each.unmirrored() if self.request.objective.orders == "all" else each for each in every)
 
     @cached_property
     def parts(self) -> tuple[Phasors, ...]:
@@ -115,7 +119,7 @@ class Machine:
 
 
 class Robust:
-    """The program of one request with scenarios or tolerances, as far as the worst masses are known."""
+    """The program of one request, as far as the worst masses are known where they scatter."""
 
     def __init__(self, request: OptimizeRequest, scene: Prepared, wanted: Demand) -> None:
         """Prepare the machines of all scenarios.
@@ -125,11 +129,11 @@ class Robust:
         MissingInput
             if one of them lacks what the objective needs.
         """
-        self.request, self.scene, self.wanted = request, scene, wanted
+        self.request, self.scene, self.wanted, self.posed = request, scene, wanted, posed(request)
         tolerances = request.tolerances
         self.scatter = scatter_of(tolerances)
         share = 0.0 if tolerances is None else tolerances.reciprocating_mass_relative
-        self.machines = list(_scenarios(request, share)) or [Machine(request, scene, None, 1.0, share)]
+        self.machines = list(_scenarios(request, share)) or [Machine(self.posed, scene, None, 1.0, share)]
         for machine in self.machines:
             if machine.scene is not scene:
                 scene.simulated.join(machine.scene.simulated, "scenarios")
@@ -137,7 +141,7 @@ class Robust:
         self._until = time.thread_time() + wanted.time_limit_s
         #: signs of the changes of masses that are known of every machine
         self._known: list[list[Real]] = [[] for _ in self.machines]
-        self.learnt(np.zeros(len(request.machine.webs), complex))
+        self.learnt(np.zeros(len(self.posed.machine.webs), complex))
 
     @property
     def left_s(self) -> float:
@@ -148,7 +152,7 @@ class Robust:
         """The program with the changes of masses that are known."""
         cases = [machine.case(known) for machine, known in zip(self.machines, self._known, strict=True)]
         apart = any(machine.scatters for machine in self.machines)
-        machine, objective, fidelity = self.request.machine, self.request.objective, self.request.fidelity
+        machine, objective, fidelity = self.posed.machine, self.posed.objective, self.posed.fidelity
         return formulate(machine, objective, cases, self.scene.omega_squared, fidelity, self.scatter, apart)
 
     def learnt(self, u: Complex) -> bool:

@@ -1,4 +1,4 @@
-"""Certified counterweights of one request that asks for the whole turn: bearings, bending, goals in their order."""
+"""What is told of counterweights that are found by cuts, with goals in their order."""
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -8,9 +8,9 @@ import numpy as np
 
 from optimizer.formulation.balance_shafts import chosen, posed
 from optimizer.formulation.counterweights import masses_and_angles, unbalance
-from optimizer.formulation.demand import Demand, demand
+from optimizer.formulation.demand import Demand
 from optimizer.formulation.formulate import given_ceilings
-from optimizer.formulation.goals import Case, Goals, formulate
+from optimizer.formulation.goals import Goals
 from optimizer.formulation.limits import TOUCHED
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.fixed_weights import beside
@@ -18,7 +18,7 @@ from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.requirements import effects_of_objective
 from optimizer.program.certificate import budget_price, ceiling_allowance, normalised
-from optimizer.program.cuts.optimum import METHOD, Found, Unkept, over_turn
+from optimizer.program.cuts.optimum import METHOD, Found
 from optimizer.program.cuts.proof import Proof
 from optimizer.program.cuts.semi_infinite import Problem, Values
 from optimizer.program.sensitivity import shadow_prices
@@ -27,7 +27,6 @@ from optimizer.solve import sensitivity
 from optimizer.solve.certify import figures
 from optimizer.solve.cut_plates import cut_plates
 from optimizer.solve.cutting_plane_rounds import Ended
-from optimizer.solve.infeasibility import out_of_reach
 from optimizer.solve.outcome import Outcome, certificate, finite_or_null, multipliers_of
 from optimizer.solve.prices import shadow_prices as priced
 from optimizer.solve.prices import touched_by_mass
@@ -73,32 +72,6 @@ class SearchProof(NamedTuple):
     def lower_bound(self) -> float:
         """Of the last goal, over omega^2."""
         return -np.inf if self.bounds is None else self.ended.lower_bound
-
-
-def certified_turn(request: OptimizeRequest, scene: Prepared, in_full: bool = True) -> Outcome:
-    """Counterweights that are optimal over the whole turn.
-
-    Parameters
-    ----------
-    in_full : with prices of the limits and what misplaced counterweights may cost.
-
-    Raises
-    ------
-    MissingInput
-        if bearings lack the sizes that specific loads need.
-    """
-    together, responses = posed(request), scene.responses
-    if request.objective.orders == "all":
-        responses = tuple(each.unmirrored() for each in responses)
-    machine, square = together.machine, scene.omega_squared
-    turn = (whole_turn_of(scene, request.objective), scene.laden) if request.objective.of_the_revolution else None
-    case = Case(machine, square, (responses,), turn)
-    asked = formulate(machine, together.objective, [case], square, request.fidelity)
-    accuracy, least = request.accuracy, request.objective.least_mass
-    found = over_turn(asked.program, accuracy.relative_gap, least, accuracy.time_limit_s)
-    if isinstance(found, Unkept):
-        return out_of_reach(request, scene, asked, found)
-    return fitted(request, scene, asked, found, demand(request), in_full)
 
 
 def fitted(

@@ -21,7 +21,7 @@ from optimizer.solve.cut_plates import cut_plates
 from optimizer.solve.infeasibility import out_of_reach
 from optimizer.solve.outcome import Outcome, finite_or_null, multipliers_of
 from optimizer.solve.uncertain_program import Machine, Measure, Robust
-from optimizer.solve.whole_turn import certified_turn, fitted
+from optimizer.solve.whole_turn import fitted
 from schemas.answer.answers import Certificate
 from schemas.answer.first_order import ResponsePeak
 from schemas.answer.robust import PriceOfRobustness, WorstCase
@@ -46,23 +46,17 @@ def certified_any_mass(request: OptimizeRequest, scene: Prepared, in_full: bool 
     MissingInput
         if a machine lacks what the objective needs.
     """
-    return certified_robust(request, scene) if request.robust else certified_turn(request, scene, in_full)
-
-
-def certified_robust(request: OptimizeRequest, scene: Prepared) -> Outcome:
-    """Counterweights that are optimal in the worst of all cases, each as far off as it may be.
-
-    Raises
-    ------
-    MissingInput
-        if a machine lacks what the objective needs.
-    """
     robust = Robust(request, scene, demand(request))
     asked, found = robust.solved()
     if isinstance(found, Unkept):
         return out_of_reach(request, scene, asked, found)
-    told = fitted(request, scene, asked, found, demand(request))
-    assert told.chosen is not None
+    told = fitted(request, scene, asked, found, robust.wanted, in_full)
+    return _beside_nominal(robust, asked, told) if request.robust else told
+
+
+def _beside_nominal(robust: Robust, asked: Goals, told: Outcome) -> Outcome:
+    """The same with the worst case, and what it costs beside the optimum of the machine as it is given."""
+    request, scene = robust.request, robust.scene
     best, late = _nominal_optimum(robust)
     if best is None:
         return with_worst_case(robust, told, None, late)

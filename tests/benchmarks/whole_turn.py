@@ -19,7 +19,7 @@ from rich.table import Table
 
 from optimizer.optimize import optimize
 from optimizer.outputs.registry import prepare
-from optimizer.solve.whole_turn import certified_turn
+from optimizer.solve.worst_case import certified_any_mass
 from schemas.request.requests import OptimizeRequest
 from tests.benchmarks.outputs import sixteen_rows
 from tests.benchmarks.stopwatch import Stopwatch
@@ -41,7 +41,7 @@ _CYLINDER = {
 _ELSE = "input, mechanics, and the making of the answer"
 #: part of an answer -> functions that do it; what they call belongs to the innermost part
 PARTS: dict[str, tuple[str, ...]] = {
-    "rounds": ("optimizer.solve.whole_turn:over_turn",),
+    "rounds": ("optimizer.solve.uncertain_program:over_turn",),
     "cone programs": ("optimizer.program.cuts.stage:solved",),
     "series of the rows": (
         "optimizer.mechanics.kernel.rows:row_functions",
@@ -49,7 +49,7 @@ PARTS: dict[str, tuple[str, ...]] = {
     ),
     "brackets": ("optimizer.responses.piecewise_cubics:_bracketed",),
     "smallest circles": ("optimizer.outputs.bearings:floors", "optimizer.program.cuts.samples:smallest_circle"),
-    "rest of the proofs": ("optimizer.solve.worst_case:certified_turn",),
+    "rest of the proofs": ("optimizer.solve.solve:certified_any_mass",),
     "figures, warnings": ("optimizer.optimize:answered",),
 }
 
@@ -95,7 +95,7 @@ def times(machine: dict[str, Any], least_mass: bool, repeats: int) -> Times:
         whole.append((time.process_time() - began) * 1e3)
         scene = prepare(request, ("main_bearings",))
         began = time.process_time()
-        certified_turn(request, scene)
+        certified_any_mass(request, scene)
         solving.append((time.process_time() - began) * 1e3)
     proof = answer.certificate
     assert proof is not None
