@@ -43,8 +43,8 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
         raise MissingInput(lacking)
     refuse(too_heavy(request.machine, request.fitted, "fitted"))
     always = _always(request)
-    # of scenarios every one is a machine of its own, simulated for itself
-    scene = prepare(request, always, () if request.scenarios else effects_of_objective(request.objective))
+    # of cases every one is a machine of its own, simulated for itself
+    scene = prepare(request, always, () if request.cases else effects_of_objective(request.objective))
     solving, began = time.perf_counter(), time.thread_time()
     solver = solver or own_solver()
     best = solve(for_best(request), scene, solver)

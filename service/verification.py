@@ -27,28 +27,12 @@ def verify(asked: VerifyRequest) -> VerifyAnswer:
 
 
 #: the files, each behind those that it imports
-_FILES = [
-    *(f"verify_{part}" for part in ("numbers", "leaves", "plates", "machine", "claims", "cranks", "weights", "shafts")),
-    *(f"verify_{part}" for part in ("form", "orders", "quality", "answer", "program", "prices", "alternatives")),
-    *(f"verify_{part}" for part in ("first", "spans", "curves", "harmonics", "circle", "loads", "bearings", "shaking")),
-    *(
-        f"verify_{part}"
-        for part in (
-            "cases",
-            "cuts",
-            "costs",
-            "values",
-            "misplacement",
-            "ceilings",
-            "levels",
-            "nominal",
-            "goals",
-            "turn",
-        )
-    ),
-    *(f"verify_{part}" for part in ("turn", "single", "many", "match")),
-    "verify",
-]
+_PARTS = (
+    "numbers leaves plates machine claims cranks weights shafts form orders quality program cases answer prices"
+    " alternatives first spans curves harmonics circle loads bearings shaking cuts costs values misplacement ceilings"
+    " levels nominal goals turn single many match"
+)
+_FILES = [*(f"verify_{part}" for part in _PARTS.split()), "verify"]
 
 
 @cache

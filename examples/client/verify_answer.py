@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import nan
 from typing import Dict, List, NamedTuple, Optional, Tuple
 
+from verify_cases import scenarios
 from verify_claims import Claims, near, same
 from verify_cranks import balance_rates
 from verify_machine import ON_FRAME, Machine, Mass, Responses
@@ -108,7 +109,7 @@ def touched(request: Place, machine: Machine, left: Responses, mass: Number) -> 
     rooms: Dict[str, float] = {}
     if machine.budget is not None:
         rooms["max_total_mass"] = _room(float(mass), float(machine.budget))
-    elsewhere = (goal / "orders").value == "all" or list(request / "scenarios") or request / "tolerances"
+    elsewhere = (goal / "orders").value == "all" or scenarios(request) or request / "tolerances"
     for name, one in ON_FRAME.items():
         for axis in ("", "_x", "_y"):
             most = goal / f"{name}_ceiling{axis}_{one.unit}"

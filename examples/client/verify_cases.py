@@ -3,19 +3,41 @@
 from __future__ import annotations
 
 from math import radians, sin, sqrt
-from typing import Any, Dict, Iterator, List, NamedTuple, Optional, Sequence
+from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Sequence
 
 from verify_machine import Machine, Responses
 from verify_numbers import ABOUT_ONE, COSTS, ONE, ZERO, NotCovered, Number, Place, Unreadable, largest, real, total
 from verify_program import Statement
 
+
+class Stated(NamedTuple):
+    """What a field of a request states of cases: the names of its own fields, and the cases as scenarios."""
+
+    fields: str
+    scenarios: Callable[[Place], Iterator[Place]]
+
+
+#: by field of a request
+CASES: Dict[str, Stated] = {
+    "scenarios": Stated("weight changes path value", lambda request: iter(request / "scenarios")),
+    # beside this one
+}
 #: fields of a request that are known here
-FIELDS = (
-    " scenarios weight changes path value tolerances mass_relative unbalance_kg_m reciprocating_mass_relative"
-    " priorities goal allowance "
+FIELDS = " tolerances mass_relative unbalance_kg_m reciprocating_mass_relative priorities goal allowance " + "".join(
+    f" {name} {one.fields} " for name, one in CASES.items()
 )
 #: the goal that a part of the objective belongs to
 GOALS = {"bearing": "bearings", "bending": "bending"}
+
+
+def scenarios(request: Place) -> List[Place]:
+    """The cases of a request, as scenarios."""
+    return [one for each in CASES.values() for one in each.scenarios(request)]
+
+
+def without_cases(request: Place) -> Place:
+    """A request about the machine as it is, nothing off."""
+    return Place({**request.value, **dict.fromkeys(CASES), "tolerances": None}, *request.path)
 
 
 class Scatter(NamedTuple):
@@ -55,7 +77,7 @@ class Case(NamedTuple):
 
 def cases(request: Place, machine: Machine, plane: Place) -> Iterator[Case]:
     """One of every scenario, or the machine as it is."""
-    given = list(request / "scenarios")
+    given = scenarios(request)
     if not given:
         yield Case(request, machine, ONE, None)
     for one in given:

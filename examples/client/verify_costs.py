@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Dict, Sequence, Tuple
 
+from verify_cases import scenarios
 from verify_claims import Claims
 from verify_cuts import Part, Term
 from verify_machine import Machine
@@ -21,7 +22,7 @@ def costs(
     """Of one goal without tolerances and scenarios; ``slopes``: what the bound rises by per kg m on each web."""
     place, goal, proof = answer / "shadow_prices", request / "objective", answer / "certificate"
     off = any(one != 0 for one in (request / "tolerances").read((dict,), "an object", {}).values() if one is not None)
-    several = list(request / "scenarios") or off or list(goal / "priorities")
+    several = scenarios(request) or off or list(goal / "priorities")
     if several or machine.groups or proof / "continuous_lower_bound" or not proof / "gap":
         yield "shadow_prices", place, -ONE if list(place) else ONE, ONE
         return

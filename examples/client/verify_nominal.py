@@ -10,7 +10,7 @@ from typing import Sequence
 
 from verify_answer import Fitted, fitted
 from verify_bearings import within
-from verify_cases import Case, Scatter
+from verify_cases import Case, Scatter, scenarios
 from verify_ceilings import kept
 from verify_claims import Claims
 from verify_cuts import Part
@@ -37,7 +37,7 @@ def optimum_as_given(request: Place, machine: Machine, parts: Sequence[Part], of
         yield "nominal_optimum", worst, -ONE if worst else ONE, ONE
         return
     goal, given = parts[0].named[-1], as_given(request, machine, parts)
-    none = all(one.high == 0 for one in off) and not list(request / "scenarios")
+    none = all(one.high == 0 for one in off) and not scenarios(request)
     if none:
         # nothing is off: the optimum is the answer's own
         value = (answer / "certificate" / "objective").double()

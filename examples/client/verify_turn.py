@@ -12,7 +12,7 @@ from typing import Dict, List, Optional, Sequence, Tuple
 
 from verify_answer import Fitted, closest
 from verify_cases import FIELDS as CASES
-from verify_cases import cases, goals, scatter
+from verify_cases import cases, goals, scatter, scenarios, without_cases
 from verify_claims import EVIDENCE, Claims, covered, near
 from verify_costs import costs
 from verify_curves import root
@@ -270,7 +270,7 @@ def looks_at_the_turn(request: Place) -> bool:
     """Whether an objective asks for more than the first order, in a way that is known here."""
     goal = request / "objective"
     loads = any((goal / name).value not in (None, 0) for name in FIELDS.split()[1:])
-    several = list(request / "scenarios") or request / "tolerances" or list(goal / "priorities")
+    several = scenarios(request) or request / "tolerances" or list(goal / "priorities")
     shafts = list(request / "machine" / "balance_shafts")
     return loads or (goal / "orders").value == "all" or bool(several) or bool(shafts)
 
@@ -332,8 +332,7 @@ def _as_given(request: Place, machine: Machine, answer: Place, implied: Place) -
     price = answer / "price_of_robustness"
     if not price / "nominal_multipliers":
         return
-    alone = Place({**request.value, "scenarios": [], "tolerances": None}, *request.path)
-    program, proof = Program(alone, machine, Place(None)), price / "nominal_multipliers"
+    program, proof = Program(without_cases(request), machine, Place(None)), price / "nominal_multipliers"
     found = program.bound(proof, program.terms(proof), implied)
     yield from _proven("nominal_optimum", price / "nominal_lower_bound", found, implied, proof)
 

@@ -34,6 +34,7 @@ from optimizer.solve.uncertain_program import MOST_ROUNDS, Robust
 from optimizer.solve.whole_turn import Candidate, SearchProof, told
 from optimizer.solve.worst_case import certified_any_mass, with_worst_case
 from schemas.answer.answers import GoalReached
+from schemas.request.cases import AS_GIVEN
 from schemas.request.objective import COSTS, Cost
 from schemas.request.requests import OptimizeRequest
 
@@ -265,7 +266,7 @@ def _nominal_choice(
     if left_s == 0.0:
         return None, True
     accuracy = request.accuracy.model_copy(update={"time_limit_s": left_s})
-    alone = request.model_copy(update={"scenarios": (), "tolerances": None, "accuracy": accuracy})
+    alone = request.model_copy(update={**AS_GIVEN, "tolerances": None, "accuracy": accuracy})
     if alone.objective.over_the_turn:
         of_turn = certified_choice(alone, scene, solver, in_full=False)
         return of_turn.chosen if of_turn.status == "optimal" else None, of_turn.status == "inaccurate"

@@ -31,6 +31,7 @@ from optimizer.responses.response import Phasors, Response
 from optimizer.solve.whole_turn import whole_turn_of
 from schemas.base.model import FieldProblem
 from schemas.base.target import pointer
+from schemas.request.cases import AS_GIVEN
 from schemas.request.requests import OptimizeRequest
 from schemas.request.scenarios import Tolerances, machine_of
 
@@ -184,14 +185,14 @@ class Robust:
 
 
 def _scenarios(request: OptimizeRequest, share: float) -> Iterator[Machine]:
-    for i, scenario in enumerate(request.scenarios):
+    for case in request.cases:
+        scenario = case.scenario
         made = request.model_copy(
-            update={"machine": machine_of(request, scenario), "scenarios": (), "tolerances": None, "outputs": ()}
+            update={"machine": machine_of(request, scenario), **AS_GIVEN, "tolerances": None, "outputs": ()}
         )
         lacking = list(missing(made))
         if lacking:
-            place = ("scenarios", i, "changes")
-            raise MissingInput(FieldProblem(place, f"{pointer(path)}: {message}") for path, message in lacking)
+            raise MissingInput(FieldProblem(case.changes, f"{pointer(path)}: {message}") for path, message in lacking)
         scene = prepare(made, ("residual",), effects_of_objective(made.objective))
         yield Machine(made, scene, scenario.name, scenario.weight, share)
 

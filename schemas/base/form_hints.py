@@ -6,6 +6,7 @@ alternatives, so that a form has one input for it and nothing to choose.
 """
 
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Any
 
 from schemas.base.form_groups import headings
@@ -29,7 +30,7 @@ def hinted(model: type, schema: Schema) -> None:
     _condition(schema)
     heading = headings([one.__name__ for one in model.__mro__])
     given: Schema = schema["properties"]
-    names = [name for name in heading if name in given] + [name for name in given if name not in heading]
+    names = _in_groups(list(given), heading)
     schema["properties"] = {
         name: {
             **_collapsed(_without_unit(given[name])),
@@ -40,6 +41,16 @@ def hinted(model: type, schema: Schema) -> None:
         }
         for place, name in enumerate(names)
     }
+
+
+def _in_groups(fields: list[str], heading: dict[str, str]) -> list[str]:
+    """Fields in the order of a form; one that is in no group joins that of the field before it, behind all of it."""
+    for before, name in pairwise(fields if heading else ()):
+        if name not in heading and before in heading:
+            heading[name] = heading[before]
+    groups = list(dict.fromkeys(heading.values()))
+    listed = sorted((name for name in heading if name in fields), key=lambda name: groups.index(heading[name]))
+    return listed + [name for name in fields if name not in heading]
 
 
 def _condition(schema: Schema) -> None:

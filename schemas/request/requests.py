@@ -23,8 +23,9 @@ from schemas.machine.catalogue import DISCRETE_GAP
 from schemas.machine.fitted import FittedCounterweight, GivenCounterweight, fitted_rules
 from schemas.machine.reciprocating import no_balance_shafts
 from schemas.machine.rotor import MAX_WEBS
+from schemas.request.cases import Case, case_rules, cases, stated
 from schemas.request.objective import Objective
-from schemas.request.scenarios import MAX_SCENARIOS, Scenario, Tolerances, scenario_rules
+from schemas.request.scenarios import MAX_SCENARIOS, Scenario, Tolerances
 from schemas.request.scene import Scene
 
 #: ways round what does not go together, see docs/api/together.md
@@ -119,10 +120,15 @@ class OptimizeRequest(Scene, Ruled):
     @property
     def robust(self) -> bool:
         """Whether more counts than the machine as it is given."""
-        return bool(self.scenarios) or (self.tolerances is not None and self.tolerances.any)
+        return any(True for _ in stated(self)) or (self.tolerances is not None and self.tolerances.any)
+
+    @property
+    def cases(self) -> tuple[Case, ...]:
+        """Machines that the counterweights are to suit in place of the one that is given, if any are stated."""
+        return cases(self)
 
     def rules(self) -> Iterator[Rule]:
-        yield from scenario_rules(self, self.scenarios)
+        yield from case_rules(self)
         for broken, (_, *rest), message in fitted_rules(self.machine, self.fitted):
             yield Rule(broken, ("fitted", *rest), message)
         yield from self._shaft_rules()
@@ -142,8 +148,9 @@ class OptimizeRequest(Scene, Ruled):
             yield Rule(broken, ("machine", *path), said)
 
     def worst_case_rules(self, message: str) -> Iterator[Rule]:
-        """Scenarios, tolerances and allowances that are given where only the machine as it is can be asked for."""
-        yield Rule(bool(self.scenarios), ("scenarios",), message)
+        """Cases, tolerances and allowances that are given where only the machine as it is can be asked for."""
+        for field in stated(self):
+            yield Rule(True, (field,), message)
         yield Rule(self.tolerances is not None, ("tolerances",), message)
         yield Rule(bool(self.alternatives), ("alternatives",), message)
 

@@ -7,8 +7,8 @@ from pydantic import Field, Strict
 
 from schemas.base.model import Model
 from schemas.base.quantities import Fraction, Name
-from schemas.base.rules import Path, Rule, all_rules
-from schemas.base.target import BadPointer, Target, Value, find_target, pointer
+from schemas.base.rules import Path, Rule
+from schemas.base.target import BadPointer, Target, Value, find_target
 from schemas.base.units import Unit, non_negative, positive
 from schemas.base.variation import with_fields
 from schemas.machine.machine import Machine
@@ -79,17 +79,11 @@ def machine_of(request: Scene, scenario: Scenario) -> Machine:
     return with_fields(request.machine, values)
 
 
-def scenario_rules(request: Scene, scenarios: Sequence[Scenario]) -> Iterator[Rule]:
-    """What is wrong with the scenarios of a request whose other parts are right; paths from its root."""
-    seen: set[str] = set()
+def change_rules(request: Scene, scenarios: Sequence[Scenario]) -> Iterator[Rule]:
+    """What is wrong with the changes of scenarios of a request whose other parts are right; paths from its root."""
     for i, scenario in enumerate(scenarios):
-        path: Path = ("scenarios", i)
-        yield Rule(scenario.name in seen, (*path, "name"), "another scenario has this name")
-        seen.add(scenario.name)
-        found = list(_change_rules(request, scenario))
-        yield from (Rule(True, (*path, "changes", *rest), message) for _, rest, message in found)
-        if not found:
-            yield from (Rule(True, (*path, *rest), message) for _, rest, message in _machine_rules(request, scenario))
+        for broken, rest, message in _change_rules(request, scenario):
+            yield Rule(broken, ("scenarios", i, "changes", *rest), message)
 
 
 def _change_rules(request: Scene, scenario: Scenario) -> Iterator[Rule]:
@@ -123,17 +117,6 @@ def _refused(path: Path) -> str | None:
     if of_webs or path[1] == "max_total_mass_kg":
         return "the counterweights and their limits are the same in all scenarios"
     return None
-
-
-def _machine_rules(request: Scene, scenario: Scenario) -> Iterator[Rule]:
-    """What is wrong with the machine of a scenario; paths from the scenario."""
-    places: dict[Path, int] = {find_target(request, change.path).path: j for j, change in enumerate(scenario.changes)}
-    for broken, rest, message in all_rules(machine_of(request, scenario)):
-        where = ("machine", *rest)
-        if broken and where in places:
-            yield Rule(True, ("changes", places[where], "value"), message)
-        elif broken:
-            yield Rule(True, ("changes",), f"{pointer(where)}: {message}")
 
 
 def _number(target: Target, given: Any) -> float | int | None:

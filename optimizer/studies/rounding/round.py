@@ -82,7 +82,7 @@ class _Judge:
 
     @classmethod
     def of(cls, request: OptimizeRequest) -> "_Judge":
-        scene = prepare(request, ("residual",), () if request.scenarios else effects_of_objective(request.objective))
+        scene = prepare(request, ("residual",), () if request.cases else effects_of_objective(request.objective))
         program = Robust(request, scene, demand(request)).asked().program
         return cls(request.machine, program, scene.omega_squared)
 

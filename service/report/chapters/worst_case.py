@@ -51,13 +51,13 @@ def worst_case(answer: OptimizeAnswer) -> Iterator[Chapter]:
 
 def asked(request: OptimizeRequest) -> Iterator[Block]:
     """Scenarios and tolerances as they were stated."""
-    if request.scenarios:
+    if request.cases:
         yield table(
             "Scenarios: the largest weighted objective counts",
             ["scenario", "#weight", "field", "#value"],
             [
                 (scenario.name, scenario.weight, *change)
-                for scenario in request.scenarios
+                for scenario in (case.scenario for case in request.cases)
                 for change in (
                     [(each.path, each.value) for each in scenario.changes] or [("the machine as it is given", None)]
                 )
