@@ -26,6 +26,8 @@ CASES: Dict[str, Stated] = {
 FIELDS = " tolerances mass_relative unbalance_kg_m reciprocating_mass_relative priorities goal allowance " + "".join(
     f" {name} {one.fields} " for name, one in CASES.items()
 )
+#: fields that say where the plane of the moments is
+PLANES = ("position_m", "orbiting_position_m", "reference_plane_m")
 #: the goal that a part of the objective belongs to
 GOALS = {"bearing": "bearings", "bending": "bending"}
 
@@ -81,16 +83,19 @@ def cases(request: Place, machine: Machine, plane: Place) -> Iterator[Case]:
     if not given:
         yield Case(request, machine, ONE, None)
     for one in given:
-        body = request.value
+        body, moved = request.value, False
         for change in one / "changes":
             path = (change / "path").text().split("/")[1:]
-            if path[-1:] == ["position_m"] or path[:1] != ["machine"]:
-                # planes and default weights are those of the machine as it is
+            of_shafts = path[1:2] == ["balance_shafts"] and path[-1:][0] not in ("x_m", "y_m")
+            if of_shafts or path[:1] != ["machine"]:
+                # what is chosen for a shaft is told by the machine as it is
                 raise NotCovered(change / "path")
             body = with_value(body, path, (change / "value").value, request)
+            moved |= path[-1] in PLANES
         changed = Place(body, *request.path)
         budget = changed / "machine" / "max_total_mass_kg"
-        own = Machine(changed / "machine", changed / "objective", plane, budget)
+        # with other planes the moments of a case may be about another one
+        own = Machine(changed / "machine", changed / "objective", Place(None) if moved else plane, budget)
         yield Case(changed, own, (one / "weight").number(1.0, least=0), (one / "name").text())
 
 

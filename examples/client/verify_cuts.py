@@ -6,6 +6,7 @@ from functools import cached_property
 from math import sqrt
 from typing import Dict, List, NamedTuple, Optional, Sequence, Tuple
 
+from verify_answer import Fitted
 from verify_bearings import SAMPLE
 from verify_cases import Case, Scatter, goal_of
 from verify_curves import Turn
@@ -78,6 +79,11 @@ class Part:
     def loads(self) -> Loads:
         """Curves over the revolution."""
         return Loads(self.case.request / "machine", self.machine, self.turn)
+
+    def placed(self, fitted: Fitted) -> Fitted:
+        """Counterweights where this machine has its webs."""
+        webs = zip(fitted.turning, self.machine.webs)
+        return fitted._replace(turning=[one._replace(position=web.position) for one, web in webs])
 
     def term(self, one: Place) -> Term:
         response, row = (one / "response").text(), (one / "row").text()

@@ -82,11 +82,12 @@ def _exactly(request: Place, answer: Place, program: Program, fitted: Fitted) ->
     found = fitted.first
     proof, worst, price = answer / "certificate", answer / "worst_case", answer / "price_of_robustness"
     sizes, nothing = off_sizes(program.machine, fitted), [ZERO for _ in found]
-    parts = [(part, part.machine.responses(found)) for part in program.parts]
+    parts = [(part, part.machine.responses(part.placed(fitted).first)) for part in program.parts]
     value = largest(ZERO, *(part.value(responses, program.off, sizes) for part, responses in parts))
     rest = largest(ZERO, *(part.value(part.machine.laden, program.off, nothing) for part, _ in parts))
-    yield near("objective", proof / "objective", value)
-    yield near("before", proof / "objective_without_counterweights", rest)
+    # what is off by itself is multiplied in doubles too
+    yield near("objective", proof / "objective", value * ABOUT_ONE)
+    yield near("before", proof / "objective_without_counterweights", rest * ABOUT_ONE)
     if worst:
         yield near("worst_case", worst / "objective", value * ABOUT_ONE)
         for name, unit in NAMES.items():

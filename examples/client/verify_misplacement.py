@@ -32,7 +32,7 @@ class Misplaced(Value):
         super().__init__(part, fitted, Scatter(ZERO, ZERO))
         self.by_angle = by_angle
         webs = part.machine.webs
-        self.free = [one for one, web in zip(fitted.turning, webs) if web.fixed is None and one.product.high > 0]
+        self.free = [one for one, web in zip(self.fitted.turning, webs) if web.fixed is None and one.product.high > 0]
 
     def response(self, name: str, enough: float = 0.0, axis: str = "") -> Range:
         loads = self.part.loads

@@ -49,7 +49,7 @@ class Value:
     """What one machine comes to with counterweights that may be off."""
 
     def __init__(self, part: Part, fitted: Fitted, off: Scatter) -> None:
-        self.part, self.fitted, self.off = part, fitted, off
+        self.part, self.fitted, self.off = part, part.placed(fitted), off
 
     def goal(self, name: str) -> Range:
         """Of all that is weighed together, or of one of the goals in their order."""

@@ -13,6 +13,7 @@ from tests.pairs.asking import body_of
 from tests.verification.answers import pair
 from tests.verification.checking import broken
 from tests.verification.fabricated import KINDS, fabricated, verdict
+from tests.verification.kinds import SINGLE
 
 SEVERAL = (
     "scenarios", "scenarios over the turn", "tolerances", "tolerances over the turn", "priorities",
@@ -119,3 +120,24 @@ def test_what_is_fixed_is_not_off(base: str) -> None:
     answer = json.loads(optimize(OptimizeRequest.model_validate(body)).model_dump_json())
     assert not broken(body, answer)
     assert answer["worst_case"]["objective"] == answer["price_of_robustness"]["nominal"]
+
+
+@pytest.mark.parametrize(
+    "path",
+    ["throws/0/position_m", "webs/1/position_m", "reference_plane_m", "throws/1/rows/0/offset_m"],
+)
+@pytest.mark.parametrize("orders", ["first", "all"])
+def test_scenarios_move_planes_of_their_own(path: str, orders: str) -> None:
+    """Moments of a case are about its own plane, midway between its own throws where none is given."""
+    moved = {"name": "moved", "weight": 3.0, "changes": [{"path": f"/machine/{path}", "value": 0.12}]}
+    body = copy.deepcopy(SINGLE["sum"])
+    body["scenarios"] = [{"name": "as it is"}, moved]
+    if orders == "all":
+        body["objective"]["orders"] = orders
+        for throw in body["machine"]["throws"]:
+            for row in throw["rows"]:
+                row["connecting_rod"] = {"length_m": 0.5, "mass_kg": 4.0}
+    answer = json.loads(optimize(OptimizeRequest.model_validate(body)).model_dump_json())
+    assert checker().verify(body, answer)["verdict"] == "held"
+    moved["changes"] = []
+    assert broken(body, answer)
