@@ -1,7 +1,6 @@
 """Whose computation begins next: who has had least, so that nobody waits behind all that another one asks."""
 
 import asyncio
-import math
 import time
 from collections import Counter, OrderedDict, deque
 from collections.abc import Callable, Iterator
@@ -13,8 +12,8 @@ from service.fairness.table import Share
 
 #: whoever waits and has had no turn for so long is before all who have had less [s]
 PATIENCE_S = 2.0
-#: the second turn above the size is for who had less than this share of what any other had who has a turn or waits
-_LESS = 0.8
+#: who had a turn or waited for a larger share of the last seconds asks without end
+_NOW_AND_THEN = 2 / 3
 
 
 class Full(Exception):
@@ -75,10 +74,11 @@ class FairQueue:
     ever, however many come who have had nothing. When as many wait as may, the owner of whom most wait gives up its
     last place to one of whom fewer wait.
 
-    Little is at most half of an equal share of the cores that turns are for, among all owners who have a turn or wait;
-    and for the second one above the size less than any other of them had. Owners who ask without end have more than
-    that on the average, so they leave those to whoever asks now and then. What the busiest had is no measure: beside
-    one whose computations are long, all others would have had little.
+    Little is at most half of an equal share of the cores that turns are for, among all owners who have a turn or wait.
+    And for a third of the time at least, the owner had no turn and waited for none. On a machine that is full, owners
+    who ask without end may be given as little of a core as one who asks now and then. But they wait all the time, so
+    they leave those turns to him. What the busiest had is no measure: beside one whose computations are long, all
+    others would have had little.
 
     Parameters
     ----------
@@ -93,6 +93,8 @@ class FairQueue:
         self._places = places
         self._clock = clock
         self._accounts, self._loads = Accounts(clock), Loads(clock)
+        # the share of the last seconds for which owners had a turn or waited
+        self._presence = Loads(clock)
         self._running: Counter[str] = Counter()
         self._above = 0
         #: set while anybody waits
@@ -132,6 +134,7 @@ class FairQueue:
             self._leave(turn)
         if turn.owner in self._accounts and not self._running[turn.owner] and turn.owner not in self._waiting:
             self._accounts.go(turn.owner)
+            self._presence.end(turn.owner, 0.0, 0.0)
         if self._waiting:
             self._go_on()
 
@@ -142,6 +145,7 @@ class FairQueue:
         turn.wanted = True
         if turn.owner not in self._accounts:
             self._accounts.come(turn.owner)
+            self._presence.take(turn.owner)
         # whoever waits may not begin, so nobody is overtaken
         if self._may_begin(turn):
             self._begin(turn)
@@ -169,10 +173,8 @@ class FairQueue:
         if self._running[owner]:
             return False
         owners = {*self._running, *self._waiting, owner}
-        had = self._loads.of(owner)
-        others = owners - {owner} if self._above else ()
-        least = min(map(self._loads.of, others), default=math.inf)
-        return had <= min(_LESS * least, 0.5 * self.size / len(owners))
+        now_and_then = self._presence.of(owner) <= _NOW_AND_THEN
+        return now_and_then and self._loads.of(owner) <= 0.5 * self.size / len(owners)
 
     def _is_free(self) -> bool:
         return self._running.total() - self._above < self.size

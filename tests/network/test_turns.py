@@ -318,15 +318,18 @@ def test_a_bystander_never_waits_for_owners_who_ask_without_end(each: int, long_
         if long_s > 0.025:
             return
         # two of theirs at a time, and more in the first moments; each a quarter of them
-        assert sum(begun[owner] for owner in "abcd") == pytest.approx(2 * 4.0 / 0.025, rel=0.07)
+        assert sum(begun[owner] for owner in "abcd") == pytest.approx(2 * 4.0 / 0.025, rel=0.1)
         assert max(begun[owner] for owner in "abcd") - min(begun[owner] for owner in "abcd") <= 8
 
     play(FairQueue(2, 100, 64), story)
 
 
-@pytest.mark.parametrize("slow", [1.0, 2.0, 3.0])
-def test_a_bystander_of_six_never_waits_on_a_machine_with_other_work(slow: float) -> None:
-    """His turns last several times as long as they compute, as everybody's do: that is not what he had."""
+@pytest.mark.parametrize(("slow", "theirs_s"), [(1.0, 0.1), (2.0, 0.1), (3.0, 0.1), (1.0, 0.004), (3.0, 0.004)])
+def test_a_bystander_of_six_never_waits_on_a_machine_with_other_work(slow: float, theirs_s: float) -> None:
+    """His turns last several times as long as they compute, as everybody's do: that is not what he had.
+
+    Theirs may compute as little as his, where a lower priority gives them no more of a core.
+    """
 
     async def story(asked: Asked) -> None:
         numbers, ends = itertools.count(), list[tuple[float, str]]()
@@ -334,17 +337,18 @@ def test_a_bystander_of_six_never_waits_on_a_machine_with_other_work(slow: float
 
         async def ask(owner: str) -> str:
             name = f"{owner}{next(numbers)}"
-            asked.computed_s[name] = {"z": 0.008}.get(owner, 0.1)
+            asked.computed_s[name] = {"z": 0.008}.get(owner, theirs_s)
             await asked.ask(name)
             return name
 
         for owner in "abcdef" * 8:
             await ask(owner)
-        # 100 ms of every one of theirs, 8 ms of his, every 150 ms from when they have pressed for 2 s
+        # 100 ms or more of every one of theirs, 8 ms of his, every 150 ms from when they have pressed for 2 s
         seen, comes = 0, 2.0
         while comes < 8.0:
             for name in asked.begun[seen:]:
-                heapq.heappush(ends, (asked.turns.clock() + slow * asked.computed_s[name], name))
+                lasts_s = slow * {"z": 0.008}.get(name[0], 0.1)
+                heapq.heappush(ends, (asked.turns.clock() + lasts_s, name))
             seen = len(asked.begun)
             if comes <= ends[0][0]:
                 asked.turns.clock.seconds = comes
