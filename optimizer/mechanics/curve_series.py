@@ -64,17 +64,14 @@ class CurveSeries:
         """Coefficients (m, order + 1) at angles (m,) rad; over half widths that of the last (m, 1) and its radius."""
         from optimizer.mechanics.kernel.curves import series_of_curves
 
-        curve, rows = _integers(curve), self.weights.shape[1]
-        places = (piece, angle) if half is None else (piece, angle, half)
-        if len(self.middle) > 1:
-            places = (*places, curve // (len(self.weights) // len(self.middle)))
+        curve, (curves, rows), designs = _integers(curve), self.weights.shape, len(self.middle)
+        design: Index = curve // max(curves // designs, 1)
+        places: tuple[NDArray[Any], ...] = (piece, angle) if half is None else (piece, angle, half)
+        number: Index = np.arange(curve.size)
         if curve.size * rows > _FEW:
-            first, number = alike(places)
-            places = tuple(place[first] for place in places)
-        else:
-            number = np.arange(curve.size)
+            first, number = alike(places if designs == 1 else (*places, design))
+            design, places = design[first], tuple(place[first] for place in places)
         piece, angle, *widths = places
-        design = widths.pop() if len(self.middle) > 1 else np.zeros(piece.size, np.int64)
         within, step = self.middle[design, piece], max(1, AT_ONCE // max(rows, 1))
         if within.size <= step:
             there = self._places(design, angle, within, *widths)

@@ -7,7 +7,7 @@ import numpy as np
 
 from optimizer.mechanics.inertia import reciprocating_forces, rotating_forces
 from optimizer.mechanics.layout import Layout
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, spread
 from optimizer.responses.response import Phasors
 
 
@@ -49,4 +49,4 @@ def _of_side(arm: Real, force: Complex) -> Complex:
 
 def _joined(parts: Sequence[Any], leading: tuple[int, ...]) -> Any:
     """Side by side on the last axis."""
-    return np.concatenate([np.broadcast_to(part, (*leading, part.shape[-1])) for part in parts], axis=-1)
+    return np.concatenate([spread(part, (*leading, part.shape[-1])) for part in parts], axis=-1)

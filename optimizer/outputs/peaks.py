@@ -1,5 +1,6 @@
 """Peaks over the whole turn: bracketed whatever the samples, of one machine and of many designs."""
 
+import math
 from collections.abc import Hashable, Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import NamedTuple
@@ -12,7 +13,7 @@ from optimizer.mechanics.indicated import TURN
 from optimizer.mechanics.row_series import Reading
 from optimizer.mechanics.shaft_curves import ShaftCurves
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, spread
 from optimizer.responses.piecewise_cubics import Bracket, Index
 from schemas.machine.reciprocating import ReciprocatingMachine
 
@@ -68,7 +69,7 @@ def searched(searches: Iterable[Search]) -> dict[tuple[Hashable, ...], Bracket]:
     first = {id(each): int(number) for each, number in zip(curves, batch.first, strict=False)}
     number = np.concatenate([each.number + first[id(each.curves)] for each in every])
     offset = np.concatenate([each.offset for each in every])
-    sign = np.concatenate([np.broadcast_to(each.sign, each.number.shape) for each in every])
+    sign = np.concatenate([np.zeros(each.number.size) + each.sign for each in every])
     groups = [np.arange(each.number.size) if each.group is None else each.group for each in every]
     ends = np.cumsum([0, *(int(np.max(group, initial=-1)) + 1 for group in groups)]).tolist()
     group = np.concatenate([one + end for one, end in zip(groups, ends, strict=False)])
@@ -95,12 +96,18 @@ def rows_search(scene: Prepared, reading: Reading) -> Search:
     number, sign = np.arange(2 * count), np.ones(2 * count)
     number[count:] -= count
     sign[count:] = -1.0
-    return Search(("rows", reading), curves, number, np.zeros(2 * count), sign)
+    return Search(_rows_name(reading), curves, number, np.zeros(2 * count), sign)
+
+
+def _rows_name(reading: Reading) -> tuple[Hashable, ...]:
+    return "rows", reading
 
 
 def of_rows(scene: Prepared, reading: Reading) -> Extremes:
     """Of a force of every row, (..., rows)."""
-    found = peaks_of(scene, rows_search(scene, reading))
+    found = scene.brackets.get(_rows_name(reading))
+    if found is None:
+        found = peaks_of(scene, rows_search(scene, reading))
     return Extremes(*(_reshaped(scene, part) for part in _parts(found, 2)))
 
 
@@ -119,7 +126,7 @@ def largest_of_rows(scene: Prepared, reading: Reading) -> Bracket:
 def torque_search(scene: Prepared, constant: Real | float = 0.0) -> Search:
     """Largest torque of all rows with a constant (...), N m, magnitude."""
     whole: WholeTurn = scene.results["whole_turn"]
-    offset = np.broadcast_to(np.reshape(constant, -1), len(whole.centre))
+    offset = spread(np.reshape(constant, -1), (len(whole.centre),))
     return Search(("torque", offset.tobytes()), whole.torque, np.arange(offset.size), offset)
 
 
@@ -201,7 +208,7 @@ def _one(found: Bracket) -> Bracket:
 def _reshaped(scene: Prepared, found: Bracket) -> Bracket:
     """With the leading axes of the scene, and angles within the turns after which all repeats."""
     leading = scene.layout.omega.shape
-    count = found.angle.size // max(int(np.prod(leading)), 1)
+    count = found.angle.size // max(math.prod(leading), 1)
     shape = (*leading, count)
     whole: WholeTurn = scene.results["whole_turn"]
     angle = np.mod(found.angle, TURN * whole.turns)

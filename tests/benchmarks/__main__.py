@@ -32,7 +32,7 @@ def main() -> None:
     shapes(console, repeats)
     console.print(f"service, from start to ready: {start_to_ready():.2f} s")
     # each in a process of its own, which stays on one core or starts its own workers
-    for module in ("whole_turn", "wire", "sweep", "sweep_scaling"):
+    for module in ("whole_turn", "wire", "sweep", "sweep_limits", "sweep_scaling"):
         subprocess.run([sys.executable, "-m", f"tests.benchmarks.{module}"], check=True)
 
 

@@ -57,11 +57,11 @@ def available() -> bool:
     return shutil.which("gcc") is not None
 
 
-class _Compiled:
+class Compiled:
     """One stage: minimise cost @ v subject to side - matrix @ v in the cones, of any data of one pattern."""
 
     def __init__(self, cost: Real, matrix: sparse.csc_matrix, side: Real, rows: int, planes: int) -> None:
-        self._shape, self._nonzero = matrix.shape, matrix.nnz
+        self._shape, self._nonzero, self.unsolved = matrix.shape, matrix.nnz, 0
         with tempfile.TemporaryDirectory() as folder:
             # the generator tells what it does
             with contextlib.redirect_stdout(io.StringIO()):
@@ -77,21 +77,13 @@ class _Compiled:
             self._library = ctypes.CDLL(str(source / "all.so"))
 
     def solve(self, cost: Real, values: Real, sides: Real) -> tuple[Real, Real, Real]:
-        """Variables, multipliers and objectives of programs by their data (n, ...).
-
-        Raises
-        ------
-        ArithmeticError
-            if one of them is left unsolved.
-        """
+        """Variables, multipliers and objectives of programs by their data (n, ...); so many are ``unsolved``."""
         count, (rows, columns) = len(values), self._shape
         assert values.shape == (count, self._nonzero)
         x, z, value = np.empty((count, columns)), np.empty((count, rows)), np.empty(count)
         every = [np.ascontiguousarray(np.broadcast_to(cost, (count, columns))), values, sides, x, z, value]
         pointers: list[Any] = [each.ctypes.data_as(ctypes.POINTER(ctypes.c_double)) for each in every]
-        unsolved = self._library.solve_all(count, ctypes.c_double(_TOLERANCE), *pointers)
-        if unsolved:
-            raise ArithmeticError(f"{unsolved} of {count} programs are left unsolved")
+        self.unsolved = int(self._library.solve_all(count, ctypes.c_double(_TOLERANCE), *pointers))
         return x, z, value
 
 
@@ -108,16 +100,24 @@ class Generated:
         self._costs = direct.first_cost, np.stack([one.mass for one in prepared])
         planes = self._webs + self._terms
         first, second = direct.matrices(programs[0])
-        self._first = _Compiled(self._costs[0], first, self._sides[0][0], 0, planes)
-        self._second = _Compiled(self._costs[1][0], second, self._sides[1][0], self._webs + 1, planes)
+        self._first = Compiled(self._costs[0], first, self._sides[0][0], 0, planes)
+        self._second = Compiled(self._costs[1][0], second, self._sides[1][0], self._webs + 1, planes)
 
     def solve(self) -> list[Stages]:
-        """Both stages of all designs."""
+        """Both stages of all designs.
+
+        Raises
+        ------
+        ArithmeticError
+            if one of them is left unsolved.
+        """
         x, z, value = self._first.solve(self._costs[0], self._values[0], self._sides[0])
         self._sides[1][:, self._webs] = [
             target(one, program) for one, program in zip(value, self._programs, strict=True)
         ]
         x2, z2, _ = self._second.solve(self._costs[1], self._values[1], self._sides[1])
+        if unsolved := self._first.unsolved + self._second.unsolved:
+            raise ArithmeticError(f"{unsolved} of {2 * len(self._programs)} programs are left unsolved")
         duals = [each[:, -3 * self._terms :].reshape(-1, self._terms, 3)[..., 1:] for each in (z, z2)]
         places = [each[:, : 2 * self._webs].reshape(-1, self._webs, 2) for each in (x, x2)]
         return [

@@ -29,6 +29,8 @@ class Stages(NamedTuple):
     smallest_terms: Complex
     lightest_terms: Complex
     price: float
+    smallest_ceilings: Complex = np.zeros(0, complex)
+    lightest_ceilings: Complex = np.zeros(0, complex)
 
 
 Method = Callable[[Program], Stages]
@@ -43,11 +45,15 @@ class Gaps(NamedTuple):
 
 def gaps(program: Program, found: Stages) -> Gaps:
     """Certified gaps of an answer, by the same closed-form bounds that our own answers are judged by."""
-    statement, none = program.statement, np.zeros(0, complex)
+    statement = program.statement
     first, last = (program.unbalance(p) for p in (found.smallest, found.lightest))
-    bound = float(objective_lower_bound(statement, Multipliers(found.smallest_terms, np.ones(1), none)))
+    bound = float(
+        objective_lower_bound(statement, Multipliers(found.smallest_terms, np.ones(1), found.smallest_ceilings))
+    )
     per_objective = program.mass_unit / program.unit
-    multipliers = Multipliers(found.lightest_terms * per_objective, np.array([found.price * per_objective]), none)
+    multipliers = Multipliers(
+        *(each * per_objective for each in (found.lightest_terms, np.array([found.price]), found.lightest_ceilings))
+    )
     counted = max(float(statement.objective(first)), bound) + program.share * program.unit
     mass, lightest = float(statement.mass(last)), float(mass_lower_bound(statement, multipliers, np.asarray(counted)))
     rest = float(statement.objective(np.zeros_like(last)))
@@ -128,6 +134,17 @@ class Prepared(NamedTuple):
     mass: Real  # costs of the second
 
 
+def settings(tuned: bool) -> clarabel.DefaultSettings:
+    """What clarabel is asked for: as it comes, or to no more digits than the gaps of the tables need."""
+    asked = clarabel.DefaultSettings()
+    asked.verbose = asked.presolve_enable = False
+    if tuned:
+        asked.equilibrate_enable = asked.iterative_refinement_enable = False
+        asked.tol_gap_abs = asked.tol_gap_rel = asked.tol_feas = 1e-7
+        asked.max_step_fraction = 0.995
+    return asked
+
+
 class Direct:
     """(c) and (d) clarabel without a modelling layer: sparse matrices prepared beforehand, only their data updated.
 
@@ -141,18 +158,13 @@ class Direct:
         self._terms, self._webs = like.influence.shape
         prepared = self.prepare(like)
         costs = self.first_cost, prepared.mass
-        plane, settings = clarabel.SecondOrderConeT(3), clarabel.DefaultSettings()
-        settings.verbose = settings.presolve_enable = False
-        if tuned:
-            settings.equilibrate_enable = settings.iterative_refinement_enable = False
-            settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = 1e-7
-            settings.max_step_fraction = 0.995
+        plane = clarabel.SecondOrderConeT(3)
         cones = (
             [plane] * (self._webs + self._terms),
             [clarabel.NonnegativeConeT(self._webs + 1), *[plane] * (self._webs + self._terms)],
         )
         self._solvers = [
-            clarabel.DefaultSolver(sparse.csc_matrix((cost.size, cost.size)), cost, matrix, side, cone, settings)
+            clarabel.DefaultSolver(sparse.csc_matrix((cost.size, cost.size)), cost, matrix, side, cone, settings(tuned))
             for cost, matrix, side, cone in zip(costs, self.matrices(like), prepared.sides, cones, strict=True)
         ]
 

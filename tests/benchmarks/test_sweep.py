@@ -4,7 +4,7 @@ import psutil
 import pytest
 
 from schemas.sweep.request import SweepRequest
-from tests.benchmarks import sweep_generated, sweep_memory, sweep_outputs, sweep_scaling, sweep_time
+from tests.benchmarks import sweep_generated, sweep_limits, sweep_memory, sweep_outputs, sweep_scaling, sweep_time
 from tests.benchmarks.operations import Counted, operations_per_program
 from tests.benchmarks.sweep import OURS, at_limits, compare
 from tests.benchmarks.sweep_case import programs, sweep
@@ -41,6 +41,17 @@ def test_the_methods_find_the_same_mass(request_: SweepRequest) -> None:
         masses = [float(program.statement.mass(program.unbalance(stages.lightest))) for stages in found]
         assert masses == pytest.approx([masses[0]] * len(masses), rel=1e-5)
         assert max(gaps(program, stages).objective for stages in found) <= 1e-6
+
+
+@pytest.mark.parametrize("case", sweep_limits.CASES)
+def test_every_method_certifies_programs_with_limits(case: str) -> None:
+    # independent: what other solvers find is held against our bounds, with multipliers of sectors, budget and ceiling
+    rates, _ = sweep_limits.compare(sweep_limits.limited(40, case), (4, 6), turns=1)
+    assert len(rates) == (4 if sweep_generated.available() else 3)
+    for rate in rates.values():
+        assert rate.worst.objective <= 1e-6
+        assert rate.worst.mass <= 1e-3
+        assert rate.per_second > 0
 
 
 def test_the_parts_of_the_time(request_: SweepRequest) -> None:
