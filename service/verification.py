@@ -30,7 +30,17 @@ def verify(asked: VerifyRequest) -> VerifyAnswer:
 _FILES = [
     *(f"verify_{part}" for part in ("numbers", "leaves", "plates", "machine", "claims", "cranks", "weights", "shafts")),
     *(f"verify_{part}" for part in ("form", "orders", "quality", "answer", "program", "prices", "alternatives")),
-    *(f"verify_{part}" for part in ("first", "spans", "curves", "harmonics", "circle", "loads", "bearings", "shaking")),
+    *(f"verify_{part}" for part in ("first", "spans", "harmonics", "gas", "pistons", "pressed")),
+    *(
+        f"verify_{part}"
+        for part in (
+            "curves",
+            "loads",
+            "circle",
+            "bearings",
+            "shaking",
+        )
+    ),
     *(
         f"verify_{part}"
         for part in (
