@@ -9,8 +9,8 @@ from verify_answer import Fitted
 from verify_circle import Circle, smallest
 from verify_claims import Claim, Claims, same
 from verify_curves import Turn
-from verify_harmonics import Curve, Peak
-from verify_loads import Loads
+from verify_harmonics import Peak
+from verify_loads import Loads, Periodic
 from verify_machine import NAMES, Machine
 from verify_numbers import ONE, NotCovered, Place, real
 
@@ -27,7 +27,7 @@ def within(claim: str, place: Place, low: float, high: float, off: float) -> Cla
     return claim, place, real(min(value - low, high - value) + off), real(max(abs(low), abs(high)) + off)
 
 
-def peak_of(curve: Curve, place: Place, enough: float = 0.0) -> Peak:
+def peak_of(curve: Periodic, place: Place, enough: float = 0.0) -> Peak:
     """The largest length of a curve, where it can be enclosed."""
     found = curve.peak(enough)
     if found is None:
@@ -35,7 +35,7 @@ def peak_of(curve: Curve, place: Place, enough: float = 0.0) -> Peak:
     return found
 
 
-def largest(claim: str, place: Place, curve: Curve, unit: str, size: float = 0.0) -> Claims:
+def largest(claim: str, place: Place, curve: Periodic, unit: str, size: float = 0.0) -> Claims:
     """A peak and its bracket; returns the enclosure of the peak.
 
     ``size``: of what is added up to the curve, where that may cancel.
@@ -51,10 +51,10 @@ def largest(claim: str, place: Place, curve: Curve, unit: str, size: float = 0.0
     return found
 
 
-def where(claim: str, place: Place, loads: Loads, curve: Curve, peak: Peak) -> Claim:
+def where(claim: str, place: Place, loads: Loads, curve: Periodic, peak: Peak) -> Claim:
     """The shaft angle of a peak: the curve has it there."""
     degrees = place.double()
-    there = curve.length(turned(loads, degrees)) if 0 <= degrees <= 360 else 0.0
+    there = curve.length(turned(loads, degrees)) if 0 <= degrees <= 360 * loads.turns else 0.0
     return within(claim, place, degrees, degrees, there - peak.low * (1 - PEAK) + SAMPLE * curve.size)
 
 
@@ -63,11 +63,12 @@ def turned(loads: Loads, degrees: float) -> float:
     return radians(degrees) if loads.turn.sense is ONE else -radians(degrees)
 
 
-def sampled(claim: str, angles: Place, request: Place) -> Claims:
-    """Shaft angles of the samples; returns them [degrees]."""
+def sampled(claim: str, angles: Place, request: Place, turns: int = 1) -> Claims:
+    """Shaft angles of the samples, over one revolution or as many as gas takes; returns them [degrees]."""
     step = (request / "angles" / "step_deg").double(1.0, least=1e-3)
     places = list(angles)
-    yield claim, angles, ONE if len(places) == round(360 / step) else -ONE, ONE
+    count = round(360 / step)
+    yield claim, angles, ONE if len(places) in (count, count * turns) else -ONE, ONE
     for n, one in enumerate(places):
         yield within(claim, one, n * step, n * step, 1e-9 * (n + 1) * step)
     return [one.double() for one in places]
@@ -89,7 +90,7 @@ def curves(request: Place, machine: Machine, answer: Place, fitted: Optional[Fit
 
 def roll(request: Place, loads: Loads, shown: Place, fitted: Optional[Fitted]) -> Claims:
     """The moment about the crankshaft, which balance shafts alone change."""
-    angles = yield from sampled("roll", shown / "angle_deg", request)
+    angles = yield from sampled("roll", shown / "angle_deg", request, loads.turns)
     sides = [("before", loads.curve("roll"))]
     if fitted is None:
         yield "roll", shown / "after", -ONE if shown / "after" else ONE, ONE
@@ -109,7 +110,7 @@ def roll(request: Place, loads: Loads, shown: Place, fitted: Optional[Fitted]) -
 def main_bearings(request: Place, loads: Loads, answer: Place, fitted: Optional[Fitted]) -> Claims:
     """Without and with counterweights."""
     shown, asked = answer / "main_bearings", {(one / "name").text(): one for one in request / "machine" / "bearings"}
-    angles = yield from sampled("main_bearings", shown / "angle_deg", request)
+    angles = yield from sampled("main_bearings", shown / "angle_deg", request, loads.turns)
     shaft = (request / "fidelity" / "shaft").text(default="simple_spans")
     yield same("main_bearings", shown / "shaft", shaft)
     rows = list(shown / "bearings")
@@ -135,7 +136,7 @@ def main_bearings(request: Place, loads: Loads, answer: Place, fitted: Optional[
     yield from _bending(loads, shown / "bending", fitted)
 
 
-def circle_of(curve: Curve, place: Place, enough: float = 0.0) -> Circle:
+def circle_of(curve: Periodic, place: Place, enough: float = 0.0) -> Circle:
     """The smallest circle around a curve, where it can be enclosed."""
     found = smallest(curve, enough)
     if found is None:
@@ -143,7 +144,7 @@ def circle_of(curve: Curve, place: Place, enough: float = 0.0) -> Circle:
     return found
 
 
-def _load(loads: Loads, own: Place, curve: Curve, place: Place, circle: Circle, angles: Sequence[float]) -> Claims:
+def _load(loads: Loads, own: Place, curve: Periodic, place: Place, circle: Circle, angles: Sequence[float]) -> Claims:
     """Of one bearing."""
     size = max(curve.size, loads.size_of("bearing"))
     off = SAMPLE * size

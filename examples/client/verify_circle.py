@@ -10,7 +10,7 @@ from __future__ import annotations
 from itertools import combinations
 from typing import List, NamedTuple, Optional, Sequence, Tuple
 
-from verify_harmonics import Curve
+from verify_loads import Periodic
 
 ROUNDS = 60
 WIDE = 2e-8  # share of the radius by which it is enclosed
@@ -24,17 +24,18 @@ class Circle(NamedTuple):
     middle: complex
 
 
-def smallest(curve: Curve, enough: float = 0.0) -> Optional[Circle]:
+def smallest(curve: Periodic, enough: float = 0.0) -> Optional[Circle]:
     """Around a curve; of no interest where it is no larger than ``enough``. None where that takes too long."""
-    size = curve.moved(-curve.harmonics.get(0, 0j)).size
-    middle, low, support = curve.harmonics.get(0, 0j), 0.0, [curve.at(0.0)]
+    size = curve.moved(-curve.mean).size
+    middle, low, support = curve.mean, 0.0, curve.sides(0.0)[:1]
     for _ in range(ROUNDS):
         peak = curve.moved(-middle).peak(enough)
         if peak is None:
             return None
         if peak.high <= max(low * (1 + WIDE), enough) + 1e-12 * size:
             return Circle(low, peak.high, middle)
-        low, middle, support = around([*support, curve.at(peak.angle)])
+        farthest = max(curve.sides(peak.angle), key=lambda one: abs(one - middle))
+        low, middle, support = around([*support, farthest])
     return None
 
 

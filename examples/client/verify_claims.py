@@ -12,6 +12,7 @@ from verify_numbers import (
     NotCovered,
     Number,
     Place,
+    Unreadable,
     pointer,
     read,
     real,
@@ -89,7 +90,9 @@ def covered(claims: Iterator[Claim]) -> Iterator[Claim]:
     except NotCovered as found:
         (place,) = found.args
         yield "request", place, None, ONE
-    except ArithmeticError:
+    except Unreadable:
+        raise
+    except (ArithmeticError, ValueError):
         # beyond what doubles hold nothing is told
         yield "request", Place({}, "request"), None, ONE
 

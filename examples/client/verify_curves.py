@@ -3,24 +3,13 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import isfinite, isqrt
-from typing import Dict, Iterator, NamedTuple, Tuple
+from math import isfinite, isqrt, radians
+from typing import Dict, List, Tuple
 
-from verify_machine import ON_FRAME, Machine, over, row_masses
+from verify_machine import ON_FRAME, Machine, over
 from verify_numbers import BITS, ONE, SPECK, ZERO, J, NotCovered, Number, Place, direction, real
+from verify_pistons import Pistons, rows_of
 from verify_spans import Spans
-
-
-class Row(NamedTuple):
-    """A piston on its crank."""
-
-    product: Number  # reciprocating mass times crank radius, kg m
-    radius: Number  # of the crank, m
-    crank: Number
-    axis: Number
-    ratio: Number  # crank radius over rod length
-    position: Number
-    place: Place  # in the request
 
 
 class Turn:
@@ -32,10 +21,11 @@ class Turn:
         fidelity = request / "fidelity"
         if (fidelity / "kinematics").text(default="exact") != "exact":
             raise NotCovered(fidelity / "kinematics")
-        if loads and asked / "friction":
-            raise NotCovered(asked / "friction")
         continuous = (fidelity / "shaft").text("simple_spans", "continuous", default="simple_spans") == "continuous"
-        self.rows = list(_rows(asked, loads))
+        self.rows = list(rows_of(asked))
+        gas = any(row.place / "cylinder" or list(row.place / "cylinders") for row in self.rows)
+        #: what acts on the pistons beside inertia, where loads count
+        self.pistons = Pistons(asked, machine, self.rows) if loads and (gas or asked / "friction") else None
         self.turning = [mass for mass in machine.masses if mass.counter is ZERO]
         self.place = asked / "bearings"
         bearings = sorted((Fraction((one / "position_m").double()), (one / "name").text()) for one in self.place)
@@ -51,7 +41,8 @@ class Turn:
         machine, on_shaft = self.machine, response.partition(":")[0] in ("bearing", "bending")
         turn = self.turned(degrees)
         found = ZERO
-        for row in self.rows:
+        pushes = self._pushes(degrees) if on_shaft or response == "roll" else []
+        for k, row in enumerate(self.rows):
             own = row.crank * row.axis.conjugate() * turn
             cosine, sine = own.parts()  # the latter times the sense of rotation
             upright = ONE - row.ratio * row.ratio * sine * sine
@@ -61,17 +52,33 @@ class Turn:
             outward = cosine + over(row.ratio * (cosine * cosine - sine * sine), leaning, self.place)
             outward = outward + over(row.ratio * both * both, upright * leaning, self.place)
             tangent = over(row.ratio * sine, leaning, self.place)
+            pull = row.product * machine.wide * outward
+            pull = pull + pushes[k] if pushes else pull
             if response == "roll":
-                found = found + row.product * row.radius * machine.wide * outward * (sine + cosine * tangent)
+                found = found + pull * row.radius * (sine + cosine * tangent)
                 continue
-            force = row.product * machine.wide * outward * row.axis * turn.conjugate()
+            force = pull * row.axis * turn.conjugate()
             if on_shaft:
                 force = force * (ONE - J * tangent)
             found = found + force * self.factor(response, row.position)
         for mass in (*self.turning, *machine.there) if response != "roll" else ():
             size = mass.product * machine.wide * self.factor(response, mass.position)
             found = found + (mass.co + machine.blur) * size
+        if response == "roll" and self.pistons is not None:
+            # what machine and driver take up all the time does not shake
+            mean, off = self.pistons.mean_torque
+            found = found - self._over_square(mean, off) * self.sense
         return found * machine.square
+
+    def _pushes(self, degrees: float) -> List[Number]:
+        """Gas and friction on every piston over omega^2, in doubles."""
+        if self.pistons is None:
+            return []
+        return [self._over_square(force, off) for force, off in self.pistons.pushes(radians(degrees))]
+
+    def _over_square(self, value: float, off: float) -> Number:
+        found = Number(real(value - off).low, real(value + off).high)
+        return over(found, self.machine.square, self.place)
 
     def turned(self, degrees: float) -> Number:
         """A unit vector that turns with the shaft."""
@@ -112,21 +119,6 @@ class Turn:
             return isfinite(float(name))
         except ValueError:
             return False
-
-
-def _rows(asked: Place, loads: bool) -> Iterator[Row]:
-    for throw in asked / "throws":
-        radius, crank = (throw / "crank_radius_m").number(), direction((throw / "crank_angle_deg").double())
-        for row in throw / "rows":
-            rod = row / "connecting_rod"
-            for gas in ("cylinder", "cylinders"):
-                if loads and row / gas:
-                    raise NotCovered(row / gas)
-            weight = row_masses(row)[0]
-            ratio = over(radius, (rod / "length_m").number(), rod) if rod / "length_m" else ZERO
-            where = (throw / "position_m").number() + (row / "offset_m").number(0.0)
-            axis = direction((row / "axis_deg").double())
-            yield Row(weight * radius, radius, crank, axis, ratio, where, row)
 
 
 def root(number: Number) -> Number:

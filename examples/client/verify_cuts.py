@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import cached_property
-from math import sqrt
 from typing import Dict, List, NamedTuple, Optional, Sequence, Tuple
 
 from verify_answer import Fitted
@@ -106,12 +105,12 @@ class Part:
 
     def _mean(self, response: str, row: str, y: Number) -> Term:
         """Of a root mean square: the length of the mean, as the shaft sees it, beside all that moves around it."""
-        weight, harmonics = self.weights["bearing"] * ABOUT_ONE, self.loads.curve(response).harmonics
+        weight, curve = self.weights["bearing"] * ABOUT_ONE, self.loads.curve(response)
         off = SAMPLE * self.loads.size_of(response)
         around = Number(real(-off).low, real(off).high)
-        mean = harmonics.get(0, 0j)
+        mean = curve.mean
         start = real(mean.real) + around + J * (real(mean.imag) + around) + self._fixed(response)
-        still = real(sqrt(sum(abs(each) ** 2 for order, each in harmonics.items() if order))) + around
+        still = real(curve.moved(-mean).rms) + around
         factors = [*self._factors(response, weight), *(ZERO for _ in self.geared)]
         return Term(row, self._group("bearing"), start * weight, factors, y, ZERO, False, response, still * weight)
 

@@ -59,6 +59,10 @@ class Curve:
             value = value * unit + each
         return value * unit**self.first
 
+    def sides(self, angle: float) -> List[complex]:
+        """The same of a curve that may jump."""
+        return [self.at(angle)]
+
     def length(self, angle: float) -> float:
         """Its length there."""
         unit, value = complex(cos(angle), sin(angle)), 0j
@@ -75,6 +79,11 @@ class Curve:
     def rms(self) -> float:
         """Root of the mean square (Parseval)."""
         return sqrt(sum(abs(each) ** 2 for each in self.harmonics.values()))
+
+    @property
+    def mean(self) -> complex:
+        """Over a revolution."""
+        return self.harmonics.get(0, 0j)
 
     def moved(self, by: complex, order: int = 0) -> Curve:
         """The curve with a vector that turns ``order`` times."""

@@ -9,15 +9,21 @@ order n - 1. Roll is a number: r F (sin phi + cos phi tan b) of each piston, wit
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Dict, NamedTuple, Sequence, Tuple
+from typing import Dict, NamedTuple, Sequence, Tuple, Union
 
-from verify_curves import Row, Turn
+from verify_curves import Turn
 from verify_harmonics import Curve, Harmonics, rod, total
 from verify_machine import ON_FRAME, Machine, Mass
 from verify_numbers import NotCovered, Number, Place
+from verify_pistons import Row
+from verify_pressed import Pressed
 
 #: planes of the shaft times harmonics that are looked at
 MOST = 3_000
+#: planes of the shaft times rows likewise, where gas or friction acts
+PRESSED = 200
+
+Periodic = Union[Curve, Pressed]
 
 
 class Piston(NamedTuple):
@@ -46,7 +52,12 @@ class Loads:
         places += [web.position for web in machine.webs]
         #: planes of loads, webs and bearings, in which the bending moment has its corners [m]
         self.planes = sorted({*(one.middle().real for one in places), *turn.places})
-        self._curves: Dict[str, Curve] = {}
+        self._curves: Dict[str, Periodic] = {}
+
+    @property
+    def turns(self) -> int:
+        """Revolutions after which all repeats."""
+        return 1 if self.turn.pistons is None else self.turn.pistons.turns
 
     def size_of(self, response: str) -> float:
         """What a response is small beside where it cancels: the sum of all forces, times the length of the machine."""
@@ -58,22 +69,34 @@ class Loads:
     @cached_property
     def _forces(self) -> float:
         rows = sum(abs(each) for one in self.pistons for each in one.shaft.values())
+        rows += sum(one.most + one.friction for one in self.turn.pistons.rows) if self.turn.pistons else 0.0
         return rows + sum(abs(one.product.middle().real) * self.square for one in self.turn.turning)
 
-    def curve(self, response: str) -> Curve:
+    def curve(self, response: str) -> Periodic:
         """Of a response by its name, without counterweights."""
         if response not in self._curves:
             self._curves[response] = self._curve(response)
         return self._curves[response]
 
-    def _curve(self, response: str) -> Curve:
+    def _curve(self, response: str) -> Periodic:
         orders = max((len(one.shaft) for one in self.pistons), default=1)
         if response.startswith("bending") and len(self.planes) * orders > MOST:
             raise NotCovered(self.turn.place)
+        pistons, on_frame = self.turn.pistons, response in ON_FRAME
+        if pistons is not None and response == "roll":
+            # what machine and driver take up all the time does not shake
+            around = Pressed(
+                pistons, "tangential", [(k, pistons.sense * one.radius) for k, one in enumerate(pistons.rows)]
+            )
+            return around.moved(-around.mean)
+        if pistons is not None and not on_frame:
+            if response.startswith("bending") and len(self.planes) * len(pistons.rows) > PRESSED:
+                raise NotCovered(self.turn.place)
+            weights = [(k, self.factor(response, row.position) * row.axis) for k, row in enumerate(pistons.rows)]
+            return Pressed(pistons, "shaft", weights, {0: self.added(response, self.turn.turning)})
         if response == "roll":
-            around = total([(1.0, one.roll) for one in self.pistons]).harmonics
-            return Curve({k: each for k, each in around.items() if k}, scalar=True)
-        on_frame = response in ON_FRAME
+            rolling = total([(1.0, one.roll) for one in self.pistons]).harmonics
+            return Curve({k: each for k, each in rolling.items() if k}, scalar=True)
         rows = [(self.factor(response, one.position), one.frame if on_frame else one.shaft) for one in self.pistons]
         return total([*rows, (1.0, {0: self.added(response, self.turn.turning)})])
 
@@ -84,12 +107,18 @@ class Loads:
         vectors = (self.factor(response, one.position) * (one.product * one.co).middle() for one in weights)
         return sum(vectors, 0j) * self.square
 
-    def with_weights(self, response: str, weights: Sequence[Mass], on_shafts: Sequence[Tuple[int, Mass]] = ()) -> Curve:
+    def with_weights(
+        self, response: str, weights: Sequence[Mass], on_shafts: Sequence[Tuple[int, Mass]] = ()
+    ) -> Periodic:
         """The curve with weights, those on balance shafts by the sizes of their speed ratios."""
         found = self.curve(response).moved(self.added(response, weights))
         for lever, (ratio, one) in zip(self.levers, on_shafts):
             size = ratio**2 * self.square * one.product.middle().real
-            if response == "roll":
+            if isinstance(found, Pressed):
+                lever = -1j * lever.conjugate() * size
+                for sense, vector in ((1, one.co), (-1, one.counter)) if response == "roll" else ():
+                    found = found.moved(lever * vector.middle(), sense * ratio)
+            elif response == "roll":
                 around = Curve({}, scalar=True)
                 for sense, vector in ((1, one.co), (-1, one.counter)):
                     turning = Curve({sense * ratio: -1j * lever.conjugate() * size * vector.middle()}, scalar=True)

@@ -42,10 +42,10 @@ class Misplaced(Value):
         corners = turned_outline(vectors) if self.by_angle else [SHARE * one for one in zonotope(vectors)]
         for corner in corners:
             found.append(Range(*peak_of(curve.moved(corner), self.part.goal, max(most(found).low, enough))[:2]))
-        still = curve.moved(-curve.harmonics.get(0, 0j)).size
+        still = curve.moved(-curve.mean).size
         if still <= SAMPLE * loads.size_of(name):
             # what turns with the shaft alone has one length, at worst no more than at a corner
-            least = self._at_worst(curve.harmonics.get(0, 0j), vectors)
+            least = self._at_worst(curve.mean, vectors)
             return Range(least, max(least, most(found).high))
         return most(found)
 
@@ -76,7 +76,7 @@ class Misplaced(Value):
     def _mean(self, name: str, weight: float) -> Range:
         loads = self.part.loads
         curve = loads.with_weights(name, self.fitted.turning)
-        still, vectors = curve.harmonics.get(0, 0j), [loads.added(name, [one]) for one in self.free]
+        still, vectors = curve.mean, [loads.added(name, [one]) for one in self.free]
         value = hypot(curve.moved(-still).rms, self._at_worst(still, vectors)) * weight
         return Range(value, value)
 

@@ -142,7 +142,9 @@ def listed_prices(
     by_name = {(one.limit, one.web): one for one in stated}
     names = [((one / "limit").text(), (one / "web").text() if one / "web" else "") for one in place]
     least = WORTH * rest * (1 + 1e-6) + 1e-200
-    counts = {key: one.touched or (one.price * one.size > least and not one.edge) for key, one in by_name.items()}
+    # of a limit beyond any need rounding alone is worth a lot
+    worth = {key: (one.price - dust) * one.size for key, one in by_name.items()}
+    counts = {key: one.touched or (worth[key] > least and not one.edge) for key, one in by_name.items()}
     must = {key for key, one in counts.items() if one}
     right = len({*names}) == len(names) and must <= {*names} <= {*by_name}
     yield "shadow_prices", place, ONE if right else -ONE, ONE
@@ -154,12 +156,11 @@ def listed_prices(
         exact = by_name[key]
         yield "shadow_prices", one / "unit", ONE if (one / "unit").value == f"{unit}/{exact.unit}" else -ONE, ONE
         value, said = exact.price / weight, (one / "value").double(least=0)
-        worth = exact.price * exact.size
+        whole = exact.price * exact.size
         # a whole limit that is worth less than the gap has no price that can be told
-        near_it = abs(said - value) <= 1e-6 * value + dust / weight + 1e-9 * rest / weight / max(exact.size, 1e-300) * (
-            exact.size > 0
-        )
-        held = near_it if said > 0 else exact.size > 0 and worth <= gap * (1 + 1e-3) + 1e-12 * rest
+        by_rounding = 1e-9 * rest / weight / exact.size if exact.size > 1e-300 else 0.0
+        near_it = abs(said - value) <= 1e-6 * value + dust / weight + by_rounding
+        held = near_it if said > 0 else exact.size > 0 and whole <= gap * (1 + 1e-3) + 1e-12 * rest
         held = held or (said == 0 and (exact.edge or value <= 1e-12 * (rest / weight) + dust / weight))
         yield "shadow_prices", one / "value", ONE if held else -ONE, ONE
 

@@ -9,6 +9,7 @@ from verify_answer import Fitted
 from verify_bearings import SAMPLE, peak_of
 from verify_cases import Scatter, grown, peak
 from verify_cuts import Part
+from verify_harmonics import Curve
 from verify_machine import ON_FRAME, Machine
 from verify_numbers import ZERO, Number
 from verify_program import phasors
@@ -60,7 +61,7 @@ class Value:
     def response(self, name: str, enough: float = 0.0, axis: str = "") -> Range:
         """The peak of a response over the revolution, or of a component; of no interest up to ``enough``."""
         curve = self.part.loads.with_weights(name, self.fitted.turning, self.fitted.on_shafts)
-        curve = curve.along(axis) if axis else curve
+        curve = curve.along(axis) if axis and isinstance(curve, Curve) else curve
         off = self._off(name)
         found = peak_of(curve, self.part.goal, max(enough - off, 0.0))
         rounding = SAMPLE * self.part.loads.size_of(name)
@@ -138,7 +139,7 @@ class Value:
     def _mean(self, name: str, weight: float) -> Range:
         """Of a root mean square: what stands still grows by what is off."""
         curve = self.part.loads.with_weights(name, self.fitted.turning)
-        still = curve.harmonics.get(0, 0j)
+        still = curve.mean
         value = hypot(curve.moved(-still).rms, abs(still) + self._off(name)) * weight
         rounding = 10 * SAMPLE * curve.size * weight
         return Range(value - rounding, value + rounding)

@@ -1,14 +1,17 @@
-"""How many small faults in the code its tests notice: ``python -m tests.mutation --count 300``; hours, for the night.
+"""How many small faults in the code its tests notice: ``nice -n 19 python -m tests.mutation --room guard --count 25``.
 
-Each mutant is written into a copy of the tree, and the tests of its room run there until the first fails. What no test
-fails for is listed: a test is missing, or the fault changes nothing (then it is said here, in EQUAL, why).
+The tests of a room run once, and it is noted which lines each of them runs (``tests.mutation.cover``). Each mutant is
+written into a copy of the tree. Then the tests that run its line do so again, the shortest first, until one fails. What
+no test fails for is listed: a test is missing, or the fault changes nothing (then it is said here, in EQUAL, why).
 """
 
 import argparse
+import contextlib
+import json
 import os
 import random
 import shutil
-import subprocess
+import signal
 import sys
 import tempfile
 from collections import Counter
@@ -20,7 +23,13 @@ from tests.mutation.mutants import Mutant
 
 ROOT = Path(__file__).parents[2]
 _COPIED = ("schemas", "optimizer", "service", "tests", "examples", "docs", "deploy")
-_WITHIN_S = 1800.0
+#: seconds of the tests of a room, of those of a mutant, and of the tests that are chosen for it
+_ROOM_S, _MUTANT_S, _CHOSEN_S = 3600.0, 240.0, 20.0
+#: tests that are chosen for a mutant at most
+_CHOSEN = 60
+#: loaded once for all mutants
+_HEAVY = ("numpy", "numba", "scipy.sparse", "scipy.special", "clarabel", "pydantic", "fastapi", "hypothesis", "pytest")
+_OWN = ("schemas", "optimizer", "service", "tests")
 
 
 class Room(NamedTuple):
@@ -32,9 +41,7 @@ class Room(NamedTuple):
 
 
 ROOMS = {
-    "mechanics": Room(
-        "optimizer/mechanics/*.py", ("tests/mechanics", "tests/outputs", "tests/examples", "tests/reference"), 0.9
-    ),
+    "mechanics": Room("optimizer/mechanics/*.py", ("tests/mechanics", "tests/outputs"), 0.9),
     "program": Room("optimizer/program/**/*.py", ("tests/program", "tests/optimize/test_optimize.py"), 0.9),
     "formulation": Room("optimizer/formulation/*.py", ("tests/optimize",), 0.9),
     "verify": Room("examples/client/verify*.py", ("tests/verification",), 0.9),
@@ -53,6 +60,14 @@ ROOMS = {
 EQUAL: dict[str, str] = {}
 
 
+class Trial(NamedTuple):
+    """A test, its seconds, and the lines that it runs of each file."""
+
+    name: str
+    seconds: float
+    lines: dict[str, frozenset[int]]
+
+
 def main() -> int:
     """Print survivors as they are found, and a line for each room."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -60,19 +75,21 @@ def main() -> int:
     parser.add_argument("--room", choices=ROOMS, action="append", help="all if not given")
     parser.add_argument("--seed", type=int, default=20261125)
     arguments = parser.parse_args()
+    for name in _HEAVY:
+        __import__(name)
     short = False
     with tempfile.TemporaryDirectory(prefix="counterweight-mutants-") as folder:
         copy = copied(Path(folder))
         for name in arguments.room or ROOMS:
             room = ROOMS[name]
-            first = sample(room, 1, arguments.seed)[0][0]
-            if noticed(copy, first, (ROOT / first).read_text(), room.tests):
+            tests = covering(copy, room)
+            if tests is None:
                 print(f"{name:<12} its tests fail without a fault: nothing can be said", flush=True)
                 short = True
                 continue
             outcomes = Counter[str]()
             for file, mutant in sample(room, arguments.count, arguments.seed):
-                outcomes[_outcome(copy, file, mutant, room.tests)] += 1
+                outcomes[_outcome(copy, file, mutant, tests)] += 1
                 # a run that is ended has said what it knows
                 print(f"{name:<12} {dict(outcomes)}", file=sys.stderr, flush=True)
             share = outcomes["killed"] / max(1, outcomes.total())
@@ -99,32 +116,84 @@ def copied(folder: Path) -> Path:
     return folder
 
 
-def noticed(copy: Path, file: Path, text: str, tests: tuple[str, ...]) -> bool:
+def covering(copy: Path, room: Room) -> list[Trial] | None:
+    """The tests of a room with the lines that they run, the shortest first; None where one fails without a fault."""
+    found = copy / "covered.json"
+    found.unlink(missing_ok=True)
+    environment = {"COVERED_FILES": room.files, "COVERED_TO": str(found)}
+    if ran(copy, ["-p", "tests.mutation.cover", *room.tests], environment, _ROOM_S) != 0:
+        return None
+    tests = [
+        Trial(name, seconds, {file: frozenset(each) for file, each in lines.items()})
+        for name, (seconds, lines) in json.loads(found.read_text()).items()
+    ]
+    return sorted(tests, key=lambda one: one.seconds)
+
+
+def chosen(tests: list[Trial], file: Path, mutant: Mutant) -> list[str]:
+    """Tests that run the lines of a mutant, the shortest first, as long as they last; none where no test does."""
+    found, seconds = [], 0.0
+    for one in tests:
+        if not one.lines.get(str(file), frozenset()).isdisjoint(mutant.lines):
+            seconds += one.seconds
+            if found and (seconds > _CHOSEN_S or len(found) == _CHOSEN):
+                break
+            found.append(one.name)
+    return found
+
+
+def noticed(copy: Path, file: Path, text: str, tests: list[str]) -> bool:
     """Whether a test fails, or does not end, when a file has another text."""
     original = (copy / file).read_text()
-    tests = (*own_tests(copy, file, tests), *tests)
     (copy / file).write_text(text)
-    command = [sys.executable, "-m", "pytest", "-x", "-q", "-m", "not nightly", "-p", "no:cacheprovider", *tests]
-    environment = {**os.environ, "PYTHONPATH": str(copy), "CHECKED_ANSWERS": "every"}
     try:
-        ran = subprocess.run(command, cwd=copy, env=environment, capture_output=True, timeout=_WITHIN_S, check=False)
-    except subprocess.TimeoutExpired:
-        return True
+        return bool(tests) and ran(copy, tests, {}, _MUTANT_S) != 0
     finally:
         (copy / file).write_text(original)
-    return ran.returncode != 0
 
 
-def own_tests(copy: Path, file: Path, tests: tuple[str, ...]) -> tuple[str, ...]:
-    """Tests that bear the name of a file, which are the first to notice a fault in it: most mutants end there."""
-    found = (path for one in tests for path in sorted((copy / one).rglob(f"test_{file.stem}.py")))
-    return tuple(str(path.relative_to(copy)) for path in found)
+def ran(copy: Path, arguments: list[str], environment: dict[str, str], seconds: float) -> int:
+    """Exit code of pytest in a process of its own, which has loaded what is heavy; not 0 where it does not end."""
+    sys.stdout.flush()
+    child = os.fork()
+    if child == 0:
+        os.setsid()
+        signal.signal(signal.SIGALRM, signal.SIG_DFL)
+        signal.alarm(int(seconds))
+        os._exit(_pytest(copy, arguments, environment))
+    _, status = os.waitpid(child, 0)
+    with contextlib.suppress(ProcessLookupError):
+        # what a test has left behind
+        os.killpg(child, signal.SIGKILL)
+    return os.waitstatus_to_exitcode(status)
 
 
-def _outcome(copy: Path, file: Path, mutant: Mutant, tests: tuple[str, ...]) -> str:
-    if noticed(copy, file, mutant.text, tests):
+def _pytest(copy: Path, arguments: list[str], environment: dict[str, str]) -> int:
+    """Of the child: nothing of the tree itself is loaded before."""
+    try:
+        os.environ.update(environment, PYTHONPATH=str(copy), PYTHONDONTWRITEBYTECODE="1", CHECKED_ANSWERS="every")
+        os.chdir(copy)
+        sys.dont_write_bytecode = True
+        sys.path[:] = [str(copy), *(one for one in sys.path if one not in ("", str(ROOT)))]
+        for name in [one for one in sys.modules if one.partition(".")[0] in _OWN]:
+            del sys.modules[name]
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, 1)
+        os.dup2(nowhere, 2)
+        import pytest
+
+        options = ["-x", "-q", "-n", "0", "-m", "not nightly", "-p", "no:cacheprovider", "-W", "ignore"]
+        return int(pytest.main([*options, *arguments]))
+    except BaseException:
+        return 99
+
+
+def _outcome(copy: Path, file: Path, mutant: Mutant, tests: list[Trial]) -> str:
+    every = chosen(tests, file, mutant)
+    if noticed(copy, file, mutant.text, every):
         return "killed"
-    print(f"    survives: {file}:{mutant.line}: {mutant.fault}", flush=True)
+    why = f"{len(every)} tests run it" if every else "no test runs it"
+    print(f"    survives: {file}:{mutant.line}: {mutant.fault} ({why})", flush=True)
     return "survived"
 
 

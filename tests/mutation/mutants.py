@@ -45,11 +45,12 @@ _TAKEN_FOR = {
 
 
 class Mutant(NamedTuple):
-    """A file with one fault: where, what was done, and the text."""
+    """A file with one fault: where, what was done, the text, and the lines of the statement."""
 
     line: int
     fault: str
     text: str
+    lines: frozenset[int]
 
 
 def count(source: str) -> int:
@@ -61,8 +62,20 @@ def mutant(source: str, number: int) -> Mutant:
     """One mutant; what is annotated, documented or said to a reader is no arithmetic and stays."""
     tree = ast.parse(source)
     fault = next(islice(_faults(tree), number, None))
-    line = getattr(fault.node, "lineno", 0)
-    return Mutant(line, fault(), ast.unparse(ast.fix_missing_locations(tree)))
+    line, lines = getattr(fault.node, "lineno", 0), _statement(tree, fault.node)
+    return Mutant(line, fault(), ast.unparse(ast.fix_missing_locations(tree)), lines)
+
+
+def _statement(tree: ast.Module, node: ast.AST) -> frozenset[int]:
+    """Lines of the innermost statement around a node; of one with a body, its head."""
+    line = getattr(node, "lineno", 0)
+    around = [
+        one for one in ast.walk(tree) if isinstance(one, ast.stmt) and one.lineno <= line <= (one.end_lineno or 0)
+    ]
+    inner = max(around, key=lambda one: one.lineno)
+    body = getattr(inner, "body", None)
+    end = body[0].lineno - 1 if body else inner.end_lineno or line
+    return frozenset(range(inner.lineno, max(end, line) + 1))
 
 
 def _faults(tree: ast.Module) -> Iterator["_Fault"]:

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.mutation.__main__ import ROOMS, ROOT, noticed, own_tests, sample
-from tests.mutation.mutants import count, mutant
+from tests.mutation.__main__ import ROOMS, ROOT, Room, Trial, chosen, covering, noticed, sample
+from tests.mutation.mutants import Mutant, count, mutant
 
 SOURCE = """
 def largest(values: list[float], low: float = 2.0) -> float:
@@ -34,18 +34,29 @@ def test_every_room_has_mutants_and_tests(name: str) -> None:
     assert all((ROOT / tests).exists() for tests in room.tests)
 
 
+_LINES = frozenset({1})
+
+
+def test_tests_that_run_a_line_are_chosen_the_shortest_first() -> None:
+    file, fault = Path("coded.py"), Mutant(1, "", "", _LINES)
+    tests = [Trial("short", 0.1, {"coded.py": _LINES}), Trial("elsewhere", 0.2, {"coded.py": frozenset({9})})]
+    assert chosen([*tests, Trial("long", 50.0, {"coded.py": _LINES})], file, fault) == ["short"]
+    assert chosen([Trial("long", 50.0, {"coded.py": _LINES})], file, fault) == ["long"]
+    assert chosen(tests, Path("other.py"), fault) == []
+
+
 def test_what_is_noticed(tmp_path: Path) -> None:
-    code, test = tmp_path / "code.py", tmp_path / "test_code.py"
-    code.write_text("LIMIT = 3\nSPARE = 1\n")
-    test.write_text("from code import LIMIT\n\ndef test_limit():\n    assert LIMIT == 3\n".replace("code", "coded"))
-    code.rename(tmp_path / "coded.py")
-    file = Path("coded.py")
-    assert noticed(tmp_path, file, "LIMIT = 4\nSPARE = 1\n", ("test_code.py",))
-    assert not noticed(tmp_path, file, "LIMIT = 3\nSPARE = 2\n", ("test_code.py",))
-    assert (tmp_path / file).read_text() == "LIMIT = 3\nSPARE = 1\n"
-
-
-def test_the_tests_of_a_file_come_first() -> None:
-    tests = ROOMS["mechanics"].tests
-    assert own_tests(ROOT, Path("optimizer/mechanics/rod.py"), tests) == ("tests/mechanics/test_rod.py",)
-    assert own_tests(ROOT, Path("optimizer/mechanics/layout.py"), tests) == ()
+    """A test of a tree: which lines it runs, and that it fails for one fault and not for the other."""
+    (tmp_path / "tests").symlink_to(ROOT / "tests")
+    (tmp_path / "coded.py").write_text("def limit():\n    return 3\n\n\ndef spare():\n    return 1\n")
+    (tmp_path / "test_coded.py").write_text("from coded import limit\n\n\ndef test_limit():\n    assert limit() == 3\n")
+    file, test = Path("coded.py"), "test_coded.py::test_limit"
+    assert noticed(tmp_path, file, "def limit():\n    return 4\n", [test])
+    assert not noticed(tmp_path, file, "def limit():\n    return 3\n", [test])
+    assert not noticed(tmp_path, file, "def limit():\n    return 4\n", [])
+    assert (tmp_path / file).read_text().startswith("def limit():\n    return 3\n")
+    found = covering(tmp_path, Room("coded.py", ("test_coded.py",), 0.9))
+    assert found is not None
+    assert [(one.name, one.lines) for one in found] == [(test, {"coded.py": frozenset({1, 2})})]
+    (tmp_path / file).write_text("def limit():\n    return 4\n")
+    assert covering(tmp_path, Room("coded.py", ("test_coded.py",), 0.9)) is None

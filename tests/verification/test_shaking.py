@@ -1,5 +1,6 @@
 """What shakes the frame, as outputs show it, is held entirely; what the numbers mean is exact in a case of its own."""
 
+from math import pi
 from typing import Any
 
 import pytest
@@ -7,6 +8,7 @@ import pytest
 from service.verification import checker
 from tests.optimize.machines import machine, row, throw, web
 from tests.verification.checking import broken, optimized
+from tests.verification.test_curves import part
 
 _OUTPUTS = {"outputs": ["hodograph", "orders", "foundation_loads"], "angles": {"step_deg": 30}}
 
@@ -50,6 +52,23 @@ def test_a_load_that_is_none_may_not_be_called_some_nor_the_other_way_round() ->
     before = answer["foundation_loads"][0]["before"]
     before["force_x"] = {"amplitude_N": 0.0, "phase_deg": 0.0}
     assert any(one.startswith("foundation") for one in broken(body, answer))
+
+
+def test_what_a_load_is_small_beside() -> None:
+    """Analytic: the sizes of all that is added up, of a rod a third with the piston, about a plane midway."""
+    body, _ = _answered("ccw", 1)
+    place = part("numbers").Place
+    asked = place(body, "request")
+    built = part("machine").Machine(asked / "machine", asked / "objective", place(None), place(None))
+    mass = part("machine").Mass
+    heavy = mass(part("numbers").real(0.5), part("numbers").ONE, part("numbers").ZERO, part("numbers").real(0.45))
+    fitted = part("answer").NOTHING_FITTED._replace(turning=[heavy])
+    square = (600 * pi / 30) ** 2
+    for there, more in ((None, 0.0), (fitted, 0.5)):
+        sizes = part("shaking")._size(built, there)
+        # masses are 15 and 14 kg on cranks of 0.1 m; planes and weight are 0.35 and 0.4 m away from 0.05 m
+        assert float(sizes["force"]) == pytest.approx((2.9 + more) * square, rel=1e-12)
+        assert float(sizes["moment"]) == pytest.approx((2.9 * 0.4 + more * 0.45) * square, rel=1e-12)
 
 
 @pytest.mark.parametrize("ratio", [1e-9, 0.2, 0.9, 0.9999, 1.0])

@@ -117,19 +117,14 @@ def test_multipliers_that_are_too_long_prove_no_more() -> None:
     assert _claims(body, answer)["lower_bound"] == "broken"
 
 
-_PRESSURES = {"suction_pressure_Pa": 1e5, "discharge_pressure_Pa": 4e5, "ambient_pressure_Pa": 1e5}
-_GAS = _PRESSURES | {"relative_clearance": 0.1, "expansion_exponent": 1.2, "compression_exponent": 1.3}
-
-
-@pytest.mark.parametrize("what", ["gas", "masses"])
+@pytest.mark.parametrize("what", ["kinematics", "masses"])
 def test_what_is_not_covered_is_named(what: str) -> None:
     body = copy.deepcopy(_KINDS["bearings"])
-    where = {"masses": "/request/tolerances/reciprocating_mass_relative"}
-    where["gas"] = "/request/machine/throws/0/rows/0/cylinder"
-    if what == "gas":
-        body["machine"]["throws"][0]["rows"][0]["cylinder"] = {"bore_m": 0.1, "acting": "head", **_GAS}
-    else:
+    where = {"masses": "/request/tolerances/reciprocating_mass_relative", "kinematics": "/request/fidelity/kinematics"}
+    if what == "masses":
         body["tolerances"] = {"reciprocating_mass_relative": 0.01}
+    else:
+        body["fidelity"] = {"kinematics": "order_2"}
     answer = json.loads(_told("bearings"))
     told = {one["claim"]: one for one in checker().verify(body, answer)["claims"]}
     assert (told["request"]["verdict"], told["request"]["where"]) == ("not covered", where[what])
