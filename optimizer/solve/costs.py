@@ -294,7 +294,7 @@ class Costs:
                 above = False
                 self.offer(choices.picked(incumbent.chosen, COMPARED))
                 mass = float(np.sum(options.of(options.mass, incumbent.chosen)))
-                light = lighter(statement, options, which, min(level, float(statement.at_rest)), mass, clock)
+                light = lighter(statement, options, which, min(level, float(statement.at_rest)), mass, clock).chosen
                 if light is not None:
                     self.offer(choices.picked(light, COMPARED))
         # all that are no more than the level would have been found
@@ -364,7 +364,7 @@ class Costs:
                     assert cheapest is not None  # one is known
                     chosen = None
                     if not clock.spent():
-                        chosen = lighter(statement, options, which, level, cost(cheapest, "mass"), clock)
+                        chosen = lighter(statement, options, which, level, cost(cheapest, "mass"), clock).chosen
                     if chosen is not None:
                         self.offer(choices.picked(chosen, COMPARED))
         return options.next_mass(found.lower_bound)
