@@ -37,8 +37,8 @@ def near_sums() -> None:
     from optimizer.choices.discrete.kernel.near_sums import ALL, gridded, near
 
     lists, two, cells = (np.zeros((1, 2)), np.zeros((2, 2))), np.zeros(2), np.ones(2, np.int64)
-    first, sums, _ = gridded(*lists, two, two, 1.0, cells, ALL)
-    near(first, sums, *lists, two, two, 1.0, cells, ALL, np.zeros(4, np.int64), 1.0, cells)
+    first, sums, _ = gridded(*lists, two, cells, two, 1.0, cells, ALL)
+    near(first, sums, *lists, two, cells, two, 1.0, cells, ALL, np.zeros(4, np.int64), 1.0, cells)
 
 
 def main() -> None:

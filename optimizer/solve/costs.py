@@ -8,47 +8,39 @@ light sets are compared outright.
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
 
 from optimizer.choices.catalogue import Catalogue
 from optimizer.choices.catalogue_options import part_numbers
-from optimizer.choices.discrete.ample import near_options, neighbourhoods, offer_light_sets
+from optimizer.choices.discrete.ample import neighbourhoods, offer_light_sets
 from optimizer.choices.discrete.clock import Clock
 from optimizer.choices.discrete.exchange import start
-from optimizer.choices.discrete.halves import exhaust
 from optimizer.choices.discrete.lightest import lighter, lightest
 from optimizer.choices.discrete.options import EQUAL, Incumbent
 from optimizer.choices.discrete.search import EXHAUSTED
 from optimizer.choices.feasible_set import Choice, FeasibleSet
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.cuts.dominance import Group
 from optimizer.program.cuts.optimum import Found, Reached, Unkept, next_goal, over_turn
 from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.limits import Limits
-from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import total_mass
 from optimizer.solve.cutting_plane_rounds import Ended, Start, in_rounds
+from optimizer.solve.few_webs import UNKNOWN, FewWebs, compare_on_few_webs, few_webs
 from schemas.request.objective import Cost
 
 #: width of the brackets by which sets are told apart, as a share of goals
 _CLOSE = 1e-10
-#: gap of a search for a number of castings, of any masses on few webs, of their least mass, and of the lightest choice
-_GAP, _FAIR, _SHARP, _LIGHT = 1e-3, 1e-4, 1e-6, 1e-9
+#: gap of a search for a number of castings, of any masses of least mass, and of the lightest choice
+_GAP, _SHARP, _LIGHT = 1e-3, 1e-6, 1e-9
 #: share of the time of a search for so few sizes in which light sets of them are tried first
 _FIRST = 0.6
 #: options of a slot near to the optimum of any masses, and light ones of another, pass by pass
 _COUNTS = ((40, 120), (80, 300))
-#: sets of webs whose optima are looked at together
-_SUBSETS = 300
-#: of them those whose options near them are compared, how many near each, sets of them, and sums and pairs of halves
-_TRIED, _NEAR, _SETS, _SUMS, _PAIRS = 12, 400, 2_000_000, 200_000, 400_000
-#: sets of a few webs up to which all are compared
-_EVERY = 1e9
 #: by which sums of masses are rounded, relative
 _ROUNDING = 1e-12
 #: where a set was found that was compared with others; what that proves is told beside it
@@ -100,22 +92,6 @@ def cost(choice: Choice, kind: Cost) -> float:
     return float(np.sum(choice.mass > 0) if kind == "pieces" else part_numbers(choice.mass))
 
 
-class _Few(NamedTuple):
-    """What is known of any masses on few webs."""
-
-    lower_bound: Real  # (M,) of the last goal, on some webs each, the best first
-    points: Complex  # (M, K) kg m, their optima
-    webs: np.ndarray  # (M, K) bool, these webs
-
-    @property
-    def least(self) -> float:
-        """Of the last goal, on any of them; -inf where nothing is known."""
-        return float(np.min(self.lower_bound)) if self.lower_bound.size else -np.inf
-
-
-_UNKNOWN = _Few(np.zeros(0), np.zeros((0, 0), complex), np.zeros((0, 0), bool))
-
-
 class Least(NamedTuple):
     """The cheapest choice that was found, and what none is cheaper than."""
 
@@ -141,7 +117,7 @@ class Costs:
     caps: Caps = NO_CAPS
     size: float = 1.0  # what gaps of the last goal are relative to
     known: list[tuple[float, Choice]] = field(default_factory=list)  # with what they come to of the last goal
-    few: dict[int, _Few] = field(default_factory=dict)  # by the number of webs
+    few: dict[int, FewWebs] = field(default_factory=dict)  # by the number of webs
     proven: dict[tuple[Cost, int], float] = field(default_factory=dict)  # of no more than a number, of the last goal
 
     def least(self, kind: Cost, level: float, seconds: float) -> Least:
@@ -220,14 +196,14 @@ class Costs:
         before = self.proven.get((kind, number), -np.inf)
         if before > level or before == np.inf:
             return before
-        few = self._of_few_webs(number) if kind == "pieces" else _UNKNOWN
+        few = self._of_few_webs(number) if kind == "pieces" else UNKNOWN
         bound = max(before, few.least)
         if bound <= level and bound < np.inf:
             clock, caps = Clock(seconds), self.caps.lower(kind, number)
             limits = caps.within(self.best.limits)
             choices = caps.of(self.choices(limits))
             if len(few.points) and isinstance(choices, Catalogue):
-                bound = max(bound, self._near_few(few, choices, number, level, clock))
+                bound = max(bound, self._on_few_webs(few, choices, limits, level, clock))
             elif kind == "sizes" and isinstance(choices, Catalogue):
                 self._light_sizes(choices, level, Clock(_FIRST * seconds))
             known = self.cheapest(kind, level)
@@ -249,56 +225,22 @@ class Costs:
         self.proven[kind, number] = bound
         return bound
 
-    def _of_few_webs(self, number: int) -> "_Few":
+    def _of_few_webs(self, number: int) -> FewWebs:
         """What any masses on so few webs come to at least, of one goal of the first order, and their optima."""
         if number not in self.few:
-            self.few[number] = self._optima_of_few_webs(number)
+            limits = self.caps.within(self.best.limits)
+            self.few[number] = few_webs(self.program, limits, number, self.solver)
         return self.few[number]
 
-    def _optima_of_few_webs(self, number: int) -> "_Few":
-        statement, webs = self.program.finite, self.program.limits.radius.size
-        if statement is None or self.program.limits.alike is not None or math.comb(webs, number) > _SUBSETS:
-            return _UNKNOWN
-        subsets = np.zeros((math.comb(webs, number), webs), bool)
-        for n, some in enumerate(combinations(range(webs), number)):
-            subsets[n, list(some)] = True
-        limits = self.caps.within(self.best.limits)
-        programs = replace(statement, limits=limits).alone().chosen(np.zeros(len(subsets), int))
-        programs = replace(programs, limits=replace(programs.limits, max_mass=subsets * limits.max_mass))
-        found = optima(programs, _FAIR, False, self.solver)
-        lower_bound = np.where(found.unreachable, np.inf, found.lower_bound)
-        best = np.argsort(np.where(found.unreachable, np.inf, found.objective), kind="stable")
-        return _Few(lower_bound[best], found.unbalance[best], subsets[best])
+    def _on_few_webs(self, few: FewWebs, choices: Catalogue, limits: Limits, level: float, clock: Clock) -> float:
+        """Compare choices near the optima on few webs: the last goal at least."""
+        assert self.program.finite is not None  # else there are no such optima
 
-    def _near_few(self, few: _Few, choices: Catalogue, number: int, level: float, clock: Clock) -> float:
-        """Compare the options near the optima on few webs, all of them where they are few: the last goal at least."""
-        statement, options = self.program.finite, choices.stock.options
-        assert statement is not None  # else there are no such optima
-        statement = replace(statement, limits=self.caps.within(self.best.limits))
-        incumbent, above = Incumbent(statement, options, EQUAL * self.size), True
-        # what comes to more is not worth a look
-        incumbent.least = min(level, float(statement.at_rest))
-        count = min(_NEAR, int(_SETS ** (1.0 / max(number, 1))))
-        for n in np.flatnonzero(few.lower_bound <= level).tolist():
-            webs = np.flatnonzero(few.webs[n]).tolist()
-            every = np.prod(np.sum(options.exists[webs], axis=-1, dtype=float)) <= _EVERY
-            if clock.spent() or not (every or n < _TRIED):
-                return few.least
-            which = [np.array([0]) for _ in range(options.slots)]
-            for k in webs:
-                own = int(np.sum(options.exists[k])) if every else count
-                which[k] = near_options(options, k, complex(few.points[n, k]), own)
-            before = incumbent.chosen
-            above &= exhaust(options, which, incumbent, _SUMS, _PAIRS, clock) and every
-            if incumbent.chosen is not before and incumbent.chosen is not None:
-                above = False
-                self.offer(choices.picked(incumbent.chosen, COMPARED))
-                mass = float(np.sum(options.of(options.mass, incumbent.chosen)))
-                light = lighter(statement, options, which, min(level, float(statement.at_rest)), mass, clock)
-                if light is not None:
-                    self.offer(choices.picked(light, COMPARED))
-        # all that are no more than the level would have been found
-        return float(np.nextafter(level, np.inf)) if above and level <= incumbent.least else few.least
+        def offer(chosen: np.ndarray) -> None:
+            self.offer(choices.picked(chosen, COMPARED))
+
+        statement = replace(self.program.finite, limits=limits)
+        return compare_on_few_webs(few, statement, choices.stock.options, level, EQUAL * self.size, offer, clock)
 
     def _light_sizes(self, choices: Catalogue, level: float, clock: Clock) -> None:
         """Try light sets of so few sizes, of one goal of the first order, until one keeps the level."""
@@ -364,7 +306,7 @@ class Costs:
                     assert cheapest is not None  # one is known
                     chosen = None
                     if not clock.spent():
-                        chosen = lighter(statement, options, which, level, cost(cheapest, "mass"), clock)
+                        chosen = lighter(statement, options, which, level, cost(cheapest, "mass"), clock).chosen
                     if chosen is not None:
                         self.offer(choices.picked(chosen, COMPARED))
         return options.next_mass(found.lower_bound)

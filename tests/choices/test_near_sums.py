@@ -14,15 +14,16 @@ def _pairs(
     lists: list[np.ndarray], radius: float, edges: list[float], cells: int, most: tuple[int, int]
 ) -> list[tuple[int, int, int, int]]:
     """Places in four lists of all pairs of sums that are found near, slab by slab, so many at a time."""
-    found = []
+    found, d = [], lists[0].shape[1]
+    axes = np.array([1, 2] if d > 2 else [0, d - 1])
     for slab in pairwise(edges):
         wide, start, ended = np.array(slab) + np.array([-radius, radius]), np.array([0, 0, -1, -1]), len(lists[2])
         grid = np.full(2, -1.0), 2.0 / cells, np.full(2, cells)
         side = max(grid[1], radius)
-        first, sums, places = gridded(lists[0], lists[1], wide, grid[0], side, grid[2], ALL)
+        first, sums, places = gridded(lists[0], lists[1], wide, axes, grid[0], side, grid[2], ALL)
         while start[0] < ended:
             met, start, _ = near(
-                first, sums, lists[2], lists[3], np.array(slab), grid[0], side, grid[2], ALL, start, radius**2,
+                first, sums, lists[2], lists[3], np.array(slab), axes, grid[0], side, grid[2], ALL, start, radius**2,
                 np.array(most),
             )  # fmt: skip
             found += zip(*places[:, met[0]].tolist(), *met[1:].tolist(), strict=True)
@@ -53,7 +54,7 @@ def test_a_share_is_about_that_many_and_the_same_each_time() -> None:
     """Analytic: of 40,000 sums a quarter, four standard deviations more or less."""
     chance = np.random.default_rng(0)
     lists = chance.normal(size=(200, 2)), np.sort(chance.normal(size=(200, 2)), axis=0)
-    grid = np.zeros(2), 1.0, np.ones(2, np.int64)
+    grid = np.arange(2), np.zeros(2), 1.0, np.ones(2, np.int64)
     first, sums, places = gridded(*lists, _EVERY, *grid, np.uint64(2**62))
     assert abs(first[-1] - 10_000) <= 4.0 * np.sqrt(40_000 * 0.25 * 0.75)
     assert np.array_equal(sums, lists[0][places[0]] + lists[1][places[1]])

@@ -149,8 +149,11 @@ def lightest_near(incumbent: Incumbent, limit: float, clock: Clock) -> np.ndarra
                 near = near_options(options, k, complex(options.unbalance[k, chosen[k]]), _CLOSE)
                 which[k] = np.unique(np.concatenate([near, [chosen[k]], _light(options, k, _CLOSE)]))
         mass = float(np.sum(options.of(options.mass, chosen)))
-        found = lighter(statement, loose, which, limit, mass, clock, int(np.count_nonzero(chosen)))
-        chosen = chosen if found is None else _lightened(incumbent, found, limit)
+        found = lighter(statement, loose, which, limit, mass, clock, int(np.count_nonzero(chosen)), _PAIRS)
+        if not found.whole:
+            # where hardly any set is ruled out by the limit, fewer slots at a time
+            several = max(several - 2, 2)
+        chosen = chosen if found.chosen is None else _lightened(incumbent, found.chosen, limit)
     return chosen
 
 

@@ -34,6 +34,13 @@ class Lightest(NamedTuple):
     lower_bound: float  # kg, no set that keeps the level is lighter
 
 
+class Lighter(NamedTuple):
+    """A lighter set, and whether there is none lighter."""
+
+    chosen: np.ndarray | None  # (K,); None where none was found
+    whole: bool  # all that can be lighter were compared
+
+
 def lightest(
     statement: Statement,
     options: Options,
@@ -73,26 +80,27 @@ def lighter(
     below_kg: float,
     clock: Clock,
     fewer_than: int = 0,
-) -> np.ndarray | None:
-    """The lightest (K,) of some sets that keep a level and are lighter than so much; None where none was found.
+    most_pairs: int = _PAIRS,
+) -> Lighter:
+    """The lightest of some sets that keep a level and are lighter than so much.
 
     Parameters
     ----------
     which : (K) options of every slot that are compared.
     fewer_than : or as heavy, on fewer slots than these.
+    most_pairs : near enough to the level, after which it is given up.
     """
     within = Incumbent(statement, options, 0.0)
     within.least = level
     cap = below_kg * (1.0 - (0.0 if fewer_than else _LIGHTER))
     best = _Best(statement, options, level, cap, fewer_than or options.slots + 1)
     if cap <= 0:
-        return None
+        return Lighter(None, True)
     counted = options.limits_fitted or options.limits_parts
     split = None if counted else halves(options, which, within, _UNLISTED, clock, cap, listed=False)
     split = split or halves(options, which, within, _SUMS, clock, cap)
-    if split is not None:
-        _compared(split, within, cap, best.offer, clock)
-    return best.chosen
+    whole = split is not None and _compared(split, within, cap, best.offer, clock, most_pairs)
+    return Lighter(best.chosen, whole)
 
 
 def _next_mass(options: Options, least: float) -> float:
@@ -135,7 +143,14 @@ class _Best:
             self.chosen, self.mass, self.slots, self.value = sets[n], float(mass[n]), int(slots[n]), float(value[n])
 
 
-def _compared(split: Halves, within: Incumbent, cap: float, offer: Callable[[np.ndarray], None], clock: Clock) -> bool:
+def _compared(
+    split: Halves,
+    within: Incumbent,
+    cap: float,
+    offer: Callable[[np.ndarray], None],
+    clock: Clock,
+    most_pairs: int = _PAIRS,
+) -> bool:
     """Whether all pairs of sums that are no heavier than so much were offered where they are near the level."""
     one, other = split.one, split.other
     if not one.size or not other.size:
@@ -147,4 +162,6 @@ def _compared(split: Halves, within: Incumbent, cap: float, offer: Callable[[np.
             offer(split.sets(i[light], j[light]))
 
     pairs = Pairs(within.statement, one, other, split.lever, split.terms, within, offered)
-    return pairs.near(_PAIRS, clock) if split.lever.shape[-1] else pairs.count <= _PAIRS and pairs.all(clock)
+    if not split.lever.shape[-1]:
+        return pairs.count <= most_pairs and pairs.all(clock)
+    return pairs.near(most_pairs, clock)

@@ -26,11 +26,11 @@ _AT_ONCE, _PAIRS_AT_ONCE = 800_000, 1_000
 #: pairs that are evaluated first, twice as many each time: the best of them makes the ball smaller
 _FIRST = 2_000
 #: sums of a slab, and cells for each of them at most
-_SLAB, _CELLS = 20_000, 4.0
+_SLAB, _CELLS = 40_000, 8.0
 #: shares of the sums of either half that are compared first, which makes the ball small, and sums at least
-_SAMPLES, _FEWEST = (1.0 / 64.0, 1.0 / 8.0, 1.0), 4_000
+_SAMPLES, _FEWEST = (1.0 / 512.0, 1.0 / 64.0, 1.0 / 8.0, 1.0), 4_000
 #: sums by which slabs are laid, and how many times wider they are than what is near
-_SAMPLE, _WIDE, _SEED = 4_096, 8.0, 20_261_126
+_SAMPLE, _WIDE, _SEED = 4_096, 16.0, 20_261_126
 #: lines of cells that hold what is near
 _LINES = 3.0
 #: sums that are looked at between two looks at the time
@@ -99,7 +99,7 @@ class Pairs:
             # what is found of a sample is no proof
             whole = self._compared(ball, share, most, share * looks, clock)
             reach = self._radius(ball)
-            if reach is not None and share < 1.0 and self.count * ball.beside_each(reach) > looks:
+            if reach is not None and share < 1.0 and self.count * ball.beside_each(self.one.size, reach) > looks:
                 return False
         return whole
 
@@ -111,19 +111,19 @@ class Pairs:
         count, found, at_once = share * self.one.size, 0, min(_FIRST, self.at_once)
         taken = ALL if share == 1.0 else np.uint64(int(share * 2**64))
         reach = self._radius(ball)
-        for slab in ball.slabs(count / _SLAB, reach):
+        for slab in ball.slabs(count, reach):
             start = np.array([0, 0, -1, -1])
             reach = self._radius(ball)
             if reach is None:
                 return True
             grid = ball.grid(slab, reach, count)
-            first, sums, places = gridded(*ball.one.lists, grid.wide, grid.low, grid.side, grid.cells, taken)
+            first, sums, places = gridded(*ball.one.lists, grid.wide, *grid.cut, taken)
             while start[0] < len(ball.other.outer):
                 reach = self._radius(ball)
                 if reach is None:
                     return True
                 met, start, looked = near(
-                    first, sums, *ball.other.lists, grid.slab, grid.low, grid.side, grid.cells, taken, start, reach**2,
+                    first, sums, *ball.other.lists, grid.slab, *grid.cut, taken, start, reach**2,
                     np.array([at_once, _LOOKED]),
                 )  # fmt: skip
                 looks, found, at_once = looks - looked, found + met.shape[1], min(2 * at_once, self.at_once)
@@ -206,13 +206,19 @@ class _Points(NamedTuple):
 
 
 class _Grid(NamedTuple):
-    """A slab of the first coordinate, and cells of the first two."""
+    """A slab of the first coordinate, and cells of two coordinates."""
 
     slab: Real  # (2,)
     wide: Real  # (2,) with all that is near to it
+    axes: np.ndarray  # (2,) coordinates of the cells
     low: Real  # (2,)
     side: float
     cells: np.ndarray  # (2,)
+
+    @property
+    def cut(self) -> tuple[np.ndarray, Real, float, np.ndarray]:
+        """How cells are cut."""
+        return self.axes, self.low, self.side, self.cells
 
 
 @dataclass(frozen=True)
@@ -231,31 +237,36 @@ class _Ball:
         return _OFF * size * self.one.outer.shape[1]
 
     def slabs(self, count: float, reach: float | None) -> Iterator[Real]:
-        """So many of the first coordinate, of about as many sums each, and none too narrow for what is near."""
-        low, high = self.one.box
-        most = np.inf if not reach else (high[0] - low[0]) / (_WIDE * reach)
+        """Parts of the first coordinate of about as many sums each."""
         chance = np.random.default_rng(_SEED)
         outer, inner = (chance.choice(part[:, 0], _SAMPLE) for part in self.one.lists)
-        edges = np.quantile(outer + inner, np.linspace(0.0, 1.0, max(1, int(min(count, most))) + 1))
+        edges = np.quantile(outer + inner, np.linspace(0.0, 1.0, self._how_many(count, reach) + 1))
         edges[0], edges[-1] = -np.inf, np.inf
         yield from np.stack([edges[:-1], edges[1:]], axis=-1)
 
-    def beside_each(self, reach: float) -> float:
-        """Share of the sums, about, that is looked at for one of the other half."""
+    def _how_many(self, count: float, reach: float | None) -> int:
+        """Slabs of so many sums together, none too narrow for what is near."""
         low, high = self.one.box
-        return float(np.prod(np.minimum(_LINES * reach / np.maximum(high - low, SMALLEST), 1.0)[:2]))
+        most = np.inf if not reach else (high[0] - low[0]) / (_WIDE * reach)
+        return max(1, int(min(count / _SLAB, most)))
+
+    def beside_each(self, count: float, reach: float) -> float:
+        """Share of the sums, about, that is looked at for one of the other half."""
+        (low, *_), (high, *_), slabs = *self.one.box, self._how_many(count, reach)
+        grid = self.grid(low + np.array([0.0, (high - low) / slabs]), reach, count)
+        return float(np.prod(np.minimum(_LINES / grid.cells, 1.0))) / slabs
 
     def grid(self, slab: Real, reach: float, count: float) -> _Grid:
         """A slab with cells for about so many sums of the first half."""
-        wide = slab + np.array([-reach, reach])
+        wide, d = slab + np.array([-reach, reach]), self.one.outer.shape[1]
         low, high = self.one.box
         low[0], high[0] = max(low[0], wide[0]), min(high[0], wide[1])
-        span = np.maximum(high - low, 0.0)[:2]
-        span = np.append(span, 0.0)[:2]
+        # a slab is narrow already, the others are as wide as ever
+        axes = np.array([1, 2] if d > 2 else [0, d - 1])
+        span = np.maximum(high - low, 0.0)[axes] * [1.0, float(d > 1)]
         most = max(_CELLS * min(count, _SLAB), 1.0)
         side = max(reach, float(np.sqrt(span[0] * span[1] / most)), float(np.max(span)) / most, SMALLEST)
-        cells = np.floor(span / side).astype(np.int64) + 1
-        return _Grid(slab, wide, np.append(low, 0.0)[:2], side, cells)
+        return _Grid(slab, wide, axes, low[axes], side, np.floor(span / side).astype(np.int64) + 1)
 
 
 def _real(vectors: Real | Complex) -> Real:

@@ -99,14 +99,17 @@ def search(
     def enough() -> bool:
         return incumbent.least - at_least <= gap
 
-    light = Clock((_LIGHT_OF_PARTS if options.limits_parts else _LIGHT) * time_limit_s)
-    offer_light_sets(incumbent, below, relaxed, enough, light)
+    light: Clock | None = None
     for patience, most_nodes in _SEARCHES:
         neighbourhoods(incumbent, relaxed, patience, enough, half)
         tree = branch(options, incumbent, at_least, gap, lambda bound: False, clock, most_nodes, below)
         nodes, at_least = nodes + tree.nodes, max(at_least, tree.lower_bound)
-        if tree.nodes == 1 and tree.lower_bound <= floor + gap:
-            # the options reach what no masses undercut, and no tree tells more
+        # the options reach what no masses undercut, and no tree tells more
+        ample = tree.nodes == 1 and tree.lower_bound <= floor + gap
+        if light is None and (ample or options.limits_parts or most_nodes > 1):
+            light = Clock((_LIGHT_OF_PARTS if options.limits_parts else _LIGHT) * time_limit_s)
+            offer_light_sets(incumbent, below, relaxed, enough, light)
+        if ample:
             quarters(incumbent, enough, half)
         bound = min(at_least, incumbent.least)
         closed = incumbent.least - bound <= max(gap, 0.0)

@@ -2,7 +2,8 @@
 
 Sums are made slab by slab of their first coordinate, so that those of a slab stay at hand: the first list beside the
 part of the second, sorted by that coordinate, that leads into the slab (Schroeppel and Shamir 1981). They are dealt
-into the cells of a plane grid, no narrower than what counts as near, so that what is near is in nine cells.
+into the cells of a plane grid, no narrower than what counts as near, so that what is near is in nine cells. The grid
+is of two other coordinates, where there are as many, because a slab is narrow already.
 """
 
 import numpy as np
@@ -15,13 +16,14 @@ _MIX = np.uint64(0x9E3779B97F4A7C15)
 
 
 @kernel
-def gridded(one, other, slab, low, side, cells, share):  # type: ignore[no-untyped-def]
+def gridded(one, other, slab, axes, low, side, cells, share):  # type: ignore[no-untyped-def]
     """Sums of (a, d) and (b, d) in a slab, by cells.
 
     Parameters
     ----------
     other : sorted by the first coordinate.
     slab : (2,) of that coordinate, from the first number to below the second.
+    axes : (2,) coordinates of the grid.
     low, side, cells : (2,) corner of the grid, width of a cell, (2,) numbers of cells; what is outside is in the last.
     share : of 2^64, of the sums that are taken, by chance of a fixed seed.
 
@@ -37,7 +39,7 @@ def gridded(one, other, slab, low, side, cells, share):  # type: ignore[no-untyp
         begin, end = _reach(one[i, 0], other, slab)
         for j in range(begin, end):
             if whole or _taken(i, j, share):
-                first[_cell(one, i, other, j, low, finer, cells) + 1] += 1
+                first[_cell(one, i, other, j, axes, low, finer, cells) + 1] += 1
     for c in range(first.size - 1):
         first[c + 1] += first[c]
     count, d, there = first[-1], one.shape[1], first[:-1].copy()
@@ -46,7 +48,7 @@ def gridded(one, other, slab, low, side, cells, share):  # type: ignore[no-untyp
         begin, end = _reach(one[i, 0], other, slab)
         for j in range(begin, end):
             if whole or _taken(i, j, share):
-                c = _cell(one, i, other, j, low, finer, cells)
+                c = _cell(one, i, other, j, axes, low, finer, cells)
                 n = there[c]
                 there[c] += 1
                 places[0, n], places[1, n] = i, j
@@ -56,12 +58,12 @@ def gridded(one, other, slab, low, side, cells, share):  # type: ignore[no-untyp
 
 
 @kernel
-def near(first, sums, one, other, slab, low, side, cells, share, start, square, most):  # type: ignore[no-untyped-def]
+def near(first, sums, one, other, slab, axes, low, side, cells, share, start, square, most):  # type: ignore[no-untyped-def]
     """Sums of a grid that are near to sums of (a, d) and (b, d) in a slab.
 
     Parameters
     ----------
-    first, sums, low, side, cells : as of :func:`gridded`; ``side`` no less than the distance.
+    first, sums, axes, low, side, cells : as of :func:`gridded`; ``side`` no less than the distance.
     start : (4,) what to begin with: places in these lists, a line of the grid and a place in it, -1 of the first ones.
     square : of the distance, within which sums are near.
     most : (2,) pairs, and sums that are looked at, after which it ends for now.
@@ -87,15 +89,16 @@ def near(first, sums, one, other, slab, low, side, cells, share, start, square, 
             for c in range(d):
                 at[c] = one[i, c] + other[j, c]
             # what is outside of the grid is in its last cells
-            column = min(max(np.int64(np.floor((at[0] - low[0]) * finer)), 0), columns - 1)
-            row = min(max(np.int64(np.floor((at[1] - low[1]) * finer)), 0), rows - 1) if d > 1 else 0
+            column = min(max(np.int64(np.floor((at[axes[0]] - low[0]) * finer)), 0), columns - 1)
+            row = min(max(np.int64(np.floor((at[axes[1]] - low[1]) * finer)), 0), rows - 1)
             line = max(column - 1, 0) if line < 0 else line
             while line < min(column + 2, columns):
                 n, until = max(n, first[line * rows + max(row - 1, 0)]), first[line * rows + min(row + 2, rows)]
                 looked += max(until - n, 0)
                 while n < until:
                     off = 0.0
-                    for c in range(d):
+                    # the last coordinates first: by those before them all of a cell are near
+                    for c in range(d - 1, -1, -1):
                         off += (sums[n, c] - at[c]) ** 2
                         if off > square:
                             break
@@ -132,9 +135,10 @@ def _place(other, value):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _cell(one, i, other, j, low, finer, cells):  # type: ignore[no-untyped-def]
-    column = np.int64(np.floor((one[i, 0] + other[j, 0] - low[0]) * finer))
-    row = np.int64(np.floor((one[i, 1] + other[j, 1] - low[1]) * finer)) if one.shape[1] > 1 else 0
+def _cell(one, i, other, j, axes, low, finer, cells):  # type: ignore[no-untyped-def]
+    a, b = axes[0], axes[1]
+    column = np.int64(np.floor((one[i, a] + other[j, a] - low[0]) * finer))
+    row = np.int64(np.floor((one[i, b] + other[j, b] - low[1]) * finer))
     return min(max(column, 0), cells[0] - 1) * cells[1] + min(max(row, 0), cells[1] - 1)
 
 
