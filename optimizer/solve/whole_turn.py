@@ -1,5 +1,6 @@
-"""What is told of counterweights that are found by cuts, with goals in their order."""
+"""What is told of counterweights that are found, with goals in their order."""
 
+import time
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
@@ -7,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.formulation.balance_shafts import chosen, posed
-from optimizer.formulation.counterweights import masses_and_angles, unbalance
+from optimizer.formulation.counterweights import unbalance
 from optimizer.formulation.demand import Demand
 from optimizer.formulation.formulate import given_ceilings
 from optimizer.formulation.goals import Goals
@@ -17,23 +18,23 @@ from optimizer.mechanics.fixed_weights import beside
 from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.requirements import effects_of_objective
-from optimizer.program.certificate import budget_price, ceiling_allowance, normalised
+from optimizer.program.certificate import Multipliers, budget_price, ceiling_allowance
 from optimizer.program.cuts.optimum import METHOD, Found
 from optimizer.program.cuts.proof import Proof
 from optimizer.program.cuts.semi_infinite import Problem, Values
 from optimizer.program.sensitivity import shadow_prices
-from optimizer.program.verdict import CONTRADICTED, Claim, mass_resolution, verdict
-from optimizer.solve import sensitivity
+from optimizer.program.verdict import CONTRADICTED, Claim, Verdict, mass_resolution, verdict
 from optimizer.solve.certify import figures
 from optimizer.solve.cut_plates import cut_plates
 from optimizer.solve.cutting_plane_rounds import Ended
-from optimizer.solve.outcome import Outcome, certificate, finite_or_null, multipliers_of
+from optimizer.solve.outcome import Proofs, Solution, certificate, finite_or_null, multipliers_of
 from optimizer.solve.prices import shadow_prices as priced
 from optimizer.solve.prices import touched_by_mass
+from optimizer.solve.proof import PhysicalMultipliers
 from optimizer.solve.search_claims import told_ample, told_status
+from optimizer.solve.sensitivity import sensitivity
 from schemas.answer.answers import GoalReached
 from schemas.answer.limits import MachineLimit, ShadowPrice, WebLimit
-from schemas.answer.proof import Multipliers
 from schemas.request.objective import Objective
 from schemas.request.requests import OptimizeRequest
 
@@ -76,7 +77,7 @@ class SearchProof(NamedTuple):
 
 def fitted(
     request: OptimizeRequest, scene: Prepared, asked: Goals, found: Found, wanted: Demand, in_full: bool = True
-) -> Outcome:
+) -> Solution:
     """What is told of counterweights that were found.
 
     Parameters
@@ -84,10 +85,9 @@ def fitted(
     asked : what the counterweights are judged by: the program that was solved, or one with more variants.
     in_full : with prices of the limits and what misplaced counterweights may cost.
     """
+    request, scene, asked, mass, angle = cut_plates(request, scene, asked, found.point.unbalance, found.limits)
     if asked.program.plates is not None:
-        request, scene, asked = cut_plates(request, scene, asked, found.point.unbalance, found.limits)
         found = found.within(asked.program.limits)
-    mass, angle = masses_and_angles(posed(request).machine, found.point.unbalance, found.limits)
     outcome = told(request, scene, asked, Candidate(mass, angle, found), wanted, in_full=in_full)
     return outcome if asked.program.plates is None else replace(outcome, cut=scene)
 
@@ -100,7 +100,7 @@ def told(
     wanted: Demand,
     search: SearchProof | None = None,
     in_full: bool = True,
-) -> Outcome:
+) -> Solution:
     """The same of counterweights however they were chosen.
 
     Parameters
@@ -108,100 +108,113 @@ def told(
     search : what is proven of all that may be chosen; None where any mass at any angle may be.
     in_full : with prices of the limits and what misplaced counterweights may cost.
     """
-    mass, angle, found = candidate
+    began, (mass, angle, found) = time.perf_counter(), candidate
     together, program, square = posed(request), asked.program, scene.omega_squared
-    machine, u, shown = together.machine, unbalance(mass, angle, found.limits.radius), chosen(request, mass, angle)
+    machine, u = together.machine, unbalance(mass, angle, found.limits.radius)
+    shown = chosen(request, mass, angle, u)
     values = program.values(u, _CLOSE if len(program.goals) == 1 else _CLOSER)
     found = found.counting(float(values.goals[-1]))
     claimed = _claim(wanted, program, found, u, values, mass, -np.inf if search is None else search.lower_bound)
     # what the last goal allows is for the mass, and for what castings cost, after it
-    allowance = program.goals[-1].allowance
-    judged = verdict(claimed, wanted.relative_gap + allowance)
-    status, reason, gap = str(judged.status), str(judged.reason), float(judged.gap[0])
-    if found.timed_out and status != "optimal" and reason != CONTRADICTED:
-        reason = f"The time limit of {wanted.time_limit_s:g} s ended the search. {reason}"
+    judged = verdict(claimed, wanted.relative_gap + program.goals[-1].allowance)
     there, _ = beside(machine, mass, angle)
     touched = tuple(dict.fromkeys((*touched_by_mass(machine, there), *_touched(request, asked, values))))
+    proofs = Proofs.of(found, square, asked.speeds)
     prices, several = tuple[ShadowPrice, ...](), request.robust or request.objective.priorities
-    if in_full and search is None and not (several or np.isnan(gap) or machine.web_groups):
+    if in_full and search is None and not (several or np.isnan(judged.gap[0]) or machine.web_groups):
         # of a group no web gives way by itself, and no choice gives way at all
-        prices = _prices(together, asked, found.proof, u, shown.active_limits(touched), gap, square)
+        active = shown.active_limits(touched)
+        prices = _prices(together, asked, found.proof, proofs.objective, u, active, float(judged.gap[0]), square)
     at_rest, target = program.at_rest.goals[-1], np.asarray(found.mass_target)
-    printed: dict[str, Real | float | str | None] = {
-        **figures(request.machine, claimed, judged, at_rest, target, square),
-        "method": METHOD,
-        "cuts": found.cuts,
-        "rounds": found.rounds,
-    }
-    bounds = [goal.lower_bound for goal in found.goals[:-1]]
-    if search is not None:
-        proven = search.bounds is None or not np.isnan(judged.lower_bound[0])
-        status, reason = told_status(search.ended, status, reason, proven)
-        printed |= {"nodes": search.nodes, "method": search.ended.method}
-        if search.bounds is None:
-            printed |= dict.fromkeys(("lower_bound", "gap", "relative_gap"))
-        else:
-            reason = told_ample(reason, search.ended, found.proof.bound)
-            any_mass = np.minimum(max(found.proof.bound, 0.0), judged.lower_bound[0]) * square
-            rounds, cuts = found.rounds + search.rounds, search.ended.cuts
-            printed |= {"continuous_lower_bound": any_mass, "rounds": rounds, "cuts": cuts}
-            bounds = [*search.bounds]
-        if status == "optimal" and not search.closed:
-            status, reason = "inaccurate", _EARLIER
-    if status == "optimal" and (allowance > 0.0 or (search is not None and search.levels)):
-        reason = _IN_ORDER
-    if search is None and allowance > 0.0:
-        bounds.append(found.proof.bound)
-    # above what it comes to by no more than rounding
-    bounds = [min(bound, goal.value) for bound, goal in zip(bounds, found.goals, strict=False)]
-    levels = tuple(_levels(found, bounds, asked, square, searched=search is not None))
-    if search is None and allowance > 0.0:
+    printed = figures(request.machine, claimed, judged, at_rest, target, square) | _of_search(
+        found, judged, search, square
+    )
+    status, reason = _status(found, judged, wanted, search, program.goals[-1].allowance)
+    levels = _levels(found, search, asked, square)
+    if search is None and program.goals[-1].allowance > 0.0:
         levels += (_mass_level(found, float(np.sum(there)), printed["mass_lower_bound_kg"]),)
-    if search is not None and search.levels:
-        levels = tuple(search.levels)
     if judged.reason == CONTRADICTED:
         levels = tuple(each.model_copy(update={"lower_bound": None, "multipliers": None}) for each in levels)
-    return Outcome(
+    turning = any(each.response.turning is not None for each in program.quantities)
+    return Solution(
         status,
         reason,
-        shown.on_crank,
+        mass,
+        angle,
         u,
-        shown.on_shafts,
-        found.certify_s,
-        METHOD if search is None else search.ended.method,
-        0 if search is None else search.nodes,
+        shown,
+        certificate(printed, machine, found.limits.max_mass, proofs.named(found), levels),
         {
-            **shown.fields,
             "active_limits": touched,
             "shadow_prices": prices,
-            "sensitivity": None
-            if not in_full or any(each.response.turning is not None for each in program.quantities)
-            else sensitivity.over_turn(program, u, values, square),
-            "certificate": certificate(
-                printed,
-                machine,
-                found.limits.max_mass,
-                Multipliers(
-                    objective=multipliers_of(found.proof, square, asked.speeds),
-                    mass=None
-                    if found.mass_proof is None
-                    else multipliers_of(found.mass_proof, square, asked.speeds, "mass"),
-                ),
-                levels,
-            ),
+            "sensitivity": sensitivity(program, u, values, square) if in_full and not turning else None,
         },
+        found.certify_s,
+        found.method if search is None else search.ended.method,
+        0 if search is None else search.nodes,
+        time.perf_counter() - began,
     )
 
 
-def _levels(
-    found: Found, bounds: Sequence[float], asked: Goals, omega_squared: float, searched: bool
-) -> Iterator[GoalReached]:
+def _status(
+    found: Found, judged: Verdict, wanted: Demand, search: SearchProof | None, allowance: float
+) -> tuple[str, str]:
+    """The status and a sentence why.
+
+    Parameters
+    ----------
+    allowance : of the last goal, for what comes after it.
+    """
+    status, reason = str(judged.status.item()), str(judged.reason.item())
+    if found.timed_out and status != "optimal" and reason != CONTRADICTED:
+        reason = f"The time limit of {wanted.time_limit_s:g} s ended the search. {reason}"
+    if search is not None:
+        proven = search.bounds is None or not np.isnan(judged.lower_bound[0])
+        status, reason = told_status(search.ended, status, reason, proven)
+        if search.bounds is not None:
+            reason = told_ample(reason, search.ended, found.proof.bound)
+        if status == "optimal" and not search.closed:
+            return "inaccurate", _EARLIER
+    if status == "optimal" and (allowance > 0.0 or (search is not None and search.levels)):
+        reason = _IN_ORDER
+    return status, reason
+
+
+def _of_search(
+    found: Found, judged: Verdict, search: SearchProof | None, omega_squared: float
+) -> dict[str, Real | float | str | None]:
+    """How the counterweights were found, as the certificate has it."""
+    by_cuts = found.method == METHOD
+    rounds, cuts = (found.rounds, found.cuts) if by_cuts else (None, None)
+    if search is None:
+        return {"method": found.method, "cuts": cuts, "rounds": rounds}
+    printed: dict[str, Real | float | str | None] = {"method": search.ended.method, "nodes": search.nodes}
+    if search.bounds is None:
+        return printed | {"cuts": cuts, "rounds": rounds} | dict.fromkeys(("lower_bound", "gap", "relative_gap"))
+    if by_cuts:
+        printed |= {"cuts": search.ended.cuts, "rounds": found.rounds + search.rounds}
+    any_mass = np.minimum(max(found.proof.bound, 0.0), judged.lower_bound[0]) * omega_squared
+    return printed | {"continuous_lower_bound": any_mass}
+
+
+def _levels(found: Found, search: SearchProof | None, asked: Goals, omega_squared: float) -> tuple[GoalReached, ...]:
     """What goals came to in their order, as far as there are bounds of them; of those before the last with proofs."""
+    if search is not None and search.levels:
+        return tuple(search.levels)
+    bounds = [goal.lower_bound for goal in found.goals[:-1]]
+    if search is not None and search.bounds is not None:
+        bounds = [*search.bounds]
+    if search is None and asked.program.goals[-1].allowance > 0.0:
+        bounds.append(found.proof.bound)
+    levels = []
     for goal, bound in zip(found.goals, bounds, strict=False):
-        least = finite_or_null(bound * omega_squared)
-        proof = None if searched or goal is found.goals[-1] else multipliers_of(goal.proof, omega_squared, asked.speeds)
+        # above what it comes to by no more than rounding
+        least = finite_or_null(min(bound, goal.value) * omega_squared)
+        alone = search is None and goal is not found.goals[-1]
+        proof = multipliers_of(goal.proof, omega_squared, asked.speeds) if alone else None
         value, limit = goal.value * omega_squared, goal.most * omega_squared
-        yield GoalReached(goal=goal.goal, value=value, lower_bound=least, limit=limit, multipliers=proof)
+        levels.append(GoalReached(goal=goal.goal, value=value, lower_bound=least, limit=limit, multipliers=proof))
+    return tuple(levels)
 
 
 def _mass_level(found: Found, kilograms: float, least: object) -> GoalReached:
@@ -214,13 +227,14 @@ def _prices(
     request: OptimizeRequest,
     asked: Goals,
     proof: Proof,
+    in_units: PhysicalMultipliers,
     u: Complex,
     active: Mapping[str | None, Collection[WebLimit | MachineLimit]],
     gap: float,
     omega_squared: float,
 ) -> tuple[ShadowPrice, ...]:
     """What limits cost, by the proof of the objective: every ceiling over the turn by all of its cuts."""
-    usable, _ = normalised(proof.statement, proof.multipliers)
+    usable = Multipliers(in_units.term, in_units.row, in_units.ceiling)
     budget = None if proof.laid is None else budget_price(proof.laid, usable, 0.0)
     return priced(
         request.machine,
@@ -276,8 +290,10 @@ def _claim(
 def _bound(proof: Proof, u: Complex, excess: float) -> tuple[float, float]:
     """A bound that speaks of all that exceed no ceiling by more than counterweights do, and the rounding of a value."""
     statement = proof.statement
-    over = np.full(statement.ceilings.size.shape, max(excess, 0.0))
-    allowance = float(ceiling_allowance(statement, proof.multipliers, over))
+    allowance = 0.0
+    if excess > 0.0:
+        over = np.full(statement.ceilings.size.shape, excess)
+        allowance = float(ceiling_allowance(statement, proof.multipliers, over))
     # what scatters whatever the counterweights is a floor
     charge = proof.charge + _FLOORS * float(np.sum(np.abs(statement.floor)))
     return proof.bound - allowance, float(statement.rounding(u)) + charge * np.finfo(float).eps
@@ -286,6 +302,8 @@ def _bound(proof: Proof, u: Complex, excess: float) -> tuple[float, float]:
 def _touched(request: OptimizeRequest, asked: Goals, values: Values) -> Iterator[MachineLimit]:
     """Ceilings that are touched, in any case."""
     program = asked.program
+    if not values.over.size:
+        return
     called = {each.response: each.limit for each, _ in given_ceilings(request.objective)}
     limits = [*(called[each.name] for each, _ in program.ceilings), *(each.limit for each in asked.limited)]
     caps = np.array([cap for _, cap in (*program.ceilings, *program.limited)])
