@@ -83,8 +83,8 @@ def certified_choice(
     if not found.kept and found.lower_bound == np.inf:
         shown = chosen(request, picked.mass, picked.angle)
         status, reason = told_status(found, "infeasible", "", True)
-        answer = unreachable(request, scene, asked, shown, best.limits, None, solver)
-        return replace(answer, status=status, reason=reason, method=found.method, nodes=_nodes(stages))
+        none = unreachable(request, scene, asked, shown, best.limits, None, solver)
+        return replace(none, status=status, reason=reason, method=found.method, nodes=_nodes(stages))
     judged = demand(request)._replace(least_mass=False)
     if len(stages) < len(asked.program.goals):
         # nothing is proven of what goals come to in their order
@@ -216,9 +216,7 @@ class _Course:
         return self.program.changed(goals=self.program.goals[:count], limits=limits)
 
     def _choices(self, limits: Limits) -> FeasibleSet:
-        choices = feasible_set(self.request, limits, self.solver)
-        assert choices is not None  # else there would be nothing to search
-        return choices
+        return feasible_set(self.request, limits, self.solver)
 
 
 def _limits(
@@ -268,5 +266,5 @@ def _nominal_choice(
     accuracy = request.accuracy.model_copy(update={"time_limit_s": left_s})
     alone = request.model_copy(update={"scenarios": (), "tolerances": None, "accuracy": accuracy})
     of_machine = certified_choice(alone, scene, solver, in_full=False)
-    optimal = isinstance(of_machine, Solution) and of_machine.status == "optimal"
-    return of_machine.unbalance if optimal else None, of_machine.status == "inaccurate"
+    late = of_machine.status == "inaccurate"
+    return of_machine.unbalance if isinstance(of_machine, Solution) and not late else None, late

@@ -97,8 +97,10 @@ class Proofs(NamedTuple):
         if of_mass is not None and of_mass.statement is proof.statement and of_mass.laid is proof.laid:
             bounds: dict[Bounded, MultipliersOfProgram] = {"objective": proof.multipliers, "mass": of_mass.multipliers}
             return cls(*physical_bounds(proof.with_pieces, bounds, omega_squared, speeds))
-        mass = of_mass and physical(of_mass.with_pieces, of_mass.multipliers, "mass", omega_squared, speeds)
-        return cls(physical(proof.with_pieces, proof.multipliers, "objective", omega_squared, speeds), mass)
+        in_units = physical(proof.with_pieces, proof.multipliers, "objective", omega_squared, speeds)
+        if of_mass is None:
+            return cls(in_units, None)
+        return cls(in_units, physical(of_mass.with_pieces, of_mass.multipliers, "mass", omega_squared, speeds))
 
     def named(self, found: Found) -> Multipliers:
         """As an answer prints them."""

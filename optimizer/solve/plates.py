@@ -19,7 +19,7 @@ from optimizer.choices.plate_guess import guessed
 from optimizer.formulation.demand import demand
 from optimizer.formulation.limits import limits
 from optimizer.mechanics.plates import Plates
-from optimizer.mechanics.shapes import fitted, plates
+from optimizer.mechanics.shapes import fitted
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.cuts.optimum import Found, Unkept
 from optimizer.program.cuts.semi_infinite import Problem
@@ -50,20 +50,22 @@ _NEARER = 2.5
 _WITH_ROOM = 0.999
 
 
-def cut_optimum(request: OptimizeRequest, program: Problem, solver: Solver) -> Found | Unkept:
+def cut_optimum(
+    request: OptimizeRequest, cut: Plates, program: Problem, statement: Statement, solver: Solver
+) -> Found | Unkept:
     """Certified unbalances that are cut from plates, of a problem that is a cone program without a budget.
 
     Parameters
     ----------
     request : whose machine the problem is of.
+    cut : the plates of its webs.
+    statement : the cone program.
     """
-    end, cut = thread_time() + request.accuracy.time_limit_s, plates(request.machine)
-    assert cut is not None  # else there would be no plates in the problem
-    assert program.finite is not None
-    whole, every = within_reach(program.finite.alone(), solver), np.ones(len(request.machine.webs), bool)
+    end = thread_time() + request.accuracy.time_limit_s
+    whole, every = within_reach(statement.alone(), solver), np.ones(len(request.machine.webs), bool)
     task = _Task(request, whole, cut, solver, request.accuracy.relative_gap, every)
     found = task.optimum(end)
-    statement = replace(program.finite, limits=whole.chosen(0).limits)
+    statement = replace(statement, limits=whole.chosen(0).limits)
     return solution(program, statement, found, found.unbalance[0], request.objective.least_mass)
 
 

@@ -21,6 +21,7 @@ from optimizer.formulation.formulate import counted, given_ceilings, responses, 
 from optimizer.formulation.goals import Case, Goals, formulate
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.scatter import changed, row_parts, weighted, worst_signs
+from optimizer.mechanics.shapes import plates
 from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.registry import prepare
@@ -192,19 +193,22 @@ class Robust:
         gap, least = self.wanted.relative_gap, self.wanted.least_mass
         for _ in range(MOST_ROUNDS):
             asked = self.asked()
-            if asked.program.plates is None or not self._of_first_order(asked.program):
-                found = optimum(asked.program, gap, least, solver, self.left_s)
-            else:
-                found = cut_optimum(self.posed, asked.program, solver)
+            found = self._cut(asked.program, solver) or optimum(asked.program, gap, least, solver, self.left_s)
             if isinstance(found, Unkept) or found.timed_out or not self.learnt(found.point.unbalance):
                 return asked, found
         # judged by all that is known: the gap tells what is left open
         return self.asked(), found
 
-    def _of_first_order(self, program: Problem) -> bool:
-        """Whether plates are cut without cuts: a budget holds of what is cut and not of its tangents."""
-        budget = program.limits.max_total_mass < np.inf
-        return not budget and cone_program(program, self.wanted.least_mass) is not None
+    def _cut(self, program: Problem, solver: Solver) -> Found | Unkept | None:
+        """The optimum of a cone program of plates; None of other problems.
+
+        A budget holds of what is cut and not of its tangents, by which it is found here.
+        """
+        cut, budget = plates(self.posed.machine), program.limits.max_total_mass < np.inf
+        statement = None if cut is None or budget else cone_program(program, self.wanted.least_mass)
+        if cut is None or statement is None:
+            return None
+        return cut_optimum(self.posed, cut, program, statement, solver)
 
 
 def _scenarios(request: OptimizeRequest, share: float) -> Iterator[Machine]:

@@ -15,7 +15,7 @@ from optimizer.numerics.arrays import Real
 from optimizer.outputs.requirements import missing
 from optimizer.program.reference.solver import Solver
 from optimizer.program.verdict import CONTRADICTED
-from optimizer.solve.minimum_mass import certified_light
+from optimizer.solve.minimum_mass import minimum_mass
 from optimizer.solve.outcome import Infeasible
 from optimizer.solve.solve import solve
 from schemas.front.counts import Counted, CountFront, CountPoint, CountTrade
@@ -150,7 +150,7 @@ def _smallest(request: OptimizeRequest, scene: Prepared, solver: Solver) -> _Bes
 
 def _lightest(request: OptimizeRequest, scene: Prepared, solver: Solver) -> _Best:
     """The least total mass of all that keep the ceilings."""
-    best = certified_light(request, scene, solver)
+    best = minimum_mass(request, scene, solver)
     mass, angle = beside(request.machine, best.mass_kg, best.angle_deg)
     value, fixed = float(np.sum(mass)), float(np.sum(fixed_masses(request.machine)))
     bound, status, reason = best.lower_bound + fixed, best.status, best.reason
