@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import is_dataclass
 from typing import Any, TypeVar
 
 import numpy as np
@@ -28,7 +27,7 @@ def mapped(part: Part, function: Callable[[Any], Any]) -> Part:
     for name, value in found.items():
         if isinstance(value, _ARRAYS):
             found[name] = function(value)
-        elif is_dataclass(value):
+        elif hasattr(value, "__dataclass_fields__"):
             found[name] = mapped(value, function)
     return type(part)(**found)
 

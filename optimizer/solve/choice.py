@@ -75,7 +75,7 @@ def certified_choice(
         if picked is None or not robust.learnt(picked.unbalance) or robust.left_s == 0.0:
             break
     # judged by all changes of masses that are known, of which those before have proven no less
-    asked = robust.asked()
+    asked = robust.asked() if robust.scatters else asked
     assert picked is not None  # a choice is there after the first goal
     last = stages[-1]
     found = last.found

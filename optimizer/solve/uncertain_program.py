@@ -150,7 +150,7 @@ class Robust:
         if self.scatters:
             self.learnt(np.zeros(len(self.posed.machine.webs), complex))
 
-    @property
+    @cached_property
     def scatters(self) -> bool:
         """Whether any reciprocating masses do."""
         return any(machine.scatters for machine in self.machines)

@@ -295,7 +295,7 @@ def _bound(proof: Proof, u: Complex, excess: float) -> tuple[float, float]:
         over = np.full(statement.ceilings.size.shape, excess)
         allowance = float(ceiling_allowance(statement, proof.multipliers, over))
     # what scatters whatever the counterweights is a floor
-    charge = proof.charge + _FLOORS * float(np.sum(np.abs(statement.floor)))
+    charge = proof.charge + _FLOORS * float(np.add.reduce(np.abs(statement.floor)))
     return proof.bound - allowance, float(statement.rounding(u)) + charge * np.finfo(float).eps
 
 

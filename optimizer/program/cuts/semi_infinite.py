@@ -68,7 +68,7 @@ class Values(NamedTuple):
     @property
     def excess(self) -> float:
         """The largest excess over a ceiling; -inf without ceilings."""
-        return float(np.max(self.over, initial=-np.inf))
+        return float(np.maximum.reduce(self.over, initial=-np.inf))
 
 
 @dataclass(frozen=True)
