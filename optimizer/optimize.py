@@ -10,8 +10,8 @@ from optimizer.outputs.registry import prepare
 from optimizer.outputs.requirements import effects_of_objective, missing
 from optimizer.program.reference.solver import Solver
 from optimizer.solve.alternatives import alternatives, for_best
-from optimizer.solve.outcome import Solution
 from optimizer.solve.process_solver import own_solver
+from optimizer.solve.solution import Solution
 from optimizer.solve.solve import solve
 from optimizer.solve.turn_residual import with_turn
 from optimizer.solve.worst_case import nothing_off

@@ -22,8 +22,8 @@ from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import Row, weighted_peak
 from optimizer.program.verdict import INFEASIBLE
 from optimizer.solve.cut_plates import cut_plates
-from optimizer.solve.outcome import Infeasible, multipliers_of
 from optimizer.solve.proof import implied_max_mass, named_excess
+from optimizer.solve.solution import Infeasible, multipliers_of
 from schemas.answer.infeasibility import Closest, Infeasibility, SmallestPeak
 from schemas.answer.limits import CeilingField
 from schemas.answer.proof import BoundMultipliers, InfeasibilityMultipliers

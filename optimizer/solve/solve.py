@@ -3,7 +3,7 @@
 from optimizer.formulation.simulation import Prepared
 from optimizer.program.reference.solver import Solver
 from optimizer.solve.choice import certified_choice
-from optimizer.solve.outcome import Infeasible, Solution
+from optimizer.solve.solution import Infeasible, Solution
 from optimizer.solve.worst_case import certified_any_mass
 from schemas.request.requests import OptimizeRequest
 

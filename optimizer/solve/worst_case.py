@@ -19,11 +19,11 @@ from optimizer.program.cuts.optimum import Found, Unkept
 from optimizer.program.optimum import optimum
 from optimizer.program.reference.solver import Solver
 from optimizer.responses.curve import TurnResponse
+from optimizer.solve.answer_fields import fitted
 from optimizer.solve.cut_plates import cut_plates
 from optimizer.solve.infeasibility import out_of_reach
-from optimizer.solve.outcome import Infeasible, Solution, finite_or_null, multipliers_of
+from optimizer.solve.solution import Infeasible, Solution, finite_or_null, multipliers_of
 from optimizer.solve.uncertain_program import Machine, Measure, Robust
-from optimizer.solve.whole_turn import fitted
 from schemas.answer.first_order import ResponsePeak
 from schemas.answer.robust import PriceOfRobustness, WorstCase
 from schemas.machine.reciprocating import ReciprocatingMachine

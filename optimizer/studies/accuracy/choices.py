@@ -26,7 +26,7 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
-from optimizer.solve.outcome import Infeasible
+from optimizer.solve.solution import Infeasible
 from optimizer.solve.solve import solve
 from optimizer.studies.accuracy.ladder import LADDER_S, ROUNDS_S, frontier, median_ms
 from schemas.machine.machine import Machine

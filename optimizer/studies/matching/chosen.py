@@ -24,7 +24,7 @@ from optimizer.program.certificate import Multipliers, normalised, objective_low
 from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
-from optimizer.solve.outcome import Solution
+from optimizer.solve.solution import Solution
 from optimizer.solve.solve import solve
 from optimizer.studies.matching.problem import Minorants, Problem
 from schemas.machine.reciprocating import ReciprocatingMachine

@@ -16,7 +16,7 @@ from optimizer.outputs.requirements import missing
 from optimizer.program.reference.solver import Solver
 from optimizer.program.verdict import CONTRADICTED
 from optimizer.solve.minimum_mass import minimum_mass
-from optimizer.solve.outcome import Infeasible
+from optimizer.solve.solution import Infeasible
 from optimizer.solve.solve import solve
 from schemas.front.counts import Counted, CountFront, CountPoint, CountTrade
 from schemas.front.pareto import ParetoRequest

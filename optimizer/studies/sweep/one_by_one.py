@@ -8,7 +8,7 @@ import numpy as np
 from optimizer.numerics.arrays import Complex
 from optimizer.outputs.registry import prepare
 from optimizer.program.reference.solver import Solver
-from optimizer.solve.outcome import Infeasible, Solution
+from optimizer.solve.solution import Infeasible, Solution
 from optimizer.solve.solve import solve
 from schemas.answer.answers import GoalReached
 from schemas.answer.proof import DesignMultipliers
