@@ -5,19 +5,18 @@ from dataclasses import replace
 
 from optimizer.errors import MissingInput, refuse
 from optimizer.formulation.counterweights import too_heavy
-from optimizer.formulation.simulation import Prepared
 from optimizer.outputs.registry import fields as answered
 from optimizer.outputs.registry import prepare
 from optimizer.outputs.requirements import effects_of_objective, missing
 from optimizer.program.reference.solver import Solver
 from optimizer.solve.alternatives import alternatives, for_best
-from optimizer.solve.outcome import Outcome
 from optimizer.solve.process_solver import own_solver
+from optimizer.solve.solution import Solution
 from optimizer.solve.solve import solve
 from optimizer.solve.turn_residual import with_turn
 from optimizer.solve.worst_case import nothing_off
 from schemas.answer.alternatives import Alternative
-from schemas.answer.answers import Certificate, OptimizeAnswer, Timing
+from schemas.answer.answers import OptimizeAnswer, Timing
 from schemas.base.mappings import or_mapping
 from schemas.request.requests import OptimizeRequest
 
@@ -49,30 +48,34 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
     solver = solver or own_solver()
     best = solve(for_best(request), scene, solver)
     cheaper: tuple[Alternative, ...] = ()
-    if request.alternatives and best.chosen is not None:
+    if request.alternatives and isinstance(best, Solution):
         left_s = request.accuracy.time_limit_s - (time.thread_time() - began)
-        cheaper = alternatives(request, scene, best.chosen, solver, left_s)
+        cheaper = alternatives(request, scene, best.unbalance, solver, left_s)
     reporting = time.perf_counter()
-    figures = answered(replace(best.cut or scene, shafts=best.shafts), best.unbalance, always, best.fields)
+    there, on_crank, told, u, report_s = best.cut or scene, None, best.answer, None, 0.0
+    if isinstance(best, Solution):
+        there, on_crank = replace(there, shafts=best.shown.on_shafts), best.shown.on_crank
+        u, report_s = best.unbalance, best.report_s
+        if request.tolerances is not None and not request.robust:
+            told |= nothing_off(request, scene, u, best.certificate.objective)
+    figures = answered(there, on_crank, always, told)
     if request.objective.orders == "all":
-        figures["residual"] = with_turn(figures["residual"], scene, best.chosen)
-    worst = _nothing_off(request, scene, best)
+        figures["residual"] = with_turn(figures["residual"], scene, u)
     end = time.perf_counter()
     return OptimizeAnswer(
         status=best.status,
         status_reason=best.reason,
-        **best.fields,
-        **worst,
+        **told,
         **figures,
         alternatives=cheaper,
         reference_plane_m=float(scene.layout.reference_plane),
         effects=scene.simulated.uses,
         timing=Timing(
             total_ms=(end - start) * 1e3,
-            solve_ms=(reporting - solving - best.certify_s - best.report_s) * 1e3,
+            solve_ms=(reporting - solving - best.certify_s - report_s) * 1e3,
             mechanics_ms=scene.mechanics_ms,
             certificate_ms=best.certify_s * 1e3,
-            report_ms=(end - reporting + best.report_s) * 1e3,
+            report_ms=(end - reporting + report_s) * 1e3,
         ),
     )
 
@@ -81,11 +84,3 @@ def _always(request: OptimizeRequest) -> tuple[str, ...]:
     """Outputs that the answer to a request holds, whether they were asked for or not."""
     counted = ((_OF_THE_SHAFT, request.objective.of_the_shaft), (_ROLL, request.objective.roll_weight > 0))
     return (*_ALWAYS, *(name for name, counts in counted if counts))
-
-
-def _nothing_off(request: OptimizeRequest, scene: Prepared, best: Outcome) -> dict[str, object]:
-    """The worst case where tolerances are stated that are 0."""
-    certificate = best.fields["certificate"]
-    if request.tolerances is None or request.robust or best.chosen is None or not isinstance(certificate, Certificate):
-        return {}
-    return nothing_off(request, scene, best.chosen, certificate.objective)

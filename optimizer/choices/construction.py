@@ -10,8 +10,8 @@ from optimizer.program.reference.solver import Solver
 from schemas.request.requests import OptimizeRequest
 
 
-def feasible_set(request: OptimizeRequest, limits: Limits, solver: Solver) -> FeasibleSet | None:
-    """What counterweights are chosen from; None where any mass at any angle within the limits is one.
+def feasible_set(request: OptimizeRequest, limits: Limits, solver: Solver) -> FeasibleSet:
+    """What counterweights are chosen from: a catalogue, or any mass at any angle that is 0 or no less than a least one.
 
     Parameters
     ----------
@@ -25,7 +25,5 @@ def feasible_set(request: OptimizeRequest, limits: Limits, solver: Solver) -> Fe
     machine = request.machine
     if machine.discrete:
         return Catalogue(stock(machine), limits.radius)
-    if machine.semicontinuous:
-        least = stacked([web.min_fitted_mass_kg or 0.0 for web in machine.webs])
-        return MinimumMasses(machine, least, limits, request.objective.least_mass, solver)
-    return None
+    least = stacked([web.min_fitted_mass_kg or 0.0 for web in machine.webs])
+    return MinimumMasses(machine, least, limits, request.objective.least_mass, solver)

@@ -2,7 +2,6 @@
 
 from typing import NamedTuple
 
-from optimizer.mechanics.shapes import plates
 from schemas.request.requests import Accuracy, OptimizeRequest
 
 
@@ -18,16 +17,6 @@ def demand(request: OptimizeRequest) -> Demand:
     """What a request says."""
     accuracy = request.accuracy
     return Demand(accuracy.relative_gap, request.objective.least_mass, accuracy.time_limit_s)
-
-
-def by_cuts(request: OptimizeRequest) -> bool:
-    """Whether a request is solved by cuts: it looks at the whole turn, at several cases or at goals in their order.
-
-    So are plates under a budget, which holds of what is cut and not of its tangents.
-    """
-    if request.objective.over_the_turn or request.robust:
-        return True
-    return request.machine.max_total_mass_kg is not None and plates(request.machine) is not None
 
 
 def of_any_mass(request: OptimizeRequest) -> Demand:

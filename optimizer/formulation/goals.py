@@ -132,7 +132,7 @@ def formulate(
     )
     capped = tuple((each.quantity, each.ceiling / each.omega_squared) for each in limited)
     cut, most = plates(machine), limits(closed(machine), np.shape(omega_squared))
-    program = Problem(tuple(quantities), chosen, exact, capped, most, scatter, cut)
+    program = Problem(tuple(quantities), chosen, exact, capped, most, scatter, cut, objective.symmetric)
     return Goals(program, limited, tuple(cases))
 
 

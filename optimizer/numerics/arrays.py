@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import is_dataclass
 from typing import Any, TypeVar
 
 import numpy as np
@@ -24,13 +23,13 @@ SMALLEST = 1e-250
 
 def mapped(part: Part, function: Callable[[Any], Any]) -> Part:
     """The same dataclass with a function of every array in it, parts within parts too; what is no array stays."""
-    return type(part)(**{name: _mapped(value, function) for name, value in vars(part).items()})
-
-
-def _mapped(value: Any, function: Callable[[Any], Any]) -> Any:
-    if isinstance(value, _ARRAYS):
-        return function(value)
-    return mapped(value, function) if is_dataclass(value) else value
+    found = vars(part).copy()
+    for name, value in found.items():
+        if isinstance(value, _ARRAYS):
+            found[name] = function(value)
+        elif hasattr(value, "__dataclass_fields__"):
+            found[name] = mapped(value, function)
+    return type(part)(**found)
 
 
 def spread(array: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:

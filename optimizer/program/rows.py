@@ -96,7 +96,11 @@ def statement(groups: Sequence[Sequence[Row]], ceilings: Sequence[tuple[Response
         ceilings=limited(ceilings, norms, limits.radius.shape[-1]),
         limits=limits,
         names=Names(
-            tuple(Term(peak.name, part) for peak, count in zip(peaks, terms, strict=True) for part in PARTS[:count]),
+            tuple(
+                Term(peak.name, part, None, peak.scenario)
+                for peak, count in zip(peaks, terms, strict=True)
+                for part in PARTS[:count]
+            ),
             tuple(row.name for row in rows),
         ),
     )

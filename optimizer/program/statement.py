@@ -143,6 +143,8 @@ class Statement:
 
     def rounding(self, u: Complex) -> Real:
         """What the objective may change by where masses and angles are rounded (...)."""
+        if self.flat is not None and self.flat.suits(u.shape[:-1]):
+            return self.flat.values(u)[3]
         size = np.add.reduce(np.abs(self.norms.influence) * np.abs(u)[..., None, :], axis=(-2, -1))
         size = (1.0 + self.norms.scatter) * size
         return _ROUNDING * (size + np.add.reduce(np.abs(self.norms.constant), axis=-1))
@@ -189,7 +191,9 @@ class Statement:
         )
         none = Ceilings((), Norms(constant[..., :0], norms.influence[..., :0, :]), size[..., :0], size[..., :0])
         called = self.ceilings.names
-        names = Names(tuple(Term(name, "co") for name in called), called)
+        scenarios = self.ceilings.scenarios or (None,) * len(called)
+        terms = (Term(name, "co", None, scenario) for name, scenario in zip(called, scenarios, strict=True))
+        names = Names(tuple(terms), called)
         rows = np.arange(size.shape[-1])
         return Statement(norms, rows, np.zeros_like(rows), -self.ceilings.cap / size, none, self.limits, names)
 
@@ -210,7 +214,11 @@ class Statement:
 
     def alone(self) -> "Statement":
         """One program as the only one of a leading axis (1,)."""
-        return self._mapped(lambda array: array[None])
+        found = self._mapped(lambda array: array[None])
+        # what is known of it is not found out again
+        known = {"at_rest": self.at_rest[None], "single_reach": self.single_reach[None]}
+        vars(found).update(known, flat=None if self.flat is None else replace(self.flat, leading=(1,)))
+        return found
 
     def chosen(self, programs: "int | tuple[int, ...] | np.ndarray") -> "Statement":
         """Some of the programs by their leading axes."""

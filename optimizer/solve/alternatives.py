@@ -56,9 +56,7 @@ def alternatives(
     """
 
     def choices(limits: Limits) -> FeasibleSet:
-        some = feasible_set(request, limits, solver)
-        assert some is not None  # there is a catalogue
-        return some
+        return feasible_set(request, limits, solver)
 
     wanted = of_any_mass(request)
     robust = Robust(request, scene, wanted._replace(time_limit_s=_SPARE * max(left_s, 0.0)))

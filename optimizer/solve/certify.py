@@ -1,6 +1,6 @@
 """Certified counterweights of many designs of one shape; one request is a batch of one."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -35,7 +35,6 @@ class Certified:
     certificate: dict[str, np.ndarray]  # (N,) fields of the certificate, in the units of the answer; nan is null
     status: np.ndarray  # (N,)
     reason: np.ndarray  # (N,) a sentence
-    searched: bool = False  # whether a search chose them, so that of the mass nothing is proven
 
 
 def certified(
@@ -66,18 +65,14 @@ def judged(
     program: Statement,
     found: Optima,
     omega_squared: Real,
-    alike: Callable[[Real, Real], tuple[Real, Real]] | None = None,
 ) -> Certified:
     """Counterweights as they are fitted, and what may be claimed of them.
 
     Parameters
     ----------
     program : (N,), over omega^2, of the machine.
-    alike : masses and angles as they are fitted of those that were found; None is as they were found.
     """
     mass, angle = masses_and_angles(machine, found.unbalance, program.limits)
-    if alike is not None:
-        mass, angle = alike(mass, angle)
     u = unbalance(mass, angle, program.limits.radius)
     mass_bound = found.mass_lower_bound if wanted.least_mass else None
     claimed = claim(program, u, np.add.reduce(mass, axis=-1), found.lower_bound, found.multipliers, mass_bound)

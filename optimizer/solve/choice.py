@@ -19,19 +19,19 @@ from optimizer.formulation.goals import Goals
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.fixed_weights import fixed_masses
 from optimizer.mechanics.layout import stacked
-from optimizer.numerics.arrays import Complex
-from optimizer.program.cuts.optimum import Found, Reached, Unkept, next_goal, over_turn, semicontinuous_limits
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.cuts.optimum import Found, Reached, Unkept, next_goal, semicontinuous_limits
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.limits import Limits
+from optimizer.program.optimum import optimum
 from optimizer.program.reference.solver import Solver
+from optimizer.solve.answer_fields import Candidate, SearchProof, told
 from optimizer.solve.costs import NO_CAPS, Caps, Costs, cost
 from optimizer.solve.cutting_plane_rounds import Ended, Start, in_rounds
-from optimizer.solve.design import certified_one
 from optimizer.solve.infeasibility import out_of_reach, unreachable
-from optimizer.solve.outcome import Outcome, finite_or_null
 from optimizer.solve.search_claims import told_status
+from optimizer.solve.solution import Infeasible, Solution, finite_or_null
 from optimizer.solve.uncertain_program import MOST_ROUNDS, Robust
-from optimizer.solve.whole_turn import Candidate, SearchProof, told
 from optimizer.solve.worst_case import certified_any_mass, with_worst_case
 from schemas.answer.answers import GoalReached
 from schemas.request.cases import AS_GIVEN
@@ -44,7 +44,9 @@ _CLOSE = 1e-10
 _ROUNDING = 1e-12
 
 
-def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver, in_full: bool = True) -> Outcome:
+def certified_choice(
+    request: OptimizeRequest, scene: Prepared, solver: Solver, in_full: bool = True
+) -> Solution | Infeasible:
     """Of what can be chosen the best, over the turn and in the worst of all scenarios.
 
     Parameters
@@ -59,22 +61,22 @@ def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver, 
         if a machine lacks what the objective needs.
     """
     if request.machine.semicontinuous:
-        free = certified_any_mass(request, scene, in_full)
-        if free.chosen is None or _heavy_enough(request, free.chosen):
+        free = certified_any_mass(request, scene, solver, in_full)
+        if isinstance(free, Infeasible) or _heavy_enough(request, free.mass):
             return free
     any_mass = of_any_mass(request)
     robust = Robust(request, scene, any_mass)
     for _ in range(MOST_ROUNDS):
         asked = robust.asked()
-        first = _of_any_mass(asked.program, any_mass.relative_gap, robust)
+        first = _of_any_mass(asked.program, any_mass.relative_gap, robust, solver)
         if isinstance(first, Unkept):
-            return out_of_reach(request, scene, asked, first)
+            return out_of_reach(request, scene, asked, first, solver)
         course = _in_order(request, robust, asked, first, solver)
         stages, picked = course.stages, course.known
         if picked is None or not robust.learnt(picked.unbalance) or robust.left_s == 0.0:
             break
     # judged by all changes of masses that are known, of which those before have proven no less
-    asked = robust.asked()
+    asked = robust.asked() if robust.scatters else asked
     assert picked is not None  # a choice is there after the first goal
     last = stages[-1]
     found = last.found
@@ -82,14 +84,14 @@ def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver, 
     if not found.kept and found.lower_bound == np.inf:
         shown = chosen(request, picked.mass, picked.angle)
         status, reason = told_status(found, "infeasible", "", True)
-        answer = unreachable(request, scene, asked, shown, best.limits, None)
-        return replace(answer, status=status, reason=reason, method=found.method, nodes=_nodes(stages))
+        none = unreachable(request, scene, asked, shown, best.limits, None, solver)
+        return replace(none, status=status, reason=reason, method=found.method, nodes=_nodes(stages))
     judged = demand(request)._replace(least_mass=False)
     if len(stages) < len(asked.program.goals):
         # nothing is proven of what goals come to in their order
-        asked, of_any = robust.solved()
+        asked, of_any = robust.solved(solver)
         if isinstance(of_any, Unkept):
-            return out_of_reach(request, scene, asked, of_any)
+            return out_of_reach(request, scene, asked, of_any, solver)
         nothing = SearchProof(found, found.nodes, found.rounds, None, True)
         return told(request, scene, asked, Candidate(picked.mass, picked.angle, of_any), judged, nothing, in_full)
     proof = SearchProof(
@@ -115,9 +117,9 @@ class _Stage(NamedTuple):
     contradicted: bool  # the choice comes to less than any is proven to
 
 
-def _of_any_mass(program: Problem, gap: float, robust: Robust) -> Found | Unkept:
+def _of_any_mass(program: Problem, gap: float, robust: Robust, solver: Solver) -> Found | Unkept:
     """The first goal by itself."""
-    return over_turn(program.changed(goals=program.goals[:1]), gap, False, robust.left_s)
+    return optimum(program.changed(goals=program.goals[:1]), gap, False, solver, robust.left_s)
 
 
 def _in_order(request: OptimizeRequest, robust: Robust, asked: Goals, best: Found, solver: Solver) -> "_Course":
@@ -215,9 +217,7 @@ class _Course:
         return self.program.changed(goals=self.program.goals[:count], limits=limits)
 
     def _choices(self, limits: Limits) -> FeasibleSet:
-        choices = feasible_set(self.request, limits, self.solver)
-        assert choices is not None  # else there would be nothing to search
-        return choices
+        return feasible_set(self.request, limits, self.solver)
 
 
 def _limits(
@@ -253,10 +253,9 @@ def _nodes(stages: list[_Stage]) -> int:
     return sum(stage.found.nodes for stage in stages)
 
 
-def _heavy_enough(request: OptimizeRequest, u: Complex) -> bool:
-    webs = request.machine.webs
-    mass = np.abs(u) / stacked([web.radius_m for web in webs])
-    return bool(np.all((mass == 0) | (mass >= stacked([web.min_fitted_mass_kg or 0.0 for web in webs]))))
+def _heavy_enough(request: OptimizeRequest, mass: Real) -> bool:
+    least = stacked([web.min_fitted_mass_kg or 0.0 for web in request.machine.webs])
+    return bool(np.all((mass == 0) | (mass >= least)))
 
 
 def _nominal_choice(
@@ -267,9 +266,6 @@ def _nominal_choice(
         return None, True
     accuracy = request.accuracy.model_copy(update={"time_limit_s": left_s})
     alone = request.model_copy(update={**AS_GIVEN, "tolerances": None, "accuracy": accuracy})
-    if alone.objective.over_the_turn:
-        of_turn = certified_choice(alone, scene, solver, in_full=False)
-        return of_turn.chosen if of_turn.status == "optimal" else None, of_turn.status == "inaccurate"
-    _, best = certified_one(alone, scene.responses, np.array([scene.omega_squared]), solver)
-    status = str(best.status[0])
-    return best.unbalance[0] if status == "optimal" else None, status == "inaccurate"
+    of_machine = certified_choice(alone, scene, solver, in_full=False)
+    late = of_machine.status == "inaccurate"
+    return of_machine.unbalance if isinstance(of_machine, Solution) and not late else None, late

@@ -89,6 +89,13 @@ def in_rounds(
     pool, points, case_of = Pool(_known(program), program.scatter), best.point.unbalance[None], program.case_of
     most = np.array([goal.most for goal in best.goals[:-1]])
     kinds = program.goal_of_case
+    if program.finite is not None and known is None:
+        # all is known of it
+        whole = choices.posed(replace(program.finite, limits=best.limits))
+        last = choices.best(Subproblem(whole, points, best.proof.bound, relative_gap, size, left_s()))
+        found = last.found
+        bound = np.inf if found.lower_bound == np.inf else max(best.proof.bound, found.lower_bound)
+        return last, Ended(found.kept, bound, found.nodes, found.method, found.proven, found.ended, 0, 0)
     bound, least, chosen, stuck = best.proof.bound, np.inf, known, not program.quantities
     if known is not None:
         points = np.concatenate([points, known.unbalance[None]])

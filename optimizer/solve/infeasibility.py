@@ -7,7 +7,6 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.formulation.balance_shafts import Fitted, chosen, posed
-from optimizer.formulation.counterweights import masses_and_angles
 from optimizer.formulation.formulate import RESPONSES, given_ceilings
 from optimizer.formulation.formulate import limited as limited_responses
 from optimizer.formulation.goals import Goals
@@ -15,14 +14,16 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.shapes import closed
 from optimizer.outputs.first_order import added_peaks, first_order, smallest_peaks, smallest_proofs
 from optimizer.program.cuts.dominance import Group, Weighed
-from optimizer.program.cuts.optimum import METHOD, Found, Unkept, over_turn
+from optimizer.program.cuts.optimum import METHOD, Found, Unkept
 from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.limits import Limits
+from optimizer.program.optimum import optimum
+from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import Row, weighted_peak
 from optimizer.program.verdict import INFEASIBLE
 from optimizer.solve.cut_plates import cut_plates
-from optimizer.solve.outcome import Outcome, multipliers_of
 from optimizer.solve.proof import implied_max_mass, named_excess
+from optimizer.solve.solution import Infeasible, multipliers_of
 from schemas.answer.infeasibility import Closest, Infeasibility, SmallestPeak
 from schemas.answer.limits import CeilingField
 from schemas.answer.proof import BoundMultipliers, InfeasibilityMultipliers
@@ -68,8 +69,8 @@ def report(
     implied: dict[str, float],
     conflict: BoundMultipliers | None,
     scenarios: tuple[str, ...] = (),
-) -> dict[str, object]:
-    """The fields of an answer that has no counterweights: which ceilings conflict, and what can be reached.
+) -> Infeasibility:
+    """What is told where there are no counterweights: which ceilings conflict, and what can be reached.
 
     Parameters
     ----------
@@ -80,51 +81,43 @@ def report(
     """
     impossible = [each for each in ceilings if least[each.response].lower_bound > each.allowed]
     left = replace(scene, shafts=shown.on_shafts).first_order(shown.on_crank)
-    return {
-        "counterweights": (),
-        "total_mass_kg": None,
-        "certificate": None,
-        "infeasibility": Infeasibility(
-            conflict=tuple(dict.fromkeys(each.field for each in impossible or together)),
-            **smallest_peaks(
-                {name: each.value for name, each in least.items()},
-                {name: each.lower_bound for name, each in least.items()},
-            ),
-            smallest=tuple(
-                SmallestPeak(
-                    response=each.response,
-                    ceiling_field=each.field,
-                    ceiling=each.allowed,
-                    smallest=least[each.response].value,
-                    lower_bound=least[each.response].lower_bound,
-                    multipliers=least[each.response].multipliers,
-                )
-                for each in dict.fromkeys(ceilings)
-                if each.listed
-            ),
-            implied_max_mass_kg=implied,
-            scenarios=scenarios,
-            closest=Closest(
-                counterweights=shown.counterweights,
-                balance_shafts=shown.balance_shafts,
-                first_order=first_order(left),
-                responses=added_peaks(scene, left),
-            ),
-            multipliers=InfeasibilityMultipliers(
-                conflict=conflict, **smallest_proofs({name: each.multipliers for name, each in least.items()})
-            ),
+    return Infeasibility(
+        conflict=tuple(dict.fromkeys(each.field for each in impossible or together)),
+        **smallest_peaks(
+            {name: each.value for name, each in least.items()},
+            {name: each.lower_bound for name, each in least.items()},
         ),
-    }
+        smallest=tuple(
+            SmallestPeak(
+                response=each.response,
+                ceiling_field=each.field,
+                ceiling=each.allowed,
+                smallest=least[each.response].value,
+                lower_bound=least[each.response].lower_bound,
+                multipliers=least[each.response].multipliers,
+            )
+            for each in dict.fromkeys(ceilings)
+            if each.listed
+        ),
+        implied_max_mass_kg=implied,
+        scenarios=scenarios,
+        closest=Closest(
+            counterweights=shown.counterweights,
+            balance_shafts=shown.balance_shafts,
+            first_order=first_order(left),
+            responses=added_peaks(scene, left),
+        ),
+        multipliers=InfeasibilityMultipliers(
+            conflict=conflict, **smallest_proofs({name: each.multipliers for name, each in least.items()})
+        ),
+    )
 
 
-def out_of_reach(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Unkept) -> Outcome:
+def out_of_reach(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Unkept, solver: Solver) -> Infeasible:
     """Which ceilings conflict, what each peak comes to by itself, and the best compromise."""
-    cut, there, within = cut_plates(request, scene, asked, found.closest.unbalance, found.limits)
-    program = within.program
-    limits = found.limits if program.plates is None else program.limits
-    mass, angle = masses_and_angles(posed(cut).machine, found.closest.unbalance, limits)
-    outcome = unreachable(request, there, asked, chosen(cut, mass, angle), found.limits, found)
-    return outcome if program.plates is None else replace(outcome, cut=there)
+    cut, there, within, mass, angle = cut_plates(request, scene, asked, found.closest.unbalance, found.limits)
+    told = unreachable(request, there, asked, chosen(cut, mass, angle), found.limits, found, solver)
+    return told if within.program.plates is None else replace(told, cut=there)
 
 
 def unreachable(
@@ -134,7 +127,8 @@ def unreachable(
     shown: Fitted,
     within: Limits,
     found: Unkept | None,
-) -> Outcome:
+    solver: Solver,
+) -> Infeasible:
     """The same of what is shown as closest, with the proof by multipliers where there is one."""
     square = scene.omega_squared
     alone = asked.program.changed(ceilings=(), limited=())
@@ -147,11 +141,16 @@ def unreachable(
         of_name = {each.quantity: each for each in asked.limited if alone.quantities[each.quantity].name == name}
         groups[name] = Group(weighed=tuple(Weighed(q, each.omega_squared / square) for q, each in of_name.items()))
     # one reach for all that is proven here
-    least = {name: _least(alone, group) for name, group in groups.items()}
+    common, least = alone.limits, {name: _least(alone, group, solver) for name, group in groups.items()}
     most = np.max([within.max_mass, *(each.limits.max_mass for each in least.values())], axis=0)
     if np.any(most != alone.limits.max_mass):
-        alone = alone.changed(limits=replace(alone.limits, max_mass=most))
-        least = {name: _least(alone, group) for name, group in groups.items()}
+        common = replace(alone.limits, max_mass=most)
+        if found is not None and np.any(most != within.max_mass):
+            again = optimum(asked.program.changed(limits=common), 1.0, False, solver)
+            # where the conflict is proven for less only, all is proven for that
+            common, found = (common, again) if isinstance(again, Unkept) else (within, found)
+        alone = alone.changed(limits=common)
+        least = {name: _least(alone, group, solver) for name, group in groups.items()}
     peaks = {
         name: Smallest(goal.value * square, goal.lower_bound * square, multipliers_of(goal.proof, square, asked.speeds))
         for name, (goal,) in ((name, each.goals) for name, each in least.items())
@@ -170,11 +169,11 @@ def unreachable(
     if found is not None:
         scales, proof = asked.program.excess_scales(found.proof.cuts), found.proof
         conflict = named_excess(proof.with_pieces, proof.multipliers, scales, asked.speeds)
-        scenarios = _scenarios(asked.program, found)
-    implied = implied_max_mass(closed(posed(request).machine), most[None])[0]
-    fields = report(scene, shown, (*exact, *both), together, peaks, implied, conflict, scenarios)
+        scenarios = _scenarios(asked.program, found, solver)
+    implied = implied_max_mass(closed(posed(request).machine), common.max_mass[None])[0]
+    told = report(scene, shown, (*exact, *both), together, peaks, implied, conflict, scenarios)
     spent = (0.0 if found is None else found.certify_s) + sum(each.certify_s for each in least.values())
-    return Outcome("infeasible", INFEASIBLE, None, None, None, spent, METHOD, 0, fields)
+    return Infeasible("infeasible", INFEASIBLE, told, spent, METHOD if found is None else found.method)
 
 
 def _alone(request: OptimizeRequest, asked: Goals, omega_squared: float) -> dict[str, tuple[Row, ...]]:
@@ -191,7 +190,7 @@ def _alone(request: OptimizeRequest, asked: Goals, omega_squared: float) -> dict
     return {name: tuple(each) for name, each in rows.items()}
 
 
-def _scenarios(program: Problem, found: Unkept) -> tuple[str, ...]:
+def _scenarios(program: Problem, found: Unkept, solver: Solver) -> tuple[str, ...]:
     """Scenarios whose ceilings are out of reach by themselves, or those whose ceilings conflict with one another."""
     statement, row = found.proof.statement, np.maximum(found.proof.multipliers.row, 0.0)
     leant = row[statement.row] > _TAKES_PART * np.sum(row)
@@ -199,14 +198,14 @@ def _scenarios(program: Problem, found: Unkept) -> tuple[str, ...]:
     names = tuple(dict.fromkeys(term.scenario for term, counts in terms if counts and term.scenario is not None))
     if len(names) < 2:
         return names
-    return tuple(name for name in names if isinstance(_under(program, name), Unkept)) or names
+    return tuple(name for name in names if isinstance(_under(program, name, solver), Unkept)) or names
 
 
-def _under(program: Problem, scenario: str) -> Found | Unkept:
+def _under(program: Problem, scenario: str, solver: Solver) -> Found | Unkept:
     """The program under the ceilings of one scenario alone, as far as whether they can be kept."""
     ceilings = tuple(each for each in program.ceilings if each[0].scenario == scenario)
     limited = tuple(each for each in program.limited if program.quantities[each[0]].scenario == scenario)
-    return over_turn(program.changed(goals=program.goals[-1:], ceilings=ceilings, limited=limited), 1.0, False)
+    return optimum(program.changed(goals=program.goals[-1:], ceilings=ceilings, limited=limited), 1.0, False, solver)
 
 
 def _at_fault(found: Unkept) -> list[str]:
@@ -226,8 +225,8 @@ def _under_ceilings(request: OptimizeRequest, asked: Goals) -> list[str]:
     return list(dict.fromkeys((*(each.response for each, _ in given), *limited)))[:_MOST_AT_FAULT]
 
 
-def _least(program: Problem, group: Group) -> Found:
+def _least(program: Problem, group: Group, solver: Solver) -> Found:
     """The smallest value of one group."""
-    found = over_turn(program.changed(goals=(Goal("alone", (group,)),)), _ALONE, False)
+    found = optimum(program.changed(goals=(Goal("alone", (group,)),)), _ALONE, False, solver)
     assert isinstance(found, Found)  # without ceilings nothing is out of reach
     return found

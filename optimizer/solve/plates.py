@@ -3,8 +3,7 @@
 The mass m(U) of a plate is convex. Tangents of it are webs in one plane, each with a radius and a largest mass of its
 own, which together are no heavier than what is cut: what is proven of them is proven of the plate. What they call for
 is cut, and is the answer. They are laid about where the answer is guessed to be, and closer about what they call for,
-until the gap is as asked. A budget holds of what is cut and not of its tangents: such programs are solved by cuts
-(:func:`optimizer.formulation.demand.by_cuts`).
+until the gap is as asked. A budget holds of what is cut and not of its tangents: such programs are solved by cuts.
 """
 
 from collections.abc import Sequence
@@ -18,22 +17,23 @@ import numpy as np
 from optimizer.choices.equal_plates import Cut, alike, emptied, one_size, total_mass
 from optimizer.choices.plate_guess import guessed
 from optimizer.formulation.demand import demand
-from optimizer.formulation.goals import cone_program
 from optimizer.formulation.limits import limits
 from optimizer.mechanics.plates import Plates
-from optimizer.mechanics.shapes import fitted, plates
+from optimizer.mechanics.shapes import fitted
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.cuts.optimum import Found, Unkept
+from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import Optima, optima
 from optimizer.program.methods.rounding import dust
 from optimizer.program.methods.symmetry import symmetric
+from optimizer.program.optimum import solution
 from optimizer.program.plate_pieces import Pieces, Webs, closer_nodes, first_nodes, pieces, tangents
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import MASS_GAP, mass_resolution, yardstick
-from optimizer.responses.response import Response
-from optimizer.solve.certify import Certified, certified, judged
+from optimizer.solve.certify import Certified, judged
 from optimizer.solve.cut_plates import limits_of_cut, openings
 from schemas.request.requests import OptimizeRequest
 
@@ -48,40 +48,25 @@ _PARTS = np.linspace(0.0, 1.0, 17)[1:-1]
 _NEARER = 2.5
 #: share of what optima may differ by that is used where webs are left empty
 _WITH_ROOM = 0.999
-#: openings that agree this closely, relative, are equal: what rounding leaves
-_EQUAL = 1e-14
 
 
-def certified_shapes(
-    request: OptimizeRequest, responses: Sequence[Response], omega_squared: Real, solver: Solver
-) -> tuple[OptimizeRequest, Certified]:
-    """Certified counterweights of one request, and the request with the radii that they come to.
+def cut_optimum(
+    request: OptimizeRequest, cut: Plates, program: Problem, statement: Statement, solver: Solver
+) -> Found | Unkept:
+    """Certified unbalances that are cut from plates, of a problem that is a cone program without a budget.
 
     Parameters
     ----------
-    omega_squared : (1,) rad^2/s^2.
+    request : whose machine the problem is of.
+    cut : the plates of its webs.
+    statement : the cone program.
     """
-    cut = plates(request.machine)
-    if cut is None:
-        return request, certified(request.machine, request.objective, responses, omega_squared, demand(request), solver)
     end = thread_time() + request.accuracy.time_limit_s
-    whole = within_reach(cone_program(request.machine, request.objective, responses, omega_squared), solver)
-    every = np.ones(len(request.machine.webs), bool)
-    task = _Task(request, whole, cut, omega_squared, solver, request.accuracy.relative_gap, every)
-    nodes, tried = task.guessed(first_nodes(cut)), []
-    for _ in range(_ROUNDS):
-        tried.append(task.round(nodes))
-        found = task.lightest(tried)
-        if not task.too_heavy(found):
-            asked, best = task.judged_alike(task.without_dust(found, nodes), nodes)
-            if best.status[0] != "inaccurate":
-                return asked, best
-        if thread_time() > end:
-            break
-        nodes = closer_nodes(nodes, task.opened(tried[-1].called_for))
-    # of those that are equally near the last
-    attempts = (*reversed(tried), task.lightest(tried))
-    return min((task.judged(found.proven, found.cut) for found in attempts), key=lambda each: _gap(each[1]))
+    whole, every = within_reach(statement.alone(), solver), np.ones(len(request.machine.webs), bool)
+    task = _Task(request, whole, cut, solver, request.accuracy.relative_gap, every)
+    found = task.optimum(end)
+    statement = replace(statement, limits=whole.chosen(0).limits)
+    return solution(program, statement, found, found.unbalance[0], request.objective.least_mass)
 
 
 def _gap(found: Certified) -> float:
@@ -102,7 +87,6 @@ class _Task:
     request: OptimizeRequest
     whole: Statement  # (1,), whose limits are how far the plates reach
     plates: Plates
-    omega_squared: Real  # (1,) rad^2/s^2
     solver: Solver
     relative_gap: float  # that is asked of webs in place of plates
     left: np.ndarray  # (K,) bool, webs that may carry something
@@ -118,6 +102,28 @@ class _Task:
     def size(self) -> Real:
         """Yardstick of the objective (1,)."""
         return yardstick(self.whole)
+
+    def optimum(self, end: float) -> Optima:
+        """What is found with what is proven of it.
+
+        Parameters
+        ----------
+        end : of this thread's own time, after which no more nodes are laid.
+        """
+        nodes, tried = self.guessed(first_nodes(self.plates)), list[_Round]()
+        for _ in range(_ROUNDS):
+            tried.append(self.round(nodes))
+            found = self.lightest(tried)
+            if not self.too_heavy(found):
+                best = self.judged_alike(self.without_dust(found, nodes), nodes)
+                if best.status[0] != "inaccurate":
+                    return best.found
+            if thread_time() > end:
+                break
+            nodes = closer_nodes(nodes, self.opened(tried[-1].called_for))
+        # of those that are equally near the last
+        attempts = (*reversed(tried), self.lightest(tried))
+        return min((self.judged(each.proven, each.cut) for each in attempts), key=_gap).found
 
     def opened(self, u: Complex) -> Real:
         """Half-angles (P,) of what is cut for unbalances (K,), of alike webs alike, rad."""
@@ -218,7 +224,7 @@ class _Task:
         size = np.maximum(mass, _NEARER * mass_resolution(self.whole, self.size[..., None])[0])
         return bool(mass - found.proven.mass_lower_bound[0] > MASS_GAP * size)
 
-    def judged_alike(self, found: _Round, nodes: Real) -> tuple[OptimizeRequest, Certified]:
+    def judged_alike(self, found: _Round, nodes: Real) -> Certified:
         """What is cut, with plates opened alike where what is proven still holds."""
         cut = self._alike(found, nodes)
         # those that are chosen anew for it may be next to nothing
@@ -243,27 +249,18 @@ class _Task:
         largest = float(proven.lower_bound[0] + self.request.accuracy.relative_gap * self.size[0])
         return min(largest, float(proven.mass_target[0])) if self.request.objective.least_mass else largest
 
-    def _optimal(self, proven: Optima, cut: Cut) -> tuple[OptimizeRequest, Certified] | None:
+    def _optimal(self, proven: Optima, cut: Cut) -> Certified | None:
         """What may be claimed of another cut, None where that is not an optimum."""
         if not proven.unreachable[0] and not self._keeps(proven, cut):
             return None
-        asked, best = self.judged(proven, cut)
-        return (asked, best) if best.status[0] == "optimal" else None
+        best = self.judged(proven, cut)
+        return best if best.status[0] == "optimal" else None
 
-    def judged(self, proven: Optima, cut: Cut) -> tuple[OptimizeRequest, Certified]:
-        """The request with the radii of what is cut, and what may be claimed of it."""
-        angle = cut.angle
-        same = np.arange(self.kinds.size)
-        # plates that differ by what rounding leaves are the same to the last digit
-        near = np.abs(angle[:, None] - angle) <= _EQUAL * angle
-        first = np.argmax(near & (self.plates.kinds[:, None] == self.plates.kinds), axis=1)
-        same[self.plates.webs] = self.plates.webs[first]
-        machine = fitted(self.request.machine, angle[first])
-        asked = self.request.model_copy(update={"machine": machine})
-        stated = limits(machine, self.omega_squared.shape)
-        program = replace(self.whole, limits=limits_of_cut(stated, self.whole.limits, self.plates, angle[first]))
+    def judged(self, proven: Optima, cut: Cut) -> Certified:
+        """What may be claimed of what is cut."""
+        asked = self.request.model_copy(update={"machine": fitted(self.request.machine, cut.angle)})
+        stated = limits(asked.machine, (1,))
+        program = replace(self.whole, limits=limits_of_cut(stated, self.whole.limits, self.plates, cut.angle))
         found = replace(proven, unbalance=cut.unbalance[None])
-        wanted = demand(asked)
-        return asked, judged(
-            machine, wanted, program, found, self.omega_squared, lambda mass, angle: (mass[..., same], angle)
-        )
+        # in any unit
+        return judged(asked.machine, demand(asked), program, found, np.ones(1))

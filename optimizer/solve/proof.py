@@ -66,11 +66,8 @@ def physical(
     omega_squared : (...) rad^2/s^2.
     speeds : of all scenarios, where there are any.
     """
-    (found,) = _physical(statement, {bounded: multipliers}, omega_squared)
-    scenarios = statement.ceilings.scenarios
-    if not speeds or not scenarios:
-        return found
-    return replace(found, ceiling=found.ceiling * (omega_squared / _squares(scenarios, speeds)))
+    (found,) = physical_bounds(statement, {bounded: multipliers}, omega_squared, speeds)
+    return found
 
 
 def _squares(scenarios: Iterable[str | None], speeds: Speeds) -> Real:
@@ -78,10 +75,15 @@ def _squares(scenarios: Iterable[str | None], speeds: Speeds) -> Real:
     return np.array([speeds[scenario] for scenario in scenarios])
 
 
-def _physical(
-    statement: Statement, bounds: Mapping[Bounded, Multipliers], omega_squared: Reals
+def physical_bounds(
+    statement: Statement,
+    bounds: Mapping[Bounded, Multipliers],
+    omega_squared: Reals,
+    speeds: Speeds | None = None,
 ) -> Iterator[PhysicalMultipliers]:
     """The same of several bounds on the same programs at once, in their order."""
+    scenarios = statement.ceilings.scenarios
+    over = omega_squared / _squares(scenarios, speeds) if speeds and scenarios else None
     usable = together(bounds.values()).admissible(statement)
     price = usable.price(statement)
     of_price, per_newton = 1.0 / np.where(proves(price), price, 1.0), 1.0 / np.asarray(omega_squared)
@@ -94,7 +96,8 @@ def _physical(
             budget = budget_price(statement, scaled.chosen(n), 0.0) * omega_squared
         else:
             budget = budget_price(statement, usable.chosen(n), 1.0 if name == "mass" else 0.0)
-        yield PhysicalMultipliers(term[n], scaled.row[n], scaled.ceiling[n], budget)
+        ceiling = scaled.ceiling[n] if over is None else scaled.ceiling[n] * over
+        yield PhysicalMultipliers(term[n], scaled.row[n], ceiling, budget)
 
 
 def conflict(statement: Statement, excess: Multipliers, omega_squared: Reals) -> PhysicalMultipliers:
@@ -131,7 +134,7 @@ class PhysicalProofs(NamedTuple):
 def physical_proofs(statement: Statement, found: Optima, omega_squared: Real) -> PhysicalProofs:
     """Those of N programs, one leading axis (N,)."""
     bounds: dict[Bounded, Multipliers] = {"objective": found.multipliers, "mass": found.mass_multipliers}
-    return PhysicalProofs(*_physical(statement, bounds, omega_squared))
+    return PhysicalProofs(*physical_bounds(statement, bounds, omega_squared))
 
 
 def named_proofs(

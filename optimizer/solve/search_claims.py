@@ -1,15 +1,9 @@
 """What may be claimed of counterweights that a search has found, beside what is proven of any mass at any angle."""
 
-from dataclasses import replace
-
 import numpy as np
 
 from optimizer.choices.discrete.search import EXHAUSTED
 from optimizer.choices.feasible_set import SearchResult
-from optimizer.formulation.counterweights import unbalance
-from optimizer.numerics.arrays import Real
-from optimizer.program.verdict import claim, verdict
-from optimizer.solve.certify import Certified
 
 _ALL = (
     "Proven optimal: of all sets of counterweights none within the limits has a smaller objective, and none with the"
@@ -54,47 +48,6 @@ def ended(found: SearchResult | None) -> str:
     if found.ended is not None:
         return _WHY[found.ended]
     return _LIGHTEST if found.proven else _TREE
-
-
-def searched(best: Certified, found: SearchResult, mass: Real, angle: Real, relative_gap: float) -> Certified:
-    """What was found, and what may be claimed of it.
-
-    Parameters
-    ----------
-    best : the same machine with any mass at any angle, whose bound holds too.
-    mass, angle : (1, K) kg and degrees.
-    relative_gap : that is asked.
-    """
-    omega_squared = best.omega_squared
-    u = unbalance(mass, angle, best.program.limits.radius)
-    # what any counterweights are held above holds for those that exceed ceilings by no more than these
-    free = claim(best.program, u, np.sum(mass, axis=-1), best.found.lower_bound, best.found.multipliers, None)
-    of_sets = np.array([[found.lower_bound if np.isfinite(found.lower_bound) else -np.inf]])
-    claimed = replace(free, lower_bound=np.maximum(free.lower_bound, of_sets))
-    judged = verdict(claimed, relative_gap)
-    proven = ~np.isnan(judged.relative_gap)
-    certificate = best.certificate | {
-        "objective": claimed.value[:, 0] * omega_squared,
-        "lower_bound": judged.lower_bound[:, 0] * omega_squared,
-        "gap": judged.gap[:, 0] * omega_squared,
-        "relative_gap": judged.relative_gap,
-        "continuous_lower_bound": np.where(proven, free.lower_bound[:, 0], np.nan) * omega_squared,
-        "nodes": np.array([found.nodes]),
-        "method": np.array([found.method], dtype=object),
-    }
-    status, reason = told_status(found, str(judged.status[0]), str(judged.reason[0]), bool(proven[0]))
-    reason = told_ample(reason, found, float(free.lower_bound[0, 0]))
-    return replace(
-        best,
-        mass_kg=mass,
-        angle_deg=angle,
-        unbalance=u,
-        verdict=judged,
-        certificate=certificate,
-        status=np.array([status], dtype=object),
-        reason=np.array([reason], dtype=object),
-        searched=True,
-    )
 
 
 def told_status(found: SearchResult, status: str, reason: str, proven: bool) -> tuple[str, str]:

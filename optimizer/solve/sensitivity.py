@@ -17,7 +17,7 @@ _DEGREE, _PERCENT = float(np.deg2rad(1.0)), 0.01
 _CLOSE = 1e-10
 
 
-def of_first_order(statement: Statement, u: Complex, omega_squared: float) -> Sensitivity:
+def _of_cone_program(statement: Statement, u: Complex, omega_squared: float) -> Sensitivity:
     """Of one program of vectors (no leading axes, or axes of length 1) with counterweights (..., K) kg m.
 
     Parameters
@@ -33,13 +33,15 @@ def of_first_order(statement: Statement, u: Complex, omega_squared: float) -> Se
     return _rises(as_it_is, by_angle, by_mass, omega_squared)
 
 
-def over_turn(program: Problem, u: Complex, values: Values, omega_squared: float) -> Sensitivity:
-    """Of the last goal of a program over the turn.
+def sensitivity(program: Problem, u: Complex, values: Values, omega_squared: float) -> Sensitivity:
+    """Of the last goal of a problem.
 
     Parameters
     ----------
     values : what the program comes to with counterweights (K,) kg m.
     """
+    if program.finite is not None:
+        return _of_cone_program(program.finite, u, omega_squared)
     if program.scatter != EXACT:
         # of the counterweights as they should be, whatever they are allowed to be off by
         program = replace(program, scatter=EXACT)

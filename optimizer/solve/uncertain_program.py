@@ -21,13 +21,18 @@ from optimizer.formulation.formulate import counted, given_ceilings, responses, 
 from optimizer.formulation.goals import Case, Goals, formulate
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.scatter import changed, row_parts, weighted, worst_signs
+from optimizer.mechanics.shapes import plates
 from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.registry import prepare
 from optimizer.outputs.requirements import effects_of_objective, missing
 from optimizer.program.cuts.cut import EXACT, Scatter
-from optimizer.program.cuts.optimum import Found, Unkept, over_turn
+from optimizer.program.cuts.optimum import Found, Unkept
+from optimizer.program.cuts.semi_infinite import Problem
+from optimizer.program.optimum import cone_program, optimum
+from optimizer.program.reference.solver import Solver
 from optimizer.responses.response import Phasors, Response
+from optimizer.solve.plates import cut_optimum
 from optimizer.solve.whole_turn import whole_turn_of
 from schemas.base.model import FieldProblem
 from schemas.base.target import pointer
@@ -73,9 +78,11 @@ class Machine:
     @cached_property
     def nominal(self) -> tuple[Response, ...]:
         """Responses with the masses as they should be."""
-        every = (replace(each, scenario=self.scenario) for each in self.scene.responses)
-        # over all orders nothing is mirrored
-        return tuple(each.unmirrored() if self.request.objective.orders == "all" else each for each in every)
+        every = self.scene.responses
+        if self.request.objective.orders == "all":
+            # nothing is mirrored
+            every = tuple(each.unmirrored() for each in every)
+        return every if self.scenario is None else tuple(replace(each, scenario=self.scenario) for each in every)
 
     @cached_property
     def parts(self) -> tuple[Phasors, ...]:
@@ -138,11 +145,20 @@ class Robust:
         for machine in self.machines:
             if machine.scene is not scene:
                 scene.simulated.join(machine.scene.simulated, "scenarios")
-        self._measures = list(dict.fromkeys(_measures(request)))
         self._until = time.thread_time() + wanted.time_limit_s
         #: signs of the changes of masses that are known of every machine
         self._known: list[list[Real]] = [[] for _ in self.machines]
-        self.learnt(np.zeros(len(self.posed.machine.webs), complex))
+        if self.scatters:
+            self.learnt(np.zeros(len(self.posed.machine.webs), complex))
+
+    @cached_property
+    def scatters(self) -> bool:
+        """Whether any reciprocating masses do."""
+        return any(machine.scatters for machine in self.machines)
+
+    @cached_property
+    def _measures(self) -> list[Measure]:
+        return list(dict.fromkeys(_measures(self.request)))
 
     @property
     def left_s(self) -> float:
@@ -152,12 +168,13 @@ class Robust:
     def asked(self) -> Goals:
         """The program with the changes of masses that are known."""
         cases = [machine.case(known) for machine, known in zip(self.machines, self._known, strict=True)]
-        apart = any(machine.scatters for machine in self.machines)
         machine, objective, fidelity = self.posed.machine, self.posed.objective, self.posed.fidelity
-        return formulate(machine, objective, cases, self.scene.omega_squared, fidelity, self.scatter, apart)
+        return formulate(machine, objective, cases, self.scene.omega_squared, fidelity, self.scatter, self.scatters)
 
     def learnt(self, u: Complex) -> bool:
         """Whether counterweights (K,) have shown changes of masses that are worse than those known before."""
+        if not self.scatters:
+            return False
         new = [list(self._worse(machine, known, u)) for machine, known in zip(self.machines, self._known, strict=True)]
         for known, more in zip(self._known, new, strict=True):
             known += more
@@ -172,16 +189,27 @@ class Robust:
                 found.append(corners[np.argmax(size)])
         yield from found
 
-    def solved(self) -> tuple[Goals, Found | Unkept]:
+    def solved(self, solver: Solver) -> tuple[Goals, Found | Unkept]:
         """The program with all changes of masses that matter, and its proof."""
         gap, least = self.wanted.relative_gap, self.wanted.least_mass
         for _ in range(MOST_ROUNDS):
             asked = self.asked()
-            found = over_turn(asked.program, gap, least, self.left_s)
+            found = self._cut(asked.program, solver) or optimum(asked.program, gap, least, solver, self.left_s)
             if isinstance(found, Unkept) or found.timed_out or not self.learnt(found.point.unbalance):
                 return asked, found
         # judged by all that is known: the gap tells what is left open
         return self.asked(), found
+
+    def _cut(self, program: Problem, solver: Solver) -> Found | Unkept | None:
+        """The optimum of a cone program of plates; None of other problems.
+
+        A budget holds of what is cut and not of its tangents, by which it is found here.
+        """
+        cut, budget = plates(self.posed.machine), program.limits.max_total_mass < np.inf
+        statement = None if cut is None or budget else cone_program(program, self.wanted.least_mass)
+        if cut is None or statement is None:
+            return None
+        return cut_optimum(self.posed, cut, program, statement, solver)
 
 
 def _scenarios(request: OptimizeRequest, share: float) -> Iterator[Machine]:

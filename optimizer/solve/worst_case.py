@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from optimizer.formulation.balance_shafts import Fitted, chosen, posed
-from optimizer.formulation.counterweights import masses_and_angles, unbalance
+from optimizer.formulation.balance_shafts import Fitted, chosen
+from optimizer.formulation.counterweights import unbalance
 from optimizer.formulation.demand import demand
 from optimizer.formulation.formulate import added, counted, of_all_orders
 from optimizer.formulation.goals import Goals, bearing_responses, formulate
@@ -15,14 +15,15 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.numerics.arrays import Complex
 from optimizer.program.cuts.brackets import Brackets
 from optimizer.program.cuts.cut import Quantity
-from optimizer.program.cuts.optimum import Found, Unkept, over_turn
+from optimizer.program.cuts.optimum import Found, Unkept
+from optimizer.program.optimum import optimum
+from optimizer.program.reference.solver import Solver
 from optimizer.responses.curve import TurnResponse
+from optimizer.solve.answer_fields import fitted
 from optimizer.solve.cut_plates import cut_plates
 from optimizer.solve.infeasibility import out_of_reach
-from optimizer.solve.outcome import Outcome, finite_or_null, multipliers_of
+from optimizer.solve.solution import Infeasible, Solution, finite_or_null, multipliers_of
 from optimizer.solve.uncertain_program import Machine, Measure, Robust
-from optimizer.solve.whole_turn import fitted
-from schemas.answer.answers import Certificate
 from schemas.answer.first_order import ResponsePeak
 from schemas.answer.robust import PriceOfRobustness, WorstCase
 from schemas.machine.reciprocating import ReciprocatingMachine
@@ -34,7 +35,9 @@ _NO_PROOF: Mapping[str, object] = {}
 _NO_PRICE = " The time limit ended before the nominal optimum of price_of_robustness was found."
 
 
-def certified_any_mass(request: OptimizeRequest, scene: Prepared, in_full: bool = True) -> Outcome:
+def certified_any_mass(
+    request: OptimizeRequest, scene: Prepared, solver: Solver, in_full: bool = True
+) -> Solution | Infeasible:
     """Counterweights of any mass that are optimal, in the worst of all cases where there are several.
 
     Parameters
@@ -47,24 +50,23 @@ def certified_any_mass(request: OptimizeRequest, scene: Prepared, in_full: bool 
         if a machine lacks what the objective needs.
     """
     robust = Robust(request, scene, demand(request))
-    asked, found = robust.solved()
+    asked, found = robust.solved(solver)
     if isinstance(found, Unkept):
-        return out_of_reach(request, scene, asked, found)
+        return out_of_reach(request, scene, asked, found, solver)
     told = fitted(request, scene, asked, found, robust.wanted, in_full)
-    return _beside_nominal(robust, asked, told) if request.robust else told
+    return _beside_nominal(robust, asked, told, solver) if request.robust else told
 
 
-def _beside_nominal(robust: Robust, asked: Goals, told: Outcome) -> Outcome:
+def _beside_nominal(robust: Robust, asked: Goals, told: Solution, solver: Solver) -> Solution:
     """The same with the worst case, and what it costs beside the optimum of the machine as it is given."""
     request, scene = robust.request, robust.scene
-    best, late = _nominal_optimum(robust)
+    best, late = _nominal_optimum(robust, solver)
     if best is None:
         return with_worst_case(robust, told, None, late)
     # of the masses that are printed, like every figure
+    request, scene, asked, mass, angle = cut_plates(request, scene, asked, best.point.unbalance, best.limits)
     if asked.program.plates is not None:
-        request, scene, asked = cut_plates(request, scene, asked, best.point.unbalance, best.limits)
         best = best.within(asked.program.limits)
-    mass, angle = masses_and_angles(posed(request).machine, best.point.unbalance, best.limits)
     u = unbalance(mass, angle, best.limits.radius)
     return with_worst_case(robust, told, u, late, _proof_of(scene, best, chosen(request, mass, angle)))
 
@@ -85,8 +87,8 @@ def _proof_of(scene: Prepared, best: Found, shown: Fitted) -> dict[str, object]:
 
 
 def with_worst_case(
-    robust: Robust, told: Outcome, nominal: Complex | None, late: bool, proof: Mapping[str, object] = _NO_PROOF
-) -> Outcome:
+    robust: Robust, told: Solution, nominal: Complex | None, late: bool, proof: Mapping[str, object] = _NO_PROOF
+) -> Solution:
     """What is told of counterweights, with what the worst case costs.
 
     Parameters
@@ -95,11 +97,9 @@ def with_worst_case(
     late : the limit of time left them open.
     proof : fields of the price that prove the nominal optimum.
     """
-    u, certificate = told.chosen, told.fields["certificate"]
-    assert u is not None
-    assert isinstance(certificate, Certificate)
+    u = told.unbalance
     price = _price(robust, u, nominal).model_copy(update=dict(proof))
-    worst = {"worst_case": _worst_case(robust, u, certificate.objective), "price_of_robustness": price}
+    worst = {"worst_case": _worst_case(robust, u, told.certificate.objective), "price_of_robustness": price}
     return replace(told, reason=f"{told.reason}{_NO_PRICE if late else ''}", fields={**told.fields, **worst})
 
 
@@ -165,13 +165,13 @@ def _bearing_responses(machine: Machine) -> Iterator[TurnResponse]:
     yield from bearing_responses(made, machine.request.fidelity, machine.turn, scene.laden)
 
 
-def _nominal_optimum(robust: Robust) -> tuple[Found | None, bool]:
+def _nominal_optimum(robust: Robust, solver: Solver) -> tuple[Found | None, bool]:
     """The best counterweights of the machine as it is given, if any keep its ceilings; whether the limit of time,
     of which the search has what is left, leaves that open."""
     nominal, wanted, left = _nominal(robust), robust.wanted, robust.left_s
     if left == 0.0:
         return None, True
-    found = over_turn(nominal.program, wanted.relative_gap, wanted.least_mass, left)
+    found = optimum(nominal.program, wanted.relative_gap, wanted.least_mass, solver, left)
     late = isinstance(found, Found) and found.timed_out
     return found if isinstance(found, Found) and not late else None, late
 

@@ -170,7 +170,8 @@ class Objective(Ruled):
     @property
     def over_the_turn(self) -> tuple[str, ...]:
         """Fields by which more is asked than one goal of the first order on the frame."""
-        return tuple(name for name, nothing in OVER_THE_TURN.items() if getattr(self, name) != nothing)
+        own = vars(self)
+        return tuple([name for name, nothing in OVER_THE_TURN.items() if own[name] != nothing])
 
     @property
     def of_the_revolution(self) -> tuple[str, ...]:

@@ -19,6 +19,7 @@ from rich.table import Table
 
 from optimizer.optimize import optimize
 from optimizer.outputs.registry import prepare
+from optimizer.solve.process_solver import own_solver
 from optimizer.solve.worst_case import certified_any_mass
 from schemas.request.requests import OptimizeRequest
 from tests.benchmarks.outputs import sixteen_rows
@@ -41,7 +42,7 @@ _CYLINDER = {
 _ELSE = "input, mechanics, and the making of the answer"
 #: part of an answer -> functions that do it; what they call belongs to the innermost part
 PARTS: dict[str, tuple[str, ...]] = {
-    "rounds": ("optimizer.solve.uncertain_program:over_turn",),
+    "rounds": ("optimizer.solve.uncertain_program:optimum",),
     "cone programs": ("optimizer.program.cuts.stage:solved",),
     "series of the rows": (
         "optimizer.mechanics.kernel.rows:row_functions",
@@ -95,7 +96,7 @@ def times(machine: dict[str, Any], least_mass: bool, repeats: int) -> Times:
         whole.append((time.process_time() - began) * 1e3)
         scene = prepare(request, ("main_bearings",))
         began = time.process_time()
-        certified_any_mass(request, scene)
+        certified_any_mass(request, scene, own_solver())
         solving.append((time.process_time() - began) * 1e3)
     proof = answer.certificate
     assert proof is not None

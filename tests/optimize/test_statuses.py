@@ -131,7 +131,7 @@ def test_a_solver_that_lies_is_not_believed(monkeypatch: pytest.MonkeyPatch) -> 
 
 def test_where_nothing_is_unbalanced_a_gap_still_counts(monkeypatch: pytest.MonkeyPatch) -> None:
     """The yardstick is then what the counterweights could change, and the relative gap stands for the gap."""
-    whole = import_module("optimizer.solve.certify")
+    whole = import_module("optimizer.program.optimum")
 
     opposed = [throw(-0.2, 0.0, [], rotating=10.0), throw(0.2, 180.0, [], rotating=10.0)]
     body = machine(opposed, [web("one", 0.3)])

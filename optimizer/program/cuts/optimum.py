@@ -60,18 +60,19 @@ class Reached(NamedTuple):
 
 @dataclass(frozen=True)
 class Found:
-    """Counterweights over the whole turn with their proof; the last goal is the objective."""
+    """Counterweights with their proof; the last goal is the objective."""
 
     point: Point
     goals: tuple[Reached, ...]
     mass_proof: Proof | None  # None where the least mass was not sought
     mass_target: float  # largest objective that the proof of the mass counts as an optimum
     limits: Limits  # that the proofs count with
-    rounds: int
-    cuts: int
     certify_s: float  # time spent on bounds
-    contradicted: bool  # a point exceeds the ceilings by less than any is proven to
-    timed_out: bool  # the time limit ended a search
+    method: str = METHOD
+    rounds: int = 0
+    cuts: int = 0
+    contradicted: bool = False  # a point exceeds the ceilings by less than any is proven to
+    timed_out: bool = False  # the time limit ended a search
 
     @property
     def proof(self) -> Proof:
@@ -106,8 +107,8 @@ class Unkept:
     closest: Point
     proof: Proof  # of the smallest largest excess, relative to the sizes
     limits: Limits
-    rounds: int
     certify_s: float
+    method: str = METHOD
 
 
 def over_turn(
@@ -131,7 +132,7 @@ def over_turn(
     excess = nearest.point.values.excess
     contradicted = nearest.proof is not None and nearest.proof.bound > excess + CEILING_ROUNDING
     if nearest.proof is not None and nearest.proof.bound > CEILING_ROUNDING and not contradicted:
-        return Unkept(nearest.point, nearest.proof, nearest.proof.statement.limits, nearest.rounds, nearest.certify_s)
+        return Unkept(nearest.point, nearest.proof, nearest.proof.statement.limits, nearest.certify_s)
     course = _Course(program, pool, nearest, raised=excess > -_AMPLE, contradicted=contradicted, until=until)
     for n, goal in enumerate(program.goals[:-1]):
         size, share = float(program.units[n]), max(goal.allowance, OPTIMUM_SHARE)
@@ -260,11 +261,11 @@ class _Course:
             mass_proof,
             target,
             self.so_far.limits,
-            self.rounds,
-            self.pool.count(),
             self.certify_s,
-            self.contradicted,
-            self.timed_out,
+            rounds=self.rounds,
+            cuts=self.pool.count(),
+            contradicted=self.contradicted,
+            timed_out=self.timed_out,
         )
 
     def _most(self, n: int) -> Real:

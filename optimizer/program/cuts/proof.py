@@ -33,7 +33,7 @@ class Proof:
     charge : what the goals that are kept below a level are charged with: the bound of several goals is that of the
         statement, whose groups are those of all goals times their prices, less this.
     cuts : of every quantity, in the order of the statement.
-    price : of a bound of the mass, by which it falls where the last goal may come to one more, kg.
+    prices : of a bound of the mass, what its rows are multiplied by in sum where the last goal may come to one more.
     scale : (groups,) what the groups of the statement are multiplied by; None where they are as they are.
     laid : that by which it was proven, with tangents in place of plates whose mass counts; None without plates.
     """
@@ -41,9 +41,9 @@ class Proof:
     bound: float
     statement: Statement
     multipliers: Multipliers
-    charge: float
-    cuts: tuple[int, ...]
-    price: float = 0.0
+    charge: float = 0.0
+    cuts: tuple[int, ...] = ()
+    prices: float = 1.0
     scale: Real | None = None
     laid: Statement | None = None
 
@@ -64,7 +64,9 @@ class Proof:
 
     def up_to(self, more: float) -> "Proof":
         """That of the mass of all whose last goal comes to so much more."""
-        return replace(self, bound=max(self.bound - self.price * more * _UP, 0.0))
+        # of one sum the multipliers tell it; of several they sum to 1 and the groups have the prices
+        price = self.prices * float(self.multipliers.admissible(self.statement).price(self.statement))
+        return replace(self, bound=max(self.bound - price * more * _UP, 0.0))
 
 
 def resting_proof(program: Problem, cuts: Cuts, statement: Statement) -> Proof:
@@ -106,15 +108,12 @@ def proofs(
         prices = float(np.sum(charges[program.goal_of_case == len(program.goals) - 1]))
     sharper = mass_multipliers if of_mass else objective_multipliers
     for multipliers in sharper(statement, u, dual):
-        price = 0.0
         if of_mass:
             bound = float(mass_lower_bound(statement, multipliers, np.asarray(charge)))
-            # of one sum the multipliers tell it; of several they sum to 1 and the groups have the prices
-            price = prices * float(multipliers.admissible(statement).price(statement))
         else:
             bound = float(objective_lower_bound(statement, multipliers)) - charge
         if np.isfinite(bound):
-            yield Proof(bound, statement, multipliers, charge, tuple(map(len, cuts)), price, scale)
+            yield Proof(bound, statement, multipliers, charge, tuple(map(len, cuts)), prices, scale)
 
 
 def _charged(

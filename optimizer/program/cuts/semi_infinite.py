@@ -28,9 +28,11 @@ from optimizer.program.cuts.terms import Terms
 from optimizer.program.limits import Limits
 from optimizer.program.norms import Norms
 from optimizer.program.plate_pieces import Plates, total_mass
+from optimizer.program.points import points_at
 from optimizer.program.rows import Row, WeightedPeak, statement
 from optimizer.program.scaling import natural_reach
 from optimizer.program.statement import Names, Statement
+from optimizer.program.verdict import yardstick
 from optimizer.responses.response import Response
 
 #: relative width of the brackets by which quantities are known without counterweights
@@ -66,7 +68,7 @@ class Values(NamedTuple):
     @property
     def excess(self) -> float:
         """The largest excess over a ceiling; -inf without ceilings."""
-        return float(np.max(self.over, initial=-np.inf))
+        return float(np.maximum.reduce(self.over, initial=-np.inf))
 
 
 @dataclass(frozen=True)
@@ -88,6 +90,7 @@ class Problem:
     limits: Limits
     scatter: Scatter = EXACT
     plates: Plates | None = None
+    symmetric: bool = False  # of optima those are wanted that are alike where the problem is
 
     def mass(self, u: Complex) -> float:
         """What an unbalance (K,) weighs, kg."""
@@ -130,6 +133,8 @@ class Problem:
 
     def changed(self, **fields: Any) -> "Problem":
         """The program with other goals, ceilings or limits, and what is known of its quantities."""
+        if all(getattr(self, name) is value for name, value in fields.items()):
+            return self
         other = replace(self, **fields)
         vars(other).update({name: vars(self)[name] for name in _OF_QUANTITIES if name in vars(self)})
         return other
@@ -160,6 +165,10 @@ class Problem:
     @cached_property
     def at_rest(self) -> Values:
         """Without counterweights."""
+        if self.finite is not None:
+            still = np.zeros(self.limits.radius.shape, complex)
+            over = self.finite.ceilings.excess(still) if self.ceilings else np.zeros(0)
+            return Values(self.finite.at_rest[None], over, (), self._over_budget(still))
         still, fine = np.zeros(self.limits.radius.shape, complex), np.full(len(self.quantities), _FINE)
         return self._decided(still, fine, *self._resting)
 
@@ -177,6 +186,8 @@ class Problem:
         Where that is 0, what the counterweights that cancel everything in the program could change of it, as
         :func:`optimizer.program.verdict.yardstick` has it.
         """
+        if self.finite is not None:
+            return yardstick(self.finite)[None]
         rest = self.at_rest.goals
         if np.all(rest > 0):
             return rest
@@ -197,6 +208,8 @@ class Problem:
     @cached_property
     def sizes(self) -> Real:
         """(ceilings and limited,) what excesses are measured by."""
+        if self.finite is not None:
+            return self.finite.ceilings.size
         rest = np.array([self._resting[0][q].upper for q, _ in self.limited])
         size = np.maximum(np.array([cap for _, cap in self.limited]), rest)
         return np.concatenate([self._exact_ceilings.size, np.where(size > 0, size, 1.0)])
@@ -279,12 +292,18 @@ class Problem:
         ----------
         width : of the brackets, as a share of what the goals and ceilings are measured by.
         """
+        if self.finite is not None:
+            return self._exact(self.finite, u)
         about = np.maximum(self.samples.sizes(u, self.scatter), _TINY)
         # what nearly cancels is bracketed by rounding: its samples say too little of how large it is
         faint = np.where(np.isfinite(self._shares), _FAINT * self._shares, 0.0)
         wanted = np.clip(width * self._shares / np.maximum(about, faint), 1e-15, 1e300)
         spare = self._spare(about)
         return self._decided(u, wanted, self.brackets.evaluate(u, np.maximum(wanted, spare)), spare > wanted)
+
+    def _exact(self, program: Statement, u: Complex) -> Values:
+        over = program.ceilings.excess(u) if program.ceilings.names else np.zeros(0)
+        return Values(points_at(program, u).objective[None], over, (), self._over_budget(u))
 
     def _spare(self, about: Real) -> Real:
         """Widths of brackets (quantities,) that tell of what decides nothing that it does not.

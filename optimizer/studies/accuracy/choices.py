@@ -26,9 +26,9 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
+from optimizer.solve.solution import Infeasible
 from optimizer.solve.solve import solve
 from optimizer.studies.accuracy.ladder import LADDER_S, ROUNDS_S, frontier, median_ms
-from schemas.answer.answers import Certificate
 from schemas.machine.machine import Machine
 from schemas.request.accuracy import AccuracyRequest, ChoiceRow, Reference
 from schemas.request.requests import Accuracy
@@ -185,19 +185,17 @@ class _Task:
 
     def _optimum(self, request: AccuracyRequest) -> Made | Nothing:
         found = solve(request, self.scene, self.solver, in_full=False)
-        if found.chosen is None:
+        if isinstance(found, Infeasible):
             return Nothing(_UNREACHABLE if found.status == "infeasible" else found.reason)
-        proof = found.fields["certificate"]
-        assert isinstance(proof, Certificate)  # of every optimum
-        mass = np.abs(found.chosen) / _radius((found.cut or self.scene).request.machine)
-        return Made(mass, proof.objective, proof.lower_bound, self._keeps_limits(mass, found.chosen), found.status)
+        mass, proof = found.mass, found.certificate
+        return Made(mass, proof.objective, proof.lower_bound, self._keeps_limits(mass, found.unbalance), found.status)
 
     def _rounded(self) -> Made | Nothing:
         """The optimum of any masses, of a group the mean, each on what is nearest of its web."""
         machine, free = self.request.machine, solve(self.free, self.scene, self.solver, in_full=False)
-        if free.chosen is None:
+        if isinstance(free, Infeasible):
             return Nothing(free.reason)
-        mass, angle = _nearest(machine, free.chosen)
+        mass, angle = _nearest(machine, free.unbalance)
         u = unbalance(mass, angle, _radius(machine))
         value = float(self.program.objective(u)) * self.scene.omega_squared
         return Made(mass, value, None, self._keeps_limits(mass, u), None)

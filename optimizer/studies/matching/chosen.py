@@ -12,7 +12,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.formulation.demand import by_cuts
 from optimizer.formulation.formulate import responses
 from optimizer.formulation.goals import cone_program
 from optimizer.mechanics.fixed_weights import laden
@@ -25,10 +24,9 @@ from optimizer.program.certificate import Multipliers, normalised, objective_low
 from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
-from optimizer.solve.design import certified_one
+from optimizer.solve.solution import Solution
 from optimizer.solve.solve import solve
 from optimizer.studies.matching.problem import Minorants, Problem
-from schemas.answer.answers import Certificate
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.machine.throws import Row
 from schemas.match.request import MatchRequest
@@ -128,25 +126,12 @@ class Chosen:
         left = max(self.until - time.thread_time(), _SHORTEST_S)
         accuracy = Accuracy(relative_gap=float(gap), time_limit_s=left)
         asked = self._posed.model_copy(update={"machine": machine, "accuracy": accuracy})
-        if by_cuts(asked):
-            return self._cut(asked)
-        plan = laden(layout(machine), machine)
-        base = responses(plan, rotating(plan).plus(reciprocating(plan, 1)), asked.objective)
-        _, best = certified_one(asked, base, np.ones(1), self.solver)
-        bound = float(np.nan_to_num(best.verdict.lower_bound[0, 0], nan=-np.inf))
-        return float(best.certificate["objective"][0]), bound, Fitted(best.mass_kg[0], best.angle_deg[0])
-
-    def _cut(self, asked: OptimizeRequest) -> tuple[float, float, Fitted]:
-        """The same of plates under a budget."""
         scene = prepare(asked)
         found = solve(asked, scene, self.solver, in_full=False)
-        proof = found.fields["certificate"]
-        assert isinstance(proof, Certificate)  # a budget alone is never infeasible
-        assert found.chosen is not None
-        assert found.cut is not None  # what is cut from plates has a radius of its own
-        mass = np.abs(found.chosen) / np.array([web.radius_m for web in found.cut.request.machine.webs])
+        assert isinstance(found, Solution)  # without ceilings nothing is infeasible
+        proof = found.certificate
         bound = -np.inf if proof.lower_bound is None else proof.lower_bound / scene.omega_squared
-        return proof.objective / scene.omega_squared, bound, Fitted(mass, np.degrees(np.angle(found.chosen)) % 360.0)
+        return proof.objective / scene.omega_squared, bound, Fitted(found.mass, found.angle)
 
     def _minorants(self, program: Statement, multipliers: Multipliers, mass: Real) -> Minorants:
         """The bounds as functions of the vectors of the parts."""

@@ -20,7 +20,7 @@ from optimizer.mechanics.fixed_weights import fixed_masses
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.optimize import optimize
 from optimizer.program.solution import OPTIMUM_SHARE
-from optimizer.solve.outcome import finite_or_null
+from optimizer.solve.solution import finite_or_null
 from optimizer.solve.whole_turn import whole_turn_of
 from optimizer.studies.pareto.measures import Measures, measures, sizes, unit_of
 from schemas.answer.answers import Certificate, OptimizeAnswer

@@ -2,7 +2,6 @@
 
 import time
 from dataclasses import dataclass
-from typing import cast
 
 import numpy as np
 
@@ -16,10 +15,9 @@ from optimizer.numerics.arrays import Real
 from optimizer.outputs.requirements import missing
 from optimizer.program.reference.solver import Solver
 from optimizer.program.verdict import CONTRADICTED
-from optimizer.solve.minimum_mass import certified_light
+from optimizer.solve.minimum_mass import minimum_mass
+from optimizer.solve.solution import Infeasible
 from optimizer.solve.solve import solve
-from schemas.answer.answers import Certificate
-from schemas.answer.counterweights import Counterweight
 from schemas.front.counts import Counted, CountFront, CountPoint, CountTrade
 from schemas.front.pareto import ParetoRequest
 from schemas.machine.catalogue import Catalogue
@@ -133,10 +131,10 @@ def _chosen(machine: Machine) -> np.ndarray:
 def _smallest(request: OptimizeRequest, scene: Prepared, solver: Solver) -> _Best:
     """The smallest objective, as a single answer has it."""
     best = solve(request, scene, solver, in_full=False)
-    proof, fitted = best.fields["certificate"], cast(tuple[Counterweight, ...], best.fields["counterweights"])
-    if not isinstance(proof, Certificate):
+    if isinstance(best, Infeasible):
         nothing = np.zeros(len(request.machine.webs))
         return _Best(nothing, nothing, np.nan, np.nan, np.nan, best.status, best.reason, best.nodes, best.method)
+    proof, fitted = best.certificate, best.shown.counterweights
     return _Best(
         np.array([each.mass_kg for each in fitted]),
         np.array([each.angle_deg for each in fitted]),
@@ -152,7 +150,7 @@ def _smallest(request: OptimizeRequest, scene: Prepared, solver: Solver) -> _Bes
 
 def _lightest(request: OptimizeRequest, scene: Prepared, solver: Solver) -> _Best:
     """The least total mass of all that keep the ceilings."""
-    best = certified_light(request, scene, solver)
+    best = minimum_mass(request, scene, solver)
     mass, angle = beside(request.machine, best.mass_kg, best.angle_deg)
     value, fixed = float(np.sum(mass)), float(np.sum(fixed_masses(request.machine)))
     bound, status, reason = best.lower_bound + fixed, best.status, best.reason

@@ -17,10 +17,10 @@ from optimizer.program.methods.feasibility_phase import Unreachable
 from optimizer.program.methods.symmetry import symmetric
 from optimizer.program.reference.solver import Solver
 from optimizer.program.verdict import Claim, mass_resolution, verdict
-from optimizer.solve.outcome import finite_or_null
 from optimizer.solve.prices import touched_limits
 from optimizer.solve.process_solver import own_solver
 from optimizer.solve.proof import implied_max_mass, named, physical
+from optimizer.solve.solution import finite_or_null
 from optimizer.studies.pareto.chosen_front import chosen_front
 from optimizer.studies.pareto.counts import count_front
 from optimizer.studies.pareto.front import Front, Point, front

@@ -22,7 +22,7 @@ from optimizer.program.certificate import ceiling_allowance
 from optimizer.program.cuts.optimum import METHOD, Found, Unkept, over_turn
 from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.program.verdict import Claim, mass_resolution, verdict
-from optimizer.solve.outcome import finite_or_null
+from optimizer.solve.solution import finite_or_null
 from optimizer.solve.whole_turn import whole_turn_of
 from optimizer.studies.pareto.chosen_trades import chosen_trades
 from optimizer.studies.pareto.measures import Measures, alone, measures, sizes, unit_of

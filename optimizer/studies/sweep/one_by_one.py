@@ -1,46 +1,92 @@
-"""Columns of designs that are certified each by itself: from catalogues, at least so heavy, of plates, or alike."""
+"""Columns of counterweights of designs that are no batch of cone programs: every design is a problem of its own."""
+
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
-from optimizer.formulation.formulate import responses
-from optimizer.mechanics.fixed_weights import laden
-from optimizer.mechanics.inertia import reciprocating, rotating
-from optimizer.mechanics.layout import layout
-from optimizer.mechanics.shapes import plates
 from optimizer.numerics.arrays import Complex
+from optimizer.outputs.registry import prepare
 from optimizer.program.reference.solver import Solver
-from optimizer.solve.certify import Certified
-from optimizer.solve.design import certified_one
-from optimizer.studies.sweep.counterweights import Columns, columns_of
+from optimizer.solve.solution import Infeasible, Solution
+from optimizer.solve.solve import solve
+from schemas.answer.answers import GoalReached
+from schemas.answer.proof import DesignMultipliers
 from schemas.request.requests import OptimizeRequest
+from schemas.sweep.columns import CERTIFICATE, MULTIPLIERS, goal_columns
 
 
-def optimal_alone(request: OptimizeRequest, solver: Solver, multipliers: bool) -> tuple[Columns, Complex]:
-    """Columns of one design whose objective is about the first order, (1,), and its unbalance (1, webs) kg m.
+def optimal_one_by_one(
+    requests: Sequence[OptimizeRequest], solver: Solver, multipliers: bool
+) -> tuple[dict[str, Any], Complex]:
+    """Columns of certified optima, and the unbalance of the counterweights (count, webs) kg m; nan where none.
 
     Parameters
     ----------
-    multipliers : whether the proof is wanted, as text.
-
-    Raises
-    ------
-    OutOfRange
-        where the options of a web cannot be told, or webs of a group are unlike.
+    requests : of one machine with other numbers; none lacks what its objective needs.
+    multipliers : whether the proofs are wanted, as text.
     """
-    plan = laden(layout(request.machine), request.machine)
-    baseline = rotating(plan).plus(reciprocating(plan, 1))
-    every = responses(plan, baseline, request.objective)
-    asked, best = certified_one(request, every, np.atleast_1d(plan.omega**2), solver)
-    columns, unbalance = columns_of(asked, best, multipliers)
-    return columns | _openings(asked, best), unbalance
+    alone = [prepare(one.model_copy(update={"outputs": ("residual",)})) for one in requests]
+    # a row has no column for prices and sensitivities
+    found = [solve(one, scene, solver, in_full=False) for one, scene in zip(requests, alone, strict=True)]
+    rows = [_row(one, each, multipliers) for one, each in zip(requests, found, strict=True)]
+    columns = {
+        name: np.array([row[name] for row in rows], dtype=object if isinstance(first, str | None) else float)
+        for name, first in rows[0].items()
+    }
+    nothing = np.full(len(requests[0].machine.webs), complex(np.nan))
+    return columns, np.array([each.shown.on_crank if isinstance(each, Solution) else nothing for each in found])
 
 
-def _openings(request: OptimizeRequest, best: Certified) -> Columns:
-    """Half-angles of what is cut from plates, deg; nan where nothing is."""
-    cut = plates(request.machine)
-    if cut is None:
-        return {}
-    u = np.abs(best.unbalance[:, cut.webs])
-    fits = (best.status != "infeasible")[:, None] & (u > 0)
-    openings = np.where(fits, np.rad2deg(cut.opened(u)), np.nan)
-    return {f"half_angle_deg.{request.machine.webs[k].name}": openings[:, n] for n, k in enumerate(cut.webs)}
+def _row(request: OptimizeRequest, best: Solution | Infeasible, multipliers: bool) -> dict[str, str | float | None]:
+    """One design by the names of its columns; what is not there is nan."""
+    shown, certificate = (best.shown, best.certificate) if isinstance(best, Solution) else (None, None)
+    row: dict[str, str | float | None] = {
+        "status": best.status,
+        "message": "" if best.status == "optimal" else best.reason,
+        "method": best.method,
+        "total_mass_kg": np.nan if shown is None else shown.total_mass_kg,
+    }
+    for name in CERTIFICATE:
+        row[name] = _or_nan(getattr(certificate, name, None))
+    goals = () if certificate is None else certificate.goals
+    by_name: dict[str, GoalReached] = {goal.goal: goal for goal in goals}
+    for column in goal_columns(request.objective):
+        field, _, goal = column.name.removeprefix("goal_").partition(".")
+        row[column.name] = _or_nan(getattr(by_name.get(goal), field, None))
+    fitted = () if shown is None else shown.counterweights
+    masses = {one.web: (one.mass_kg, one.angle_deg) for one in fitted}
+    openings = {one.web: one.shape.half_angle_deg for one in fitted if one.shape is not None}
+    for web in request.machine.webs:
+        if web.envelope is not None:
+            row[f"half_angle_deg.{web.name}"] = openings.get(web.name, np.nan)
+        row[f"mass_kg.{web.name}"], row[f"angle_deg.{web.name}"] = masses.get(web.name, (np.nan, np.nan))
+    if multipliers:
+        row[MULTIPLIERS] = _as_text(best)
+    return row
+
+
+def _as_text(best: Solution | Infeasible) -> str:
+    """The proof of one design as JSON."""
+    if isinstance(best, Solution):
+        certificate = best.certificate
+        proof = DesignMultipliers(
+            objective=certificate.multipliers.objective,
+            mass=certificate.multipliers.mass,
+            mass_objective_limit=certificate.mass_objective_limit,
+            conflict=None,
+            implied_max_mass_kg=certificate.implied_max_mass_kg,
+        )
+    else:
+        proof = DesignMultipliers(
+            objective=None,
+            mass=None,
+            mass_objective_limit=None,
+            conflict=best.infeasibility.multipliers.conflict,
+            implied_max_mass_kg=best.infeasibility.implied_max_mass_kg,
+        )
+    return proof.model_dump_json()
+
+
+def _or_nan(value: object) -> float:
+    return float(value) if isinstance(value, int | float) else np.nan

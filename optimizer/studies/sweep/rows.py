@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optimizer.errors import OutOfRange
-from optimizer.formulation.demand import by_cuts
 from optimizer.formulation.placement import on_webs
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.registry import columns, input_rules
@@ -16,8 +15,7 @@ from optimizer.outputs.requirements import missing
 from optimizer.program.reference.solver import Solver
 from optimizer.studies.sweep.counterweights import given, optimal, shape_keys
 from optimizer.studies.sweep.designs import axis_values
-from optimizer.studies.sweep.one_by_one import optimal_alone
-from optimizer.studies.sweep.over_turn import optimal_over_turn
+from optimizer.studies.sweep.one_by_one import optimal_one_by_one
 from optimizer.studies.sweep.work import work_per_design
 from schemas.base.rules import Path, Rule, all_rules
 from schemas.base.target import pointer
@@ -171,7 +169,7 @@ def _fill(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
         return
     cut = np.isin(designs, list(turning))
     if np.any(cut):
-        found, unbalance = optimal_over_turn(
+        found, unbalance = optimal_one_by_one(
             [turning[int(design)] for design in designs[cut]], solver, group.multipliers
         )
         table.put(designs[cut], found)
@@ -194,11 +192,7 @@ def _fill_one_by_one(table: Rows, group: Group, designs: Designs, solver: Solver
         if not _with_inputs(table, group, at, {design} if alone.objective.of_the_shaft else set()).size:
             continue
         try:
-            columns, unbalance = (
-                optimal_over_turn([alone], solver, group.multipliers)
-                if by_cuts(alone)
-                else optimal_alone(alone, solver, group.multipliers)
-            )
+            columns, unbalance = optimal_one_by_one([alone], solver, group.multipliers)
         except OutOfRange as refusal:
             table.refuse(at, Rule(True, *refusal.problems[0]))
             continue

@@ -1,0 +1,76 @@
+"""Certified optimum of a problem: by the cone program that it is, or by cuts where it is none."""
+
+import numpy as np
+
+from optimizer.numerics.arrays import Complex
+from optimizer.program.certificate import objective_lower_bound
+from optimizer.program.cuts.optimum import TIME_LIMIT_S, Found, Reached, Unkept, over_turn
+from optimizer.program.cuts.proof import Proof
+from optimizer.program.cuts.semi_infinite import Problem, Values
+from optimizer.program.cuts.stage import Point
+from optimizer.program.methods.implied_bounds import within_reach
+from optimizer.program.methods.optima import Optima, optima
+from optimizer.program.methods.symmetry import symmetric
+from optimizer.program.reference.solver import Solver
+from optimizer.program.statement import Statement
+
+
+def optimum(
+    program: Problem,
+    relative_gap: float,
+    least_mass: bool,
+    solver: Solver,
+    time_limit_s: float = TIME_LIMIT_S,
+) -> Found | Unkept:
+    """Certified optimum of one problem: its goals one after the other, then the least mass.
+
+    Parameters
+    ----------
+    relative_gap : asked gap of the last goal, relative to its yardstick.
+    least_mass : take the least total mass among the optima.
+    time_limit_s : of this thread's own time, after which a search by cuts ends with what it has.
+    """
+    stated = cone_program(program, least_mass)
+    if stated is None or (program.plates is not None and (least_mass or program.limits.max_total_mass < np.inf)):
+        # the mass of plates is known by its tangents
+        return over_turn(program, relative_gap, least_mass, time_limit_s)
+    statement = within_reach(stated, solver)
+    whole = statement.alone()
+    found = optima(whole, relative_gap, least_mass, solver)
+    u = symmetric(whole, found.unbalance) if program.symmetric else found.unbalance
+    return solution(program, statement, found, u[0], least_mass)
+
+
+def cone_program(program: Problem, least_mass: bool) -> Statement | None:
+    """The program that is solved in place of a problem; None where cuts are quicker or none is the same.
+
+    The compiled interior point takes one group. A last goal that gives way for the mass is two problems.
+    """
+    statement = program.finite
+    if statement is None or statement.group[-1] > 0 or (least_mass and program.goals[-1].allowance > 0.0):
+        return None
+    return statement
+
+
+def solution(program: Problem, statement: Statement, found: Optima, u: Complex, least_mass: bool) -> Found | Unkept:
+    """What is found of a problem that is a cone program, of a batch of one.
+
+    Parameters
+    ----------
+    statement : that is solved, no leading axes.
+    u : (K,) kg m, no worse than what is found.
+    least_mass : whether the least mass was sought.
+    """
+    method, spent = str(found.method[0]), float(found.certify_s[0])
+    over = statement.ceilings.excess(u) if program.ceilings else np.zeros(0)
+    point = Point(u, Values(found.objective, over, ()), float(found.mass[0]))
+    if found.unreachable[0]:
+        excess, conflict = statement.excess(), found.conflict.chosen(0)
+        proof = Proof(float(objective_lower_bound(excess, conflict)), excess, conflict)
+        return Unkept(point, proof, statement.limits, spent, method)
+    value, of_mass, target = float(point.values.goals[-1]), None, float(found.mass_target[0])
+    if least_mass:
+        of_mass = Proof(float(found.mass_lower_bound[0]), statement, found.mass_multipliers.chosen(0))
+    of_goal = Proof(float(found.lower_bound[0]), statement, found.multipliers.chosen(0))
+    goals = (Reached(program.goals[-1].name, value, of_goal, value),)
+    return Found(point, goals, of_mass, target, statement.limits, spent, method)

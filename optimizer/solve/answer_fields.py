@@ -1,0 +1,302 @@
+"""What is told of counterweights that are found, with goals in their order."""
+
+import time
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.formulation.balance_shafts import chosen, posed
+from optimizer.formulation.counterweights import unbalance
+from optimizer.formulation.demand import Demand
+from optimizer.formulation.formulate import given_ceilings
+from optimizer.formulation.goals import Goals
+from optimizer.formulation.limits import TOUCHED
+from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.fixed_weights import beside
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.certificate import Multipliers, budget_price, ceiling_allowance
+from optimizer.program.cuts.optimum import METHOD, Found
+from optimizer.program.cuts.proof import Proof
+from optimizer.program.cuts.semi_infinite import Problem, Values
+from optimizer.program.sensitivity import shadow_prices
+from optimizer.program.verdict import CONTRADICTED, Claim, Verdict, mass_resolution, verdict
+from optimizer.solve.certify import figures
+from optimizer.solve.cut_plates import cut_plates
+from optimizer.solve.cutting_plane_rounds import Ended
+from optimizer.solve.prices import shadow_prices as priced
+from optimizer.solve.prices import touched_by_mass
+from optimizer.solve.proof import PhysicalMultipliers
+from optimizer.solve.search_claims import told_ample, told_status
+from optimizer.solve.sensitivity import sensitivity
+from optimizer.solve.solution import Proofs, Solution, certificate, finite_or_null, multipliers_of
+from schemas.answer.answers import GoalReached
+from schemas.answer.limits import MachineLimit, ShadowPrice, WebLimit
+from schemas.request.requests import OptimizeRequest
+
+#: width of the brackets by which the counterweights of an answer are judged, as a share of goals and ceilings
+_CLOSE = 1e-10
+#: the same where goals are kept whose price may be high
+_CLOSER = 1e-12
+#: a floor is a sum of few, known to so many units in its last place
+_FLOORS = 8.0
+_EARLIER = (
+    "The last goal is within the requested gap. The search for another goal ended with a larger gap, which `goals`"
+    " of the certificate states."
+)
+_IN_ORDER = "Proven optimal: every goal is certified in its order, and keeps what those before it allow."
+
+
+class Candidate(NamedTuple):
+    """Counterweights as they are fitted, and the proof that holds for them."""
+
+    mass: Real  # (K,) kg
+    angle: Real  # (K,) degrees
+    found: Found
+
+
+class SearchProof(NamedTuple):
+    """What a search has proven of all that may be chosen."""
+
+    ended: Ended  # of the last goal
+    nodes: int  # of the trees of all goals
+    rounds: int  # likewise
+    bounds: Sequence[float] | None  # of the goals before it, over omega^2; None: of goals in order nothing is proven
+    closed: bool  # the gaps of all goals are the asked ones
+    levels: Sequence[GoalReached] = ()  # all goals in their order, where some are what castings cost
+
+    @property
+    def lower_bound(self) -> float:
+        """Of the last goal, over omega^2."""
+        return -np.inf if self.bounds is None else self.ended.lower_bound
+
+
+def fitted(
+    request: OptimizeRequest, scene: Prepared, asked: Goals, found: Found, wanted: Demand, in_full: bool = True
+) -> Solution:
+    """What is told of counterweights that were found.
+
+    Parameters
+    ----------
+    asked : what the counterweights are judged by: the program that was solved, or one with more variants.
+    in_full : with prices of the limits and what misplaced counterweights may cost.
+    """
+    request, scene, asked, mass, angle = cut_plates(request, scene, asked, found.point.unbalance, found.limits)
+    if asked.program.plates is not None:
+        found = found.within(asked.program.limits)
+    outcome = told(request, scene, asked, Candidate(mass, angle, found), wanted, in_full=in_full)
+    return outcome if asked.program.plates is None else replace(outcome, cut=scene)
+
+
+def told(
+    request: OptimizeRequest,
+    scene: Prepared,
+    asked: Goals,
+    candidate: Candidate,
+    wanted: Demand,
+    search: SearchProof | None = None,
+    in_full: bool = True,
+) -> Solution:
+    """The same of counterweights however they were chosen.
+
+    Parameters
+    ----------
+    search : what is proven of all that may be chosen; None where any mass at any angle may be.
+    in_full : with prices of the limits and what misplaced counterweights may cost.
+    """
+    began, (mass, angle, found) = time.perf_counter(), candidate
+    together, program, square = posed(request), asked.program, scene.omega_squared
+    machine, u = together.machine, unbalance(mass, angle, found.limits.radius)
+    shown = chosen(request, mass, angle, u)
+    values = program.values(u, _CLOSE if len(program.goals) == 1 else _CLOSER)
+    found = found.counting(float(values.goals[-1]))
+    claimed = _claim(wanted, program, found, u, values, mass, -np.inf if search is None else search.lower_bound)
+    # what the last goal allows is for the mass, and for what castings cost, after it
+    judged = verdict(claimed, wanted.relative_gap + program.goals[-1].allowance)
+    there, _ = beside(machine, mass, angle)
+    touched = tuple(dict.fromkeys((*touched_by_mass(machine, there), *_touched(request, asked, values))))
+    proofs = Proofs.of(found, square, asked.speeds)
+    prices, several = tuple[ShadowPrice, ...](), request.robust or request.objective.priorities
+    if in_full and search is None and not (several or np.isnan(judged.gap[0]) or machine.web_groups):
+        # of a group no web gives way by itself, and no choice gives way at all
+        active = shown.active_limits(touched)
+        prices = _prices(together, asked, found.proof, proofs.objective, u, active, float(judged.gap[0]), square)
+    at_rest, target = program.at_rest.goals[-1], np.asarray(found.mass_target)
+    printed = figures(request.machine, claimed, judged, at_rest, target, square) | _of_search(
+        found, judged, search, square
+    )
+    status, reason = _status(found, judged, wanted, search, program.goals[-1].allowance)
+    levels = _levels(found, search, asked, square)
+    if search is None and program.goals[-1].allowance > 0.0:
+        levels += (_mass_level(found, float(np.sum(there)), printed["mass_lower_bound_kg"]),)
+    if judged.reason == CONTRADICTED:
+        levels = tuple(each.model_copy(update={"lower_bound": None, "multipliers": None}) for each in levels)
+    turning = any(each.response.turning is not None for each in program.quantities)
+    return Solution(
+        status,
+        reason,
+        mass,
+        angle,
+        u,
+        shown,
+        certificate(printed, machine, found.limits.max_mass, proofs.named(found), levels),
+        {
+            "active_limits": touched,
+            "shadow_prices": prices,
+            "sensitivity": sensitivity(program, u, values, square) if in_full and not turning else None,
+        },
+        found.certify_s,
+        found.method if search is None else search.ended.method,
+        0 if search is None else search.nodes,
+        time.perf_counter() - began,
+    )
+
+
+def _status(
+    found: Found, judged: Verdict, wanted: Demand, search: SearchProof | None, allowance: float
+) -> tuple[str, str]:
+    """The status and a sentence why.
+
+    Parameters
+    ----------
+    allowance : of the last goal, for what comes after it.
+    """
+    status, reason = str(judged.status.item()), str(judged.reason.item())
+    if found.timed_out and status != "optimal" and reason != CONTRADICTED:
+        reason = f"The time limit of {wanted.time_limit_s:g} s ended the search. {reason}"
+    if search is not None:
+        proven = search.bounds is None or not np.isnan(judged.lower_bound[0])
+        status, reason = told_status(search.ended, status, reason, proven)
+        if search.bounds is not None:
+            reason = told_ample(reason, search.ended, found.proof.bound)
+        if status == "optimal" and not search.closed:
+            return "inaccurate", _EARLIER
+    if status == "optimal" and (allowance > 0.0 or (search is not None and search.levels)):
+        reason = _IN_ORDER
+    return status, reason
+
+
+def _of_search(
+    found: Found, judged: Verdict, search: SearchProof | None, omega_squared: float
+) -> dict[str, Real | float | str | None]:
+    """How the counterweights were found, as the certificate has it."""
+    by_cuts = found.method == METHOD
+    rounds, cuts = (found.rounds, found.cuts) if by_cuts else (None, None)
+    if search is None:
+        return {"method": found.method, "cuts": cuts, "rounds": rounds}
+    printed: dict[str, Real | float | str | None] = {"method": search.ended.method, "nodes": search.nodes}
+    if search.bounds is None:
+        return printed | {"cuts": cuts, "rounds": rounds} | dict.fromkeys(("lower_bound", "gap", "relative_gap"))
+    if by_cuts:
+        printed |= {"cuts": search.ended.cuts, "rounds": found.rounds + search.rounds}
+    any_mass = np.minimum(max(found.proof.bound, 0.0), judged.lower_bound[0]) * omega_squared
+    return printed | {"continuous_lower_bound": any_mass}
+
+
+def _levels(found: Found, search: SearchProof | None, asked: Goals, omega_squared: float) -> tuple[GoalReached, ...]:
+    """What goals came to in their order, as far as there are bounds of them; of those before the last with proofs."""
+    if search is not None and search.levels:
+        return tuple(search.levels)
+    bounds = [goal.lower_bound for goal in found.goals[:-1]]
+    if search is not None and search.bounds is not None:
+        bounds = [*search.bounds]
+    if search is None and asked.program.goals[-1].allowance > 0.0:
+        bounds.append(found.proof.bound)
+    levels = []
+    for goal, bound in zip(found.goals, bounds, strict=False):
+        # above what it comes to by no more than rounding
+        least = finite_or_null(min(bound, goal.value) * omega_squared)
+        alone = search is None and goal is not found.goals[-1]
+        proof = multipliers_of(goal.proof, omega_squared, asked.speeds) if alone else None
+        value, limit = goal.value * omega_squared, goal.most * omega_squared
+        levels.append(GoalReached(goal=goal.goal, value=value, lower_bound=least, limit=limit, multipliers=proof))
+    return tuple(levels)
+
+
+def _mass_level(found: Found, kilograms: float, least: object) -> GoalReached:
+    """The minimum mass after goals that allow something for it."""
+    bound = None if found.mass_proof is None else finite_or_null(np.asarray(least))
+    return GoalReached(goal="mass", value=kilograms, lower_bound=bound, limit=kilograms)
+
+
+def _prices(
+    request: OptimizeRequest,
+    asked: Goals,
+    proof: Proof,
+    in_units: PhysicalMultipliers,
+    u: Complex,
+    active: Mapping[str | None, Collection[WebLimit | MachineLimit]],
+    gap: float,
+    omega_squared: float,
+) -> tuple[ShadowPrice, ...]:
+    """What limits cost, by the proof of the objective: every ceiling over the turn by all of its cuts."""
+    usable = Multipliers(in_units.term, in_units.row, in_units.ceiling)
+    budget = None if proof.laid is None else budget_price(proof.laid, usable, 0.0)
+    return priced(
+        request.machine,
+        request.objective,
+        shadow_prices(proof.statement, u, usable, budget),
+        [(each, proof.cuts[each.quantity]) for each in asked.limited],
+        active,
+        omega_squared,
+        gap,
+        float(asked.program.at_rest.goals[-1]),
+    )
+
+
+def _claim(
+    wanted: Demand,
+    program: Problem,
+    found: Found,
+    u: Complex,
+    values: Values,
+    mass: Real,
+    lower_bound: float,
+) -> Claim:
+    """What is claimed of the counterweights as they are fitted."""
+    size = float(program.yardsticks[-1])
+    *before, (bound, rounding) = (_bound(goal.proof, u, values.excess) for goal in found.goals)
+    # what goals before the last are proven to need, these counterweights need as well
+    against = [least > value + known for (least, known), value in zip(before, values.goals[:-1], strict=True)]
+    mass_bound = None
+    if wanted.least_mass:
+        mass_bound = np.asarray(0.0 if found.mass_proof is None else found.mass_proof.bound)
+    kept = all(value <= goal.most * (1.0 + 1e-12) for value, goal in zip(values.goals[:-1], found.goals, strict=False))
+    return Claim(
+        values.goals[-1:],
+        # a sum of sizes is not below 0, whatever the rounding of a proof
+        np.array([max(bound, lower_bound, 0.0)]),
+        np.array([rounding]),
+        np.array([size]),
+        np.asarray(values.excess if kept else np.inf),
+        np.asarray(np.sum(mass)),
+        mass_resolution(found.proof.statement, np.array([size])),
+        mass_bound,
+        found.contradicted or any(against),
+    )
+
+
+def _bound(proof: Proof, u: Complex, excess: float) -> tuple[float, float]:
+    """A bound that speaks of all that exceed no ceiling by more than counterweights do, and the rounding of a value."""
+    statement = proof.statement
+    allowance = 0.0
+    if excess > 0.0:
+        over = np.full(statement.ceilings.size.shape, excess)
+        allowance = float(ceiling_allowance(statement, proof.multipliers, over))
+    # what scatters whatever the counterweights is a floor
+    charge = proof.charge + _FLOORS * float(np.add.reduce(np.abs(statement.floor)))
+    return proof.bound - allowance, float(statement.rounding(u)) + charge * np.finfo(float).eps
+
+
+def _touched(request: OptimizeRequest, asked: Goals, values: Values) -> Iterator[MachineLimit]:
+    """Ceilings that are touched, in any case."""
+    program = asked.program
+    if not values.over.size:
+        return
+    called = {each.response: each.limit for each, _ in given_ceilings(request.objective)}
+    limits = [*(called[each.name] for each, _ in program.ceilings), *(each.limit for each in asked.limited)]
+    caps = np.array([cap for _, cap in (*program.ceilings, *program.limited)])
+    for limit, over in zip(limits, values.over * program.sizes + TOUCHED * caps, strict=True):
+        if over >= 0.0:
+            yield limit

@@ -1,0 +1,143 @@
+"""Counterweights that were chosen with what is proven of them, whatever was asked: for answers and rows of sweeps."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from optimizer.formulation.balance_shafts import Fitted
+from optimizer.formulation.simulation import Prepared
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.certificate import Multipliers as MultipliersOfProgram
+from optimizer.program.cuts.optimum import Found
+from optimizer.program.cuts.proof import Proof
+from optimizer.solve.proof import (
+    Bounded,
+    PhysicalMultipliers,
+    Speeds,
+    implied_max_mass,
+    named,
+    physical,
+    physical_bounds,
+)
+from schemas.answer.answers import Certificate, GoalReached
+from schemas.answer.infeasibility import Infeasibility
+from schemas.answer.proof import BoundMultipliers, Multipliers
+from schemas.machine.machine import Machine
+
+
+@dataclass(frozen=True)
+class Solution:
+    """Counterweights as they are fitted, and what is proven of them."""
+
+    status: str
+    reason: str
+    mass: Real  # (K + S,) kg, of the webs that are chosen, those of balance shafts behind those of the crankshaft
+    angle: Real  # (K + S,) degrees
+    unbalance: Complex  # (K + S,) kg m
+    shown: Fitted
+    certificate: Certificate
+    fields: dict[str, object]  # of the answer beside these
+    certify_s: float  # time spent on bounds
+    method: str  # by which that was found and proven
+    nodes: int  # of the tree behind it; 0 where there is none
+    report_s: float  # of the time, that spent on the fields
+    cut: Prepared | None = None  # the scene with the radii of what is cut from plates; None where nothing is
+
+    @property
+    def answer(self) -> dict[str, object]:
+        """All fields of the answer."""
+        return {**self.shown.fields, "certificate": self.certificate, **self.fields}
+
+
+@dataclass(frozen=True)
+class Infeasible:
+    """What is proven where no counterweights keep the ceilings, or none that may be chosen."""
+
+    status: str
+    reason: str
+    infeasibility: Infeasibility
+    certify_s: float
+    method: str
+    nodes: int = 0
+    cut: Prepared | None = None
+
+    @property
+    def answer(self) -> dict[str, object]:
+        """All fields of the answer."""
+        nothing = {"counterweights": (), "total_mass_kg": None, "certificate": None}
+        return nothing | {"infeasibility": self.infeasibility}
+
+
+def multipliers_of(proof: Proof, omega_squared: float, speeds: Speeds) -> BoundMultipliers:
+    """Multipliers of a bound of the objective, of a program over omega^2, by their names and in their units.
+
+    Parameters
+    ----------
+    speeds : omega^2 by scenario, that ceilings are over.
+    """
+    return _named(proof, physical(proof.with_pieces, proof.multipliers, "objective", omega_squared, speeds))
+
+
+class Proofs(NamedTuple):
+    """Multipliers of both bounds of one problem in their units, of the statements by which they were proven."""
+
+    objective: PhysicalMultipliers
+    mass: PhysicalMultipliers | None  # None where the least mass was not sought
+
+    @classmethod
+    def of(cls, found: Found, omega_squared: float, speeds: Speeds) -> "Proofs":
+        """Those of what was found.
+
+        Parameters
+        ----------
+        speeds : omega^2 by scenario, that ceilings are over.
+        """
+        proof, of_mass = found.proof, found.mass_proof
+        if of_mass is not None and of_mass.statement is proof.statement and of_mass.laid is proof.laid:
+            bounds: dict[Bounded, MultipliersOfProgram] = {"objective": proof.multipliers, "mass": of_mass.multipliers}
+            return cls(*physical_bounds(proof.with_pieces, bounds, omega_squared, speeds))
+        in_units = physical(proof.with_pieces, proof.multipliers, "objective", omega_squared, speeds)
+        if of_mass is None:
+            return cls(in_units, None)
+        return cls(in_units, physical(of_mass.with_pieces, of_mass.multipliers, "mass", omega_squared, speeds))
+
+    def named(self, found: Found) -> Multipliers:
+        """As an answer prints them."""
+        of_mass = None
+        if self.mass is not None and found.mass_proof is not None:
+            of_mass = _named(found.mass_proof, self.mass)
+        return Multipliers(objective=_named(found.proof, self.objective), mass=of_mass)
+
+
+def _named(proof: Proof, in_units: PhysicalMultipliers) -> BoundMultipliers:
+    return named(proof.statement, in_units.of_groups(proof.statement, proof.scale))
+
+
+def certificate(
+    figures: Mapping[str, Real | float | str | None],
+    machine: Machine,
+    most: Real,
+    multipliers: Multipliers,
+    goals: tuple[GoalReached, ...] = (),
+) -> Certificate:
+    """What an answer prints of proofs.
+
+    Parameters
+    ----------
+    figures : of one design, by the fields of a certificate; what is not finite is null.
+    most : (K,) kg, largest masses that the proofs count with.
+    """
+    return Certificate.model_validate(
+        {name: value if isinstance(value, str) else finite_or_null(value) for name, value in figures.items()}
+        | {
+            "implied_max_mass_kg": implied_max_mass(machine, most[None])[0],
+            "multipliers": multipliers,
+            "goals": goals,
+        }
+    )
+
+
+def finite_or_null(value: Real | float | None) -> float | None:
+    """A figure, null where nothing is proven."""
+    return float(value) if value is not None and math.isfinite(value) else None
