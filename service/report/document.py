@@ -14,7 +14,7 @@ from schemas.base.model import FieldProblem
 from schemas.request.report import ReportRequest
 from schemas.request.requests import OptimizeRequest
 from service.report.blocks import Attachment, Chapter, Document, facts, table
-from service.report.chapters import balance, inputs, reproduction, verdict
+from service.report.chapters import balance, inputs, limits, reproduction, verdict
 from service.report.chapters.alternatives import alternatives
 from service.report.chapters.answers import outputs
 from service.report.chapters.balance_quality import balance_quality
@@ -148,7 +148,7 @@ def _chapters(
     if checked is not None:
         proof = replace(proof, blocks=(*proof.blocks, sentence(checked, reproduction.digest(request))))
     yield proof
-    yield from balance.prices(request, answer)
+    yield from limits.prices(request, answer)
     # of the first page
     yield from outputs(request.machine, answer.model_copy(update={"foundation_loads": None}))
     yield from sheets(request.machine, answer, built)

@@ -8,7 +8,7 @@ from schemas.answer.outputs import OutputFields
 from schemas.machine.machine import Machine
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from service.report.blocks import Chapter, facts
-from service.report.chapters import balance, verdict
+from service.report.chapters import balance, limits, verdict
 from service.report.chapters.alternatives import alternatives
 from service.report.chapters.balance_quality import balance_quality
 from service.report.chapters.dynamics import OVER_THE_TURN
@@ -58,7 +58,7 @@ def optimized(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Chap
     yield from balance_quality(request.machine, answer)
     yield balance.before_and_after(request, answer, built)
     yield verdict.certificate(answer.certificate, answer.infeasibility)
-    yield from balance.prices(request, answer)
+    yield from limits.prices(request, answer)
     if answer.stages is not None:
         yield balance.stages(request.machine, answer.stages, ())
     yield from outputs(request.machine, answer)

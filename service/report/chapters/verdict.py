@@ -9,8 +9,9 @@ from schemas.base.responses import ceilings
 from schemas.request.objective import COSTS, Objective
 from schemas.request.requests import OptimizeRequest
 from service.report.blocks import Block, Chapter, Equation, Formula, Paragraph, Run, facts, prose, settled, table
-from service.report.chapters.balance import added, limits, shown, which
+from service.report.chapters.balance import added, shown, which
 from service.report.chapters.built import decision
+from service.report.chapters.limits import limits
 from service.report.formula import formula
 from service.tables.as_built import AsBuilt
 
