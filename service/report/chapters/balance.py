@@ -1,7 +1,7 @@
 """What was found: layout, stages, counterweights, first order before and after, orders."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from schemas.answer.answers import OptimizeAnswer
 from schemas.answer.counterweights import Counterweight
@@ -32,6 +32,7 @@ from service.report.chapters.built import as_fitted
 from service.report.chapters.limits import limits
 from service.report.chapters.making import holding, outlines
 from service.report.chapters.orders import two_orders
+from service.report.chapters.resolution import resolutions
 from service.report.first_order import hodographs
 from service.report.formula import formula
 from service.report.stage_scheme import stage_scheme
@@ -59,6 +60,7 @@ _SOURCES = (
 )
 #: of a peak, below which a figure is what rounding leaves
 _DUST = 1e-6
+_NO_GAPS: Mapping[str, float] = {}
 _VERDICT = {"fully": "fully", "partly": "partly", "no": "not"}
 
 
@@ -70,13 +72,23 @@ def shown(answer: OptimizeAnswer) -> tuple[Sequence[Counterweight], FirstOrder |
     return answer.counterweights, answer.residual.after
 
 
-def added(answer: OptimizeAnswer) -> Iterator[tuple[str, float, Cell, str]]:
-    """Peaks of the responses that count beside force and moment: without counterweights, with those that are shown."""
+def added(answer: OptimizeAnswer, gaps: Mapping[str, float]) -> Iterator[tuple[str, float, Cell, str]]:
+    """Peaks of the responses that count beside force and moment: without counterweights, with those that are shown.
+
+    Parameters
+    ----------
+    gaps : peaks by response that are not told from zero.
+    """
     why = answer.infeasibility
     closest = {} if why is None else {each.response: each.peak for each in why.closest.responses}
     for each in answer.residual.responses:
         after = closest.get(each.response, each.after)
-        yield f"peak {each.label}, {each.unit}", each.before, settled(after, each.before), ""
+        yield (
+            f"peak {each.label}, {each.unit}",
+            each.before,
+            settled(after, each.before, gaps.get(each.response, 0.0)),
+            "",
+        )
         if each.turn_before is not None:
             yield (
                 f"peak {each.label} of all orders, {each.unit}",
@@ -254,7 +266,10 @@ def before_and_after(request: OptimizeRequest, answer: OptimizeAnswer, built: As
     # where all orders are asked for they have a chapter
     shown_orders = two_orders(answer.residual.orders) if answer.orders is None else None
     filed = None if built is None else built.left
-    return first_order(request.machine, answer.residual.before, left, answer.floor, which(answer), shown_orders, filed)
+    gaps = resolutions(request, answer)
+    return first_order(
+        request.machine, answer.residual.before, left, answer.floor, which(answer), shown_orders, filed, gaps
+    )
 
 
 def first_order(
@@ -265,6 +280,7 @@ def first_order(
     label: str,
     beside: Table | None,
     built: FirstOrder | None = None,
+    gaps: Mapping[str, float] = _NO_GAPS,
 ) -> Chapter:
     """First-order force and moment: ellipses as figures and as hodographs.
 
@@ -274,14 +290,17 @@ def first_order(
     label : what these are.
     beside : the second order, where it stands nowhere else.
     built : with what is fitted, if anything is.
+    gaps : peaks of force and moment that are not told from zero.
     """
     scales = {"force": was.force.peak_N, "moment": was.moment.peak_Nm}
+    # what a gap says of peaks it says of their parts, and not of angles
+    smallest = {name: 0.0 if name.endswith("_deg") else gaps.get(vector, 0.0) for _, vector, name in _FIRST_ORDER}
     floors = {"peak_N": floor.force_N, "peak_Nm": floor.moment_Nm}
     rows = [
         (
             title,
             settled(getattr(getattr(was, vector), name), scales[vector]),
-            settled(getattr(getattr(left, vector), name), scales[vector]) if left else None,
+            settled(getattr(getattr(left, vector), name), scales[vector], smallest[name]) if left else None,
             number(floors[name]) if name in floors else "",
         )
         for title, vector, name in _FIRST_ORDER

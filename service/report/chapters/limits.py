@@ -25,37 +25,40 @@ def limits(names: Sequence[str]) -> str:
     return ", ".join(_LIMITS[name] for name in names)
 
 
-def prices(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Chapter]:
-    """What the limits cost, where there are counterweights."""
-    blocks = tuple(_prices(request, answer))
-    if blocks and (answer.counterweights or answer.balance_shafts):
-        yield Chapter("Prices of the limits", blocks)
+def prices(answer: OptimizeAnswer) -> Iterator[Chapter]:
+    """What the limits cost, where there are any prices."""
+    if answer.shadow_prices:
+        yield Chapter(
+            "Prices of the limits",
+            (
+                Paragraph(
+                    "A shadow price is the fall of the smallest objective per unit by which one limit is raised. The "
+                    "objective is stated as a force: divided by the weight of the force. Where the force has no weight "
+                    "it is stated as a moment, then as a bearing load, a bending moment or a roll moment. A sector is "
+                    "opened to both sides. A price that the certificate cannot distinguish from 0 is given as 0."
+                ),
+                table(
+                    "Shadow prices of the limits",
+                    ["limit", "web", "#fall of the objective", "unit"],
+                    [(limits([one.limit]), one.web, one.value, one.unit) for one in answer.shadow_prices],
+                ),
+            ),
+        )
 
 
-def _prices(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Block]:
-    """What the limits cost."""
-    if answer.certificate is None:
+def without_prices(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Block]:
+    """Why there are no prices, where there are counterweights."""
+    proof = answer.certificate
+    if proof is None or answer.shadow_prices or not (answer.counterweights or answer.balance_shafts):
         return
-    untold = _without_prices(request, answer.certificate)
-    if untold is not None:
-        yield Paragraph(f"There are no shadow prices {untold}.")
-    elif answer.shadow_prices:
-        yield Paragraph(
-            "A shadow price is the fall of the smallest objective per unit by which one limit is raised. The objective "
-            "is stated as a force: divided by the weight of the force. Where the force has no weight it is stated as a "
-            "moment, then as a bearing load, a bending moment or a roll moment. A sector is opened to both sides. A "
-            "price that the certificate cannot distinguish from 0 is given as 0."
-        )
-        yield table(
-            "Shadow prices of the limits",
-            ["limit", "web", "#fall of the objective", "unit"],
-            [(limits([one.limit]), one.web, one.value, one.unit) for one in answer.shadow_prices],
-        )
-    else:
+    reason = _reason(request, proof)
+    if reason is None:
         yield Paragraph("No limit holds the objective up: all shadow prices are 0.")
+    else:
+        yield Paragraph(f"There are no shadow prices {reason}.")
 
 
-def _without_prices(request: OptimizeRequest, proof: Certificate) -> str | None:
+def _reason(request: OptimizeRequest, proof: Certificate) -> str | None:
     """Why nothing is told of what the limits cost, or None where it is."""
     reasons = {
         "where nothing is proven": proof.gap is None,
