@@ -8,7 +8,7 @@ from typing import Callable, Iterator, Sequence
 from verify_alternatives import alternatives
 from verify_answer import Fitted, closest
 from verify_claims import EVIDENCE, Claim, Claims, near, same
-from verify_machine import FRAME_FIELDS, NAMES, Machine, Mass, Responses
+from verify_machine import ENTRY_FIELDS, NAMES, Machine, Mass, Responses
 from verify_numbers import (
     ABOUT_ONE,
     ONE,
@@ -75,7 +75,7 @@ def ceilings(statement: Statement, weights: Sequence[Mass], place: Place, kept: 
 
 def optimum(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> Claims:
     """The proof of the answer to one request, with its counterweights."""
-    request.known(FRAME_FIELDS)
+    request.known(ENTRY_FIELDS)
     asked, goal, proof = request / "machine", request / "objective", answer / "certificate"
     if (goal / "orders").text("first", "all", default="first") == "all":
         raise NotCovered(goal / "orders")
@@ -165,7 +165,7 @@ def yardstick(statement: Statement, place: Place, rest: Number, implied: Place) 
 
 def infeasible(request: Place, answer: Place, budget: Place, said: Place) -> Claims:
     """No counterweights within the limits keep the ceilings, and what can be reached without them."""
-    request.known(FRAME_FIELDS)
+    request.known(ENTRY_FIELDS)
     goal, proofs, implied = request / "objective", said / "multipliers", said / "implied_max_mass_kg"
     plain = Machine(request / "machine", goal, answer / "reference_plane_m", budget)
     exact = Machine(request / "machine", goal, answer / "reference_plane_m", budget, exact=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Callable, Dict, NamedTuple, Optional, Sequence, Tuple
+from typing import Callable, Dict, Iterator, NamedTuple, Optional, Sequence, Tuple
 
 from verify_numbers import (
     ABOUT_ONE,
@@ -65,10 +65,21 @@ ON_FRAME: Dict[str, OnFrame] = {
     "moment": OnFrame("Nm", lambda machine, goal: (ZERO, ONE)),
     # beside force and moment
 }
-#: fields of an objective about them
-FRAME_FIELDS = " ".join(
-    f"{name}_weight {name}_ceiling_{one.unit} {name}_ceiling_x_{one.unit} {name}_ceiling_y_{one.unit} {one.fields}"
-    for name, one in ON_FRAME.items()
+#: mass and angle that a web may take; none is left to the catalogue
+Option = Tuple[Optional[Place], Optional[Place]]
+#: all that a web may say of what is chosen for it: options by what a field holds
+CHOICES: Dict[str, Callable[[Place], Iterator[Option]]] = {
+    "catalogue_masses_kg": lambda masses: ((mass, None) for mass in masses),
+    "hole_angles_deg": lambda angles: ((None, angle) for angle in angles),
+    # beside these two
+}
+#: fields of a request that these tables name
+ENTRY_FIELDS = " ".join(
+    [
+        f"{name}_weight {name}_ceiling_{one.unit} {name}_ceiling_x_{one.unit} {name}_ceiling_y_{one.unit} {one.fields}"
+        for name, one in ON_FRAME.items()
+    ]
+    + [*CHOICES]
 )
 #: phasors that turn with and against the shaft, in the units of the answer
 Responses = Dict[str, Tuple[Number, Number]]

@@ -12,7 +12,7 @@ from verify_claims import EVIDENCE, Claim, Claims, covered, near, same
 from verify_first import CEILING, ceilings, infeasible, light, lightest, priced_at, proven, smallest
 from verify_form import form
 from verify_leaves import Path
-from verify_machine import FRAME_FIELDS, NAMES, ON_FRAME, Machine, Responses
+from verify_machine import ENTRY_FIELDS, NAMES, ON_FRAME, Machine, Responses
 from verify_numbers import ABOUT_ONE, ONE, SPECK, ZERO, NotCovered, Number, Place, Unreadable, largest, real
 from verify_orders import first_order
 from verify_program import CEILINGS, Statement
@@ -27,7 +27,7 @@ UNSURE = 1e-9
 def front(request: Place, answer: Place) -> Claims:
     """Fronts of force and moment, one for each budget."""
     yield from form(answer, ("pareto",))
-    request.known(FRAME_FIELDS)
+    request.known(ENTRY_FIELDS)
     asked, goal = request / "machine", request / "objective"
     plain = _machine(request, answer, asked / "max_total_mass_kg")
     yield from before(request, plain, answer)

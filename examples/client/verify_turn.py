@@ -20,7 +20,7 @@ from verify_cuts import FIELDS, SHAFTS, Group, Part, Term
 from verify_first import near_the_bound, searched, smallest
 from verify_goals import Program as Asked
 from verify_goals import values
-from verify_machine import FRAME_FIELDS, NAMES, NOTHING, ON_FRAME, Machine, Web, over
+from verify_machine import ENTRY_FIELDS, NAMES, NOTHING, ON_FRAME, Machine, Web, over
 from verify_misplacement import misplacement
 from verify_numbers import (
     ONE,
@@ -277,7 +277,7 @@ def looks_at_the_turn(request: Place) -> bool:
 
 def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> Claims:
     """The proof of the answer to one request whose objective looks at the whole turn."""
-    request.known(f"{FIELDS}{CASES}{SHAFTS}{FRAME_FIELDS}")
+    request.known(f"{FIELDS}{CASES}{SHAFTS}{ENTRY_FIELDS}")
     asked, proof = request / "machine", answer / "certificate"
     program = Program(request, machine, answer)
     objective, lowest, implied = proof / "objective", proof / "lower_bound", proof / "implied_max_mass_kg"
@@ -339,7 +339,7 @@ def _as_given(request: Place, machine: Machine, answer: Place, implied: Place) -
 
 def unreachable(request: Place, answer: Place, budget: Place, said: Place) -> Claims:
     """No counterweights keep the ceilings, at the angles of the cuts."""
-    request.known(f"{FIELDS}{CASES}{SHAFTS}{FRAME_FIELDS}")
+    request.known(f"{FIELDS}{CASES}{SHAFTS}{ENTRY_FIELDS}")
     goal, proofs, implied = request / "objective", said / "multipliers", said / "implied_max_mass_kg"
     machine = Machine(request / "machine", goal, answer / "reference_plane_m", budget)
     given = [field for field in (*CEILINGS.values(), *LOADED) if goal / field]

@@ -8,7 +8,7 @@ from typing import Dict, Iterator, List, Optional, Tuple
 
 from verify_claims import Claim, Claims, near
 from verify_cranks import Crank, own_cranks
-from verify_machine import Machine, Mass, Web, web_of
+from verify_machine import CHOICES, Machine, Mass, Web, web_of
 from verify_numbers import (
     ONE,
     ZERO,
@@ -212,14 +212,14 @@ def heavy_enough(asked: Place, place: Place) -> Claims:
 
 
 def stocked(web: Place) -> bool:
-    """Whether a web has masses or holes of its own."""
-    return bool(web / "catalogue_masses_kg") or bool(web / "hole_angles_deg")
+    """Whether a web has choices of its own."""
+    return any(web / name for name in CHOICES)
 
 
 def usual_gap(asked: Place) -> float:
     """The gap that a machine is asked for where none is said: wide where counterweights are chosen, or a least is."""
     places = (asked, *(web for web in asked / "webs"))
-    names = ("catalogue", "max_counterweights", "catalogue_masses_kg", "hole_angles_deg", "min_fitted_mass_kg")
+    names = ("catalogue", "max_counterweights", "min_fitted_mass_kg", *CHOICES)
     return 1e-3 if any(place / name for place in places for name in names) else 1e-6
 
 
@@ -232,12 +232,15 @@ def catalogue(asked: Place, place: Place) -> Claims:
         mass, angle = (one / "mass_kg").number(), (one / "angle_deg").double()
         if mass.high <= 0:
             continue
-        masses = (web / "catalogue_masses_kg") or (general / "masses_kg")
+        own = [option for name, options in CHOICES.items() if web / name for option in options(web / name)]
+        # where an option is both, masses of the catalogue are none of them
+        masses = [each for each, _ in own if each is not None] or list(general / "masses_kg")
         off = min((abs(each.number() - mass) for each in masses), key=lambda each: each.high, default=None)
         yield "catalogue", one / "mass_kg", None if off is None else mass * real(SAME) - off, mass
         turn = Fraction(360)
-        away = [abs((Fraction(each.double()) - Fraction(angle) + turn / 2) % turn - turn / 2)
-                for each in web / "hole_angles_deg"]  # fmt: skip
+        wide = (mass * real(SAME)).high
+        angles = [at for each, at in own if at is not None and (each is None or abs(each.number() - mass).low <= wide)]
+        away = [abs((Fraction(each.double()) - Fraction(angle) + turn / 2) % turn - turn / 2) for each in angles]
         yield "catalogue", one / "angle_deg", real(Fraction(SAME) - min(away)) if away else None, ONE
         if all(abs(mass - other).low > (mass * real(SAME)).high for other in used):
             used.append(mass)

@@ -1,6 +1,6 @@
 """From a machine's catalogue, holes and steps of angle to the options of its webs."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -14,8 +14,8 @@ from optimizer.mechanics.crank_of_web import crank_angles
 from optimizer.numerics.arrays import Real
 from schemas.base.model import FieldProblem
 from schemas.machine.catalogue import Catalogue, in_sector
+from schemas.machine.choices import own_options
 from schemas.machine.machine import Machine
-from schemas.machine.webs import Web
 
 #: masses that agree this closely, relative, are one part number
 _SAME = 1e-9
@@ -52,11 +52,17 @@ def stock(machine: Machine) -> Stock:
     limit = largest_mass(machine).tolist()
     for k in range(len(machine.webs)) if alike is None else alike.first.tolist():
         web, most = machine.webs[k], limit[k]
-        angles, path = np.mod(np.array(web.hole_angles_deg or (), dtype=float), 360.0), ("machine", "webs", k)
+        own, path = own_options(web), ("machine", "webs", k)
         if web.fixed is not None:
             held.append((np.zeros(1), np.zeros(1)))
             continue
-        if web.hole_angles_deg is None:
+        least = web.min_fitted_mass_kg or 0.0
+        if own.pairs is not None:
+            pairs = sorted((each, at % 360.0) for each, at in own.pairs if 0.0 < each <= most and each >= least)
+            held.append((np.array([0.0, *(each for each, _ in pairs)]), np.array([0.0, *(at for _, at in pairs)])))
+            continue
+        angles = np.mod(np.array(own.angles or (), dtype=float), 360.0)
+        if own.angles is None:
             crank = cranks[k]
             if crank is None:
                 problems.append(FieldProblem((*path, "throw"), "steps of angle count from a crank: name the throw"))
@@ -67,8 +73,9 @@ def stock(machine: Machine) -> Stock:
             if not angles.size:
                 problems.append(FieldProblem((*path, "sector"), "no step of the angle falls into the sector"))
                 continue
-        least = web.min_fitted_mass_kg or 0.0
-        masses = np.array([mass for mass in _masses(web, catalogue, most) if 0.0 < mass <= most and mass >= least])
+        masses = np.array(
+            [mass for mass in _masses(own.masses, catalogue, most) if 0.0 < mass <= most and mass >= least]
+        )
         each, at = np.meshgrid(masses, np.sort(angles), indexing="ij")
         held.append((np.append(0.0, each), np.append(0.0, at)))
     refuse(problems)
@@ -89,10 +96,10 @@ def stock(machine: Machine) -> Stock:
     return Stock(options, mass, angle)
 
 
-def _masses(web: Web, catalogue: Catalogue, most: float) -> Iterator[float]:
-    own = web.catalogue_masses_kg if web.catalogue_masses_kg is not None else catalogue.masses_kg
-    if own is not None:
-        yield from sorted(own)
+def _masses(own: Sequence[float] | None, catalogue: Catalogue, most: float) -> Iterator[float]:
+    listed = own if own is not None else catalogue.masses_kg
+    if listed is not None:
+        yield from sorted(listed)
     elif catalogue.mass_step_kg is not None:
         # a hair more, because a quotient of decimals is no whole number
         for n in range(1, int(most / catalogue.mass_step_kg * (1.0 + 1e-12)) + 1):

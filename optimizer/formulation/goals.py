@@ -343,14 +343,12 @@ def _in_order(objective: Objective, groups: dict[str, list[tuple[Group, ...]]]) 
     ----------
     groups : of every goal those of each case.
     """
-    *earlier, last = objective.priorities or [None]
-    if last is not None:
+    if objective.priorities:
+        *earlier, last = objective.priorities
         # nothing uses what the very last allows
-        order = [*earlier, last.model_copy(update={"allowance": 0.0})]
+        order = [*((each.goal, each.allowance) for each in earlier), (last.goal, 0.0)]
         return tuple(
-            _largest(priority.goal, groups[priority.goal])._replace(allowance=priority.allowance)
-            for priority in order
-            if priority.goal not in COSTS
+            _largest(name, groups[name])._replace(allowance=allowance) for name, allowance in order if name not in COSTS
         )
     every = [tuple(group for one in of_case for group in one) for of_case in zip(*groups.values(), strict=True)]
     # several goals in their order are never combined: their quantities are of one kind

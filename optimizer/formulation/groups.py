@@ -8,9 +8,12 @@ import numpy as np
 from optimizer.errors import refuse
 from optimizer.mechanics.angles import direction
 from optimizer.mechanics.crank_of_web import crank_angles
+from optimizer.numerics.arrays import Real
 from optimizer.numerics.memoization import remembered
 from optimizer.program.equal_castings import Alike
 from schemas.base.model import FieldProblem
+from schemas.machine.choices import KINDS as CHOICES
+from schemas.machine.choices import Option
 from schemas.machine.machine import Machine
 
 #: what webs of a group have in common, beside their sectors and holes as seen from their own cranks
@@ -20,7 +23,6 @@ _ALIKE = (
     "max_centrifugal_force_N",
     "envelope",
     "min_fitted_mass_kg",
-    "catalogue_masses_kg",
 )
 
 
@@ -62,25 +64,38 @@ def _problems(machine: Machine, cranks: Sequence[float | None], i: int, group: S
         mirrored = machine.web_groups[i].mirrors(j)
         if not _same_sector(first.sector, at or 0.0, web.sector, cranks[k] or 0.0, mirrored):
             unlike.append("sector, counted from the own crank,")
-        if not _same_holes(first.hole_angles_deg, at or 0.0, web.hole_angles_deg, cranks[k] or 0.0, mirrored):
-            unlike.append("hole_angles_deg, counted from the own crank,")
+        for name, kind in CHOICES.items():
+            one, other = (
+                [] if own is None else kind.options(own) for own in (getattr(first, name), getattr(web, name))
+            )
+            if not _same_options(one, at or 0.0, other, cranks[k] or 0.0, mirrored):
+                counted = any(angle is not None for _, angle in (*one, *other))
+                unlike.append(f"{name}, counted from the own crank," if counted else name)
         if unlike:
             words = " and ".join(unlike)
             yield FieldProblem(path, f"webs of a group are equal castings: its {words} must equal that of {first.name}")
 
 
-def _same_holes(
-    first: Sequence[float] | None, at: float, other: Sequence[float] | None, there: float, mirrored: bool
-) -> bool:
-    """Whether holes are in the same places, or each other's mirror images, as seen from the own cranks."""
-    if first is None or other is None:
-        return first is other
-    sign = -1.0 if mirrored else 1.0
-    one, two = np.sort([sign * (angle - at) % 360.0 for angle in first]), [(angle - there) % 360.0 for angle in other]
+def _same_options(first: Sequence[Option], at: float, other: Sequence[Option], there: float, mirrored: bool) -> bool:
+    """Whether options are the same, in the same places or each other's mirror images as seen from the own cranks."""
+    sign, one, two = -1.0 if mirrored else 1.0, _at_angles(first, at), _at_angles(other, there)
+    one[:, 1] *= sign
+    alike = len(one) == len(two) and _masses(first) == _masses(other)
     # a hair below a whole turn is 0
-    return len(one) == len(two) and all(
-        float(np.min(np.abs((one - angle + 180.0) % 360.0 - 180.0))) <= 1e-9 for angle in two
+    return alike and all(
+        bool(np.any((one[:, 0] == mass) & (np.abs((one[:, 1] - angle + 180.0) % 360.0 - 180.0) <= 1e-9)))
+        for mass, angle in two.tolist()
     )
+
+
+def _masses(options: Sequence[Option]) -> list[float]:
+    """Masses of options that leave the angle open."""
+    return sorted(mass for mass, angle in options if mass is not None and angle is None)
+
+
+def _at_angles(options: Sequence[Option], crank: float) -> Real:
+    """Masses [kg], 0 where they are left open, and angles from a crank [deg] of options that have angles (N, 2)."""
+    return np.array([(mass or 0.0, at - crank) for mass, at in options if at is not None]).reshape(-1, 2)
 
 
 def _same_sector(first: Any, at: float, other: Any, there: float, mirrored: bool) -> bool:

@@ -55,22 +55,28 @@ OUTPUTS: dict[str, Output] = {
 MAX_SAMPLES = 200_000
 
 
-def prepare(request: Scene, always: tuple[str, ...] = (), objective: tuple[str, ...] = ()) -> Prepared:
+def prepare(
+    request: Scene,
+    always: tuple[str, ...] = (),
+    objective: tuple[str, ...] = (),
+    outputs: Sequence[str] | None = None,
+) -> Prepared:
     """Simulate what the outputs of a request call for.
 
     Parameters
     ----------
     always : outputs that are needed whether they were asked for or not.
     objective : effects that the objective needs, which the machine gives.
+    outputs : those that are simulated for; None are those that the request asks for.
 
     Raises
     ------
     MissingInput
         if the machine lacks what an output needs.
     """
-    outputs = dict.fromkeys((*always, *request.outputs))
-    require_inputs(request.machine, tuple(outputs), request.angles.count)
-    needs = {name: OUTPUTS[name].needs for name in outputs}
+    every = dict.fromkeys((*always, *(request.outputs if outputs is None else outputs)))
+    require_inputs(request.machine, tuple(every), request.angles.count)
+    needs = {name: OUTPUTS[name].needs for name in every}
     if objective:
         needs["objective"] = objective
     return simulated(request, needs, request.angles.count)

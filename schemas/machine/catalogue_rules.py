@@ -2,8 +2,9 @@
 
 from collections.abc import Iterator, Sequence
 
-from schemas.base.rules import Path, Rule
-from schemas.machine.catalogue import Catalogue, in_sector, masses_rules
+from schemas.base.rules import Rule
+from schemas.machine.catalogue import Catalogue
+from schemas.machine.choices import KINDS, own_options, stated
 from schemas.machine.webs import Web
 
 #: masses times angles of one web, and of all webs together
@@ -16,38 +17,33 @@ def catalogue_rules(catalogue: Catalogue, webs: Sequence[Web]) -> Iterator[Rule]
     for k, web in enumerate(webs):
         if web.fixed is not None:
             continue
-        yield from masses_rules(("webs", k, "catalogue_masses_kg"), web.catalogue_masses_kg)
-        yield from _hole_rules(("webs", k, "hole_angles_deg"), web)
-        step = catalogue.mass_step_kg if web.catalogue_masses_kg is None else None
-        no_masses = web.catalogue_masses_kg is None and catalogue.masses_kg is None and step is None
-        message = "the catalogue has no masses for this web: give them here, or for all webs in `catalogue`"
-        yield Rule(no_masses, ("webs", k, "catalogue_masses_kg"), message)
-        no_angles = web.hole_angles_deg is None and catalogue.angle_step_deg is None
-        message = "the catalogue has no angles for this web: give its holes, or `catalogue.angle_step_deg`"
-        yield Rule(no_angles, ("webs", k, "hole_angles_deg"), message)
-        endless = step is not None and web.max_mass_kg is None
-        yield Rule(endless, ("webs", k, "max_mass_kg"), "`mass_step_kg` needs a largest mass of this web")
-        if no_masses or no_angles or endless:
+        for name in stated(web):
+            for broken, path, message in KINDS[name].rules(getattr(web, name), web):
+                yield Rule(broken, ("webs", k, *path), message)
+        if any(not KINDS[name].options(getattr(web, name)) for name in stated(web)):
+            # an empty list, which its own rule refuses
             continue
-        masses = len(web.catalogue_masses_kg or catalogue.masses_kg or ())
-        if step is not None:
-            masses = int(min((web.max_mass_kg or 0.0) / step, 1e9))
-        angles = len(web.hole_angles_deg or ()) or round(360 / (catalogue.angle_step_deg or 360))
-        together += masses * angles
+        own = own_options(web)
+        if own.pairs is not None:
+            options = len(own.pairs)
+        else:
+            step = catalogue.mass_step_kg if own.masses is None else None
+            no_masses = own.masses is None and catalogue.masses_kg is None and step is None
+            message = "the catalogue has no masses for this web: give them here, or for all webs in `catalogue`"
+            yield Rule(no_masses, ("webs", k, "catalogue_masses_kg"), message)
+            no_angles = own.angles is None and catalogue.angle_step_deg is None
+            message = "the catalogue has no angles for this web: give its holes, or `catalogue.angle_step_deg`"
+            yield Rule(no_angles, ("webs", k, "hole_angles_deg"), message)
+            endless = step is not None and web.max_mass_kg is None
+            yield Rule(endless, ("webs", k, "max_mass_kg"), "`mass_step_kg` needs a largest mass of this web")
+            if no_masses or no_angles or endless:
+                continue
+            masses = len(own.masses or catalogue.masses_kg or ())
+            if step is not None:
+                masses = int(min((web.max_mass_kg or 0.0) / step, 1e9))
+            options = masses * (len(own.angles or ()) or round(360 / (catalogue.angle_step_deg or 360)))
+        together += options
         message = f"masses times angles of a web must be at most {MAX_OPTIONS}"
-        yield Rule(masses * angles > MAX_OPTIONS, ("webs", k), message)
+        yield Rule(options > MAX_OPTIONS, ("webs", k), message)
     message = f"masses times angles of all webs together must be at most {MAX_OPTIONS_TOGETHER}"
     yield Rule(together > MAX_OPTIONS_TOGETHER, ("webs",), message)
-
-
-def _hole_rules(path: Path, web: Web) -> Iterator[Rule]:
-    if web.hole_angles_deg is None:
-        return
-    yield Rule(not web.hole_angles_deg, path, "must hold at least one angle")
-    seen: set[float] = set()
-    for n, angle in enumerate(web.hole_angles_deg):
-        yield Rule(angle % 360.0 in seen, (*path, n), "this hole is in the list already")
-        seen.add(angle % 360.0)
-        if web.sector is not None:
-            inside = in_sector(angle, web.sector.centre_deg, web.sector.half_angle_deg)
-            yield Rule(not inside, (*path, n), "this hole is outside the sector")

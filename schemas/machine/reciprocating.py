@@ -11,6 +11,7 @@ from schemas.base.model import Model, NotEmpty
 from schemas.base.quantities import Angle, Mass, Name, Position
 from schemas.base.rules import Path, Rule, larger
 from schemas.base.units import Unit
+from schemas.machine.choices import KINDS as CHOICES
 from schemas.machine.drive import MAX_BEARINGS, Bearing, FlywheelData, Friction
 from schemas.machine.parts import MAX_PARTS, ShaftPart
 from schemas.machine.rotor import MAX_WEBS, Rotor, unique_names
@@ -39,7 +40,7 @@ class BalanceShaft(Model):
 
 #: fields of webs that those of balance shafts do not have
 _OF_THE_CRANKSHAFT = (
-    "catalogue_masses_kg", "hole_angles_deg", "fixed", "max_centrifugal_force_N", "min_fitted_mass_kg",
+    *CHOICES, "fixed", "max_centrifugal_force_N", "min_fitted_mass_kg",
 )  # fmt: skip
 
 

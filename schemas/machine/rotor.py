@@ -12,6 +12,7 @@ from schemas.base.units import Unit
 from schemas.machine.balance_quality import BalanceQuality
 from schemas.machine.catalogue import Catalogue
 from schemas.machine.catalogue_rules import catalogue_rules
+from schemas.machine.choices import stated
 from schemas.machine.webs import Web, WebGroup
 
 MAX_WEBS = 500
@@ -113,9 +114,8 @@ class Rotor(Ruled):
             if getattr(self, name) is not None:
                 yield (name,)
         for k, web in enumerate(self.webs):
-            for name in ("catalogue_masses_kg", "hole_angles_deg"):
-                if getattr(web, name) is not None:
-                    yield ("webs", k, name)
+            for name in stated(web):
+                yield ("webs", k, name)
 
     @property
     def discrete(self) -> bool:

@@ -11,6 +11,7 @@ from schemas.base.quantities import Angle, Count, Flag, Length, Mass, MaxMass, N
 from schemas.base.rules import REQUIRED, Rule, Ruled
 from schemas.base.units import Unit, between, positive
 from schemas.machine.catalogue import Holes, Masses
+from schemas.machine.choices import KINDS as CHOICES
 from schemas.machine.throws import MAX_THROWS
 
 #: largest inner radius, as a share of the outer one
@@ -18,7 +19,7 @@ _INNERMOST = 0.999
 MAX_GROUPED = 500
 #: fields that say what may be chosen for a web
 _CHOSEN = (
-    "envelope", "sector", "catalogue_masses_kg", "hole_angles_deg", "max_centrifugal_force_N", "min_fitted_mass_kg",
+    "envelope", "sector", *CHOICES, "max_centrifugal_force_N", "min_fitted_mass_kg",
 )  # fmt: skip
 #: what follows from an envelope, or is limited by it
 _OF_ENVELOPES = ("max_mass_kg", "max_centrifugal_force_N", "min_fitted_mass_kg")

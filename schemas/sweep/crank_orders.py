@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from math import factorial, prod
 from typing import Any, NamedTuple
 
+from schemas.machine.choices import own_options
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.machine.throws import Row, Throw, row_cylinders
@@ -123,7 +124,9 @@ def _turns_freely(machine: Machine) -> bool:
     """Whether nothing on the machine stands at an angle of its own."""
     rows = [row for throw in _throws(machine) for row in throw.rows]
     tabled = any(one.pressure is not None for row in rows for _, one in row_cylinders(row))
-    free = all(web.sector is None and web.fixed is None and web.hole_angles_deg is None for web in machine.webs)
+    own = [own_options(web) for web in machine.webs]
+    free = all(web.sector is None and web.fixed is None for web in machine.webs)
+    free = free and all(each.angles is None and each.pairs is None for each in own)
     return not tabled and not machine.unbalances and free
 
 

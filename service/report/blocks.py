@@ -3,6 +3,7 @@
 Chapters build these blocks; HTML, PDF and the terminal are written from the same blocks, so that they say the same.
 """
 
+import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from operator import itemgetter
@@ -175,11 +176,19 @@ def prose(value: float) -> str:
     return typeset(digits(value))
 
 
-def settled(value: float | None, scale: float) -> Cell:
-    """A figure; what rounding leaves beside the scale is printed as 0."""
+def settled(value: float | None, scale: float, gap: float = 0.0) -> Cell:
+    """A figure; what rounding leaves beside the scale is printed as 0, and what a gap outweighs as below the gap."""
     if value is not None and abs(value) < _DUST * abs(scale):
         return Number(value, "0")
+    if value is not None and 0.0 < value < gap:
+        return Number(value, f"< {digits(_upwards(gap))}")
     return number(value)
+
+
+def _upwards(value: float) -> float:
+    """A positive number to one digit, never smaller."""
+    unit = 10.0 ** math.floor(math.log10(value))
+    return math.ceil(value / unit) * unit
 
 
 def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[Cell | float | None]]) -> Table:

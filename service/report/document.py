@@ -19,6 +19,7 @@ from service.report.chapters.alternatives import alternatives
 from service.report.chapters.answers import outputs
 from service.report.chapters.balance_quality import balance_quality
 from service.report.chapters.foundation import foundation_loads
+from service.report.chapters.limits import prices
 from service.report.chapters.order import workshop_order
 from service.report.chapters.verification import Check, check, sentence
 from service.report.chapters.versions import compared
@@ -144,11 +145,11 @@ def _chapters(
     yield from worst_case(answer)
     yield from balance_quality(request.machine, answer)
     yield balance.before_and_after(request, answer, built)
-    proof = verdict.certificate(answer.certificate, answer.infeasibility)
+    proof = verdict.certificate(request, answer)
     if checked is not None:
         proof = replace(proof, blocks=(*proof.blocks, sentence(checked, reproduction.digest(request))))
     yield proof
-    yield from balance.prices(request, answer)
+    yield from prices(answer)
     # of the first page
     yield from outputs(request.machine, answer.model_copy(update={"foundation_loads": None}))
     yield from sheets(request.machine, answer, built)

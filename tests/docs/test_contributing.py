@@ -254,8 +254,12 @@ request = SweepRequest.model_validate({"base": base | {"objective": limited}, "a
 for row in run_chunk(request.model_dump_json().encode(), 0, 2).to_pylist():
     near(row["flange_peak_Nm"], 0.34 * square)
 """
+#: what is asked of a copy, a file for each of the later recipes
+RECIPES = ROOT / "tests" / "docs" / "recipes"
+#: tests that read what the entries say
+_OTHERS = ("schemas", "effects", "service", "clients", "studies/sweep", "docs", "verification")
 _PACKAGES = ("schemas", "optimizer", "service")
-_ADDED = ("An effect", "An output", "A computation", "A limit", "A response")
+_ADDED = ("An effect", "An output", "A computation", "A limit", "A response", "A case", "A kind of choice")
 
 
 @pytest.fixture(scope="module")
@@ -269,13 +273,15 @@ def steps() -> list[re.Match[str]]:
 
 @pytest.fixture(scope="module")
 def copy(steps: list[re.Match[str]], tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The packages, with their compiled kernels, after every step."""
+    """All that is in the folder of the project, with its compiled kernels, after every step."""
     place = tmp_path_factory.mktemp("copy")
     # what other tests are writing at this moment has a name that is gone in the next
     passing = shutil.ignore_patterns("*.pyc.*", "*.tmp*")
-    for package in (*_PACKAGES, "docs", "examples"):
-        shutil.copytree(ROOT / package, place / package, ignore=passing)
-    shutil.copy(ROOT / "pyproject.toml", place)
+    for each in ROOT.iterdir():
+        if each.is_dir() and (not each.name.startswith(".") or each.name == ".ci"):
+            shutil.copytree(each, place / each.name, ignore=passing)
+        elif each.is_file():
+            shutil.copy(each, place)
     for step in steps:
         file, line, block = place / step["file"], step["line"], step["block"]
         if line is None:
@@ -291,7 +297,7 @@ def copy(steps: list[re.Match[str]], tmp_path_factory: pytest.TempPathFactory) -
     return place
 
 
-def _run(copy: Path, *arguments: str) -> str:
+def _run(copy: Path, *arguments: str, timeout_s: float = 900.0) -> str:
     environment = {**os.environ, "PYTHONPATH": str(copy)}
     ran = subprocess.run(
         [sys.executable, *arguments],
@@ -299,7 +305,7 @@ def _run(copy: Path, *arguments: str) -> str:
         env=environment,
         capture_output=True,
         text=True,
-        timeout=300,
+        timeout=timeout_s,
         check=False,
     )
     assert ran.returncode == 0, ran.stdout + ran.stderr
@@ -320,6 +326,14 @@ def test_effect_output_computation_and_limit_are_answered_swept_and_reported(cop
 
 def test_response_is_weighed_limited_traded_swept_reported_and_checked(copy: Path) -> None:
     _run(copy, "-c", _RESPONDED)
+
+
+def test_case_is_solved_chosen_limited_reported_refused_and_checked(copy: Path) -> None:
+    _run(copy, "-c", (RECIPES / "case.py").read_text())
+
+
+def test_kind_of_choice_goes_with_goals_limits_groups_and_studies(copy: Path) -> None:
+    _run(copy, "-c", (RECIPES / "choice.py").read_text())
 
 
 def test_the_output_is_shown_by_a_terminal(copy: Path) -> None:
@@ -352,6 +366,15 @@ def test_all_is_typed(copy: Path) -> None:
     if known.exists():
         shutil.copytree(known, copy / ".mypy_cache")
     _run(copy, "-m", "mypy", *_PACKAGES)
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("folder", _OTHERS)
+def test_the_other_tests_pass_on_the_copy(copy: Path, folder: str) -> None:
+    # pytest tests/docs/test_contributing.py -m nightly; this file and the history of commits are not asked of the copy
+    itself = ("--ignore", "tests/docs/test_contributing.py", "--ignore", "tests/docs/test_commits.py")
+    options = ("-p", "no:cacheprovider", "-n", "0", "-m", "not nightly", *itself)
+    _run(copy, "-m", "pytest", *options, f"tests/{folder}", timeout_s=3600.0)
 
 
 def test_the_documents_have_a_row_for_it(copy: Path) -> None:

@@ -10,6 +10,7 @@ from typing import get_args
 import pytest
 from rich.console import Console
 
+from optimizer.formulation.formulate import span
 from optimizer.optimize import optimize
 from schemas.answer.outputs import OutputName
 from schemas.base.version import package_version
@@ -17,6 +18,7 @@ from service.common.figures import NARROW
 from service.report.blocks import Cell, Chapter, Document, Figure, Number, Paragraph, Samples, Table, angle
 from service.report.chapters.answers import CHAPTERS
 from service.report.chapters.reproduction import request_json
+from service.report.chapters.verdict import result
 from service.report.document import document
 from service.report.formula import formula
 from service.report.terminal import terminal
@@ -69,7 +71,7 @@ def test_a_web_without_a_counterweight_says_none(made: Make) -> None:
 
 
 def test_a_machine_that_no_limit_holds_up(made: Make) -> None:
-    assert "all shadow prices are 0" in words(made("scroll-three-pins"), "Prices of the limits")
+    assert "all shadow prices are 0" in words(made("scroll-three-pins"), "Certificate")
 
 
 def test_before_and_after(made: Make) -> None:
@@ -246,3 +248,23 @@ def test_of_inertia_alone_nothing_is_filed_that_is_zero(made: Make) -> None:
     assert "shaft power, W" in names[1]
     # the orders stand in their chapter alone
     assert [table.title for table in tables(dry, "First order before and after")] == [""]
+
+
+def test_a_peak_that_the_gap_outweighs_is_shown_as_below_it() -> None:
+    """Analytic: a millionth of the yardstick, over the weight of the moment."""
+    request = asked("v60")
+    answer = optimize(request)
+    after, proof = answer.residual.after, answer.certificate
+    assert after is not None
+    assert proof is not None
+    most = 1e-6 * proof.yardstick * span(request.machine)
+    for peak, below in ((0.9 * most, True), (1.1 * most, False)):
+        moment = after.moment.model_copy(update={"peak_Nm": peak})
+        residual = answer.residual.model_copy(update={"after": after.model_copy(update={"moment": moment})})
+        before = residual.before.model_copy(update={"moment": moment})
+        found = answer.model_copy(update={"residual": residual.model_copy(update={"before": before})})
+        (block,) = (each for each in result(request, found, None).blocks if isinstance(each, Table) and each.title)
+        shown = block.rows[1][2]
+        assert isinstance(shown, Number)
+        assert shown.text.startswith("< ") is below
+        assert not below or most <= float(shown.text[2:]) <= 2.0 * most

@@ -10,7 +10,7 @@ from schemas.answer.limits import MachineLimit, WebLimit
 from schemas.request.report import ReportRequest
 from schemas.request.requests import OptimizeRequest
 from service.report.blocks import Document, Number, Table
-from service.report.chapters.balance import limits
+from service.report.chapters.limits import limits
 from service.report.document import report
 from service.report.html import html
 from service.verification import checker

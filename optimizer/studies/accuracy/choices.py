@@ -29,9 +29,10 @@ from optimizer.program.statement import Statement
 from optimizer.solve.solution import Infeasible
 from optimizer.solve.solve import solve
 from optimizer.studies.accuracy.ladder import LADDER_S, ROUNDS_S, frontier, median_ms
+from schemas.machine.choices import KINDS as CHOICES
 from schemas.machine.machine import Machine
 from schemas.request.accuracy import AccuracyRequest, ChoiceRow, Reference
-from schemas.request.requests import Accuracy
+from schemas.request.requests import Accuracy, OptimizeRequest
 
 _LOG = logging.getLogger(__name__)
 #: limits of time up to that of the request, s, and gaps
@@ -77,6 +78,11 @@ class Rung:
     made: Made | None = None
     times_s: list[float] = field(default_factory=list)
     skipped: str | None = None
+
+    @property
+    def kept(self) -> bool:
+        """Whether there are counterweights, and they keep the limits."""
+        return self.made is not None and self.made.kept
 
 
 class Ladder(NamedTuple):
@@ -152,14 +158,20 @@ class _Task:
     def program(self) -> Statement:
         return at_rest(self.request, self.scene)
 
+    def asked(self, machine: Machine, accuracy: Accuracy) -> OptimizeRequest:
+        """What is asked of one solve."""
+        request = self.request
+        return OptimizeRequest(
+            machine=machine, objective=request.objective, accuracy=accuracy, fidelity=request.fidelity
+        )
+
     @cached_property
-    def free(self) -> AccuracyRequest:
-        """The request with any mass at any angle on every web; plates stay plates."""
-        nothing = {"catalogue_masses_kg": None, "hole_angles_deg": None, "min_fitted_mass_kg": None}
+    def free(self) -> OptimizeRequest:
+        """Any mass at any angle on every web; plates stay plates."""
+        nothing = {**dict.fromkeys(CHOICES), "min_fitted_mass_kg": None}
         webs = tuple(web.model_copy(update=nothing) for web in self.request.machine.webs)
         without = {"webs": webs, "catalogue": None, "max_counterweights": None, "web_groups": ()}
-        machine = self.request.machine.model_copy(update=without)
-        return self.request.model_copy(update={"machine": machine, "accuracy": Accuracy()})
+        return self.asked(self.request.machine.model_copy(update=without), Accuracy())
 
     def rungs(self) -> Iterator[Rung]:
         machine, longest = self.request.machine, self.request.accuracy.time_limit_s
@@ -179,11 +191,11 @@ class _Task:
     def _service(self, gap: float, limit_s: float) -> Callable[[float], Made | Nothing]:
         def run(left_s: float) -> Made | Nothing:
             accuracy = Accuracy(relative_gap=gap, time_limit_s=min(limit_s, max(left_s, _SHORTEST_S)))
-            return self._optimum(self.request.model_copy(update={"accuracy": accuracy}))
+            return self._optimum(self.asked(self.request.machine, accuracy))
 
         return run
 
-    def _optimum(self, request: AccuracyRequest) -> Made | Nothing:
+    def _optimum(self, request: OptimizeRequest) -> Made | Nothing:
         found = solve(request, self.scene, self.solver, in_full=False)
         if isinstance(found, Infeasible):
             return Nothing(_UNREACHABLE if found.status == "infeasible" else found.reason)
@@ -216,7 +228,7 @@ class _Task:
             return Ladder(None, (), False)
         bound, any_mass = min(bound, objective), self._optimum(self.free)
         fixed = float(np.sum(fixed_masses(self.request.machine)))
-        rows = [_row(rung, bound, rest, fixed) for rung in rungs]
+        figures = [_figures(rung, bound, rest, fixed) for rung in rungs]
         reference = Reference(
             objective=objective,
             lower_bound=bound,
@@ -225,14 +237,12 @@ class _Task:
             resolution=max((objective - bound) / rest, EQUAL),
         )
         candidates = [
-            (row.time_ms, row.relative_error)
-            if row.limits_kept and row.time_ms is not None and row.relative_error is not None
-            else None
-            for row in rows
+            None if each is None or not rung.kept else (each.time_ms, each.relative_error)
+            for rung, each in zip(rungs, figures, strict=True)
         ]
         fastest = frontier(candidates, reference.resolution)
-        marked = (row.model_copy(update={"on_frontier": on}) for row, on in zip(rows, fastest, strict=True))
-        return Ladder(reference, tuple(marked), False)
+        rows = tuple(_row(*each) for each in zip(rungs, figures, fastest, strict=True))
+        return Ladder(reference, rows, False)
 
 
 def _radius(machine: Machine) -> Real:
@@ -265,35 +275,46 @@ def _counts(machine: Machine, mass: Real) -> bool:
     )
 
 
-def _row(rung: Rung, bound: float, rest: float, fixed_kg: float) -> ChoiceRow:
-    made = rung.made
-    row = ChoiceRow(
+class _Figures(NamedTuple):
+    """What the answer tells of counterweights, by its names."""
+
+    time_ms: float
+    objective: float
+    lower_bound: float | None
+    relative_error: float
+    certified_gap: float | None
+    total_mass_kg: float
+    pieces: int
+    sizes: int
+
+
+_NOTHING: Mapping[str, None] = dict.fromkeys(_Figures._fields)
+
+
+def _figures(rung: Rung, bound: float, rest: float, fixed_kg: float) -> _Figures | None:
+    made, time_ms = rung.made, median_ms(rung.times_s)
+    if made is None or time_ms is None:
+        return None
+    return _Figures(
+        time_ms,
+        made.objective,
+        made.bound,
+        (made.objective - bound) / rest,
+        None if made.bound is None else (made.objective - made.bound) / rest,
+        float(np.sum(made.mass)) + fixed_kg,
+        int(np.sum(made.mass > 0.0)),
+        part_numbers(made.mass),
+    )
+
+
+def _row(rung: Rung, figures: _Figures | None, on_frontier: bool) -> ChoiceRow:
+    return ChoiceRow(
         method=rung.method,
         setting=rung.setting,
-        status=None if made is None else made.status,
-        time_ms=None,
-        objective=None,
-        lower_bound=None,
-        relative_error=None,
-        certified_gap=None,
-        total_mass_kg=None,
-        pieces=None,
-        sizes=None,
-        limits_kept=made is not None and made.kept,
-        on_frontier=False,
-        runs=0 if made is None else len(rung.times_s),
+        status=None if rung.made is None else rung.made.status,
+        limits_kept=rung.kept,
+        on_frontier=on_frontier,
+        runs=0 if rung.made is None else len(rung.times_s),
         skipped=rung.skipped,
+        **(_NOTHING if figures is None else figures._asdict()),
     )
-    if made is None:
-        return row
-    figures = {
-        "time_ms": median_ms(rung.times_s),
-        "objective": made.objective,
-        "lower_bound": made.bound,
-        "relative_error": (made.objective - bound) / rest,
-        "certified_gap": None if made.bound is None else (made.objective - made.bound) / rest,
-        "total_mass_kg": float(np.sum(made.mass)) + fixed_kg,
-        "pieces": int(np.sum(made.mass > 0.0)),
-        "sizes": part_numbers(made.mass),
-    }
-    return row.model_copy(update=figures)

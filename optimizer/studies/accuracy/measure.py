@@ -4,7 +4,9 @@ import logging
 import os
 import platform
 import time
+from collections.abc import Mapping
 from importlib.metadata import version
+from typing import NamedTuple
 
 import numpy as np
 
@@ -52,7 +54,7 @@ def accuracy(request: AccuracyRequest) -> AccuracyAnswer:
     """The ladders of methods and of simulations for a machine; least mass is off, whatever was asked."""
     start = time.perf_counter()
     # outputs play no part: what they would miss must not refuse the ladder
-    scene = prepare(request.model_copy(update={"outputs": ("residual",)}))
+    scene = prepare(request, outputs=("residual",))
     measured = (_as_made if request.as_made else _of_any_mass)(request, scene, Solver())
     return AccuracyAnswer(
         **measured,
@@ -152,54 +154,59 @@ def _judged(
     if np.isnan(bound):
         return None, ()
     reference = _reference(objective, bound, rest, square)
-    rows = [_row(trial, bound, rest, bool(task.statement.ceilings.names)) for trial in trials]
+    figures = [_figures(trial, bound, rest, bool(task.statement.ceilings.names)) for trial in trials]
     points = [
         # a batch answers no single request in the time of one of its programs
         None
-        if row.programs > 1
-        or row.time_ms is None
-        or row.relative_error is None
-        or (row.excess or 0.0) > CEILING_TOLERANCE
-        else (row.time_ms, row.relative_error)
-        for row in rows
+        if each is None or each.time_ms is None or trial.method.programs > 1 or (each.excess or 0.0) > CEILING_TOLERANCE
+        else (each.time_ms, each.relative_error)
+        for trial, each in zip(trials, figures, strict=True)
     ]
     fastest = frontier(points, reference.resolution)
-    return (
-        reference,
-        tuple(row.model_copy(update={"on_frontier": on}) for row, on in zip(rows, fastest, strict=True)),
-    )
+    return reference, tuple(_row(*each) for each in zip(trials, figures, fastest, strict=True))
 
 
-def _row(trial: Trial, bound: float, rest: float, has_ceilings: bool) -> AccuracyRow:
-    method, answered = trial.method, trial.skipped is None
-    first_ms = None if trial.first_s is None or not answered else trial.first_s * 1e3 / method.programs
-    row = AccuracyRow(
-        method=method.name,
-        setting=method.setting,
-        time_ms=median_ms(trial.times_s, method.programs) if answered else None,
-        first_ms=first_ms,
-        relative_error=None,
-        as_drawn_error=None,
-        certified_gap=None,
-        claim_error=None,
-        excess=None,
-        programs=method.programs,
-        on_frontier=False,
-        runs=len(trial.times_s) if answered else 0,
-        skipped=trial.skipped,
-    )
-    if not answered:
-        return row
+class _Figures(NamedTuple):
+    """What the answer tells of a method, by its names."""
+
+    time_ms: float | None
+    relative_error: float
+    as_drawn_error: float
+    certified_gap: float | None
+    claim_error: float | None
+    excess: float | None
+
+
+_NOTHING: Mapping[str, None] = dict.fromkeys(_Figures._fields)
+
+
+def _figures(trial: Trial, bound: float, rest: float, has_ceilings: bool) -> _Figures | None:
+    if trial.skipped is not None:
+        return None
     gaps = [(one.objective - one.bound) / rest for one in trial.judged]
     claims = [(one.claimed - one.objective) / rest for one in trial.judged if one.claimed is not None]
-    figures = {
-        "relative_error": (trial.worst.objective - bound) / rest,
-        "as_drawn_error": (trial.judged[0].objective - bound) / rest,
-        "certified_gap": max(gaps) if np.all(np.isfinite(gaps)) else None,
-        "claim_error": max(claims, key=abs, default=None),
-        "excess": max(one.excess for one in trial.judged) if has_ceilings else None,
-    }
-    return row.model_copy(update=figures)
+    return _Figures(
+        median_ms(trial.times_s, trial.method.programs),
+        (trial.worst.objective - bound) / rest,
+        (trial.judged[0].objective - bound) / rest,
+        max(gaps) if np.all(np.isfinite(gaps)) else None,
+        max(claims, key=abs, default=None),
+        max(one.excess for one in trial.judged) if has_ceilings else None,
+    )
+
+
+def _row(trial: Trial, figures: _Figures | None, on_frontier: bool) -> AccuracyRow:
+    method, answered = trial.method, trial.skipped is None
+    return AccuracyRow(
+        method=method.name,
+        setting=method.setting,
+        first_ms=None if trial.first_s is None or not answered else trial.first_s * 1e3 / method.programs,
+        programs=method.programs,
+        on_frontier=on_frontier,
+        runs=len(trial.times_s) if answered else 0,
+        skipped=trial.skipped,
+        **(_NOTHING if figures is None else figures._asdict()),
+    )
 
 
 def _reference(objective: float, bound: float, rest: float, square: float) -> Reference:

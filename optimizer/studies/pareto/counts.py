@@ -22,7 +22,7 @@ from schemas.front.counts import Counted, CountFront, CountPoint, CountTrade
 from schemas.front.pareto import ParetoRequest
 from schemas.machine.catalogue import Catalogue
 from schemas.machine.machine import Machine
-from schemas.request.requests import OptimizeRequest
+from schemas.request.requests import Accuracy, OptimizeRequest
 
 #: of a mass, relative: by which sums of masses are rounded
 _ROUNDING = 1e-12
@@ -47,29 +47,28 @@ def count_front(request: ParetoRequest, machine: Machine, scene: Prepared, solve
     """The front under one limit of the total mass; all its searches together end at the time asked."""
     asked, half = request.counts, 0.5 * request.accuracy.time_limit_s
     assert asked is not None  # else it would be another front
-    whole = OptimizeRequest(
-        machine=machine, objective=request.objective, accuracy=request.accuracy, fidelity=request.fidelity
-    )
-    lacking = list(missing(whole))
+
+    def limited(within: Machine, seconds: float) -> OptimizeRequest:
+        accuracy = Accuracy(relative_gap=request.accuracy.relative_gap, time_limit_s=max(seconds, 1e-3))
+        return OptimizeRequest(
+            machine=within, objective=request.objective, accuracy=accuracy, fidelity=request.fidelity
+        )
+
+    lacking = list(missing(limited(machine, half)))
     if lacking:
         raise MissingInput(lacking)
 
     def point(number: int | None, seconds: float) -> CountPoint:
-        accuracy = whole.accuracy.model_copy(update={"time_limit_s": max(seconds, 1e-3)})
         within = machine if number is None else at_most(machine, asked.of, number)
-        one = whole.model_copy(update={"machine": within, "accuracy": accuracy})
-        return _point(one, scene, asked, number, solver)
+        return _point(limited(within, seconds), scene, asked, number, solver)
 
     # what is limited by no number says how many are of any use; it may take half of the time, and the others the other
-    last = point(None, half)
-    until = time.monotonic() + half
-    used = last.weights if asked.of == "weights" else last.part_numbers
-    if used is None:
-        points = [last.model_copy(update={"at_most": _most(machine, asked.of)})]
-    else:
+    points = [point(None, half)]
+    until, (last,) = time.monotonic() + half, points
+    if last.status != "infeasible":
+        used = last.at_most
         fewer = np.unique(np.round(np.linspace(0, used, min(request.points, used + 1))).astype(int)).tolist()[:-1]
-        points = [point(number, until - time.monotonic()) for number in fewer]
-        points.append(last.model_copy(update={"at_most": used}))
+        points = [*(point(number, until - time.monotonic()) for number in fewer), last]
     exact = all(one.status in ("optimal", "infeasible") for one in points)
     none = all(one.status == "infeasible" for one in points)
     return CountFront(
@@ -105,15 +104,21 @@ def _point(
     machine = request.machine
     u = unbalance(best.mass_kg, best.angle_deg, stacked([web.radius_m for web in machine.webs]))
     after = scene.first_order(u)
+    weights = int(np.sum(best.mass_kg[_chosen(machine)] > 0)) if found else None
+    sizes = part_numbers(best.mass_kg[_chosen(machine)]) if found else None
+    if number is None:
+        # where no number limits it, so many as it takes
+        used = weights if asked.of == "weights" else sizes
+        number = _most(machine, asked.of) if used is None else used
     return CountPoint(
-        at_most=number or 0,
+        at_most=number,
         status=best.status,
         status_reason=best.reason,
         value=best.value if found else None,
         lower_bound=_or_none(best.lower_bound) if found else None,
         relative_gap=_or_none(best.relative_gap) if found else None,
-        weights=int(np.sum(best.mass_kg[_chosen(machine)] > 0)) if found else None,
-        part_numbers=part_numbers(best.mass_kg[_chosen(machine)]) if found else None,
+        weights=weights,
+        part_numbers=sizes,
         total_mass_kg=float(np.sum(best.mass_kg)) if found else None,
         force_peak_N=float(after.force.peak) if found else None,
         moment_peak_Nm=float(after.moment.peak) if found else None,

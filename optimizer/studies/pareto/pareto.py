@@ -57,8 +57,8 @@ def pareto(request: ParetoRequest, solver: Solver | None = None) -> ParetoAnswer
     solver = solver or own_solver()
     start = time.perf_counter()
     if request.responses is not None:
-        needed(request, request.responses)
-    scene = prepare(request.model_copy(update={"outputs": ("residual",)}))
+        needed(request, request.responses, request.machine)
+    scene = prepare(request, outputs=("residual",))
     solving = time.perf_counter()
     machines = _machines(request)
     plain = request.responses is None and request.counts is None

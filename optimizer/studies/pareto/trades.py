@@ -37,8 +37,8 @@ _END_SLACK = 1e-6
 _NARROW = 1e-6
 
 
-def needed(request: ParetoRequest, names: Sequence[Traded]) -> OptimizeRequest:
-    """The request of one objective that asks for all that is traded.
+def needed(request: ParetoRequest, names: Sequence[Traded], machine: Machine) -> OptimizeRequest:
+    """The request of one objective that asks for all that is traded, under one limit of the total mass.
 
     Raises
     ------
@@ -46,7 +46,7 @@ def needed(request: ParetoRequest, names: Sequence[Traded]) -> OptimizeRequest:
         if the machine lacks what a response needs.
     """
     objective = alone(request.objective, names)
-    asked = OptimizeRequest(machine=request.machine, objective=objective, fidelity=request.fidelity)
+    asked = OptimizeRequest(machine=machine, objective=objective, accuracy=request.accuracy, fidelity=request.fidelity)
     lacking = list(missing(asked))
     if lacking:
         raise MissingInput(lacking)
@@ -56,7 +56,7 @@ def needed(request: ParetoRequest, names: Sequence[Traded]) -> OptimizeRequest:
 def traded_front(request: ParetoRequest, machine: Machine, scene: Prepared) -> TradedFront:
     """The front of the responses that a request names, for one limit of the total mass."""
     names = request.responses or ()
-    asked = needed(request, names).model_copy(update={"machine": machine, "accuracy": request.accuracy})
+    asked = needed(request, names, machine)
     # what is traded counts, whatever the objective weighs
     scene = replace(scene, request=asked)
     if request.chosen:

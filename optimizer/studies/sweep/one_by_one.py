@@ -26,7 +26,7 @@ def optimal_one_by_one(
     requests : of one machine with other numbers; none lacks what its objective needs.
     multipliers : whether the proofs are wanted, as text.
     """
-    alone = [prepare(one.model_copy(update={"outputs": ("residual",)})) for one in requests]
+    alone = [prepare(one, outputs=("residual",)) for one in requests]
     # a row has no column for prices and sensitivities
     found = [solve(one, scene, solver, in_full=False) for one, scene in zip(requests, alone, strict=True)]
     rows = [_row(one, each, multipliers) for one, each in zip(requests, found, strict=True)]

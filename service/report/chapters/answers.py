@@ -13,6 +13,7 @@ from service.report.chapters.alternatives import alternatives
 from service.report.chapters.balance_quality import balance_quality
 from service.report.chapters.dynamics import OVER_THE_TURN
 from service.report.chapters.foundation import foundation_loads
+from service.report.chapters.limits import prices
 from service.report.chapters.loads import loads
 from service.report.chapters.order import workshop_order
 from service.report.chapters.orders import orders, two_orders
@@ -57,8 +58,8 @@ def optimized(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Chap
     yield from worst_case(answer)
     yield from balance_quality(request.machine, answer)
     yield balance.before_and_after(request, answer, built)
-    yield verdict.certificate(answer.certificate, answer.infeasibility)
-    yield from balance.prices(request, answer)
+    yield verdict.certificate(request, answer)
+    yield from prices(answer)
     if answer.stages is not None:
         yield balance.stages(request.machine, answer.stages, ())
     yield from outputs(request.machine, answer)

@@ -1,14 +1,13 @@
 """What was found: layout, stages, counterweights, first order before and after, orders."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
-from schemas.answer.answers import Certificate, OptimizeAnswer
+from schemas.answer.answers import OptimizeAnswer
 from schemas.answer.counterweights import Counterweight
 from schemas.answer.first_order import FirstOrder, Floor
 from schemas.answer.outputs import Hodographs, Stage
 from schemas.base.model import FieldProblem
-from schemas.base.responses import ceilings
 from schemas.machine.machine import Machine
 from schemas.request.requests import OptimizeRequest
 from service.common.validation import pointer
@@ -30,8 +29,10 @@ from service.report.blocks import (
     table,
 )
 from service.report.chapters.built import as_fitted
+from service.report.chapters.limits import limits
 from service.report.chapters.making import holding, outlines
 from service.report.chapters.orders import two_orders
+from service.report.chapters.resolution import resolutions
 from service.report.first_order import hodographs
 from service.report.formula import formula
 from service.report.stage_scheme import stage_scheme
@@ -53,23 +54,13 @@ _FIRST_ORDER = (
     ("turning with the shaft |f|, N m", "moment", "co_rotating_Nm"),
     ("turning against the shaft |b|, N m", "moment", "counter_rotating_Nm"),
 )
-_LIMITS = {
-    "max_mass": "largest mass",
-    "envelope": "envelope",
-    "max_centrifugal_force": "largest centrifugal force",
-    "sector": "sector",
-    "max_total_mass": "largest total mass",
-    **{each.limit: f"ceiling of the {each.label}" for each in ceilings()},
-    "bearing_ceiling": "ceiling of the bearing loads",
-    "specific_load_ceiling": "ceiling of the specific bearing loads",
-    "bending_ceiling": "ceiling of the bending moments",
-}
 _SOURCES = (
     "Sources: Qian and Qu (2017), inertia force and torque equilibrium of piston compressors; Balancing "
     "(Уравновешивание), lecture slides on compressors, which name neither author nor year."
 )
 #: of a peak, below which a figure is what rounding leaves
 _DUST = 1e-6
+_NO_GAPS: Mapping[str, float] = {}
 _VERDICT = {"fully": "fully", "partly": "partly", "no": "not"}
 
 
@@ -81,13 +72,23 @@ def shown(answer: OptimizeAnswer) -> tuple[Sequence[Counterweight], FirstOrder |
     return answer.counterweights, answer.residual.after
 
 
-def added(answer: OptimizeAnswer) -> Iterator[tuple[str, float, Cell, str]]:
-    """Peaks of the responses that count beside force and moment: without counterweights, with those that are shown."""
+def added(answer: OptimizeAnswer, gaps: Mapping[str, float]) -> Iterator[tuple[str, float, Cell, str]]:
+    """Peaks of the responses that count beside force and moment: without counterweights, with those that are shown.
+
+    Parameters
+    ----------
+    gaps : peaks by response that are not told from zero.
+    """
     why = answer.infeasibility
     closest = {} if why is None else {each.response: each.peak for each in why.closest.responses}
     for each in answer.residual.responses:
         after = closest.get(each.response, each.after)
-        yield f"peak {each.label}, {each.unit}", each.before, settled(after, each.before), ""
+        yield (
+            f"peak {each.label}, {each.unit}",
+            each.before,
+            settled(after, each.before, gaps.get(each.response, 0.0)),
+            "",
+        )
         if each.turn_before is not None:
             yield (
                 f"peak {each.label} of all orders, {each.unit}",
@@ -216,13 +217,6 @@ def counterweights(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBu
     return Chapter("Counterweights", (*blocks, *shafts))
 
 
-def prices(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Chapter]:
-    """What the limits cost, where there are counterweights."""
-    blocks = tuple(_prices(request, answer))
-    if blocks and (shown(answer)[0] or answer.balance_shafts):
-        yield Chapter("Prices of the limits", blocks)
-
-
 def _balance_shafts(answer: OptimizeAnswer) -> Iterator[Block]:
     """What each balance shaft carries, and which way gearing turns it."""
     why = answer.infeasibility
@@ -266,53 +260,16 @@ def places(fitted: Sequence[Counterweight]) -> Table:
     )  # fmt: skip
 
 
-def _prices(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Block]:
-    """What the limits cost."""
-    if answer.certificate is None:
-        return
-    untold = _without_prices(request, answer.certificate)
-    if untold is not None:
-        yield Paragraph(f"There are no shadow prices {untold}.")
-    elif answer.shadow_prices:
-        yield Paragraph(
-            "A shadow price is the fall of the smallest objective per unit by which one limit is raised. The objective "
-            "is stated as a force: divided by the weight of the force. Where the force has no weight it is stated as a "
-            "moment, then as a bearing load, a bending moment or a roll moment. A sector is opened to both sides. A "
-            "price that the certificate cannot distinguish from 0 is given as 0."
-        )
-        yield table(
-            "Shadow prices of the limits",
-            ["limit", "web", "#fall of the objective", "unit"],
-            [(limits([one.limit]), one.web, one.value, one.unit) for one in answer.shadow_prices],
-        )
-    else:
-        yield Paragraph("No limit holds the objective up: all shadow prices are 0.")
-
-
-def _without_prices(request: OptimizeRequest, proof: Certificate) -> str | None:
-    """Why nothing is told of what the limits cost, or None where it is."""
-    reasons = {
-        "where nothing is proven": proof.gap is None,
-        "of scenarios and tolerances, which have limits in every case": request.robust,
-        "of goals in their order, which hold one another up": request.objective.priorities,
-        "where webs form groups, of which none gives way by itself": request.machine.web_groups,
-        "where counterweights are chosen from what there is": proof.nodes is not None,
-    }
-    return next((words for words, holds in reasons.items() if holds), None)
-
-
-def limits(names: Sequence[str]) -> str:
-    """Limits in words."""
-    return ", ".join(_LIMITS[name] for name in names)
-
-
 def before_and_after(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | None) -> Chapter:
     """First-order force and moment, what the counterweights leave, and what those that are fitted do."""
     _, left = shown(answer)
     # where all orders are asked for they have a chapter
     shown_orders = two_orders(answer.residual.orders) if answer.orders is None else None
     filed = None if built is None else built.left
-    return first_order(request.machine, answer.residual.before, left, answer.floor, which(answer), shown_orders, filed)
+    gaps = resolutions(request, answer)
+    return first_order(
+        request.machine, answer.residual.before, left, answer.floor, which(answer), shown_orders, filed, gaps
+    )
 
 
 def first_order(
@@ -323,6 +280,7 @@ def first_order(
     label: str,
     beside: Table | None,
     built: FirstOrder | None = None,
+    gaps: Mapping[str, float] = _NO_GAPS,
 ) -> Chapter:
     """First-order force and moment: ellipses as figures and as hodographs.
 
@@ -332,14 +290,17 @@ def first_order(
     label : what these are.
     beside : the second order, where it stands nowhere else.
     built : with what is fitted, if anything is.
+    gaps : peaks of force and moment that are not told from zero.
     """
     scales = {"force": was.force.peak_N, "moment": was.moment.peak_Nm}
+    # what a gap says of peaks it says of their parts, and not of angles
+    smallest = {name: 0.0 if name.endswith("_deg") else gaps.get(vector, 0.0) for _, vector, name in _FIRST_ORDER}
     floors = {"peak_N": floor.force_N, "peak_Nm": floor.moment_Nm}
     rows = [
         (
             title,
             settled(getattr(getattr(was, vector), name), scales[vector]),
-            settled(getattr(getattr(left, vector), name), scales[vector]) if left else None,
+            settled(getattr(getattr(left, vector), name), scales[vector], smallest[name]) if left else None,
             number(floors[name]) if name in floors else "",
         )
         for title, vector, name in _FIRST_ORDER

@@ -4,6 +4,8 @@ from collections.abc import Iterator, Sequence
 
 from optimizer.formulation.formulate import span
 from schemas.machine.catalogue import Catalogue
+from schemas.machine.choices import KINDS as CHOICES
+from schemas.machine.choices import stated
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.machine.scroll_machine import ScrollMachine
@@ -69,10 +71,12 @@ def _catalogue(machine: Machine) -> Iterator[tuple[str, Cell | float]]:
     if general.angle_step_deg is not None:
         yield "step of angles from the crank, deg", general.angle_step_deg
     for web in machine.webs:
-        if web.catalogue_masses_kg is not None:
-            yield f"masses of {web.name}, kg", ", ".join(f"{mass:g}" for mass in web.catalogue_masses_kg)
-        if web.hole_angles_deg is not None:
-            yield f"holes of {web.name}, deg", ", ".join(f"{angle:g}" for angle in web.hole_angles_deg)
+        for name in stated(web):
+            kind = CHOICES[name]
+            yield (
+                kind.label.format(web.name),
+                ", ".join(kind.text.format(*each) for each in kind.options(getattr(web, name))),
+            )
     yield from _limit("most counterweights", machine.max_counterweights)
     yield from _limit("most part numbers", general.max_part_numbers)
 

@@ -7,8 +7,8 @@ from schemas.front.trade import TradedFront, TradedPoint
 from schemas.request.objective import Objective
 from service.common.figures import digits
 from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, Table, table
-from service.report.chapters.balance import limits
 from service.report.chapters.counts import counted
+from service.report.chapters.limits import limits
 from service.report.chapters.verdict import reachable
 
 _REASONS: dict[Reason, str] = {

@@ -19,7 +19,7 @@ def with_rounding(request: RoundRequest, answer: RoundAnswer) -> Iterator[Chapte
     yield balance.counterweights(request.request, answer, None)
     yield from order_chapter(answer)
     yield balance.before_and_after(request.request, answer, None)
-    yield verdict.certificate(answer.certificate, answer.infeasibility)
+    yield verdict.certificate(request.request, answer)
 
 
 def _blocks(request: RoundRequest, answer: OptimizeAnswer, rounding: Rounding) -> Iterator[Block]:

@@ -9,8 +9,10 @@ from schemas.base.responses import ceilings
 from schemas.request.objective import COSTS, Objective
 from schemas.request.requests import OptimizeRequest
 from service.report.blocks import Block, Chapter, Equation, Formula, Paragraph, Run, facts, prose, settled, table
-from service.report.chapters.balance import added, limits, shown, which
+from service.report.chapters.balance import added, shown, which
 from service.report.chapters.built import decision
+from service.report.chapters.limits import limits, without_prices
+from service.report.chapters.resolution import resolutions
 from service.report.formula import formula
 from service.tables.as_built import AsBuilt
 
@@ -32,11 +34,13 @@ def result(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | No
     if built is not None:
         return Chapter("Result", (*words, *decision(answer, built)))
     force, moment = was.force.peak_N, was.moment.peak_Nm
-    left_force, left_moment = (left.force.peak_N, left.moment.peak_Nm) if left else (None, None)
+    gaps, floor = resolutions(request, answer), answer.floor
+    left_force = settled(left.force.peak_N if left else None, force, gaps.get("force", 0.0))
+    left_moment = settled(left.moment.peak_Nm if left else None, moment, gaps.get("moment", 0.0))
     rows = [
-        ("peak force, N", force, settled(left_force, force), settled(answer.floor.force_N, force)),
-        ("peak moment, N m", moment, settled(left_moment, moment), settled(answer.floor.moment_Nm, moment)),
-        *added(answer),
+        ("peak force, N", force, left_force, settled(floor.force_N, force)),
+        ("peak moment, N m", moment, left_moment, settled(floor.moment_Nm, moment)),
+        *added(answer, gaps),
     ]
     heads = ["quantity", "#without counterweights", f"#{which(answer)}", "#floor"]
     figures = table("First-order peaks over a revolution", heads, rows)
@@ -122,9 +126,9 @@ def _of_ceiling(field: CeilingField) -> tuple[str, str]:
     return _CEILINGS[field], "N m" if field.endswith("_Nm") else "N"
 
 
-def certificate(proof: Certificate | None, why: Infeasibility | None) -> Chapter:
+def certificate(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
     """The proof, in plain words and in figures."""
-    title = "Certificate"
+    title, proof, why = "Certificate", answer.certificate, answer.infeasibility
     if proof is None:
         assert why is not None  # an answer without a certificate is infeasible
         return Chapter(
@@ -183,7 +187,7 @@ def certificate(proof: Certificate | None, why: Infeasibility | None) -> Chapter
         met = [(goal.goal, goal.value, goal.lower_bound, goal.limit, goal.limit - goal.value) for goal in proof.goals]
         heads = ["goal", "#value", "#lower bound", "#limit for the later goals", "#allowance left"]
         blocks.append(table("Goals in their order", heads, met))
-    return Chapter(title, tuple(blocks))
+    return Chapter(title, (*blocks, *without_prices(request, answer)))
 
 
 def _what_bounds(proof: Certificate) -> str:

@@ -1,0 +1,84 @@
+"""The fields by which a web says what may be chosen for it, of finitely many: every kind of choice.
+
+One more kind is one more field of :class:`schemas.machine.webs.Web` and one more entry here. All that looks at choices
+goes by this table: rules, options, equal castings, refusals of studies, reports.
+"""
+
+from collections.abc import Callable, Iterator
+from typing import Any, NamedTuple
+
+from schemas.base.rules import Rule
+from schemas.machine.catalogue import in_sector, masses_rules
+
+#: mass [kg] and angle [deg, as drawn at shaft angle 0]; None is left to the catalogue
+Option = tuple[float | None, float | None]
+
+
+class ChoiceKind(NamedTuple):
+    """What a field of a web says.
+
+    options : what its contents allow.
+    rules : what is wrong with its contents, and with them in its web; paths from the web.
+    label : in a report, after which the options stand.
+    text : an option in a report.
+    """
+
+    options: Callable[[Any], list[Option]]
+    rules: Callable[[Any, Any], Iterator[Rule]]
+    label: str
+    text: str
+
+
+class OwnOptions(NamedTuple):
+    """What a web says of its masses [kg], of its angles [deg], and of both at once; None where it says nothing."""
+
+    masses: tuple[float, ...] | None
+    angles: tuple[float, ...] | None
+    pairs: tuple[tuple[float, float], ...] | None
+
+
+def _masses(masses: Any, _: Any) -> Iterator[Rule]:
+    return masses_rules(("catalogue_masses_kg",), masses)
+
+
+def _holes(angles: Any, web: Any) -> Iterator[Rule]:
+    path = ("hole_angles_deg",)
+    yield Rule(not angles, path, "must hold at least one angle")
+    seen: set[float] = set()
+    for n, angle in enumerate(angles):
+        yield Rule(angle % 360.0 in seen, (*path, n), "this hole is in the list already")
+        seen.add(angle % 360.0)
+        yield from sector_rules((*path, n), angle, web, "this hole")
+
+
+def sector_rules(path: tuple[str | int, ...], angle_deg: Any, web: Any, what: str) -> Iterator[Rule]:
+    """What is chosen stands in the sector of its web."""
+    if web.sector is not None:
+        inside = in_sector(angle_deg, web.sector.centre_deg, web.sector.half_angle_deg)
+        yield Rule(not inside, path, f"{what} is outside the sector")
+
+
+#: by field of a web
+KINDS: dict[str, ChoiceKind] = {
+    "catalogue_masses_kg": ChoiceKind(
+        lambda masses: [(mass, None) for mass in masses], _masses, "masses of {}, kg", "{0:g}"
+    ),
+    "hole_angles_deg": ChoiceKind(
+        lambda angles: [(None, angle) for angle in angles], _holes, "holes of {}, deg", "{1:g}"
+    ),
+    # beside these two
+}
+
+
+def stated(web: Any) -> list[str]:
+    """Fields by which a web says what may be chosen for it."""
+    return [name for name in KINDS if getattr(web, name) is not None]
+
+
+def own_options(web: Any) -> OwnOptions:
+    """What all of these fields of a web say."""
+    every = [option for name in stated(web) for option in KINDS[name].options(getattr(web, name))]
+    masses = tuple(mass for mass, angle in every if mass is not None and angle is None)
+    angles = tuple(angle for mass, angle in every if mass is None and angle is not None)
+    pairs = tuple((mass, angle) for mass, angle in every if mass is not None and angle is not None)
+    return OwnOptions(masses or None, angles or None, pairs or None)

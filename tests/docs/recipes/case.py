@@ -1,0 +1,100 @@
+"""A band of speeds, as CONTRIBUTING adds it, asked for in every way."""
+
+from math import pi
+
+from starlette.testclient import TestClient
+
+from schemas.sweep.request import SweepRequest
+from service.app import create_app
+from service.settings import Settings
+
+# a rotating unbalance of 1 kg m, and a web in its plane that takes 0.4 of that
+throw = {"position_m": 0, "crank_radius_m": 0.1, "crank_angle_deg": 0, "rotating_mass_kg": 10, "rows": []}
+web = {"name": "w", "position_m": 0, "counterweight_radius_m": 0.2, "max_mass_kg": 2, "throw": 0}
+machine = {"kind": "reciprocating", "speed_rpm": 600, "throws": [throw], "webs": [web]}
+band, fast = {"lowest_rpm": 300, "highest_rpm": 900}, (30 * pi) ** 2
+row = {"axis_deg": 90, "reciprocating_mass_kg": 8, "connecting_rod": {"length_m": 0.35}}
+bearings = [
+    {"name": name, "position_m": place, "diameter_m": 0.1, "length_m": 0.1} for name, place in (("a", -0.3), ("b", 0.3))
+]
+piston = {**machine, "throws": [throw | {"rows": [row]}], "bearings": bearings}
+chosen = machine | {"catalogue": {"masses_kg": [1.5, 3], "angle_step_deg": 30}}
+ends = [{"name": name, "changes": [{"path": "/machine/speed_rpm", "value": band[name]}]} for name in band]
+
+
+def near(found, expected, size=fast):
+    assert abs(found - expected) < 2e-6 * size, (found, expected)
+
+
+with TestClient(create_app(Settings(), warm=False)) as client:
+
+    def ask(machine, status="optimal", **more):
+        body = {"machine": machine, **more}
+        answer = client.post("/v1/optimize", json=body)
+        assert answer.status_code == 200, answer.text
+        found = answer.json()
+        assert found["status"] == status, found
+        claims = client.post("/v1/verify", json={"request": body, "answer": found}).json()
+        assert claims["verdict"] != "broken", claims
+        return found, claims["not_covered"]
+
+    def refused(path, body, pointer):
+        answer = client.post(path, json=body)
+        assert (answer.status_code, answer.json()["errors"][0]["pointer"]) == (422, pointer), answer.text
+
+    # analytic: the largest force is that of the highest speed
+    found, missed = ask(machine, speed_band=band)
+    near(found["worst_case"]["objective"], 0.6 * fast)
+    near(found["certificate"]["objective"], 0.6 * fast)
+    near(found["price_of_robustness"]["nominal"], 0.6 * (20 * pi) ** 2)
+    assert not missed, missed
+    rows = {row["name"]: row["value"] for row in found["certificate"]["multipliers"]["objective"]["rows"]}
+    near(rows["sum in speed_band highest_rpm"], 1.0, 1.0)
+    # analytic: 0.3 of 1 kg m are chosen
+    found, _ = ask(chosen, speed_band=band)
+    near(found["worst_case"]["objective"], 0.7 * fast)
+    # analytic: what is off adds 0.001 kg m
+    found, _ = ask(machine, speed_band=band, tolerances={"unbalance_kg_m": 0.001})
+    near(found["worst_case"]["objective"], 0.601 * fast)
+    # analytic: the slow end keeps a ceiling that the fast end cannot
+    found, _ = ask(machine, "infeasible", speed_band=band, objective={"force_ceiling_N": 0.5 * fast})
+    why = found["infeasibility"]
+    assert why["scenarios"] == ["speed_band highest_rpm"], why
+    near(why["smallest_force_N"], 0.6 * fast)
+    # metamorphic: whatever is asked for, it is two scenarios
+    for more in (
+        {"objective": {"orders": "all"}},
+        {"objective": {"bearing_weight": 1}},
+        {"objective": {"force_weight": 0, "bending_weight": 1}, "tolerances": {"reciprocating_mass_relative": 0.1}},
+        {"objective": {"priorities": [{"goal": "external", "allowance": 0.1}, {"goal": "mass"}]}},
+    ):
+        both = ({"speed_band": band}, {"scenarios": ends})
+        near(*(ask(piston, **one, **more)[0]["worst_case"]["objective"] for one in both), 3 * fast)
+    # beside scenarios it is two more cases, and no two have one name
+    three = [{"name": "faster still", "changes": [{"path": "/machine/speed_rpm", "value": 1200}]}]
+    found, _ = ask(machine, speed_band=band, scenarios=three)
+    near(found["worst_case"]["objective"], 0.6 * (40 * pi) ** 2, 2 * fast)
+    taken = [three[0] | {"name": "speed_band lowest_rpm"}]
+    refused("/v1/optimize", {"machine": machine, "speed_band": band, "scenarios": taken}, "/speed_band")
+    refused("/v1/optimize", {"machine": machine, "speed_band": band | {"lowest_rpm": 900}}, "/speed_band/highest_rpm")
+    slow = machine | {"overspeed_rpm": 800}
+    refused("/v1/optimize", {"machine": slow, "speed_band": band}, "/speed_band")
+    for path in ("/v1/pareto", "/v1/accuracy"):
+        refused(path, {"machine": machine, "speed_band": band}, "/speed_band")
+    steps = {"mass_step_kg": 0.5, "angle_step_deg": 30}
+    rounded = client.post("/v1/round", json={"request": {"machine": machine, "speed_band": band}, **steps})
+    assert rounded.status_code == 200, rounded.text
+    near(rounded.json()["rounding"]["optimum"]["objective"], 0.6 * fast)
+    page = client.post("/v1/report", json={"machine": machine, "speed_band": band}, headers={"Accept": "text/html"})
+    assert page.status_code == 200, page.text
+    assert "speed_band highest_rpm" in page.text, page.text[:500]
+    schema = client.get("/openapi.json").json()["components"]["schemas"]["OptimizeRequest"]["properties"]
+    assert schema["speed_band"]["x-group"] == schema["scenarios"]["x-group"]
+
+axis = {"path": "/base/machine/speed_rpm", "values": [500, 600]}
+refusal = ""
+try:
+    SweepRequest.model_validate({"base": {"machine": machine, "speed_band": band}, "axes": [axis]})
+except ValueError as error:
+    refusal = str(error)
+assert "not a sweep" in refusal, refusal
