@@ -28,7 +28,9 @@ def smallest(points):  # type: ignore[no-untyped-def]
         farthest = _farthest(points, middle, centre)
         if abs(points[farthest] - middle - centre) <= radius + slack:
             break
-        trial[:count], trial[count] = support[:count], farthest
+        trial[count] = farthest
+        for k in range(count):
+            trial[k] = support[k]
         for k in range(count + 1):
             few[k] = points[trial[k]] - middle
         of_few, larger, number = _around(few, count, held, of_held)
@@ -38,7 +40,10 @@ def smallest(points):  # type: ignore[no-untyped-def]
         centre, radius, count = of_few, larger, number
         for k in range(count):
             support[k], weights[k] = trial[held[k]], of_held[k]
-    return centre + middle, radius, support[:count].copy(), weights[:count].copy()
+    own, of_own = np.empty(count, np.int64), np.empty(count)
+    for k in range(count):
+        own[k], of_own[k] = support[k], weights[k]
+    return centre + middle, radius, own, of_own
 
 
 @inner
