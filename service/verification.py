@@ -39,6 +39,11 @@ _FILES = [
             "circle",
             "bearings",
             "shaking",
+            "dynamics",
+            "rods",
+            "parts",
+            "inside",
+            "outputs",
         )
     ),
     *(
