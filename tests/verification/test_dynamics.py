@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from schemas.base.units import parse_quantity
 from service.verification import checker
 from tests.verification.answers import pair
 from tests.verification.anything import JSON, judged, paths
@@ -162,3 +163,10 @@ def test_mean_and_root_mean_square_by_a_quadrature() -> None:
     values = np.array([curve.value(angle) for angle in np.linspace(0.0, pistons.period, 8_000, endpoint=False)])
     assert abs(curve.mean - values.mean()) < 1e-3 * curve.size
     assert curve.rms == pytest.approx(np.sqrt(np.mean(np.abs(values) ** 2)), rel=1e-3)
+
+
+@pytest.mark.parametrize("text", ["4 bar", "0.4 MPa", "400 kPa", "58.01509 psi", "4e5 Pa"])
+def test_pressures_have_the_units_of_the_service(text: str) -> None:
+    """Independent: the units of the schema."""
+    place = part("numbers").Place({"discharge_pressure_Pa": text}, "request")
+    assert (place / "discharge_pressure_Pa").double() == parse_quantity(text, "Pa")
