@@ -29,8 +29,8 @@ def verify(asked: VerifyRequest) -> VerifyAnswer:
 #: the files, each behind those that it imports
 _PARTS = (
     "numbers leaves plates machine claims cranks weights shafts form orders quality program cases answer prices"
-    " alternatives first spans harmonics gas pistons pressed curves loads circle bearings shaking cuts costs values"
-    " misplacement ceilings levels nominal goals turn single many match"
+    " alternatives first spans harmonics gas pistons pressed curves loads circle bearings shaking dynamics rods parts"
+    " inside outputs cuts costs values misplacement ceilings levels nominal goals turn single many match"
 )
 _FILES = [*(f"verify_{part}" for part in _PARTS.split()), "verify"]
 

@@ -15,7 +15,8 @@ Path = Tuple[Union[str, int], ...]
 #: how it was found and told: the last part of a path, or the path from the answer on
 REMARKS = {
     "version", "timing", "effects", "status_reason", "warnings", "method", "rounds", "nodes", "cuts", "gearing",
-    "reason", "message", "label", "index", "description", "time_limit_reached",
+    "reason", "message", "label", "index", "description", "time_limit_reached", "mean_torque_error_Nm",
+    "fluctuation_energy_error_J",
 }  # fmt: skip
 #: names that are listed
 MOST = 200

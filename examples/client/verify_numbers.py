@@ -150,6 +150,7 @@ UNITS: dict[str, dict[str, Any]] = {
     "deg": {"deg": 1, "rad": 180 / _PI},
     "rpm": {"rpm": 1, "rad/s": 30 / _PI, "Hz": 60},
     "N": {"N": 1, "kN": 1000, "lbf": _LBF},
+    "Pa": {"Pa": 1, "kPa": 1000, "MPa": 10**6, "bar": 10**5, "psi": _LBF / Fraction("0.00064516")},
     "Nm": {"N m": 1, "N mm": "0.001", "lbf ft": _LBF * Fraction("0.3048")},
 }
 _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*([A-Za-z][A-Za-z/ ]*?)\s*", re.ASCII)

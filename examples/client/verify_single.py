@@ -9,6 +9,7 @@ from verify_first import infeasible, optimum
 from verify_form import form, outputs
 from verify_machine import Machine
 from verify_numbers import ONE, Place
+from verify_outputs import dynamics
 from verify_shaking import shaking
 from verify_turn import looks_at_the_turn, over_turn, unreachable
 
@@ -31,6 +32,7 @@ def single(request: Place, answer: Place, whole: bool = True) -> Claims:
         budget, why = asked / "max_total_mass_kg", answer / "infeasibility"
         yield from covered(shaking(request, machine, answer, None))
         yield from covered(curves(request, machine, answer, None))
+        yield from covered(dynamics(request, machine, answer, None))
         yield from covered((unreachable if turn else infeasible)(request, answer, budget, why))
         return
     yield "status", answer / "infeasibility", -ONE if answer / "infeasibility" else ONE, ONE
@@ -38,6 +40,7 @@ def single(request: Place, answer: Place, whole: bool = True) -> Claims:
     yield from after(request, machine, answer, there)
     yield from covered(shaking(request, machine, answer, there))
     yield from covered(curves(request, machine, answer, there))
+    yield from covered(dynamics(request, machine, answer, there))
     mass = there.mass + there.on_shafts_mass if there.on_shafts else there.mass
     yield from gaps(request, answer, mass)
     yield from covered((over_turn if turn else optimum)(request, answer, machine, there))

@@ -131,10 +131,14 @@ def covering(copy: Path, room: Room) -> list[Trial] | None:
 
 
 def chosen(tests: list[Trial], file: Path, mutant: Mutant) -> list[str]:
-    """Tests that run the lines of a mutant, the shortest first, as long as they last; none where no test does."""
+    """Tests that run the lines of a mutant, the shortest first, as long as they last; none where no test does.
+
+    Of a constant of the module they are those that run anything of it.
+    """
     found, seconds = [], 0.0
     for one in tests:
-        if not one.lines.get(str(file), frozenset()).isdisjoint(mutant.lines):
+        lines = one.lines.get(str(file), frozenset())
+        if (lines and not mutant.lines) or not lines.isdisjoint(mutant.lines):
             seconds += one.seconds
             if found and (seconds > _CHOSEN_S or len(found) == _CHOSEN):
                 break

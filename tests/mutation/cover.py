@@ -56,7 +56,7 @@ def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
         yield
     finally:
         sys.settrace(before)
-        threading.settrace(None)  # type: ignore[arg-type]
+        threading.settrace(None)
     lines = {str(Path(name).relative_to(_ROOT)): found for name, found in _LINES.read().items()}
     _TESTS[item.nodeid] = time.process_time() - begun, lines
 

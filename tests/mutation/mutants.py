@@ -45,7 +45,10 @@ _TAKEN_FOR = {
 
 
 class Mutant(NamedTuple):
-    """A file with one fault: where, what was done, the text, and the lines of the statement."""
+    """A file with one fault: where, what was done, the text, and the lines of the statement.
+
+    None of what runs while the module is imported: no test runs that.
+    """
 
     line: int
     fault: str
@@ -72,6 +75,8 @@ def _statement(tree: ast.Module, node: ast.AST) -> frozenset[int]:
     around = [
         one for one in ast.walk(tree) if isinstance(one, ast.stmt) and one.lineno <= line <= (one.end_lineno or 0)
     ]
+    if not any(isinstance(one, ast.FunctionDef | ast.AsyncFunctionDef) for one in around):
+        return frozenset()
     inner = max(around, key=lambda one: one.lineno)
     body = getattr(inner, "body", None)
     end = body[0].lineno - 1 if body else inner.end_lineno or line

@@ -25,6 +25,8 @@ def test_a_mutant_differs_in_its_fault_alone() -> None:
     found = [mutant(SOURCE, number) for number in range(count(SOURCE))]
     assert len({one.text for one in found}) == len(found)
     assert all(one.line in (2, 4) for one in found)
+    assert {one.lines for one in found} == {frozenset({2}), frozenset({4})}
+    assert mutant("LIMIT = 3", 0).lines == frozenset()
 
 
 @pytest.mark.parametrize("name", ROOMS)
@@ -43,6 +45,8 @@ def test_tests_that_run_a_line_are_chosen_the_shortest_first() -> None:
     assert chosen([*tests, Trial("long", 50.0, {"coded.py": _LINES})], file, fault) == ["short"]
     assert chosen([Trial("long", 50.0, {"coded.py": _LINES})], file, fault) == ["long"]
     assert chosen(tests, Path("other.py"), fault) == []
+    # a constant is nobody's line
+    assert chosen(tests, file, Mutant(1, "", "", frozenset())) == ["short", "elsewhere"]
 
 
 def test_what_is_noticed(tmp_path: Path) -> None:

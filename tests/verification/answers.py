@@ -64,6 +64,25 @@ def _shown(body: Body, **more: Any) -> Body:
     return {**body, **more, "outputs": outputs, "angles": {"step_deg": 5.0}}
 
 
+def _dynamics(body: Body) -> Body:
+    """What rows do over the revolution."""
+    outputs = ["kinematics", "gas", "piston_force", "rod_loads", "torque", "overturning", "main_bearings", "roll"]
+    outputs += ["loads", "internal_moment"]
+    return {**body, "outputs": outputs, "angles": {"step_deg": 30.0}}
+
+
+def _four_strokes() -> Body:
+    """One row with friction, the other with a pressure over two revolutions, the first of its dead centres given."""
+    body = _dynamics(_pair("twin", "friction", "clockwise"))
+    table = {"angle_deg": [0, 20, 180, 360, 540, 700, 720], "pressure_Pa": [9e5, 1.2e6, 3e5, 1e5, 1e5, 5e5, 9e5]}
+    row = body["machine"]["throws"][0]["rows"][0]
+    trunk = {"bore_m": 0.1, "ambient_pressure_Pa": 1e5}
+    row["cylinder"] = {**trunk, "pressure": {"head": table, "cycle_turns": 2}}
+    body["machine"]["flywheel"] = {"inertia_kg_m2": 40.0}
+    body["outputs"] = [*body["outputs"], "flywheel"]
+    return body
+
+
 @cache
 def _requests() -> dict[str, Body]:
     found = {name: SINGLE[name] for name in ("sum", "max", "direction weights", "budget and ceiling", "infeasible")}
@@ -72,6 +91,8 @@ def _requests() -> dict[str, Body]:
         found[name] = _pair(base, *features)
     found["shaking"] = _shown(_pair("vee", "clockwise"), fitted=[{"web": "a", "mass_kg": 2.0, "angle_deg": 75.0}])
     found["shaking, balance shaft"] = _shown(_pair("vee", "balance shaft of order 2"))
+    found["dynamics"] = _dynamics(_pair("vee", "friction", "bearing weight"))
+    found["four strokes"] = _four_strokes()
     found["front"] = {**SINGLE["sum"], "points": 3, "multipliers": True}
     masses = {"path": "/machine/throws/0/rows/0/reciprocating_mass_kg", "values": [9.0, 14.0]}
     found["sweep"] = {"base": SINGLE["ceilings"], "axes": [masses], "multipliers": True}

@@ -7,11 +7,12 @@ from tests.verification.__main__ import tally
 from tests.verification.answers import names, pair
 from tests.verification.falsified import numbers
 
-#: numbers of an answer that the short form falsifies
+#: numbers of an answer that the short form falsifies, of some kinds that take a check 0.1 s at most
 _SOME = 12
+_LONG = ("matching", "gas", "indicated pressure", "dynamics", "four strokes")
 
 
-@pytest.mark.parametrize("name", [one for one in names() if one != "matching"][::5])
+@pytest.mark.parametrize("name", [one for one in names() if one not in _LONG][::5])
 def test_some_of_the_table(name: str) -> None:
     request, answer = pair(name)
     found, missed = tally(request, answer, max(1, len(list(numbers(answer))) // _SOME))

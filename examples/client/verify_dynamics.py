@@ -1,0 +1,165 @@
+"""What rows do over a revolution, as an answer prints it: their motion, gas, and the forces on their pistons."""
+
+from __future__ import annotations
+
+from math import degrees, inf, radians, sqrt
+from typing import Iterable, List, NamedTuple, Optional, Sequence, Tuple
+
+from verify_bearings import PEAK, SAMPLE, sampled, within
+from verify_claims import Claim, Claims, same
+from verify_gas import TURN, Cycle, force
+from verify_harmonics import Peak
+from verify_numbers import ONE, NotCovered, Place
+from verify_pistons import Instant, Piston, Pistons
+from verify_pressed import ALL, Acting, Pressed
+
+TURNED = 1e-9  # degrees by which a crank angle may be off
+OPENS = 1e-7  # degrees by which an angle at which a valve opens may be off
+RUBBED = 1e-9  # of the friction: by which it may be off
+WORK = 1e-9  # of the largest force over the stroke: by which a work may be off
+
+
+class Shown(NamedTuple):
+    """Rows of an output with the angles of its samples [rad]."""
+
+    claim: str
+    angles: List[float]
+    rows: List[Tuple[Piston, int, Place]]
+
+
+def shown(claim: str, request: Place, pistons: Pistons, place: Place) -> Claims:
+    """Angles and labels of the rows; returns them."""
+    angles = yield from sampled(claim, place / "angle_deg", request, pistons.turns)
+    rows = list(place / "rows")
+    labels = [(t, i, row) for t, throw in enumerate(request / "machine" / "throws")
+              for i, row in enumerate(throw / "rows")]  # fmt: skip
+    yield claim, place / "rows", ONE if len(rows) == len(labels) == len(pistons.rows) else -ONE, ONE
+    for one, (throw, number, row) in zip(rows, labels):
+        yield same(claim, one / "throw", throw)
+        yield same(claim, one / "row", number)
+        yield same(claim, one / "name", (row / "name").value)
+    turned = [radians(one) for one in angles]
+    return Shown(claim, turned, [(one, k, place) for k, (one, place) in enumerate(zip(pistons.rows, rows))])
+
+
+def series(claim: str, place: Place, values: Sequence[float], off: float) -> Claims:
+    """Samples."""
+    said = list(place)
+    yield claim, place, ONE if len(said) == len(values) else -ONE, ONE
+    for one, value in zip(said, values):
+        yield within(claim, one, value, value, off)
+
+
+def of_row(pistons: Pistons, angles: Iterable[float], k: int) -> List[Instant]:
+    """One row at the angles of the samples."""
+    return [pistons.at(k, one) for one in angles]
+
+
+def alone(pistons: Pistons, k: int, reading: str, acting: Acting = ALL) -> Pressed:
+    """A force of one row."""
+    return Pressed(pistons, reading, [(k, 1.0)], {}, acting)
+
+
+def enclosed(curve: Pressed, place: Place, sign: int = 0) -> Peak:
+    """The largest value of a curve, where it can be enclosed."""
+    found = curve.peak(sign=sign)
+    if found is None:
+        raise NotCovered(place)
+    return found
+
+
+def kinematics(request: Place, pistons: Pistons, place: Place) -> Claims:
+    """Motion of every row."""
+    found = yield from shown("kinematics", request, pistons, place)
+    omega = sqrt(pistons.square)
+    for row, k, one in found.rows:
+        there = of_row(pistons, found.angles, k)
+        # a whole revolution from its own angle, each may be printed as 0 or as 360
+        own = list(one / "crank_angle_deg")
+        aside = [(said.double() - degrees(each.piston.own) + 180) % 360 - 180 for said, each in zip(own, there)]
+        yield from series("kinematics", one / "crank_angle_deg", [a.double() - b for a, b in zip(own, aside)], TURNED)
+        yield from (("kinematics", said, ONE if 0 <= said.double() <= 360 else -ONE, ONE) for said in own)
+        for name, factor, reads in (
+            ("displacement_m", row.radius, lambda each: each.piston.travel),
+            ("velocity_m_s", row.radius * omega, lambda each: each.piston.turning),
+            ("acceleration_m_s2", row.radius * omega**2, lambda each: each.piston.outward),
+        ):
+            values = [factor * reads(each) for each in there]
+            yield from series("kinematics", one / name, values, 2 * SAMPLE * factor * row.fastest)
+
+
+def _cylinders(row: Place) -> List[Optional[str]]:
+    """Names of the cylinders of a row."""
+    return [(one / "name").value for one in ([row / "cylinder"] if row / "cylinder" else row / "cylinders")]
+
+
+def gas(request: Place, pistons: Pistons, place: Place) -> Claims:
+    """Pressures, and what they come to."""
+    found = yield from shown("gas", request, pistons, place)
+    omega = sqrt(pistons.square)
+    power = 0.0
+    for row, k, one in found.rows:
+        there, said = of_row(pistons, found.angles, k), list(one / "chambers")
+        yield "gas", one / "chambers", ONE if len(said) == len(row.chambers) else -ONE, ONE
+        names = _cylinders(row.place)
+        works = [row.work(chamber) for chamber in row.chambers]
+        for n, (chamber, each) in enumerate(zip(row.chambers, said)):
+            yield same("gas", each / "side", "head" if chamber.head else "crank")
+            yield same("gas", each / "cylinder", n // 2)
+            yield same("gas", each / "name", names[n // 2])
+            pressures = [instant.pressures[n] for instant in there]
+            yield from series("gas", each / "pressure_Pa", pressures, SAMPLE * chamber.most)
+            size = SAMPLE * chamber.most * chamber.area
+            yield from series("gas", each / "force_N", [force(chamber, value) for value in pressures], size)
+            opens = chamber.breaks(row.ratio) if isinstance(chamber, Cycle) else (None, None)
+            for field, angle in zip(("suction_opens_deg", "discharge_opens_deg"), opens):
+                if angle is None:
+                    yield same("gas", each / field, None)
+                else:
+                    yield within("gas", each / field, degrees(angle), degrees(angle), OPENS)
+            off = WORK * chamber.most * chamber.area * row.radius
+            yield within("gas", each / "indicated_work_J", works[n], works[n], off)
+        off = SAMPLE * row.most
+        travels = [row.radius * each.piston.travel for each in there]
+        yield from series("gas", one / "displacement_m", travels, 2 * SAMPLE * row.radius)
+        yield from series("gas", one / "force_N", [each.gas for each in there], off)
+        put_in, wide = sum(works) * omega / TURN, WORK * row.most * row.radius * omega
+        yield within("gas", one / "indicated_power_W", put_in, put_in, wide)
+        power += put_in
+    most = sum(row.most * row.radius for row in pistons.rows)
+    yield within("gas", place / "indicated_power_W", power, power, WORK * most * omega)
+
+
+def piston_force(request: Place, pistons: Pistons, place: Place) -> Claims:
+    """Gas, inertia and friction on every piston, and what they come to at most either way."""
+    claim = "piston_force"
+    found = yield from shown(claim, request, pistons, place)
+    for row, k, one in found.rows:
+        there, off = of_row(pistons, found.angles, k), SAMPLE * (row.most + row.moving[0] + row.friction)
+        yield from series(claim, one / "gas_N", [each.gas for each in there], off)
+        yield from series(claim, one / "inertia_N", [each.inertia for each in there], off)
+        # of the efficiency by the work of the gas, which a quadrature tells
+        yield from series(claim, one / "friction_N", [each.friction for each in there], off + RUBBED * row.friction)
+        yield from series(claim, one / "total_N", [ALL.of(each) for each in there], off + RUBBED * row.friction)
+        curve = alone(pistons, k, "piston")
+        off += RUBBED * row.friction
+        pull, push = enclosed(curve, one, 1), enclosed(curve, one, -1)
+        yield from signed(claim, one, "peak_tension", pull, off)
+        yield from signed(claim, one, "peak_compression", push, off, -1)
+
+
+def signed(claim: str, place: Place, name: str, peak: Peak, off: float, sign: int = 1, least: float = -inf) -> Claims:
+    """A largest value times a sign, with its bracket; none below ``least``."""
+    low, high = max(peak.low, least), max(peak.high, least)
+    wide = PEAK * abs(low) + off
+    yield _between(claim, place / f"{name}_N", low - wide, high + off, sign)
+    ends = list(place / f"{name}_bracket_N")
+    yield claim, place / f"{name}_bracket_N", ONE if len(ends) == 2 else -ONE, ONE
+    if len(ends) == 2:
+        first, last = ends[::sign]
+        yield _between(claim, first, low - wide, high + off, sign)
+        yield _between(claim, last, low - off, high + wide, sign)
+
+
+def _between(claim: str, place: Place, low: float, high: float, sign: int) -> Claim:
+    return within(claim, place, *sorted((sign * low, sign * high)), 0.0)

@@ -1,0 +1,154 @@
+"""Loads as a designer of parts asks for them: of piston rods, pins, covers, frames and bearings.
+
+The largest of samples are taken over the angles of the output, those that an output brackets over all angles.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import pi
+from typing import Iterator, Sequence, Tuple
+
+from verify_bearings import PEAK, SAMPLE, within
+from verify_claims import Claims, same
+from verify_curves import Turn
+from verify_dynamics import RUBBED, alone, enclosed, of_row, series, shown
+from verify_gas import force
+from verify_harmonics import Peak
+from verify_machine import Machine, row_masses
+from verify_numbers import ONE, Place
+from verify_pistons import Instant, Piston, Pistons
+from verify_rods import CASES, RANGE, fluctuation, leaning, of_shaft
+
+GRAVITY = 9.80665  # m/s^2
+WEIGHED = 1e-11  # of all weights: by which one may be off
+
+
+def designer_loads(request: Place, machine: Machine, pistons: Pistons, answer: Place) -> Claims:
+    """All but what guides carry, and directions of weights, where gravity has one."""
+    place, asked = answer / "loads", request / "machine"
+    found = yield from shown("loads", request, pistons, place)
+    for row, k, one in found.rows:
+        yield from _row(pistons, row, k, one, of_row(pistons, found.angles, k))
+    throws = list(asked / "throws")
+    yield same("loads", Place(len(list(place / "throws")), *(place / "throws").path), len(throws))
+    for n, (throw, one) in enumerate(zip(throws, place / "throws")):
+        turning = (throw / "rotating_mass_kg").double(0.0) + sum(_turning(row) for row in throw / "rows")
+        yield same("loads", one / "throw", n)
+        yield within("loads", one / "rotating_mass_kg", turning, turning, SAMPLE * turning)
+    yield from _base(asked, pistons, place, found.angles)
+    yield same("loads", place / "gravity_deg", (asked / "gravity_deg").value)
+    # the mass of what is cut from a plate follows from its own radius
+    if not any(web / "envelope" for web in asked / "webs"):
+        yield from _weights(request, place, Turn(request, machine, loads=False), list(_masses(asked, answer)))
+
+
+def _turning(row: Place) -> float:
+    return row_masses(row)[1].middle().real
+
+
+def _row(pistons: Pistons, row: Piston, k: int, place: Place, there: Sequence[Instant]) -> Claims:
+    off = (SAMPLE * (row.most + row.moving[0]) + RUBBED * row.friction) * leaning(row)
+    moving, turning = (one.middle().real for one in row_masses(row.place))
+    rod = turning - sum(
+        (one / "mass_kg").double() for one in row.place / "parts" if (one / "motion").value == "rotating"
+    )
+    gas = [one.gas for one in there]
+    piston = enclosed(alone(pistons, k, "piston"), place)
+    pin, stopped = (enclosed(alone(pistons, k, "rod", CASES[name]), place) for name in ("running", "sudden_stop"))
+    three = {
+        "gas": Peak(*[max(map(abs, gas), default=0.0)] * 2, 0.0),
+        "inertia": Peak(*[max((abs(one.inertia) for one in there), default=0.0)] * 2, 0.0),
+        "running": piston,
+    }
+    most = max(three.values(), key=lambda one: one.low)
+    governing = (place / "piston_rod_governed_by").text(*three)
+    near = three[governing].high + off >= most.low
+    yield "loads", place / "piston_rod_governed_by", ONE if near else -ONE, ONE
+    dead = [row.at(angle - row.ahead, angle - row.ahead).gas for angle in (0.0, pi)]
+    for name, (low, high), wide in (
+        ("reciprocating_mass_kg", (moving, moving), SAMPLE * moving),
+        ("rod_rotating_mass_kg", (rod, rod), SAMPLE * (rod + turning)),
+        ("rotating_mass_kg", (turning, turning), SAMPLE * turning),
+        ("largest_gas_N", three["gas"][:2], off),
+        ("largest_inertia_N", three["inertia"][:2], off),
+        ("largest_piston_force_N", piston[:2], off),
+        ("piston_rod_N", most[:2], off),
+        ("crosshead_pin_N", pin[:2], off),
+        ("stop_at_outer_dead_centre_N", (dead[0], dead[0]), off),
+        ("stop_at_inner_dead_centre_N", (dead[1], dead[1]), off),
+        ("stop_over_the_turn_N", stopped[:2], off),
+    ):
+        yield within("loads", place / name, low - PEAK * abs(low), high, wide)
+    covers = list(place / "covers")
+    yield "loads", place / "covers", ONE if len(covers) == len(row.chambers) else -ONE, ONE
+    for n, (chamber, cover) in enumerate(zip(row.chambers, covers)):
+        outward = [abs(force(chamber, one.pressures[n])) for one in there]
+        yield same("loads", cover / "cylinder", n // 2)
+        yield same("loads", cover / "side", "head" if chamber.head else "crank")
+        for field, value in (("largest_N", max(outward)), ("smallest_N", min(outward))):
+            yield within("loads", cover / field, value, value, off)
+    low, high = -max(gas, default=0.0), -min(gas, default=0.0)
+    for field, value in (
+        ("tension_N", max(high, 0.0)),
+        ("compression_N", min(low, 0.0)),
+        ("mean_N", (low + high) / 2),
+        ("amplitude_N", (high - low) / 2),
+    ):
+        yield within("loads", place / "frame" / field, value, value, off)
+
+
+def _base(asked: Place, pistons: Pistons, place: Place, angles: Sequence[float]) -> Claims:
+    """What the torque of rows and shaft does to one base of machine and driver, to that of the machine alone, and
+    to the speed."""
+    every = of_shaft(pistons)
+    whole, off = every.moved(complex(pistons.rubbing)), RUBBED * (every.size + abs(pistons.rubbing))
+    mean = whole.mean.real
+    beyond = [whole.value(angle).real - mean for angle in angles]
+    yield within("loads", place / "driver_Nm", mean, mean, off)
+    yield from series("loads", place / "shared_base_Nm", beyond, off)
+    for field, curve in (("own_base_peak_Nm", whole), ("shared_base_peak_Nm", whole.moved(complex(-mean)))):
+        peak = enclosed(curve, place / field)
+        yield within("loads", place / field, peak.low * (1 - PEAK), peak.high, off)
+    wheel = asked / "flywheel"
+    if not wheel:
+        yield same("loads", place / "angular_acceleration_rad_s2", None)
+        return
+    inertia, share = (wheel / "inertia_kg_m2").double(0.0), 0.0
+    if not wheel / "inertia_kg_m2":
+        energy = fluctuation(pistons)
+        inertia = energy / pistons.square / (wheel / "irregularity").double()
+        share = RANGE * every.size / energy
+    wide = off / inertia + share * max(map(abs, beyond), default=0.0) / inertia
+    yield from series("loads", place / "angular_acceleration_rad_s2", [-one / inertia for one in beyond], wide)
+
+
+def _masses(asked: Place, answer: Place) -> Iterator[Tuple[float, float]]:
+    """All that turns with the shaft: where along it [m], and its mass."""
+    for throw in asked / "throws":
+        yield (throw / "position_m").double(), (throw / "rotating_mass_kg").double(0.0)
+        for row in throw / "rows":
+            where = (throw / "position_m").double() + (row / "offset_m").double(0.0)
+            yield where, _turning(row)
+    for part in [*(asked / "shaft_parts"), *(answer / "counterweights")]:
+        yield (part / "position_m").double(), (part / "mass_kg").double()
+
+
+def _weights(request: Place, place: Place, turn: Turn, masses: Sequence[Tuple[float, float]]) -> Claims:
+    """Of all that turns: on the bearings, where gravity has no direction, and on the foundation."""
+    asked, said = request / "machine", list(place / "bearing_weights")
+    names = [(one / "name").text() for one in asked / "bearings"]
+    yield "loads", place / "bearing_weights", ONE if len(said) == len(names) else -ONE, ONE
+    for name, one in zip(names, said):
+        yield same("loads", one / "name", name)
+        if asked / "gravity_deg" or turn.spans is None:
+            yield "loads", one / "weight_N", None, ONE
+            continue
+        shares = [float(turn.spans.shares(Fraction(where))[turn.bearings[name]]) for where, _ in masses]
+        value = sum(share * mass for share, (_, mass) in zip(shares, masses)) * GRAVITY
+        size = sum(abs(share) * mass for share, (_, mass) in zip(shares, masses)) * GRAVITY
+        yield within("loads", one / "weight_N", abs(value), abs(value), WEIGHED * size)
+        yield same("loads", one / "x_N", None)
+        yield same("loads", one / "y_N", None)
+    if not asked / "stationary_mass_kg":
+        yield same("loads", place / "foundation_weight_N", None)
