@@ -20,7 +20,7 @@ from optimizer.solve.minimum_mass import certified_light
 from optimizer.solve.solve import solve
 from schemas.answer.answers import Certificate
 from schemas.answer.counterweights import Counterweight
-from schemas.front.counts import Counted, CountFront, CountPoint, CountTrade
+from schemas.front.counts import PIECES, Counted, CountFront, CountPoint, CountTrade
 from schemas.front.pareto import ParetoRequest
 from schemas.machine.catalogue import Catalogue
 from schemas.machine.machine import Machine
@@ -65,7 +65,7 @@ def count_front(request: ParetoRequest, machine: Machine, scene: Prepared, solve
     # what is limited by no number says how many are of any use; it may take half of the time, and the others the other
     last = point(None, half)
     until = time.monotonic() + half
-    used = last.weights if asked.of == "weights" else last.part_numbers
+    used = last.weights if asked.of in PIECES else last.part_numbers
     if used is None:
         points = [last.model_copy(update={"at_most": _most(machine, asked.of)})]
     else:
@@ -85,7 +85,7 @@ def count_front(request: ParetoRequest, machine: Machine, scene: Prepared, solve
 
 def at_most(machine: Machine, of: Counted, number: int) -> Machine:
     """The machine with no more counterweights, or part numbers, than a number."""
-    if of == "weights" or number == 0:
+    if of in PIECES or number == 0:
         return machine.model_copy(update={"max_counterweights": number})
     catalogue = machine.catalogue or Catalogue()
     return machine.model_copy(update={"catalogue": catalogue.model_copy(update={"max_part_numbers": number})})
@@ -94,7 +94,7 @@ def at_most(machine: Machine, of: Counted, number: int) -> Machine:
 def _most(machine: Machine, of: Counted) -> int:
     """The largest number that means anything."""
     options = stock(machine).options
-    if of == "weights":
+    if of in PIECES:
         return int(np.sum(options.webs[np.any(options.mass > 0, axis=-1)]))
     return int(np.max(options.part, initial=-1)) + 1
 
