@@ -18,7 +18,7 @@ from optimizer.choices.discrete.ample import neighbourhoods, offer_light_sets
 from optimizer.choices.discrete.clock import Clock
 from optimizer.choices.discrete.exchange import start
 from optimizer.choices.discrete.lightest import lighter, lightest
-from optimizer.choices.discrete.options import EQUAL, Incumbent
+from optimizer.choices.discrete.options import EQUAL, Incumbent, Options
 from optimizer.choices.discrete.search import EXHAUSTED
 from optimizer.choices.feasible_set import Choice, FeasibleSet
 from optimizer.numerics.arrays import Complex
@@ -30,7 +30,7 @@ from optimizer.program.limits import Limits
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import total_mass
 from optimizer.solve.cutting_plane_rounds import Ended, Start, in_rounds
-from optimizer.solve.few_webs import UNKNOWN, FewWebs, compare_on_few_webs, few_webs
+from optimizer.solve.few_webs import UNKNOWN, FewWebs, compare_on_few_webs, few_webs, lightened
 from schemas.request.objective import Cost
 
 #: width of the brackets by which sets are told apart, as a share of goals
@@ -41,6 +41,8 @@ _GAP, _SHARP, _LIGHT = 1e-3, 1e-6, 1e-9
 _FIRST = 0.6
 #: options of a slot near to the optimum of any masses, and light ones of another, pass by pass
 _COUNTS = ((40, 120), (80, 300))
+#: share of the time in which the fewest castings are made lighter
+_LIGHTER = 0.1
 #: by which sums of masses are rounded, relative
 _ROUNDING = 1e-12
 #: where a set was found that was compared with others; what that proves is told beside it
@@ -90,6 +92,13 @@ def cost(choice: Choice, kind: Cost) -> float:
     if kind == "mass":
         return float(np.sum(choice.mass))
     return float(np.sum(choice.mass > 0) if kind == "pieces" else part_numbers(choice.mass))
+
+
+def _of_parts(options: Options, chosen: np.ndarray) -> Options:
+    """The options that have the part numbers of a set (K,)."""
+    parts = options.of(options.part, chosen)
+    exists = options.exists & ((options.part < 0) | np.isin(options.part, parts[parts >= 0]))
+    return replace(options, exists=exists, most_parts=None)
 
 
 class Least(NamedTuple):
@@ -153,6 +162,12 @@ class Costs:
             self.known.append((float(values.goals[-1]), choice))
 
     def _fewest(self, kind: Cost, level: float, seconds: float) -> float:
+        """Look for the fewest, and lighter ones that are as few: the number that they are at least."""
+        at_least = self._bisection(kind, level, (1.0 - _LIGHTER) * seconds)
+        self._lighten(kind, level, Clock(_LIGHTER * seconds))
+        return at_least
+
+    def _bisection(self, kind: Cost, level: float, seconds: float) -> float:
         """Look for the fewest: the number that they are at least."""
         clock, known = Clock(seconds), self.cheapest(kind, level)
         high = self.program.limits.radius.size + 1 if known is None else int(cost(known, kind))
@@ -176,6 +191,18 @@ class Costs:
                 break
             at_least += 1
         return float(at_least)
+
+    def _lighten(self, kind: Cost, level: float, clock: Clock) -> None:
+        """Make the cheapest choice lighter, under a level of one goal of the first order."""
+        known, choices = self.cheapest(kind, level), self.caps.of(self.choices(self.best.limits))
+        if known is None or level == np.inf or self.program.finite is None or not isinstance(choices, Catalogue):
+            return
+        options, limits = choices.stock.options, self.caps.within(self.best.limits)
+        u = known.unbalance if options.alike is None else options.alike.means(known.unbalance)
+        if kind == "sizes":
+            options = _of_parts(options, options.nearest(u))
+        light = lightened(replace(self.program.finite, limits=limits), options, options.nearest(u), level, clock)
+        self.offer(choices.picked(light, COMPARED))
 
     def _at_least(self, kind: Cost, level: float, high: int) -> int:
         """The number that they are at least, by what is known without a search."""

@@ -28,6 +28,8 @@ _SUBSETS = 300
 _TRIED, _NEAR, _SETS, _SUMS, _PAIRS = 12, 400, 2_000_000, 200_000, 400_000
 #: sets of a few webs up to which all are compared
 _EVERY = 1e9
+#: sums of a half where a set is made lighter
+_BESIDE = 60_000
 
 
 class FewWebs(NamedTuple):
@@ -105,3 +107,19 @@ def compare_on_few_webs(
                 offer(light)
     # all that are no more than the level would have been found
     return float(np.nextafter(level, np.inf)) if above and level <= incumbent.least else few.least
+
+
+def lightened(statement: Statement, options: Options, chosen: np.ndarray, level: float, clock: Clock) -> np.ndarray:
+    """A set (K,), and as long as there is one a lighter one near to it on its slots, no worse than a level."""
+    fitted = np.flatnonzero(chosen)
+    count = int(_BESIDE ** (1.0 / max(math.ceil(fitted.size / 2), 1)))
+    while not clock.spent():
+        which = [np.array([option]) for option in chosen]
+        for k in fitted.tolist():
+            which[k] = near_options(options, k, complex(options.unbalance[k, chosen[k]]), count)
+        mass = float(np.sum(options.of(options.mass, chosen)))
+        found = lighter(statement, options, which, level, mass, clock, most_pairs=_PAIRS)
+        if found.chosen is None:
+            break
+        chosen = found.chosen
+    return chosen

@@ -8,7 +8,9 @@ from schemas.answer.counterweights import Counterweight
 from schemas.base.model import Model, Shown
 from schemas.base.quantities import Kilograms, NewtonMetres, Newtons
 
-Counted = Literal["weights", "part_numbers"]
+Counted = Literal["weights", "part_numbers", "pieces", "sizes"]
+#: as goals of an objective name what is counted
+PIECES: tuple[Counted, ...] = ("weights", "pieces")
 Lessened = Literal["objective", "mass"]
 
 
@@ -16,7 +18,8 @@ class CountTrade(Model):
     """How many counterweights, or different masses, against what they come to."""
 
     of: Counted = Field(
-        description="weights: webs that have a counterweight; part_numbers: different masses", examples=["weights"]
+        description="weights, or pieces: webs that have a counterweight; part_numbers, or sizes: different masses",
+        examples=["weights"],
     )
     least: Lessened = Field(
         "objective",

@@ -13,7 +13,13 @@ MAX_OPTIONS, MAX_OPTIONS_TOGETHER = 20_000, 200_000
 
 def catalogue_rules(catalogue: Catalogue, webs: Sequence[Web]) -> Iterator[Rule]:
     """What the discrete choices of a machine have to hold; paths from the machine."""
-    together = 0
+    together, step_kg = 0, catalogue.mass_step_kg
+    # of the webs that count by it
+    largest = [web.max_mass_kg for web in webs if web.fixed is None and web.catalogue_masses_kg is None]
+    if step_kg is not None and largest:
+        most = max(limit or 0.0 for limit in largest)
+        message = f"larger than the largest mass of every web, {most:g} kg: nothing could be fitted"
+        yield Rule(None not in largest and 0.0 < most * (1.0 + 1e-12) < step_kg, ("catalogue", "mass_step_kg"), message)
     for k, web in enumerate(webs):
         if web.fixed is not None:
             continue

@@ -1,8 +1,9 @@
 """Choices from steps, two sizes, holes and catalogues beside rounding by hand with local search, on random machines.
 
-``python -m tests.choices.against_rounding [--count 100]`` prints how many answers are worse by more than the asked gap,
-with gaps, masses and times; it ends with 1 where any is. It is a plain search: from the rounded continuous optimum one
-web at a time over all its options, then two, with a price on mass and without.
+``python -m tests.choices.against_rounding [--count 100] [--first 0] [--limit 10]`` prints every answer as it comes, and
+how many are worse by more than the asked gap, with gaps, masses and times; it ends with 1 where any is. By hand is a
+plain search: from the rounded continuous optimum one web at a time over all its options, then two, with a price on mass
+and without.
 """
 
 import argparse
@@ -22,6 +23,8 @@ MODES = ("steps", "two sizes", "holes", "catalogue")
 _PRICES, _PAIRED = (0.0, 1.0), 60
 #: gap that is asked for where nothing is said
 _GAP = 1e-3
+#: s for an answer
+_LIMIT_S = 10.0
 
 Body = dict[str, Any]
 
@@ -38,6 +41,12 @@ class Compared(NamedTuple):
     yardstick: float
     gap: float
     seconds: float
+
+    def __str__(self) -> str:
+        return (
+            f"{self.mode:<10} {self.throws} throws: {self.value:.0f}, by hand {self.by_hand:.0f} N;"
+            f" {self.mass:.1f}, by hand {self.mass_by_hand:.1f} kg; gap {self.gap:.1e}; CPU {self.seconds:.2f} s"
+        )
 
     @property
     def worse(self) -> bool:
@@ -201,15 +210,16 @@ class Plain:
         return found
 
 
-def compared(seed: int) -> Iterator[Compared]:
-    """One machine in every mode."""
+def compared(seed: int, limit_s: float = _LIMIT_S) -> Iterator[Compared]:
+    """One machine in every mode, each with so many seconds."""
     rng = np.random.default_rng(seed)
     free = machine(rng)
     optimum = optimize(OptimizeRequest.model_validate({"machine": free}))
     for mode in MODES:
         body = with_choices(free, mode, rng)
         start = time.process_time()
-        found = optimize(OptimizeRequest.model_validate({"machine": body}))
+        asked = {"machine": body, "accuracy": {"time_limit_s": limit_s}}
+        found = optimize(OptimizeRequest.model_validate(asked))
         seconds = time.process_time() - start
         assert found.certificate is not None
         plain = Plain(body, optimum)
@@ -221,8 +231,12 @@ def compared(seed: int) -> Iterator[Compared]:
         )  # fmt: skip
 
 
-def main(count: int) -> int:
-    every = [one for seed in range(count) for one in compared(seed)]
+def main(first: int, count: int, limit_s: float) -> int:
+    every = []
+    for seed in range(first, first + count):
+        for one in compared(seed, limit_s):
+            print(f"{seed:>4} {one}{', worse' if one.worse else ''}", flush=True)
+            every.append(one)
     for mode in MODES:
         some = [one for one in every if one.mode == mode]
         gaps, seconds = np.array([one.gap for one in some]), np.array([one.seconds for one in some])
@@ -235,12 +249,13 @@ def main(count: int) -> int:
             f" CPU median {np.median(seconds):.2f} s, largest {np.max(seconds):.1f};"
             f" mass against by hand, median {np.median(heavier):+.1f} kg"
         )
-        for one in worse:
-            print(f"    {one}")
     return int(any(one.worse for one in every))
 
 
 if __name__ == "__main__":
     reader = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     reader.add_argument("--count", type=int, default=100, help="machines, each in four modes")
-    sys.exit(main(reader.parse_args().count))
+    reader.add_argument("--first", type=int, default=0, help="seed of the first of them")
+    reader.add_argument("--limit", type=float, default=_LIMIT_S, help="seconds for each answer")
+    said = reader.parse_args()
+    sys.exit(main(said.first, said.count, said.limit))

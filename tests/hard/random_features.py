@@ -24,15 +24,21 @@ def catalogue(draw: Draw, body: Body) -> Body:
         "max_part_numbers": draw.one_of(None, None, 1, 2),
     }
     machine["max_counterweights"] = draw.one_of(None, None, 0, 1, 2, 5)
+    counting: list[Body] = []
     for place in machine["webs"]:
         if step:
             place["max_mass_kg"] = machine["catalogue"]["mass_step_kg"] * draw.one_of(0, 0.5, 1, 1 + 1e-15, 3.7, 25)
         if rng.random() < 0.2:
             place["catalogue_masses_kg"] = _masses(draw)
+        elif step:
+            counting.append(place)
         if machine["kind"] == "reciprocating" and rng.random() < 0.8:
             place["throw"] = rng.randrange(len(machine["throws"]))
         if rng.random() < 0.3:
             place["hole_angles_deg"] = _holes(draw, place["sector"])
+    if counting and 0 < max(place["max_mass_kg"] for place in counting) < machine["catalogue"]["mass_step_kg"]:
+        # a step that nothing can carry is refused
+        counting[0]["max_mass_kg"] = machine["catalogue"]["mass_step_kg"]
     body["accuracy"]["time_limit_s"] = draw.one_of(*_TIME_LIMITS)
     return body
 

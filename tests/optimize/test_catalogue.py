@@ -203,6 +203,11 @@ WEB = {"name": "a", "position_m": 0.0, "counterweight_radius_m": 0.1, "max_mass_
         ({"max_counterweights": 1}, {}, "machine.webs.0.catalogue_masses_kg"),
         ({"catalogue": {"mass_step_kg": 1, "angle_step_deg": 9}}, {"max_mass_kg": None}, "machine.webs.0.max_mass_kg"),
         ({"catalogue": {"mass_step_kg": 1e-6, "angle_step_deg": 1}}, {}, "machine.webs.0"),
+        (
+            {"catalogue": {"mass_step_kg": 2.5, "angle_step_deg": 9}},
+            {"max_mass_kg": 2.4},
+            "machine.catalogue.mass_step_kg",
+        ),
         ({}, {"catalogue_masses_kg": [1], "hole_angles_deg": []}, "machine.webs.0.hole_angles_deg"),
         ({}, {"catalogue_masses_kg": [1], "hole_angles_deg": [1, 361]}, "machine.webs.0.hole_angles_deg.1"),
         (

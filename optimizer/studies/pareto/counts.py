@@ -18,7 +18,7 @@ from optimizer.program.verdict import CONTRADICTED
 from optimizer.solve.minimum_mass import minimum_mass
 from optimizer.solve.solution import Infeasible
 from optimizer.solve.solve import solve
-from schemas.front.counts import Counted, CountFront, CountPoint, CountTrade
+from schemas.front.counts import PIECES, Counted, CountFront, CountPoint, CountTrade
 from schemas.front.pareto import ParetoRequest
 from schemas.machine.catalogue import Catalogue
 from schemas.machine.machine import Machine
@@ -82,7 +82,7 @@ def count_front(request: ParetoRequest, machine: Machine, scene: Prepared, solve
 
 def at_most(machine: Machine, of: Counted, number: int) -> Machine:
     """The machine with no more counterweights, or part numbers, than a number."""
-    if of == "weights" or number == 0:
+    if of in PIECES or number == 0:
         return machine.model_copy(update={"max_counterweights": number})
     catalogue = machine.catalogue or Catalogue()
     return machine.model_copy(update={"catalogue": catalogue.model_copy(update={"max_part_numbers": number})})
@@ -91,7 +91,7 @@ def at_most(machine: Machine, of: Counted, number: int) -> Machine:
 def _most(machine: Machine, of: Counted) -> int:
     """The largest number that means anything."""
     options = stock(machine).options
-    if of == "weights":
+    if of in PIECES:
         return int(np.sum(options.webs[np.any(options.mass > 0, axis=-1)]))
     return int(np.max(options.part, initial=-1)) + 1
 
@@ -108,7 +108,7 @@ def _point(
     sizes = part_numbers(best.mass_kg[_chosen(machine)]) if found else None
     if number is None:
         # where no number limits it, so many as it takes
-        used = weights if asked.of == "weights" else sizes
+        used = weights if asked.of in PIECES else sizes
         number = _most(machine, asked.of) if used is None else used
     return CountPoint(
         at_most=number,

@@ -3,7 +3,12 @@
 from schemas.front.counts import CountFront, CountPoint
 from service.report.blocks import Block, Cell, Number, table
 
-_COUNTED = {"weights": "counterweights", "part_numbers": "part numbers"}
+_COUNTED = {
+    "weights": "counterweights",
+    "part_numbers": "part numbers",
+    "pieces": "counterweights",
+    "sizes": "part numbers",
+}
 _VALUE = {"objective": "#objective", "mass": "#minimum mass, kg"}
 
 

@@ -120,6 +120,13 @@ def test_the_least_objective_of_every_number(of: str) -> None:
     assert found.points[-1].value == pytest.approx(float(np.min(sets.objective)), rel=1e-12)
 
 
+@pytest.mark.parametrize(("name", "of"), [("pieces", "weights"), ("sizes", "part_numbers")])
+def test_goals_name_what_is_counted_as_well(name: str, of: str) -> None:
+    found = front(body(90.0), name, "objective")
+    assert found.of == name
+    assert found.points == front(body(90.0), of, "objective").points
+
+
 @pytest.mark.parametrize("of", ["weights", "part_numbers"])
 def test_the_least_mass_of_every_number(of: str) -> None:
     """Independent: of all 13^4 sets that keep both ceilings the lightest."""
