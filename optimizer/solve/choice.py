@@ -25,12 +25,12 @@ from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.limits import Limits
 from optimizer.program.optimum import optimum
 from optimizer.program.reference.solver import Solver
-from optimizer.solve.answer_fields import Candidate, SearchProof, told
+from optimizer.solve.answer_fields import Candidate, told
 from optimizer.solve.costs import NO_CAPS, Caps, Costs, cost
 from optimizer.solve.cutting_plane_rounds import Ended, Start, in_rounds
 from optimizer.solve.infeasibility import out_of_reach, unreachable
-from optimizer.solve.search_claims import told_status
 from optimizer.solve.solution import Infeasible, Solution, finite_or_null
+from optimizer.solve.statuses import SearchProof, told_status
 from optimizer.solve.uncertain_program import MOST_ROUNDS, Robust
 from optimizer.solve.worst_case import certified_any_mass, with_worst_case
 from schemas.answer.answers import GoalReached
