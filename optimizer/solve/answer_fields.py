@@ -20,6 +20,7 @@ from optimizer.program.certificate import Multipliers, budget_price, ceiling_all
 from optimizer.program.cuts.optimum import METHOD, Found
 from optimizer.program.cuts.proof import Proof
 from optimizer.program.cuts.semi_infinite import Problem, Values
+from optimizer.program.points import points_at
 from optimizer.program.sensitivity import shadow_prices
 from optimizer.program.verdict import CONTRADICTED, Claim, Verdict, mass_resolution, verdict
 from optimizer.solve.certify import figures
@@ -240,7 +241,7 @@ def _bound(proof: Proof, u: Complex, excess: float) -> tuple[float, float]:
         allowance = float(ceiling_allowance(statement, proof.multipliers, over))
     # what scatters whatever the counterweights is a floor
     charge = proof.charge + _FLOORS * float(np.add.reduce(np.abs(statement.floor)))
-    return proof.bound - allowance, float(statement.rounding(u)) + charge * np.finfo(float).eps
+    return proof.bound - allowance, float(points_at(statement, u).rounding) + charge * np.finfo(float).eps
 
 
 def _touched(request: OptimizeRequest, asked: Goals, values: Values) -> Iterator[MachineLimit]:
