@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from optimizer.formulation.limits import limits
 from optimizer.mechanics.balance_shafts import first_order_responses
 from optimizer.mechanics.frame import FORCE, MOMENT, Shares, first_order, shaking
 from optimizer.mechanics.inertia import Wrench
@@ -18,8 +17,6 @@ from optimizer.mechanics.layout import Layout, stacked
 from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.numerics.arrays import SMALLEST, Reals
 from optimizer.numerics.memoization import remembered
-from optimizer.program.rows import combined, statement, weighted_peak
-from optimizer.program.statement import Statement
 from optimizer.responses.curve import TurnResponse
 from optimizer.responses.response import Response
 from schemas.base.responses import PAIR, CeilingFields, ResponseFields
@@ -148,10 +145,3 @@ def shape_facts(machine: Machine, objective: Objective) -> tuple[np.ndarray, ...
     across = objective.direction_weights
     weighed = (np.asarray(weight) > 0 for weight in weights(machine, objective).values())
     return (*weighed, np.asarray(across.x) == across.y)
-
-
-def smallest_peak(response: Response, machine: Machine) -> Statement:
-    """The program for one peak alone (...), without ceilings."""
-    # the larger of one is that one, and its row has its name
-    peak = weighted_peak(response, 1.0)
-    return statement(combined([peak], "max"), [], limits(machine, response.baseline.co.shape))

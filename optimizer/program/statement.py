@@ -143,8 +143,6 @@ class Statement:
 
     def rounding(self, u: Complex) -> Real:
         """What the objective may change by where masses and angles are rounded (...)."""
-        if self.flat is not None and self.flat.suits(u.shape[:-1]):
-            return self.flat.values(u)[3]
         size = np.add.reduce(np.abs(self.norms.influence) * np.abs(u)[..., None, :], axis=(-2, -1))
         size = (1.0 + self.norms.scatter) * size
         return _ROUNDING * (size + np.add.reduce(np.abs(self.norms.constant), axis=-1))

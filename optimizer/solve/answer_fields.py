@@ -1,7 +1,7 @@
 """What is told of counterweights that are found, with goals in their order."""
 
 import time
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -20,17 +20,17 @@ from optimizer.program.certificate import Multipliers, budget_price, ceiling_all
 from optimizer.program.cuts.optimum import METHOD, Found
 from optimizer.program.cuts.proof import Proof
 from optimizer.program.cuts.semi_infinite import Problem, Values
+from optimizer.program.points import points_at
 from optimizer.program.sensitivity import shadow_prices
 from optimizer.program.verdict import CONTRADICTED, Claim, Verdict, mass_resolution, verdict
 from optimizer.solve.certify import figures
 from optimizer.solve.cut_plates import cut_plates
-from optimizer.solve.cutting_plane_rounds import Ended
 from optimizer.solve.prices import shadow_prices as priced
 from optimizer.solve.prices import touched_by_mass
 from optimizer.solve.proof import PhysicalMultipliers
-from optimizer.solve.search_claims import told_ample, told_status
 from optimizer.solve.sensitivity import sensitivity
 from optimizer.solve.solution import Proofs, Solution, certificate, finite_or_null, multipliers_of
+from optimizer.solve.statuses import SearchProof, status_of
 from schemas.answer.answers import GoalReached
 from schemas.answer.limits import MachineLimit, ShadowPrice, WebLimit
 from schemas.request.requests import OptimizeRequest
@@ -41,11 +41,6 @@ _CLOSE = 1e-10
 _CLOSER = 1e-12
 #: a floor is a sum of few, known to so many units in its last place
 _FLOORS = 8.0
-_EARLIER = (
-    "The last goal is within the requested gap. The search for another goal ended with a larger gap, which `goals`"
-    " of the certificate states."
-)
-_IN_ORDER = "Proven optimal: every goal is certified in its order, and keeps what those before it allow."
 
 
 class Candidate(NamedTuple):
@@ -54,22 +49,6 @@ class Candidate(NamedTuple):
     mass: Real  # (K,) kg
     angle: Real  # (K,) degrees
     found: Found
-
-
-class SearchProof(NamedTuple):
-    """What a search has proven of all that may be chosen."""
-
-    ended: Ended  # of the last goal
-    nodes: int  # of the trees of all goals
-    rounds: int  # likewise
-    bounds: Sequence[float] | None  # of the goals before it, over omega^2; None: of goals in order nothing is proven
-    closed: bool  # the gaps of all goals are the asked ones
-    levels: Sequence[GoalReached] = ()  # all goals in their order, where some are what castings cost
-
-    @property
-    def lower_bound(self) -> float:
-        """Of the last goal, over omega^2."""
-        return -np.inf if self.bounds is None else self.ended.lower_bound
 
 
 def fitted(
@@ -126,7 +105,7 @@ def told(
     printed = figures(request.machine, claimed, judged, at_rest, target, square) | _of_search(
         found, judged, search, square
     )
-    status, reason = _status(found, judged, wanted, search, program.goals[-1].allowance)
+    status, reason = status_of(found, judged, wanted, search, program.goals[-1].allowance)
     levels = _levels(found, search, asked, square)
     if search is None and program.goals[-1].allowance > 0.0:
         levels += (_mass_level(found, float(np.sum(there)), printed["mass_lower_bound_kg"]),)
@@ -151,30 +130,6 @@ def told(
         0 if search is None else search.nodes,
         time.perf_counter() - began,
     )
-
-
-def _status(
-    found: Found, judged: Verdict, wanted: Demand, search: SearchProof | None, allowance: float
-) -> tuple[str, str]:
-    """The status and a sentence why.
-
-    Parameters
-    ----------
-    allowance : of the last goal, for what comes after it.
-    """
-    status, reason = str(judged.status.item()), str(judged.reason.item())
-    if found.timed_out and status != "optimal" and reason != CONTRADICTED:
-        reason = f"The time limit of {wanted.time_limit_s:g} s ended the search. {reason}"
-    if search is not None:
-        proven = search.bounds is None or not np.isnan(judged.lower_bound[0])
-        status, reason = told_status(search.ended, status, reason, proven)
-        if search.bounds is not None:
-            reason = told_ample(reason, search.ended, found.proof.bound)
-        if status == "optimal" and not search.closed:
-            return "inaccurate", _EARLIER
-    if status == "optimal" and (allowance > 0.0 or (search is not None and search.levels)):
-        reason = _IN_ORDER
-    return status, reason
 
 
 def _of_search(
@@ -286,7 +241,7 @@ def _bound(proof: Proof, u: Complex, excess: float) -> tuple[float, float]:
         allowance = float(ceiling_allowance(statement, proof.multipliers, over))
     # what scatters whatever the counterweights is a floor
     charge = proof.charge + _FLOORS * float(np.add.reduce(np.abs(statement.floor)))
-    return proof.bound - allowance, float(statement.rounding(u)) + charge * np.finfo(float).eps
+    return proof.bound - allowance, float(points_at(statement, u).rounding) + charge * np.finfo(float).eps
 
 
 def _touched(request: OptimizeRequest, asked: Goals, values: Values) -> Iterator[MachineLimit]:

@@ -25,14 +25,14 @@ from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.limits import Limits
 from optimizer.program.optimum import optimum
 from optimizer.program.reference.solver import Solver
-from optimizer.solve.answer_fields import Candidate, SearchProof, told
+from optimizer.solve.answer_fields import Candidate, told
 from optimizer.solve.costs import NO_CAPS, Caps, Costs, cost
 from optimizer.solve.cutting_plane_rounds import Ended, Start, in_rounds
 from optimizer.solve.infeasibility import out_of_reach, unreachable
-from optimizer.solve.search_claims import told_status
 from optimizer.solve.solution import Infeasible, Solution, finite_or_null
+from optimizer.solve.statuses import SearchProof, told_status
 from optimizer.solve.uncertain_program import MOST_ROUNDS, Robust
-from optimizer.solve.worst_case import certified_any_mass, with_worst_case
+from optimizer.solve.worst_case import best_of_any_mass, with_worst_case
 from schemas.answer.answers import GoalReached
 from schemas.request.cases import AS_GIVEN
 from schemas.request.objective import COSTS, Cost
@@ -44,7 +44,7 @@ _CLOSE = 1e-10
 _ROUNDING = 1e-12
 
 
-def certified_choice(
+def best_choice(
     request: OptimizeRequest, scene: Prepared, solver: Solver, in_full: bool = True
 ) -> Solution | Infeasible:
     """Of what can be chosen the best, over the turn and in the worst of all scenarios.
@@ -61,7 +61,7 @@ def certified_choice(
         if a machine lacks what the objective needs.
     """
     if request.machine.semicontinuous:
-        free = certified_any_mass(request, scene, solver, in_full)
+        free = best_of_any_mass(request, scene, solver, in_full)
         if isinstance(free, Infeasible) or _heavy_enough(request, free.mass):
             return free
     any_mass = of_any_mass(request)
@@ -266,6 +266,6 @@ def _nominal_choice(
         return None, True
     accuracy = request.accuracy.model_copy(update={"time_limit_s": left_s})
     alone = request.model_copy(update={**AS_GIVEN, "tolerances": None, "accuracy": accuracy})
-    of_machine = certified_choice(alone, scene, solver, in_full=False)
+    of_machine = best_choice(alone, scene, solver, in_full=False)
     late = of_machine.status == "inaccurate"
     return of_machine.unbalance if isinstance(of_machine, Solution) and not late else None, late

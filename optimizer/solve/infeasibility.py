@@ -13,13 +13,17 @@ from optimizer.formulation.goals import Goals
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.shapes import closed
 from optimizer.outputs.first_order import added_peaks, first_order, smallest_peaks, smallest_proofs
+from optimizer.program.certificate import Multipliers, objective_lower_bound
 from optimizer.program.cuts.dominance import Group, Weighed
 from optimizer.program.cuts.optimum import METHOD, Found, Unkept
+from optimizer.program.cuts.proof import Proof
 from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.limits import Limits
 from optimizer.program.optimum import optimum
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import Row, weighted_peak
+from optimizer.program.solution import CEILING_ROUNDING
+from optimizer.program.statement import Statement
 from optimizer.program.verdict import INFEASIBLE
 from optimizer.solve.cut_plates import cut_plates
 from optimizer.solve.proof import implied_max_mass, named_excess
@@ -146,9 +150,9 @@ def unreachable(
     if np.any(most != alone.limits.max_mass):
         common = replace(alone.limits, max_mass=most)
         if found is not None and np.any(most != within.max_mass):
-            again = optimum(asked.program.changed(limits=common), 1.0, False, solver)
+            again = _conflict(asked.program, found, common, {name: each.proof for name, each in least.items()}, solver)
             # where the conflict is proven for less only, all is proven for that
-            common, found = (common, again) if isinstance(again, Unkept) else (within, found)
+            common, found = (within, found) if again is None else (common, again)
         alone = alone.changed(limits=common)
         least = {name: _least(alone, group, solver) for name, group in groups.items()}
     peaks = {
@@ -164,7 +168,9 @@ def unreachable(
         for name in [alone.quantities[each.quantity].name]
         if name in limited
     ]
-    together = [each for each in (*exact, *both) if each.response in at_fault] or exact
+    # of a cone program a small multiplier may hold a large ceiling
+    few = asked.program.finite is None
+    together = [each for each in (*exact, *both) if few and each.response in at_fault] or exact
     conflict, scenarios = None, tuple[str, ...]()
     if found is not None:
         scales, proof = asked.program.excess_scales(found.proof.cuts), found.proof
@@ -174,6 +180,33 @@ def unreachable(
     told = report(scene, shown, (*exact, *both), together, peaks, implied, conflict, scenarios)
     spent = (0.0 if found is None else found.certify_s) + sum(each.certify_s for each in least.values())
     return Infeasible("infeasible", INFEASIBLE, told, spent, METHOD if found is None else found.method)
+
+
+def _conflict(
+    program: Problem, found: Unkept, limits: Limits, alone: Mapping[str, Proof], solver: Solver
+) -> Unkept | None:
+    """The proof that ceilings conflict within larger limits; None where that is proven for less only.
+
+    Parameters
+    ----------
+    alone : of the smallest peak of each response by itself. Where a ceiling is below it, what proves it proves the
+        conflict as well.
+    """
+    excess, rows = replace(found.proof.statement, limits=limits), found.proof.statement.names.rows
+    of_one = ((n, alone[name].multipliers) for n, name in enumerate(rows) if name in alone)
+    by_one = (_of_one_ceiling(excess, n, each) for n, each in of_one if each.term.size == each.row.size == 1)
+    for multipliers in (found.proof.multipliers, *by_one):
+        bound = float(objective_lower_bound(excess, multipliers))
+        if bound > CEILING_ROUNDING:
+            return replace(found, proof=replace(found.proof, bound=bound, statement=excess, multipliers=multipliers))
+    again = optimum(program.changed(limits=limits), 1.0, False, solver)
+    return again if isinstance(again, Unkept) else None
+
+
+def _of_one_ceiling(excess: Statement, ceiling: int, peak: Multipliers) -> Multipliers:
+    """The proof of a smallest peak as one of the smallest excess: all on the row of its own ceiling."""
+    only = (np.arange(excess.row.size) == ceiling).astype(float)
+    return Multipliers(peak.term * only, peak.row * only, np.zeros_like(excess.ceilings.norms.constant))
 
 
 def _alone(request: OptimizeRequest, asked: Goals, omega_squared: float) -> dict[str, tuple[Row, ...]]:

@@ -17,7 +17,7 @@ from optimizer.program.optimum import optimum
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import total_mass
 from optimizer.solve.cutting_plane_rounds import in_rounds
-from optimizer.solve.search_claims import ended, told_ample
+from optimizer.solve.statuses import ended, told_ample
 from optimizer.solve.uncertain_program import Robust
 from schemas.request.requests import OptimizeRequest
 

@@ -20,7 +20,7 @@ from optimizer.formulation.demand import demand
 from optimizer.formulation.limits import limits
 from optimizer.mechanics.plates import Plates
 from optimizer.mechanics.shapes import fitted
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, mapped
 from optimizer.program.cuts.optimum import Found, Unkept
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.methods.implied_bounds import within_reach
@@ -62,10 +62,12 @@ def cut_optimum(
     statement : the cone program.
     """
     end = thread_time() + request.accuracy.time_limit_s
-    whole, every = within_reach(statement.alone(), solver), np.ones(len(request.machine.webs), bool)
+    stated, every = statement.alone(), np.ones(len(request.machine.webs), bool)
+    whole = within_reach(stated, solver)
     task = _Task(request, whole, cut, solver, request.accuracy.relative_gap, every)
     found = task.optimum(end)
-    statement = replace(statement, limits=whole.chosen(0).limits)
+    if whole is not stated:
+        statement = replace(statement, limits=mapped(whole.limits, lambda array: array[0]))
     return solution(program, statement, found, found.unbalance[0], request.objective.least_mass)
 
 

@@ -2,9 +2,9 @@
 
 from optimizer.formulation.simulation import Prepared
 from optimizer.program.reference.solver import Solver
-from optimizer.solve.choice import certified_choice
+from optimizer.solve.choice import best_choice
 from optimizer.solve.solution import Infeasible, Solution
-from optimizer.solve.worst_case import certified_any_mass
+from optimizer.solve.worst_case import best_of_any_mass
 from schemas.request.requests import OptimizeRequest
 
 
@@ -23,4 +23,4 @@ def solve(request: OptimizeRequest, scene: Prepared, solver: Solver, in_full: bo
         if a machine lacks what the objective needs.
     """
     of_choices = request.machine.discrete or request.machine.semicontinuous
-    return (certified_choice if of_choices else certified_any_mass)(request, scene, solver, in_full)
+    return (best_choice if of_choices else best_of_any_mass)(request, scene, solver, in_full)

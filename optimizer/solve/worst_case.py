@@ -35,7 +35,7 @@ _NO_PROOF: Mapping[str, object] = {}
 _NO_PRICE = " The time limit ended before the nominal optimum of price_of_robustness was found."
 
 
-def certified_any_mass(
+def best_of_any_mass(
     request: OptimizeRequest, scene: Prepared, solver: Solver, in_full: bool = True
 ) -> Solution | Infeasible:
     """Counterweights of any mass that are optimal, in the worst of all cases where there are several.

@@ -15,7 +15,7 @@ from optimizer.choices.semicontinuous.places import root
 from optimizer.program.cuts.row_generation import FEW
 from optimizer.program.methods.optima import optima
 from optimizer.program.statement import Statement
-from optimizer.solve import search_claims
+from optimizer.solve import statuses
 from optimizer.solve.process_solver import own_solver
 from tests.choices.sets import options_of
 from tests.pairs.asking import ask
@@ -155,7 +155,7 @@ def test_a_tree_that_rounding_leaves_open_does_not_say_that_time_was_over(monkey
     monkeypatch.setattr(tree, "_bounded", lambda *_: (0.0, []))
     found = search.search(problem, least, relaxed, 0.0, asked, own_solver())
     assert (found.ended, found.nodes) == ("rounding", 1)
-    assert search_claims.ended(found).startswith("The search has divided all that can be chosen")
+    assert statuses.ended(found).startswith("The search has divided all that can be chosen")
 
 
 def test_pairs_of_sums_are_compared_by_fewer_at_once_where_they_have_more_terms(

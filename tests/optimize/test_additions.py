@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 
 import optimizer
-from optimizer.formulation.formulate import RESPONSES, Weighable, given_ceilings, smallest_peak
+from optimizer.formulation.formulate import RESPONSES, Weighable, given_ceilings
 from optimizer.formulation.goals import cone_program
+from optimizer.formulation.limits import limits
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.frame import Shares
 from optimizer.mechanics.inertia import reciprocating
@@ -20,6 +21,7 @@ from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic
 from optimizer.outputs.registry import prepare
 from optimizer.program.reference.solver import Solver
+from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.solution import Solution
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import claim, verdict
@@ -136,7 +138,8 @@ def test_a_response_is_weighed_limited_and_certified(monkeypatch: pytest.MonkeyP
     scene, _, free = _solved(request)
     limit = None
     if limited:
-        least = optimum(smallest_peak(scene.responses[2], request.machine), 1e-6, False)
+        peak = combined([weighted_peak(scene.responses[2], 1.0)], "max")
+        least = optimum(statement(peak, [], limits(request.machine)), 1e-6, False)
         assert isinstance(least, Solution)
         # half-way from what it is to what it can be
         limit = 0.5 * (float(scene.responses[2].to(free.unbalance).peak) + least.objective) * scene.omega_squared

@@ -1,6 +1,7 @@
 """A bound that contradicts its answer: the answer says so, the log says so, and it is counted."""
 
 import json
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -8,7 +9,8 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
-from optimizer.program.verdict import CONTRADICTED, Claim, claim
+from optimizer.program.verdict import CONTRADICTED, Claim
+from optimizer.solve import answer_fields
 from optimizer.solve import certify as certified
 from service.computations import COMPUTATIONS
 from service.documents.examples import bodies
@@ -22,15 +24,19 @@ from service.workers.worker import Answer, perform
 BODY = bodies("")["v90-equal"]
 
 
-def _false(*arguments: Any) -> Claim:
-    """The same claim with a bound of twice the objective without counterweights."""
-    right = claim(*arguments)
-    return replace(right, lower_bound=2.0 * right.yardstick)
+def _false(claim: Callable[..., Claim]) -> Callable[..., Claim]:
+    """The same claims with a bound of twice the objective without counterweights."""
+
+    def broken(*arguments: Any) -> Claim:
+        right = claim(*arguments)
+        return replace(right, lower_bound=2.0 * right.yardstick)
+
+    return broken
 
 
 @pytest.fixture
 def outcome(monkeypatch: pytest.MonkeyPatch) -> Answer:
-    monkeypatch.setattr(certified, "claim", _false)
+    monkeypatch.setattr(answer_fields, "_claim", _false(answer_fields._claim))
     optimize = COMPUTATIONS["optimize"]
     found = perform(Task(optimize, optimize.forms[0], json.dumps(BODY).encode(), SizeLimits.of(Settings())))
     assert isinstance(found, Answer), found
@@ -56,7 +62,7 @@ def test_it_is_counted(outcome: Answer, client: TestClient) -> None:
 
 
 def test_a_chunk_of_a_sweep_tells_too(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setattr(certified, "claim", _false)
+    monkeypatch.setattr(certified, "claim", _false(certified.claim))
     asked = {"base": BODY, "axes": [{"path": "/machine/speed_rpm", "values": [600, 700, 800]}]}
     piece = jobs.run("sweep", json.dumps(asked).encode(), 0, 3, str(tmp_path / "stop"))
     assert piece.failed == 3

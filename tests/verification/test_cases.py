@@ -119,7 +119,9 @@ def test_what_is_fixed_is_not_off(base: str) -> None:
     assert body is not None
     answer = json.loads(optimize(OptimizeRequest.model_validate(body)).model_dump_json())
     assert not broken(body, answer)
-    assert answer["worst_case"]["objective"] == answer["price_of_robustness"]["nominal"]
+    # one by compiled loops, one by a sum of its own
+    nominal = answer["price_of_robustness"]["nominal"]
+    assert answer["worst_case"]["objective"] == pytest.approx(nominal, rel=1e-14)
 
 
 @pytest.mark.parametrize(

@@ -137,6 +137,8 @@ class Problem:
             return self
         other = replace(self, **fields)
         vars(other).update({name: vars(self)[name] for name in _OF_QUANTITIES if name in vars(self)})
+        if fields.keys() == {"limits"}:
+            vars(other)["finite"] = None if self.finite is None else replace(self.finite, limits=other.limits)
         return other
 
     @cached_property

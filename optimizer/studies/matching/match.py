@@ -18,7 +18,7 @@ from optimizer.mechanics.shapes import fitted_masses
 from optimizer.numerics.arrays import Real
 from optimizer.optimize import optimize
 from optimizer.program.verdict import Claim, verdict
-from optimizer.solve.search_claims import LATE
+from optimizer.solve.statuses import LATE
 from optimizer.studies.matching.chosen import Fitted, with_masses
 from optimizer.studies.matching.chosen_search import WithChosen, with_chosen
 from optimizer.studies.matching.fitted import Best, as_fitted

@@ -1,9 +1,20 @@
-"""What may be claimed of counterweights that a search has found, beside what is proven of any mass at any angle."""
+"""What an answer says of itself: the status, and a sentence why, of searches and of optima of any mass.
+
+What is true of both is in :mod:`optimizer.program.verdict`.
+"""
+
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from optimizer.choices.discrete.search import EXHAUSTED
 from optimizer.choices.feasible_set import SearchResult
+from optimizer.formulation.demand import Demand
+from optimizer.program.cuts.optimum import Found
+from optimizer.program.verdict import CONTRADICTED, Verdict
+from optimizer.solve.cutting_plane_rounds import Ended
+from schemas.answer.answers import GoalReached
 
 _ALL = (
     "Proven optimal: of all sets of counterweights none within the limits has a smaller objective, and none with the"
@@ -37,6 +48,11 @@ _NONE_FOUND = (
     "The search ended before it found a set of counterweights that keeps the ceilings or proved that none does. The"
     " closest set is shown."
 )
+_EARLIER = (
+    "The last goal is within the requested gap. The search for another goal ended with a larger gap, which `goals`"
+    " of the certificate states."
+)
+_IN_ORDER = "Proven optimal: every goal is certified in its order, and keeps what those before it allow."
 
 
 def ended(found: SearchResult | None) -> str:
@@ -73,3 +89,43 @@ def told_ample(reason: str, found: SearchResult, of_any: float) -> str:
     of_any : lower bound of these, over omega^2.
     """
     return reason + _AMPLE if reason in _WHY.values() and not found.lower_bound > of_any else reason
+
+
+class SearchProof(NamedTuple):
+    """What a search has proven of all that may be chosen."""
+
+    ended: Ended  # of the last goal
+    nodes: int  # of the trees of all goals
+    rounds: int  # likewise
+    bounds: Sequence[float] | None  # of the goals before it, over omega^2; None: of goals in order nothing is proven
+    closed: bool  # the gaps of all goals are the asked ones
+    levels: Sequence[GoalReached] = ()  # all goals in their order, where some are what castings cost
+
+    @property
+    def lower_bound(self) -> float:
+        """Of the last goal, over omega^2."""
+        return -np.inf if self.bounds is None else self.ended.lower_bound
+
+
+def status_of(
+    found: Found, judged: Verdict, wanted: Demand, search: SearchProof | None, allowance: float
+) -> tuple[str, str]:
+    """The status and a sentence why.
+
+    Parameters
+    ----------
+    allowance : of the last goal, for what comes after it.
+    """
+    status, reason = str(judged.status.item()), str(judged.reason.item())
+    if found.timed_out and status != "optimal" and reason != CONTRADICTED:
+        reason = f"The time limit of {wanted.time_limit_s:g} s ended the search. {reason}"
+    if search is not None:
+        proven = search.bounds is None or not np.isnan(judged.lower_bound[0])
+        status, reason = told_status(search.ended, status, reason, proven)
+        if search.bounds is not None:
+            reason = told_ample(reason, search.ended, found.proof.bound)
+        if status == "optimal" and not search.closed:
+            return "inaccurate", _EARLIER
+    if status == "optimal" and (allowance > 0.0 or (search is not None and search.levels)):
+        reason = _IN_ORDER
+    return status, reason
