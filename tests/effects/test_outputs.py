@@ -8,7 +8,7 @@ import pytest
 
 from optimizer.effects import registry
 from optimizer.effects.effect import Context
-from optimizer.effects.registry import EFFECTS, closure
+from optimizer.effects.registry import EFFECTS, closure, effects_of
 from optimizer.errors import MissingInput
 from optimizer.outputs.registry import MAX_SAMPLES, OUTPUTS
 from schemas.machine.reciprocating import ReciprocatingMachine
@@ -95,7 +95,8 @@ def _refused(output: str, body: dict[str, Any]) -> set[tuple[str | int, ...]]:
 
 
 ROW = ("machine", "throws", 1, "rows", 0)
-_GAS = set(SAMPLED) - {"kinematics"}
+#: outputs that look at pressures, by what their effects need
+_GAS = {output for output in EVERY if "gas" in effects_of(OUTPUTS[output].needs)}
 
 
 @pytest.mark.parametrize("output", EVERY)

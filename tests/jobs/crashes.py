@@ -189,23 +189,37 @@ def crashes(points: int) -> tuple[int, int, int, int]:
     return tried, len(every), lost, orphans
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
+#: points tried, points there are, rows lost and orphans, of so many points at most
+Crash = Callable[[int], tuple[int, int, int, int]]
+
+
+def report(description: str | None, crash: Crash, missing: type[Exception]) -> None:
+    """Crash at as many points as are asked for, print as JSON what was lost, and exit by that.
+
+    Parameters
+    ----------
+    missing : what is raised where the means to crash are not there.
+    """
+    parser = argparse.ArgumentParser(description=description)
     parser.add_argument("--points", type=int, default=1_000_000)
-    began, asked = time.monotonic(), parser.parse_args()
+    began, most = time.monotonic(), parser.parse_args().points
     synthetic.register()
     try:
-        with tempfile.TemporaryDirectory(dir=_MEMORY) as folder:
-            # messages that services left elsewhere are none of theirs, and looking for them takes more or fewer calls
-            tempfile.tempdir = folder
-            tried, of, lost, orphans = crashes(asked.points)
-    except Missing as missing:
-        print(missing, file=sys.stderr)
+        tried, of, lost, orphans = crash(most)
+    except missing as error:
+        print(error, file=sys.stderr)
         sys.exit(2)
     found = {"points": tried, "of": of, "rows_lost": lost, "orphans": orphans, "s": time.monotonic() - began}
     print(json.dumps(found))
     sys.exit(1 if lost or orphans else 0)
 
 
+def _in_memory(points: int) -> tuple[int, int, int, int]:
+    with tempfile.TemporaryDirectory(dir=_MEMORY) as folder:
+        # messages that services left elsewhere are none of theirs, and looking for them takes more or fewer calls
+        tempfile.tempdir = folder
+        return crashes(points)
+
+
 if __name__ == "__main__":
-    main()
+    report(__doc__, _in_memory, Missing)

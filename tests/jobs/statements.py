@@ -8,13 +8,10 @@ another one finds out what the server has, and goes on with it.
 at a few.
 """
 
-import argparse
-import json
 import os
 import signal
 import sys
 import tempfile
-import time
 from functools import partial
 from pathlib import Path
 
@@ -22,8 +19,8 @@ import psycopg
 from sqlalchemy import Engine, event
 from sqlalchemy.pool import Pool
 
-from tests.jobs import postgres, synthetic
-from tests.jobs.crashes import Told, check, live
+from tests.jobs import postgres
+from tests.jobs.crashes import Told, check, live, report
 
 #: what SQLAlchemy calls the points
 _POINTS = ((Engine, "before_cursor_execute"), (Engine, "commit"), (Pool, "checkin"))
@@ -96,21 +93,10 @@ def _emptied(url: str) -> None:
         connection.execute("CREATE SCHEMA public")
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--points", type=int, default=1_000_000)
-    began, asked = time.monotonic(), parser.parse_args()
-    synthetic.register()
-    try:
-        with postgres.server() as server:
-            tried, of, lost, orphans = crashes(server.url, asked.points)
-    except postgres.Missing as missing:
-        print(missing, file=sys.stderr)
-        sys.exit(2)
-    found = {"points": tried, "of": of, "rows_lost": lost, "orphans": orphans, "s": time.monotonic() - began}
-    print(json.dumps(found))
-    sys.exit(1 if lost or orphans else 0)
+def _on_a_server(points: int) -> tuple[int, int, int, int]:
+    with postgres.server() as server:
+        return crashes(server.url, points)
 
 
 if __name__ == "__main__":
-    main()
+    report(__doc__, _on_a_server, postgres.Missing)
