@@ -200,7 +200,7 @@ class _Jobs(BaseSettings):
         15, ge=6, le=19, description="how much nicer than the service the processes for sweeps are; 19 gives way most"
     )
     lease_s: float = Field(
-        15, ge=0.5, description="work of a service that says nothing for longer is done by another [s]"
+        10, ge=0.5, description="work of a service that says nothing for longer is done by another [s]"
     )
     min_free_mb: int = Field(
         200, ge=0, description="the service is not ready when less is free where the jobs are kept [MB]"
