@@ -195,12 +195,12 @@ class _Jobs(BaseSettings):
     database_busy_s: float = Field(5, gt=0, le=600, description="how long to wait for a locked database [s]")
     engine: str = Field("processes", description="where sweeps are computed: processes, or dask:tcp://host:port")
     sweep_workers: int = Field(default_factory=lambda: os.cpu_count() or 1, ge=1, description="processes for sweeps")
-    # what computes answers is up to 5 nicer than the service
+    # what computes answers is up to 13 nicer than the service
     sweep_niceness: int = Field(
-        10, ge=6, le=19, description="how much nicer than the service the processes for sweeps are; 19 gives way most"
+        15, ge=6, le=19, description="how much nicer than the service the processes for sweeps are; 19 gives way most"
     )
     lease_s: float = Field(
-        15, ge=0.5, description="work of a service that says nothing for longer is done by another [s]"
+        10, ge=0.5, description="work of a service that says nothing for longer is done by another [s]"
     )
     min_free_mb: int = Field(
         200, ge=0, description="the service is not ready when less is free where the jobs are kept [MB]"

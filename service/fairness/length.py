@@ -3,6 +3,8 @@
 Long ones have turns of their own, behind all others, so that no number of them keeps a short one waiting. What is long
 is decided in three steps. A kind may be long, as its entry says, before it has any turn. A size may be, in the worker
 that has read the request. And whatever computes for longer than that is long, however it looked before.
+
+Short ones that are not quick are computed behind all that may be quick.
 """
 
 from schemas.base.model import Model
@@ -13,6 +15,8 @@ from schemas.request.scene import Scene
 
 #: what computes for longer is long [s]
 BRIEF_S = 2.0
+#: what computes for longer is behind all that has computed for less [s]
+QUICK_S = 0.1
 #: a document on a machine of so many webs, rows or bearings takes a second, one on twice as many 1.6
 _DOCUMENT = 50
 #: so many values of one output over a turn take a second, five times as many are the most that is legal

@@ -12,8 +12,8 @@ from service.jobs.piece import ChunkResult
 from service.jobs.spool import Spool
 from service.jobs.worker import prepare
 
-#: behind what computes answers, which is nicer than the service by 5 at most; more would starve beside other programs
-NICENESS = 10
+#: behind what computes answers, which is nicer than the service by 13 at most; more would starve beside other programs
+NICENESS = 15
 _CONNECT_S = 4
 
 

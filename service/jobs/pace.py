@@ -10,7 +10,7 @@ class Pace:
     #: looks for work and for cancelled jobs this often
     poll_s: float = 0.5
     #: a lease that is not renewed for this long is free
-    lease_s: float = 15.0
+    lease_s: float = 10.0
     #: looks for expired jobs and leftovers this often
     tidy_s: float = 60.0
     #: waits for a database or an engine that is away for this long at most before it asks again

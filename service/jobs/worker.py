@@ -3,10 +3,12 @@
 import os
 import signal
 import threading
+from contextlib import suppress
 from dataclasses import replace
 from multiprocessing import parent_process
 
 from service.common.faults import kept
+from service.common.time_slices import set_slice
 from service.jobs.kinds import KINDS
 from service.jobs.piece import ChunkResult, Stopped
 
@@ -43,6 +45,9 @@ def prepare(niceness: int) -> None:
     # Ctrl-C is for the service, which ends its workers
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.nice(niceness)
+    # that of the service is short
+    with suppress(OSError):
+        set_slice(None)
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
 

@@ -12,6 +12,7 @@ from types import FrameType
 import uvicorn
 from fastapi import FastAPI
 
+from service.common.time_slices import SHORT_S, set_slice, slice_s
 from service.fairness.connection_limits import ConnectionLimits
 from service.fairness.table import connections as connections_share
 from service.settings import Settings
@@ -53,9 +54,21 @@ def url(listening: socket.socket) -> str:
     return f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"
 
 
+def _take_short_slices() -> None:
+    """Have this thread and those that it starts woken at once, whatever computes."""
+    try:
+        set_slice(SHORT_S)
+        heeded = slice_s() == SHORT_S
+    except OSError:
+        heeded = False
+    if not heeded:
+        _LOG.info("the system has no time slices of threads: beside computations an answer waits up to 4 ms longer")
+
+
 def run(app: FastAPI, settings: Settings, listening: socket.socket) -> None:
     """Serve until SIGINT or SIGTERM; open requests get time to end."""
     sys.setswitchinterval(_SWITCH_S)
+    _take_short_slices()
     gc.set_threshold(*gc.get_threshold()[:2], _FULL_AFTER)
     most = max(1, _files() - _OTHER_FILES)
     if most < settings.max_connections:

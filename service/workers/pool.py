@@ -14,7 +14,7 @@ from service.fairness import length
 from service.fairness.faults import Busy
 from service.fairness.queue import FairQueue, Full, Turn
 from service.fairness.table import Resource, Share
-from service.workers.process import Dead, Start, Worker, WorkersFailed, forked
+from service.workers.process import Dead, Haste, Start, Worker, WorkersFailed, forked
 from service.workers.task import Priority, Task
 from service.workers.worker import Answer, Crashed, Long, Outcome
 
@@ -193,16 +193,17 @@ class Pool:
                 await self._in_thread(worker.send, task, priority)
             if task.long or short.ended:
                 return await worker.outcome()
-            with move_on_after(length.BRIEF_S):
-                return await worker.outcome()
-            return await self._overrun(worker, short, long)
+            with Haste(worker):
+                with move_on_after(length.BRIEF_S):
+                    return await worker.outcome()
+                return await self._overrun(worker, short, long)
         except get_cancelled_exc_class():
             with CancelScope(shield=True):
                 await self._abandon(worker)
             raise
 
     async def _overrun(self, worker: Worker, short: Turn, long: Turn) -> Outcome | Long:
-        """The outcome of what is long though it did not look so; its worker is not used again."""
+        """The outcome of what is long though it did not look so."""
         worker.lower()
         outcome, place = ensure_future(worker.outcome()), ensure_future(long.granted())
         crowd = ensure_future(self._short.crowded.wait())
@@ -227,9 +228,8 @@ class Pool:
             left = await worker.outcome()
             if isinstance(left, Answer) and left.file is not None:
                 left.file.close()
-            if not worker.lowered:
-                self._idle.append(worker)
-                return
+            self._idle.append(worker)
+            return
         self.counts.ended_gone += 1
         await self._in_thread(worker.end)
 
@@ -267,7 +267,8 @@ class Pool:
             worker.end()
 
     async def _keep(self, worker: Worker, outcome: Outcome | Long, long: bool) -> None:
-        spent = isinstance(outcome, Crashed) or worker.lowered
+        # one that was begun anew elsewhere is still computed here
+        spent = isinstance(outcome, Crashed) or worker.computed_s is None
         if spent or getattr(outcome, "resident", 0) > self.memory_mb * _MB / 2 or len(self._idle) >= self._kept:
             # fresh ones hold no more than they need, and there are no more of them than needed
             await self._in_thread(worker.end)

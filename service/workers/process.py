@@ -1,5 +1,6 @@
 """One worker as the service sees it: a process that is forked, asked, and killed."""
 
+import asyncio
 import logging
 import multiprocessing
 import os
@@ -14,9 +15,10 @@ from multiprocessing.process import BaseProcess
 from pathlib import Path
 from threading import Lock, Timer
 
+from service.fairness.length import QUICK_S
 from service.workers.messages import Listener
 from service.workers.task import Priority, Task
-from service.workers.worker import LONG_NICENESS, Long, Outcome, serve
+from service.workers.worker import Long, Outcome, niceness, serve
 
 _LOG = logging.getLogger(__name__)
 #: what the process has loaded that workers are forked from; every worker runs ``__main__`` anew, which is the last one
@@ -25,6 +27,10 @@ _PRELOAD = ["service.workers.preload", "service.cli"]
 _START_S = 30.0
 #: for a killed worker to be gone; one whose parent has stopped is not said to be
 _END_S = 1.0
+#: between two looks at how long a worker has computed [s], at least
+_LOOK_S = 0.02
+#: of the times that the system tells of a process
+_TICKS = os.sysconf("SC_CLK_TCK")
 
 
 class WorkersFailed(Exception):
@@ -45,10 +51,9 @@ class Worker:
     """
 
     def __init__(self, memory_bytes: int, folder: Path | None) -> None:
-        #: whether its priority was lowered, which nobody can undo
-        self.lowered = False
-        #: for how long cores have computed the last task [s], once it has an outcome
+        #: for how long cores have computed the last task [s], once its outcome was heard
         self.computed_s: float | None = None
+        self._before_s = 0.0
         context = multiprocessing.get_context("forkserver")
         self._connection, theirs = socket.socketpair()
         self._says = Listener(self._connection)
@@ -87,16 +92,26 @@ class Worker:
             reply, file = await self._says.heard()
         except EOFError as error:
             raise Dead from error
-        self.computed_s = reply.computed_s
+        self.computed_s, self._before_s = reply.computed_s, reply.altogether_s
         return reply.outcome if file is None else replace(reply.outcome, file=file)
 
+    @property
+    def computing_s(self) -> float:
+        """For how long cores have computed its task so far [s], to a hundredth of a second."""
+        try:
+            # after its name, which may be anything
+            fields = Path(f"/proc/{self.pid}/stat").read_bytes().rpartition(b")")[2].split()
+        except OSError:
+            return 0.0
+        return (int(fields[11]) + int(fields[12])) / _TICKS - self._before_s
+
     def lower(self) -> None:
-        """Have whatever it computes go on behind all others, as long ones do."""
-        self.lowered = True
-        # priorities are those of threads
+        """Have its task go on behind all others, as long ones do; not the next."""
+        # priorities are those of threads, and the first thread starts those of other tasks
         with suppress(OSError):
             for thread in os.listdir(f"/proc/{self.pid}/task"):
-                os.setpriority(os.PRIO_PROCESS, int(thread), LONG_NICENESS)
+                if int(thread) != self.pid:
+                    os.setpriority(os.PRIO_PROCESS, int(thread), niceness(Priority.LONG, self.pid))
 
     def kill(self) -> None:
         """Kill it; who waits for its answer is told that it is dead."""
@@ -109,6 +124,27 @@ class Worker:
         with suppress(OSError, ValueError, AssertionError):
             self._process.join(_END_S)
         self._says.end()
+
+
+class Haste:
+    """Whether the task of a worker is quick, in a ``with``: it is lowered once it has computed for longer."""
+
+    def __init__(self, worker: Worker) -> None:
+        self._worker = worker
+        self._loop = asyncio.get_running_loop()
+
+    def __enter__(self) -> None:
+        self._timer = self._loop.call_later(QUICK_S, self._look)
+
+    def __exit__(self, *raised: object) -> None:
+        self._timer.cancel()
+
+    def _look(self) -> None:
+        left_s = QUICK_S - self._worker.computing_s
+        if left_s <= 0:
+            self._worker.lower()
+        else:
+            self._timer = self._loop.call_later(max(left_s, _LOOK_S), self._look)
 
 
 def forked(memory_bytes: int, folder: Path | None, first: bool) -> Worker:

@@ -13,9 +13,9 @@ import time
 import traceback
 from collections.abc import Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import AbstractContextManager, ExitStack, nullcontext
+from contextlib import AbstractContextManager, nullcontext, suppress
 from dataclasses import dataclass, replace
-from functools import cache, partial
+from functools import cache
 from pathlib import Path
 from tempfile import TemporaryFile
 from typing import BinaryIO
@@ -24,6 +24,7 @@ from optimizer.errors import NotComputable
 from service.common.coding import SMALL_BYTES, Coding, coded
 from service.common.faults import kept
 from service.common.private import make_folder
+from service.common.time_slices import SHORT_S, set_slice
 from service.common.validation import InvalidRequest, UnreadableBody, check, read_json
 from service.fairness.length import long_by_size
 from service.workers.messages import say
@@ -31,8 +32,8 @@ from service.workers.task import Priority, Task
 
 #: below the event loop, above the workers of sweeps; and so much more for further ones of a client, and long ones
 _NICENESS = 2
-_BEHIND = {Priority.FURTHER: 3, Priority.LONG: 7}
-LONG_NICENESS = _NICENESS + _BEHIND[Priority.LONG]
+_BEHIND = {Priority.FIRST: 0, Priority.FURTHER: 8, Priority.LONG: 11}
+_NICEST = 19
 #: an answer that is larger goes to the service in a file
 LARGE_BYTES = 262_144
 #: faults of the request; anything else is a fault of the service
@@ -118,10 +119,11 @@ Outcome = Answer | Refused | Crashed
 
 @dataclass(frozen=True)
 class Reply:
-    """What a worker says: the outcome of a task, and for how long cores have computed it [s]."""
+    """What a worker says: the outcome of a task, for how long cores have computed it, and all its tasks so far [s]."""
 
     outcome: Outcome | Long
     computed_s: float
+    altogether_s: float
 
 
 def serve(connection: socket.socket, memory_bytes: int, folder: Path | None) -> None:
@@ -132,6 +134,9 @@ def serve(connection: socket.socket, memory_bytes: int, folder: Path | None) -> 
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.nice(_NICENESS)
+    # where the system has none, the service has said so
+    with suppress(OSError):
+        set_slice(SHORT_S)
     # private writable memory: what is shared with the process this was forked from does not move
     resource.setrlimit(resource.RLIMIT_DATA, (memory_bytes, memory_bytes))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
@@ -140,21 +145,51 @@ def serve(connection: socket.socket, memory_bytes: int, folder: Path | None) -> 
     preload = sys.modules.get("service.workers.preload")
     try:
         connection.sendall(pickle.dumps(getattr(preload, "failure", None)))
-        # a thread is as nice as it says and starts with its first task; a process that was nice once may not go back
-        with ExitStack() as ends:
-            asked = ends.enter_context(connection.makefile("rb"))
-            nicer = {
-                priority: ends.enter_context(ThreadPoolExecutor(1, initializer=partial(os.nice, more)))
-                for priority, more in _BEHIND.items()
-            }
+        with connection.makefile("rb") as asked:
+            task, priority = Task.heard(asked)
             while True:
-                task, priority = Task.heard(asked)
-                before_s = time.process_time()
-                outcome = nicer[priority].submit(perform, task).result() if priority in nicer else perform(task)
-                _send(connection, Reply(outcome, time.process_time() - before_s), folder)
-                del task, outcome
+                # it begins as nice as this one is, which only waits for it
+                with ThreadPoolExecutor(1) as thread:
+                    task, priority = thread.submit(_answer, asked, connection, folder, task, priority).result()
     except (EOFError, BrokenPipeError, ConnectionResetError):
         return
+
+
+def niceness(priority: Priority, pid: int) -> int:
+    """How nice a thread of a worker is that computes something of a priority."""
+    return min(_NICEST, os.getpriority(os.PRIO_PROCESS, pid) + _BEHIND[priority])
+
+
+def _answer(
+    asked: BinaryIO, connection: socket.socket, folder: Path | None, task: Task, priority: Priority
+) -> tuple[Task, Priority]:
+    """Answer tasks, one that was read before and those that come; until one comes for which this thread is too nice.
+
+    Returns
+    -------
+    that one: a thread that was nice once may not go back.
+    """
+    while _takes(priority):
+        before_s = time.process_time()
+        outcome = perform(task)
+        now_s = time.process_time()
+        _send(connection, Reply(outcome, now_s - before_s, now_s), folder)
+        del task, outcome
+        task, priority = Task.heard(asked)
+    return task, priority
+
+
+def _takes(priority: Priority) -> bool:
+    """Whether this thread may have a priority; it has it then."""
+    wanted, own = niceness(priority, os.getpid()), os.getpriority(os.PRIO_PROCESS, 0)
+    if own > wanted:
+        return False
+    if own < wanted:
+        os.setpriority(os.PRIO_PROCESS, 0, wanted)
+    if priority is not Priority.FIRST:
+        with suppress(OSError):
+            set_slice(None)
+    return True
 
 
 def _send(connection: socket.socket, reply: Reply, folder: Path | None) -> None:

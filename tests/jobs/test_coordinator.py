@@ -25,9 +25,18 @@ from service.jobs.kinds import KINDS
 from service.jobs.pace import Pace
 from service.jobs.piece import ChunkResult
 from service.jobs.rows import Limits
+from service.settings import Settings
 from tests.jobs import synthetic
+from tests.jobs.failover import CHUNK_S, MOST_S
 from tests.jobs.house import QUICK, House
 from tests.jobs.sweeps import MACHINE, analyses
+
+
+def test_the_chunks_of_a_service_that_is_gone_are_another_ones_in_time() -> None:
+    # analytic: its lease ends, the other one looks, and has room for each of two when it has done one of its own
+    longest_s = Settings().lease_s + Pace().poll_s + 2 * CHUNK_S
+    assert longest_s < MOST_S
+    assert Pace().lease_s == Settings().lease_s
 
 
 class Threads:

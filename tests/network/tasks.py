@@ -10,6 +10,7 @@ from pathlib import Path
 
 from schemas.answer.problem import Problem
 from schemas.request.requests import OptimizeRequest
+from service.common.time_slices import slice_s
 from service.computations import COMPUTATIONS, JSON
 from service.documents.examples import load
 from service.guard.sizes import SizeLimits
@@ -28,6 +29,19 @@ def niceness(_: OptimizeRequest) -> Problem:
     own, process = (os.getpriority(os.PRIO_PROCESS, each) for each in (0, os.getpid()))
     time.sleep(0.2)
     return Problem(**{**_DONE.model_dump(), "title": f"{own} {process}"})
+
+
+def slices(_: OptimizeRequest) -> Problem:
+    """The time slice of the thread that computes it [ns]."""
+    return Problem(**{**_DONE.model_dump(), "title": str(round(slice_s() * 1e9))})
+
+
+def lowered(_: OptimizeRequest) -> Problem:
+    """How nice its thread is at first, and after it has computed until that changes, for a second at most."""
+    first = os.getpriority(os.PRIO_PROCESS, 0)
+    while (now := os.getpriority(os.PRIO_PROCESS, 0)) == first and time.thread_time() < 1:
+        pass
+    return Problem(**{**_DONE.model_dump(), "title": f"{first} {now}"})
 
 
 def slow(_: OptimizeRequest) -> Problem:
