@@ -53,7 +53,7 @@ def main() -> None:
     _say(f"compiled in {time.perf_counter() - begun:.0f} s")
 
 
-def _alone(*parts: Callable[[], None]) -> None:
+def _alone(*parts: Callable[[], object]) -> None:
     """In a process that ends thereafter."""
     # the compiler makes millions of objects and lets few go: looking for those is a sixth of its time
     gc.disable()

@@ -76,8 +76,11 @@ def stated(web: Any) -> list[str]:
 
 
 def own_options(web: Any) -> OwnOptions:
-    """What all of these fields of a web say."""
-    every = [option for name in stated(web) for option in KINDS[name].options(getattr(web, name))]
+    """What all of these fields of a web say; where one of them is empty the web takes nothing."""
+    options = [KINDS[name].options(getattr(web, name)) for name in stated(web)]
+    if not all(options):
+        return OwnOptions(None, None, ())
+    every = [option for some in options for option in some]
     masses = tuple(mass for mass, angle in every if mass is not None and angle is None)
     angles = tuple(angle for mass, angle in every if mass is None and angle is not None)
     pairs = tuple((mass, angle) for mass, angle in every if mass is not None and angle is not None)
