@@ -20,9 +20,6 @@ def catalogue_rules(catalogue: Catalogue, webs: Sequence[Web]) -> Iterator[Rule]
         for name in stated(web):
             for broken, path, message in KINDS[name].rules(getattr(web, name), web):
                 yield Rule(broken, ("webs", k, *path), message)
-        if any(not KINDS[name].options(getattr(web, name)) for name in stated(web)):
-            # an empty list, which its own rule refuses
-            continue
         own = own_options(web)
         if own.pairs is not None:
             options = len(own.pairs)
