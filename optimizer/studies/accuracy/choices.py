@@ -131,19 +131,19 @@ def _first(rung: Rung, left_s: float, enough: str | None) -> None:
     if enough is not None or left_s <= 0:
         rung.skipped = enough or f"the {LADDER_S:.0f} s of the whole ladder were used up"
         return
-    found = _timed(rung, left_s)
-    if isinstance(found, Nothing):
-        rung.skipped = found.reason
+    result = _timed(rung, left_s)
+    if isinstance(result, Nothing):
+        rung.skipped = result.reason
     else:
-        rung.made = found
+        rung.made = result
 
 
 def _timed(rung: Rung, left_s: float) -> Made | Nothing:
     # of this thread alone, as limits of time are
     start = time.thread_time()
-    found = rung.run(left_s)
+    result = rung.run(left_s)
     rung.times_s.append(time.thread_time() - start)
-    return found
+    return result
 
 
 @dataclass(frozen=True)
@@ -196,13 +196,13 @@ class _Task:
         return run
 
     def _optimum(self, request: OptimizeRequest) -> Made | Nothing:
-        found = solve(request, self.scene, self.solver, in_full=False)
-        if found.chosen is None:
-            return Nothing(_UNREACHABLE if found.status == "infeasible" else found.reason)
-        proof = found.fields["certificate"]
+        result = solve(request, self.scene, self.solver, in_full=False)
+        if result.chosen is None:
+            return Nothing(_UNREACHABLE if result.status == "infeasible" else result.reason)
+        proof = result.fields["certificate"]
         assert isinstance(proof, Certificate)  # of every optimum
-        mass = np.abs(found.chosen) / _radius((found.cut or self.scene).request.machine)
-        return Made(mass, proof.objective, proof.lower_bound, self._keeps_limits(mass, found.chosen), found.status)
+        mass = np.abs(result.chosen) / _radius((result.cut or self.scene).request.machine)
+        return Made(mass, proof.objective, proof.lower_bound, self._keeps_limits(mass, result.chosen), result.status)
 
     def _rounded(self) -> Made | Nothing:
         """The optimum of any masses, of a group the mean, each on what is nearest of its web."""
@@ -221,10 +221,10 @@ class _Task:
 
     def judged(self, rungs: Sequence[Rung]) -> Ladder:
         """What is known of all rows together, and each against it."""
-        found = [rung.made for rung in rungs if rung.made is not None]
+        results = [rung.made for rung in rungs if rung.made is not None]
         rest = float(self.program.at_rest) * self.scene.omega_squared
-        objective = min((each.objective for each in found if each.kept), default=np.nan)
-        bound = max((each.bound for each in found if each.bound is not None), default=-np.inf)
+        objective = min((each.objective for each in results if each.kept), default=np.nan)
+        bound = max((each.bound for each in results if each.bound is not None), default=-np.inf)
         if not bound <= objective + EQUAL * rest:
             _LOG.error("a lower bound is above the value of an answer: %.17g above %.17g", bound, objective)
             return Ladder(None, (), False)

@@ -29,14 +29,14 @@ def optimal_over_turn(
     """
     alone = [prepare(one, outputs=("residual",)) for one in requests]
     # a row has no column for prices and sensitivities
-    found = [solve(one, scene, solver, in_full=False) for one, scene in zip(requests, alone, strict=True)]
-    rows = [_row(one, each, multipliers) for one, each in zip(requests, found, strict=True)]
+    results = [solve(one, scene, solver, in_full=False) for one, scene in zip(requests, alone, strict=True)]
+    rows = [_row(one, each, multipliers) for one, each in zip(requests, results, strict=True)]
     columns = {
         name: np.array([row[name] for row in rows], dtype=object if isinstance(first, str | None) else float)
         for name, first in rows[0].items()
     }
     nothing = np.full(len(requests[0].machine.webs), complex(np.nan))
-    return columns, np.array([nothing if each.unbalance is None else each.unbalance for each in found])
+    return columns, np.array([nothing if each.unbalance is None else each.unbalance for each in results])
 
 
 def _row(request: OptimizeRequest, best: Outcome, multipliers: bool) -> dict[str, str | float | None]:

@@ -165,16 +165,16 @@ def _fill(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
         return
     request = group.of(designs)
     if isinstance(request, AnalyzeRequest):
-        found, unbalance = given(on_webs(request), designs.size)
-        table.put(designs, found)
+        result, unbalance = given(on_webs(request), designs.size)
+        table.put(designs, result)
         _fill_outputs(table, group, designs, unbalance)
         return
     cut = np.isin(designs, list(turning))
     if np.any(cut):
-        found, unbalance = optimal_over_turn(
+        result, unbalance = optimal_over_turn(
             [turning[int(design)] for design in designs[cut]], solver, group.multipliers
         )
-        table.put(designs[cut], found)
+        table.put(designs[cut], result)
         _fill_outputs(table, group, designs[cut], unbalance)
     if not np.all(cut):
         _fill_first_order(table, group, designs[~cut], solver)
@@ -182,7 +182,7 @@ def _fill(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
 
 def _fill_one_by_one(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
     """Rows of designs that are searched, cut from plates or alike: as single answers are."""
-    found: dict[int, Complex] = {}
+    results: dict[int, Complex] = {}
     for design in designs.tolist():
         alone, at = group.one(design), np.array([design])
         assert isinstance(alone, OptimizeRequest)  # nothing else chooses counterweights
@@ -203,9 +203,9 @@ def _fill_one_by_one(table: Rows, group: Group, designs: Designs, solver: Solver
             table.refuse(at, Rule(True, *refusal.problems[0]))
             continue
         table.put(at, columns)
-        found[design] = unbalance[0]
-    if found:
-        _fill_outputs(table, group, np.array(list(found)), np.array(list(found.values())))
+        results[design] = unbalance[0]
+    if results:
+        _fill_outputs(table, group, np.array(list(results)), np.array(list(results.values())))
 
 
 def _fill_first_order(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
@@ -217,8 +217,8 @@ def _fill_first_order(table: Rows, group: Group, designs: Designs, solver: Solve
         alike = designs[keys == key]
         part = group.of(alike)
         assert isinstance(part, OptimizeRequest)
-        found, unbalance = optimal(part, alike.size, solver, group.multipliers)
-        table.put(alike, found)
+        result, unbalance = optimal(part, alike.size, solver, group.multipliers)
+        table.put(alike, result)
         _fill_outputs(table, group, alike, unbalance)
 
 
