@@ -36,13 +36,13 @@ def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
     machine = scene.machine
     assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
     planes = stations(scene.layout, bearing_places(machine))
-    found = scene.shaft_curves
+    result = scene.shaft_curves
     count = len(machine.bearings)
     # every bearing's, and the largest of all bending moments
-    circles = [each.circle for each in floors(found.curves, FLOOR_TOLERANCE, None, one_by_one(count, planes.size))]
-    before, *fitted_too = of_shaft_each(scene, found, _sets(unbalance))
+    circles = [each.circle for each in floors(result.curves, FLOOR_TOLERANCE, None, one_by_one(count, planes.size))]
+    before, *fitted_too = of_shaft_each(scene, result, _sets(unbalance))
     after = fitted_too[0] if fitted_too else None
-    alone = found.first(count)
+    alone = result.first(count)
     loads = _loads(scene, alone, before, circles, None)
     fitted = None if after is None else _loads(scene, alone, after, circles, unbalance)
     shown = before if after is None else after

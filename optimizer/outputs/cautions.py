@@ -232,13 +232,13 @@ def _not_closed(told: Told) -> Iterator[Caution]:
             continue
         values = list(_values(field))
         for unit, size in (("N", force), ("Nm", moment)):
-            brackets = [found for name, found in values if name.endswith(f"_bracket_{unit}")]
-            wide = [found for found in brackets if _width(found) > _ALIKE * max(abs(found[0]), abs(found[1]))]
+            brackets = [result for name, result in values if name.endswith(f"_bracket_{unit}")]
+            wide = [result for result in brackets if _width(result) > _ALIKE * max(abs(result[0]), abs(result[1]))]
             if not wide:
                 continue
             # of the same unit: what cancels between rows or bearings is as large in each of them
-            most = max(float(np.max(np.abs(found), initial=size)) for name, found in values if _of(name, unit))
-            open_ = [found for found in wide if _width(found) > _CANCELLED * most]
+            most = max(float(np.max(np.abs(result), initial=size)) for name, result in values if _of(name, unit))
+            open_ = [result for result in wide if _width(result) > _CANCELLED * most]
             if open_:
                 low, high = max(open_, key=_width)
                 yield Caution(

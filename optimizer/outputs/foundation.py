@@ -69,16 +69,16 @@ def _loads(scene: Prepared, vectors: Complex | None, weights: Complex, reference
     wrenches = by_order(scene, vectors)
     sense, negligible = scene.layout.sense, rounding(scene.layout, weights)
     nothing = Phasors(np.zeros((), complex), np.zeros((), complex))
-    found = {}
+    results = {}
     for order in scene.request.foundation_orders:
         # odd orders above the first vanish for a slider-crank
         wrench = wrenches.get(order, Wrench(nothing, nothing))
         loads = foundation_load(wrench, order, sense, np.asarray(reference), negligible)
-        found[order] = {
+        results[order] = {
             name: {f"amplitude_{_UNITS[name]}": float(load.amplitude), "phase_deg": float(load.phase_deg)}
             for name, load in loads._asdict().items()
         }
-    return found
+    return results
 
 
 FOUNDATION_LOADS = Output("foundation_loads", "loads on the foundation by order", ORDERS.needs, foundation_loads)

@@ -73,9 +73,9 @@ def searched(searches: Iterable[Search]) -> dict[tuple[Hashable, ...], Bracket]:
     groups = [np.arange(each.number.size) if each.group is None else each.group for each in every]
     ends = np.cumsum([0, *(int(np.max(group, initial=-1)) + 1 for group in groups)]).tolist()
     group = np.concatenate([one + end for one, end in zip(groups, ends, strict=False)])
-    found = batch.pieces.peaks(offset, TOLERANCE, number, group, sign)
+    result = batch.pieces.peaks(offset, TOLERANCE, number, group, sign)
     return {
-        each.name: Bracket._make(part[slice(*own)] for part in found)
+        each.name: Bracket._make(part[slice(*own)] for part in result)
         for each, own in zip(every, pairwise(ends), strict=True)
     }
 
@@ -100,8 +100,8 @@ def rows_search(scene: Prepared, reading: Reading) -> Search:
 
 def of_rows(scene: Prepared, reading: Reading) -> Extremes:
     """Of a force of every row, (..., rows)."""
-    found = peaks_of(scene, rows_search(scene, reading))
-    both = zip(*(np.split(part, 2) for part in found), strict=True)
+    result = peaks_of(scene, rows_search(scene, reading))
+    both = zip(*(np.split(part, 2) for part in result), strict=True)
     return Extremes(*(_reshaped(scene, Bracket(*parts)) for parts in both))
 
 
@@ -113,8 +113,8 @@ def largest_of_rows(scene: Prepared, reading: Reading) -> Bracket:
         nothing = np.zeros(scene.layout.omega.shape)
         return Bracket(nothing, nothing.astype(complex), nothing, nothing)
     designs = np.repeat(np.arange(len(whole.centre)), count)
-    found = whole.of_rows(reading).pieces.peaks(np.zeros(designs.size), TOLERANCE, None, designs)
-    return _one(_reshaped(scene, found))
+    result = whole.of_rows(reading).pieces.peaks(np.zeros(designs.size), TOLERANCE, None, designs)
+    return _one(_reshaped(scene, result))
 
 
 def torque_search(scene: Prepared, constant: Real | float = 0.0) -> Search:
@@ -165,9 +165,9 @@ def of_shaft_each(scene: Prepared, found: ShaftCurves, unbalances: Sequence[Comp
 
 def customary_search(scene: Prepared, customary: Complex) -> Search:
     """The largest load of a bearing, and the largest bending moment, of one machine with customary counterweights."""
-    found, bearings = scene.shaft_curves, len(_reciprocating(scene).bearings)
-    kind = np.minimum(np.arange(found.curves.weights.shape[1]) // bearings, 1)
-    return Search(("customary",), found.curves, np.arange(kind.size), found.offsets(customary), group=kind)
+    result, bearings = scene.shaft_curves, len(_reciprocating(scene).bearings)
+    kind = np.minimum(np.arange(result.curves.weights.shape[1]) // bearings, 1)
+    return Search(("customary",), result.curves, np.arange(kind.size), result.offsets(customary), group=kind)
 
 
 def of_customary(scene: Prepared, customary: Complex) -> Real:
