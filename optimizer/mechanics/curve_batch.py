@@ -39,29 +39,29 @@ class CurveBatch:
 
     def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
         """Series about centres (m,) within pieces, as :meth:`TurnCurves.cubics`."""
-        found = np.empty((curve.size, 4), complex)
+        results = np.empty((curve.size, 4), complex)
         for some, weights, constant, series, place in self._by_part(curve, (piece, centre), 3):
-            found[some] = np.einsum("mr,krm->mk", weights, series.middle[:, 0][..., place])
-            found[some, 0] += constant
-        found *= half[:, None] ** np.arange(4)
-        return found
+            results[some] = np.einsum("mr,krm->mk", weights, series.middle[:, 0][..., place])
+            results[some, 0] += constant
+        results *= half[:, None] ** np.arange(4)
+        return results
 
     def rests(self, curve: Index, piece: Index, centre: Real, half: Real) -> Real:
         """Bounds within half widths (m,) rad about centres."""
-        found = np.empty(curve.size)
+        result = np.empty(curve.size)
         for some, weights, _, series, place in self._by_part(curve, (piece, centre, half), 4):
             assert series.radius is not None  # enclosures have one
             middle, radius = series.middle[0, 0][:, place].T, series.radius[0][:, place].T
-            found[some] = np.abs(np.sum(weights * middle, axis=-1)) + np.sum(np.abs(weights) * radius, axis=-1)
-        bounds: Real = found * half**4
+            result[some] = np.abs(np.sum(weights * middle, axis=-1)) + np.sum(np.abs(weights) * radius, axis=-1)
+        bounds: Real = result * half**4
         return bounds
 
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
         """The curves at angles (m,) within pieces, ends included."""
-        found = np.empty(curve.size, complex)
+        result = np.empty(curve.size, complex)
         for some, weights, constant, series, place in self._by_part(curve, (piece, angle), 0):
-            found[some] = np.sum(weights * series.middle[0, 0][:, place].T, axis=-1) + constant
-        return found
+            result[some] = np.sum(weights * series.middle[0, 0][:, place].T, axis=-1) + constant
+        return result
 
     def _by_part(
         self, curve: Index, places: tuple[NDArray[Any], ...], order: int

@@ -54,12 +54,12 @@ class Expansions:
         one = self._rows.designs == 1
         angle, within, *half = (np.expand_dims(each, 0 if one else 1) for each in (angle, within, *half))
         wide, of_design = half[0] if half else None, None if one else design
-        found = RowSeries(self._rows, angle, wide, within, order, of_design).of(self._reading)
+        result = RowSeries(self._rows, angle, wide, within, order, of_design).of(self._reading)
 
         def of_places(values: NDArray[Any]) -> NDArray[Any]:
             return np.swapaxes(values[..., 0, :, :], -1, -2) if one else values[..., 0]
 
-        return Taylor(of_places(found.middle), None if found.radius is None else of_places(found.radius))
+        return Taylor(of_places(result.middle), None if result.radius is None else of_places(result.radius))
 
 
 class _Memory:

@@ -38,8 +38,8 @@ class RowParts:
         reach = np.abs(self._fourth) * self.half**4
         for k in range(4):
             reach = reach + np.abs(middle[k]) * self.half**k
-        found: Real = np.abs(self.weights) @ reach
-        return found
+        result: Real = np.abs(self.weights) @ reach
+        return result
 
     def fourth(self, curve: Index, piece: Index) -> Real:
         """Bounds (m, R) on the fourth coefficients of the parts all over pieces."""
@@ -48,27 +48,27 @@ class RowParts:
     def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
         """Taylor polynomials (m, R, 4) about centres (m,) rad within pieces, in units of half widths (m,)."""
         design = np.zeros_like(piece)
-        found = np.moveaxis(self._expansions.cubics(design, piece, centre), 0, -1)
-        parts: Complex = self.weights[curve][..., None] * found * half[:, None, None] ** np.arange(4)
+        result = np.moveaxis(self._expansions.cubics(design, piece, centre), 0, -1)
+        parts: Complex = self.weights[curve][..., None] * result * half[:, None, None] ** np.arange(4)
         return parts
 
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
         """Values (m, R) at angles (m,) rad within pieces, ends included."""
-        found: Complex = self.weights[curve] * self._expansions.values(np.zeros_like(piece), piece, angle)
-        return found
+        result: Complex = self.weights[curve] * self._expansions.values(np.zeros_like(piece), piece, angle)
+        return result
 
     def at(self, curve: int, angle: Real) -> Complex:
         """Values (n, R) at angles (n,) rad."""
-        found: Complex = self.weights[curve] * self._series(angle, None, 0).middle[0, 0].T
-        return found
+        result: Complex = self.weights[curve] * self._series(angle, None, 0).middle[0, 0].T
+        return result
 
     @cached_property
     def _fourth(self) -> Real:
         """The same bounds for the forces of the rows, (R, P)."""
         bounds = self._series(self.centre, self.half, 4)
         assert bounds.radius is not None  # enclosures have one
-        found: Real = np.abs(bounds.middle[-1, 0]) + bounds.radius[0]
-        return found
+        result: Real = np.abs(bounds.middle[-1, 0]) + bounds.radius[0]
+        return result
 
     @cached_property
     def _expansions(self) -> Expansions:

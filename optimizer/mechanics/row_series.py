@@ -88,10 +88,10 @@ class RowSeries:
 
         rows, number = self.data.packed, READINGS.index(reading)
         made = self._functions(reading not in WITHOUT_GAS)
-        found = [row_series(rows, functions, self.design, angles, number) for functions, angles in made]
-        if len(found) == 1:
-            return found[0]
-        parts, radius = (np.concatenate(each, axis=-1) for each in zip(*found, strict=True))
+        results = [row_series(rows, functions, self.design, angles, number) for functions, angles in made]
+        if len(results) == 1:
+            return results[0]
+        parts, radius = (np.concatenate(each, axis=-1) for each in zip(*results, strict=True))
         return parts, radius
 
     def _functions(self, pressed: bool) -> "Iterator[tuple[Functions, int]]":
@@ -136,12 +136,12 @@ class RowSeries:
         """Pressures [Pa] and their slopes [Pa/rad] of the traces (T, N or 1, P)."""
         if not self.data.traces:
             return np.zeros((0, 1, 1)), np.zeros((0, 1, 1))
-        found = []
+        results = []
         for trace in self.data.traces:
             ahead = self._of_design(self.data.ahead[:, trace.row, None])
             one = replace(trace, table=self._of_design(trace.table), lead=self._of_design(trace.lead))
-            found.append(one.at(self.centre + ahead, self.within + ahead))
-        pressure, slope = (np.stack(np.broadcast_arrays(*each)) for each in zip(*found, strict=True))
+            results.append(one.at(self.centre + ahead, self.within + ahead))
+        pressure, slope = (np.stack(np.broadcast_arrays(*each)) for each in zip(*results, strict=True))
         return pressure, np.broadcast_to(slope, pressure.shape)
 
     def _of_design(self, values: NDArray[Any]) -> NDArray[Any]:

@@ -49,8 +49,8 @@ class RowWork:
     def of_a_turn(self) -> Real:
         """Work of every row in one turn (..., rows) J."""
         gas = 0.0 if self._indicated is None else np.sum(self._indicated, axis=-1)
-        found: Real = gas + self._rubbed
-        return found
+        result: Real = gas + self._rubbed
+        return result
 
     def beside_mean(self, angle: Real) -> Real:
         """Running integral of torque - mean, of all rows, but for a constant, at shaft angles (..., n) rad: (..., n) J.
@@ -73,8 +73,8 @@ class RowWork:
             travel, rest = np.where(heads, moved, left), np.where(heads, left, moved)
             gas = _gas_work(self.chambers, stroke[..., None], travel, rest, since < 0.5 * TURN, self._switching)
             work += np.sum(gas - self._indicated[..., None] * (since / TURN), axis=-2)
-        found: Real = np.sum(work, axis=-2)
-        return found
+        result: Real = np.sum(work, axis=-2)
+        return result
 
     def fluctuation(self, torque: TurnCurves) -> Range:
         """Range of the running integral of torque - mean, of the torque of all rows: it turns where they are equal."""
@@ -189,9 +189,9 @@ def _by_design(design: Index, values: Real, designs: int) -> Real:
     order, count = np.argsort(design, kind="stable"), np.bincount(design, minlength=designs)
     column = np.arange(design.size) - np.repeat(np.cumsum(count) - count, count)
     # never a single angle, for which numpy would add the rows in another order
-    found = np.zeros((designs, int(np.max(count, initial=0)) + 2))
-    found[design[order], column] = values[order]
-    return found
+    result = np.zeros((designs, int(np.max(count, initial=0)) + 2))
+    result[design[order], column] = values[order]
+    return result
 
 
 def _turning(cubic: Real) -> tuple[Real, Real]:
@@ -201,9 +201,9 @@ def _turning(cubic: Real) -> tuple[Real, Real]:
     # the larger root first, the smaller by it: nothing cancels
     larger = -(bend + np.copysign(np.sqrt(np.maximum(square, 0.0)), bend))
     with np.errstate(divide="ignore", invalid="ignore"):
-        found = np.stack([larger / (3.0 * third), slope / larger])
-    found = np.where((square > 0.0) & np.isfinite(found), np.clip(found, -1.0, 1.0), 1.0)
-    return np.min(found, axis=0), np.max(found, axis=0)
+        result = np.stack([larger / (3.0 * third), slope / larger])
+    result = np.where((square > 0.0) & np.isfinite(result), np.clip(result, -1.0, 1.0), 1.0)
+    return np.min(result, axis=0), np.max(result, axis=0)
 
 
 def _roots(cubic: Real, low: Real, high: Real, at_low: Real) -> Real:

@@ -46,18 +46,18 @@ def break_angles(layout: Layout, opens: tuple[Real, ...] = (), traces: Sequence[
     dead = np.broadcast_to([0.0, np.pi], (*ratio.shape, 2))
     own = np.concatenate([*opens, dead, steep_angles(ratio)], axis=-1)
     ahead = own_angle(layout, np.zeros(1))
-    found = (own - ahead).reshape(*ratio.shape[:-1], -1)
-    designs = tuple(range(found.ndim - 1))
-    found = found[..., ~np.all(np.isnan(found), axis=designs)]
+    result = (own - ahead).reshape(*ratio.shape[:-1], -1)
+    designs = tuple(range(result.ndim - 1))
+    result = result[..., ~np.all(np.isnan(result), axis=designs)]
     apart = 0.0
     if traces:
         turns, apart = turns_of(traces), SLIVER
-        again = [np.mod(found + TURN * k, TURN * turns) for k in range(turns)]
-        found = np.concatenate([*again, entries(traces, ahead[..., 0])], axis=-1)
-    found = np.sort(found, axis=-1)
+        again = [np.mod(result + TURN * k, TURN * turns) for k in range(turns)]
+        result = np.concatenate([*again, entries(traces, ahead[..., 0])], axis=-1)
+    result = np.sort(result, axis=-1)
     # rows that reverse together, and tables that have the same entries, would only make panels without width
-    same = np.diff(found, axis=-1, prepend=-np.inf) <= apart
-    return found[..., ~np.all(same, axis=designs)]
+    same = np.diff(result, axis=-1, prepend=-np.inf) <= apart
+    return result[..., ~np.all(same, axis=designs)]
 
 
 @dataclass(frozen=True)
@@ -267,9 +267,9 @@ class TurnCurves:
     def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
         """Series about other centres (m,) within pieces; the process that counts is that of the piece."""
         design, weights, constant = self._of(curve)
-        found = np.einsum("mr,kmr->mk", weights, self._expansions.cubics(design, piece, centre))
-        found[:, 0] += constant
-        return found * half[:, None] ** np.arange(4)
+        result = np.einsum("mr,kmr->mk", weights, self._expansions.cubics(design, piece, centre))
+        result[:, 0] += constant
+        return result * half[:, None] ** np.arange(4)
 
     def rests(self, curve: Index, piece: Index, centre: Real, half: Real) -> Real:
         """Bounds within half widths (m,) rad about other centres."""
@@ -297,13 +297,13 @@ class TurnCurves:
 def _sums(series: Taylor, weights: Complex | Real, constant: Complex | Real) -> Complex:
     """From the series (k, N, R, P) of the rows to coefficients (N, C, P, k) of the curves."""
     of_curves: Complex = np.matmul(weights, series.middle)
-    found = np.moveaxis(of_curves, 0, -1)
-    found[..., 0] += constant[..., None]
-    return found
+    result = np.moveaxis(of_curves, 0, -1)
+    result[..., 0] += constant[..., None]
+    return result
 
 
 def _largest(bounds: Taylor, weights: Complex | Real) -> Real:
     """Largest magnitude of the last coefficient of the curves, (N, C, P), from enclosures of the rows."""
     assert bounds.radius is not None  # enclosures have one
-    found: Real = np.abs(weights @ bounds.middle[-1]) + np.abs(weights) @ bounds.radius
-    return found
+    result: Real = np.abs(weights @ bounds.middle[-1]) + np.abs(weights) @ bounds.radius
+    return result
