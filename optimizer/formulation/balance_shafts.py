@@ -115,12 +115,12 @@ def fitted(machine: Machine, mass_kg: Real, angle_deg: Real, vectors: Complex | 
     own, shafts = len(machine.webs), balance_shafts(machine)
     if vectors is None:
         vectors = unbalance(mass_kg, angle_deg, stacked([web.radius_m for web in places(machine)]))
-    found, first = [], own
+    results, first = [], own
     for shaft in shafts:
         there = slice(first, first + len(shaft.webs))
         first = there.stop
         on_shaft = unbalances_of_shaft(machine, shaft, mass_kg[there], angle_deg[there])
-        found.append(
+        results.append(
             FittedShaft(
                 name=shaft.name,
                 speed_ratio=shaft.speed_ratio,
@@ -130,7 +130,7 @@ def fitted(machine: Machine, mass_kg: Real, angle_deg: Real, vectors: Complex | 
             )
         )
     crank = counterweights(machine, mass_kg[:own], angle_deg[:own], vectors[:own])
-    return Fitted(crank, float(np.sum(mass_kg[:own])), tuple(found), vectors[:own], vectors[own:] if shafts else None)
+    return Fitted(crank, float(np.sum(mass_kg[:own])), tuple(results), vectors[:own], vectors[own:] if shafts else None)
 
 
 def _gearing(shaft: BalanceShaft, fitted_there: Sequence[Counterweight]) -> str:

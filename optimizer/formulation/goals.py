@@ -222,11 +222,11 @@ class _Asked:
             (peaks,) = variants
             rows = combined(peaks, self.objective.combine)
             return tuple(Group(rows=tuple(_called(row, self.case.scenario) for row in each)) for each in rows)
-        found = [
+        results = [
             tuple(_called(Row(peak.name, (peak,)), self.case.scenario, n) for n, peak in enumerate(of_response))
             for of_response in zip(*variants, strict=True)
         ]
-        return tuple(Group(rows=rows) for rows in found)
+        return tuple(Group(rows=rows) for rows in results)
 
     def weighed_bearings(self) -> Group:
         measure, weight = self.objective.bearing_measure, self.objective.bearing_weight * self._factor

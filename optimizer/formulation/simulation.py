@@ -151,8 +151,8 @@ def simulated(
         plan = spread(plan, leading)
     turns = turns_over(request.machine, [need for needs in asked.values() for need in needs])
     angle: Real = np.arange(samples * turns, dtype=float) * (360.0 / samples)
-    found = simulate(request.machine, plan, asked, request.fidelity, np.deg2rad(angle))
-    return Prepared(request, plan, angle, found, (time.perf_counter() - start) * 1e3, turns=turns)
+    result = simulate(request.machine, plan, asked, request.fidelity, np.deg2rad(angle))
+    return Prepared(request, plan, angle, result, (time.perf_counter() - start) * 1e3, turns=turns)
 
 
 def turns_over(machine: Machine, needs: Sequence[str]) -> int:

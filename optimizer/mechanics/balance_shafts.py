@@ -19,8 +19,8 @@ from optimizer.responses.response import Phasors, Response
 
 def shaft_influence(shafts: BalanceWebs, ratio: int) -> Real:
     """What one kg m on each web (..., webs) adds to the phasor that turns ``ratio`` times: rho^2, or 0 elsewhere."""
-    found: Real = (shafts.ratio == ratio) * float(ratio) ** 2
-    return found
+    result: Real = (shafts.ratio == ratio) * float(ratio) ** 2
+    return result
 
 
 def shaft_arms(layout: Layout, shafts: BalanceWebs) -> Real:

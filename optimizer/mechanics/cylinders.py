@@ -57,7 +57,7 @@ def chambers(machine: ReciprocatingMachine, leading: tuple[int, ...] = ()) -> Ch
 def traces(machine: ReciprocatingMachine, layout: Layout) -> tuple[Trace, ...]:
     """Indicated pressures of the chambers that have one, with the leading axes of layout and columns together."""
     ahead = own_angle(layout, np.zeros(1))[..., 0]
-    found = [
+    results = [
         _trace(
             place.row, place.chamber + side, given, getattr(given, name), _start_deg(machine, place.row, given), ahead
         )
@@ -66,10 +66,12 @@ def traces(machine: ReciprocatingMachine, layout: Layout) -> tuple[Trace, ...]:
         for side, name in enumerate(_SIDES)
         if getattr(given, name) is not None
     ]
-    leading = np.broadcast_shapes(layout.omega.shape, *(part.shape for one in found for part in (one.table, one.lead)))
+    leading = np.broadcast_shapes(
+        layout.omega.shape, *(part.shape for one in results for part in (one.table, one.lead))
+    )
     return tuple(
         replace(one, table=np.broadcast_to(one.table, leading), lead=np.broadcast_to(one.lead, leading))
-        for one in found
+        for one in results
     )
 
 

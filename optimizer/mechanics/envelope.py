@@ -137,9 +137,9 @@ class Segment(Plate):
         size = np.maximum(cube / apart**1.5, 1.0)
         both = np.sqrt(apart) * _sum_of_halves(size)
         half = np.where(size > 1.0, 0.5 * (both + apart / both), np.cbrt(cube))
-        found = np.minimum(np.arcsin(np.minimum(half / self.outer, 1.0)), self.most)
+        result = np.minimum(np.arcsin(np.minimum(half / self.outer, 1.0)), self.most)
         # at a right angle an opening is no better known than to 1e-8, but a full plate is full
-        return np.where(unbalance >= self.unbalance(self.most), self.most, found)
+        return np.where(unbalance >= self.unbalance(self.most), self.most, result)
 
     def chord(self, half_angle: Reals) -> Real:
         return self.lever(half_angle)
@@ -161,8 +161,8 @@ class _OfAngle(Protocol):
 
 def opened_for(plate: Envelope, mass: Reals) -> Real:
     """Half-angle of the counterweight of a mass, rad; the largest for more than the plate holds."""
-    found = _inverse(plate.mass, *np.broadcast_arrays(0.0, plate.most, mass))
-    return np.where(mass >= plate.mass(plate.most), plate.most, found)
+    result = _inverse(plate.mass, *np.broadcast_arrays(0.0, plate.most, mass))
+    return np.where(mass >= plate.mass(plate.most), plate.most, result)
 
 
 def _sum_of_halves(size: Real) -> Real:
@@ -170,13 +170,13 @@ def _sum_of_halves(size: Real) -> Real:
 
     The left side is convex and rises, so Newton's steps come from above after the first one.
     """
-    found = np.maximum(1.0 + np.sqrt((2.0 / 3.0) * (size - 1.0)), (4.0 / 3.0) * size - 1.0 / 3.0)
+    result = np.maximum(1.0 + np.sqrt((2.0 / 3.0) * (size - 1.0)), (4.0 / 3.0) * size - 1.0 / 3.0)
     for _ in range(_STEPS):
-        cube = found**-3
-        rise = 3.0 * (1.0 - cube / found)
-        over = 3.0 * found + cube - 4.0 * size
-        found = found - np.where(rise > 0.0, over / np.where(rise > 0.0, rise, 1.0), 0.0)
-    return found
+        cube = result**-3
+        rise = 3.0 * (1.0 - cube / result)
+        over = 3.0 * result + cube - 4.0 * size
+        result = result - np.where(rise > 0.0, over / np.where(rise > 0.0, rise, 1.0), 0.0)
+    return result
 
 
 def _inverse(rising: Callable[[Real], Real], low: Real, high: Real, value: Real) -> Real:

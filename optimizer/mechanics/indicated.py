@@ -86,14 +86,14 @@ class Trace:
         """Entry before places (..., T) of the cycle: its angle, its pressure, and the slope from there on."""
         step = np.diff(self.angle, axis=-1)
         slopes = np.diff(self.pressure, axis=-1) / np.where(step > 0.0, step, np.inf)
-        found = np.empty((3, *place.shape))
+        result = np.empty((3, *place.shape))
         for table in range(len(self.angle)):
             mine = np.broadcast_to(self.table == table, place.shape[:-1])
             entry = np.searchsorted(self.angle[table], place[mine], side="right") - 1
             entry = np.minimum(entry, slopes.shape[-1] - 1)
             for part, values in enumerate((self.angle, self.pressure, slopes)):
-                found[part][mine] = values[table][entry]
-        return found[0], found[1], found[2]
+                result[part][mine] = values[table][entry]
+        return result[0], result[1], result[2]
 
 
 def entries(traces: Sequence[Trace], ahead: Real) -> Real:
@@ -105,8 +105,8 @@ def entries(traces: Sequence[Trace], ahead: Real) -> Real:
     """
     turns = turns_of(traces)
     # a trace of one turn begins anew where another takes two
-    found = [trace.breaks(ahead[..., trace.row]) + TURN * k for trace in traces for k in range(0, turns, trace.turns)]
-    return np.sort(np.mod(np.concatenate(found, axis=-1), TURN * turns), axis=-1)
+    results = [trace.breaks(ahead[..., trace.row]) + TURN * k for trace in traces for k in range(0, turns, trace.turns)]
+    return np.sort(np.mod(np.concatenate(results, axis=-1), TURN * turns), axis=-1)
 
 
 def turns_of(traces: Sequence[Trace]) -> int:

@@ -32,12 +32,12 @@ def internal_moment(layout: Layout, unbalance: Complex | None = None) -> Real:
     arm = np.take_along_axis(place, order, axis=-1)
     peaks = []
     for side in (1, -1):
-        found = np.zeros(arm.shape)
+        result = np.zeros(arm.shape)
         for part in ("co", "counter"):
             force = np.take_along_axis(_joined([getattr(one, part) for one in forces], leading), order, axis=-1)
             couple = _of_side(arm[..., ::side], force[..., ::side])
-            found = found + np.abs(couple)
-        peaks.append(np.max(found, axis=-1, initial=0.0))
+            result = result + np.abs(couple)
+        peaks.append(np.max(result, axis=-1, initial=0.0))
     return np.maximum(*peaks)
 
 

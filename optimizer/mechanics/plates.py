@@ -68,7 +68,7 @@ class Plates:
     def _by_part(self, figure: Callable[[Envelope, Real], Reals], values: Real) -> Real:
         if len(self.parts) == 1:
             return np.asarray(figure(self.parts[0][1], values))
-        found = np.empty(values.shape)
+        result = np.empty(values.shape)
         for places, part in self.parts:
-            found[..., places] = figure(part, values[..., places])
-        return found
+            result[..., places] = figure(part, values[..., places])
+        return result

@@ -47,5 +47,5 @@ def along_axis(mass: Real, axis: Complex, down: Complex) -> Complex:
     axis : (..., rows) direction of the cylinder axes.
     down : (...) direction of gravity.
     """
-    found: Complex = mass * GRAVITY * (np.conj(axis) * np.asarray(down)[..., None]).real * axis
-    return found
+    result: Complex = mass * GRAVITY * (np.conj(axis) * np.asarray(down)[..., None]).real * axis
+    return result

@@ -34,15 +34,15 @@ def _grading(scene: Prepared, asked: BalanceQuality, wrench: Wrench) -> Grading:
     """Of the first order over omega^2 that turns with the shaft, half of every reciprocating mass with its crank."""
     plane = float(scene.layout.reference_plane)
     places = (asked.plane_a_m, asked.plane_b_m)
-    found = in_planes(wrench.force.co, wrench.moment.co, *(place - plane for place in places))
+    result = in_planes(wrench.force.co, wrench.moment.co, *(place - plane for place in places))
     shares = plane_shares(asked.centre_of_mass_m, *places)
     permissible = [float(share) * _permissible(scene, asked) for share in shares]
-    sizes = [float(np.abs(one)) for one in found]
+    sizes = [float(np.abs(one)) for one in result]
     first, second = (
         PlaneUnbalance(
             position_m=place, permissible_kg_m=most, unbalance_kg_m=size, angle_deg=float(angle_deg(np.asarray(one)))
         )
-        for place, most, size, one in zip(places, permissible, sizes, found, strict=True)
+        for place, most, size, one in zip(places, permissible, sizes, result, strict=True)
     )
     reached = max(size / most for size, most in zip(sizes, permissible, strict=True))
     return Grading(grade_mm_s=asked.grade_mm_s * reached, plane_a=first, plane_b=second)

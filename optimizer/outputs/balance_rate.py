@@ -60,11 +60,11 @@ def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
     machine = scene.machine
     if not isinstance(machine, ReciprocatingMachine):
         return {}
-    rates, found = cranks(machine).rates(unbalance), {}
+    rates, result = cranks(machine).rates(unbalance), {}
     for k, label in enumerate(labels([throw.name for throw in machine.throws])):
-        found[f"balance_rate.{label}"] = rates[..., k].real
-        found[f"balance_rate_sideways.{label}"] = rates[..., k].imag
-    return found
+        result[f"balance_rate.{label}"] = rates[..., k].real
+        result[f"balance_rate_sideways.{label}"] = rates[..., k].imag
+    return result
 
 
 BALANCE_RATE = Output(

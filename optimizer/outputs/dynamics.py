@@ -44,17 +44,17 @@ _SIDES: tuple[Literal["head", "crank"], ...] = ("head", "crank")
 
 def kinematics(scene: Prepared, _fitted: Complex | None = None) -> Kinematics:
     """Motion of every row."""
-    found = scene.results["kinematics"]
-    own = np.mod(np.rad2deg(found.crank_angle), 360.0)
+    result = scene.results["kinematics"]
+    own = np.mod(np.rad2deg(result.crank_angle), 360.0)
     return Kinematics(
         angle_deg=scene.angles,
         rows=tuple(
             RowMotion(
                 **labels,
                 crank_angle_deg=_series(own[k]),
-                displacement_m=_series(found.displacement[k]),
-                velocity_m_s=_series(found.velocity[k]),
-                acceleration_m_s2=_series(found.acceleration[k]),
+                displacement_m=_series(result.displacement[k]),
+                velocity_m_s=_series(result.velocity[k]),
+                acceleration_m_s2=_series(result.acceleration[k]),
             )
             for k, labels in rows_of(scene)
         ),
@@ -111,16 +111,16 @@ def gas(scene: Prepared, _fitted: Complex | None = None) -> Gas:
 
 def piston_force(scene: Prepared, _fitted: Complex | None = None) -> PistonForce:
     """Gas, inertia and friction on every piston."""
-    found, peaks = scene.results["piston_force"], of_rows(scene, "piston")
+    result, peaks = scene.results["piston_force"], of_rows(scene, "piston")
     return PistonForce(
         angle_deg=scene.angles,
         rows=tuple(
             RowPistonForce(
                 **labels,
-                gas_N=_series(found.gas[k]),
-                inertia_N=_series(found.inertia[k]),
-                friction_N=_series(found.friction[k]),
-                total_N=_series(found.total[k]),
+                gas_N=_series(result.gas[k]),
+                inertia_N=_series(result.inertia[k]),
+                friction_N=_series(result.friction[k]),
+                total_N=_series(result.total[k]),
                 peak_tension_N=float(peaks.high.lower[k]),
                 peak_tension_bracket_N=bracket(peaks.high, k),
                 peak_compression_N=-float(peaks.low.lower[k]),
@@ -137,8 +137,8 @@ CASES: dict[Case, Reading] = {"running": "rod", "no_load": "rod_without_gas", "s
 
 def rod_loads(scene: Prepared, _fitted: Complex | None = None) -> RodLoads:
     """Forces in the mechanism, and the load cases of every rod."""
-    found = scene.results["rod_forces"]
-    rod, side, tangential, radial = found.rod, found.side, found.tangential, found.radial
+    result = scene.results["rod_forces"]
+    rod, side, tangential, radial = result.rod, result.side, result.tangential, result.radial
     by_case = {case: of_rows(scene, reading) for case, reading in CASES.items()}
     on_guide = of_rows(scene, "side").magnitude
     rows = []
@@ -173,20 +173,20 @@ def _shaft_power(scene: Prepared) -> Real:
 
 def torque(scene: Prepared, _fitted: Complex | None = None) -> Torque:
     """Torque over the turn and its integrals."""
-    found, integrals = scene.results["torque"], scene.results["torque_integrals"]
+    result, integrals = scene.results["torque"], scene.results["torque_integrals"]
     errors, shaft_power = scene.results["torque_errors"], _shaft_power(scene)
-    peak = of_torque(scene, found.rotating_friction)
+    peak = of_torque(scene, result.rotating_friction)
     radius = scene.layout.reciprocating.crank_radius
     one_radius = radius.size > 0 and bool(np.all(radius == radius[0]))
     return Torque(
         angle_deg=scene.angles,
         rows=tuple(
-            RowTorque(**labels, torque_Nm=_series(found.rows[k]), mean_torque_Nm=float(integrals.row_mean[k]))
+            RowTorque(**labels, torque_Nm=_series(result.rows[k]), mean_torque_Nm=float(integrals.row_mean[k]))
             for k, labels in rows_of(scene)
         ),
-        rotating_friction_Nm=float(found.rotating_friction),
-        torque_Nm=_series(found.total),
-        tangential_N=_series(found.total / radius[0]) if one_radius else None,
+        rotating_friction_Nm=float(result.rotating_friction),
+        torque_Nm=_series(result.total),
+        tangential_N=_series(result.total / radius[0]) if one_radius else None,
         peak_Nm=float(peak.lower),
         peak_bracket_Nm=bracket(peak),
         peak_angle_deg=float(np.rad2deg(peak.angle)),
@@ -202,12 +202,12 @@ def torque(scene: Prepared, _fitted: Complex | None = None) -> Torque:
 
 def flywheel(scene: Prepared, _fitted: Complex | None = None) -> Flywheel:
     """Irregularity and inertia, J and MD^2 both; the source prints the latter as the former."""
-    found = scene.results["flywheel"]
+    result = scene.results["flywheel"]
     return Flywheel(
         fluctuation_energy_J=float(scene.results["torque_integrals"].fluctuation),
-        irregularity=float(found.irregularity),
-        inertia_J_kg_m2=float(found.inertia),
-        inertia_MD2_kg_m2=4.0 * float(found.inertia),
+        irregularity=float(result.irregularity),
+        inertia_J_kg_m2=float(result.inertia),
+        inertia_MD2_kg_m2=4.0 * float(result.inertia),
     )
 
 
@@ -289,8 +289,8 @@ def _torque_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
 
 
 def _flywheel_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
-    found = scene.results["flywheel"]
-    return {"irregularity": found.irregularity, "inertia_J_kg_m2": found.inertia}
+    result = scene.results["flywheel"]
+    return {"irregularity": result.irregularity, "inertia_J_kg_m2": result.inertia}
 
 
 def _overturning_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:

@@ -30,8 +30,8 @@ _READINGS: tuple[Reading, ...] = ("piston", "rod", "rod_at_rest")
 def _figure(scene: Prepared, fitted: Complex | None) -> Loads:
     machine = scene.machine
     assert isinstance(machine, ReciprocatingMachine)  # of the kinematics
-    found, integrals = scene.results["torque"], scene.results["torque_integrals"]
-    beyond = found.total - integrals.mean
+    result, integrals = scene.results["torque"], scene.results["torque_integrals"]
+    beyond = result.total - integrals.mean
     inertia = _inertia(scene, machine)
     return Loads(
         angle_deg=scene.angles,
@@ -42,8 +42,8 @@ def _figure(scene: Prepared, fitted: Complex | None) -> Loads:
         ),
         driver_Nm=float(integrals.mean),
         shared_base_Nm=tuple(beyond.tolist()),
-        own_base_peak_Nm=float(of_torque(scene, found.rotating_friction).lower),
-        shared_base_peak_Nm=float(of_torque(scene, found.rotating_friction - integrals.mean).lower),
+        own_base_peak_Nm=float(of_torque(scene, result.rotating_friction).lower),
+        shared_base_peak_Nm=float(of_torque(scene, result.rotating_friction - integrals.mean).lower),
         # J eps is what the constant torque of the driver leaves over
         angular_acceleration_rad_s2=None if inertia is None else tuple((-beyond / inertia).tolist()),
         bearing_weights=tuple(_weights(scene, machine, fitted)),
@@ -189,8 +189,8 @@ def on_bearings(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex 
         rows = scene.layout.reciprocating
         places, load = _joined(places, rows.position), _joined(load, along_axis(rows.mass, rows.axis, down))
     influence = INFLUENCES[scene.request.fidelity.shaft](bearing_places(machine), places)
-    found: Complex = (influence @ load[..., None])[..., 0]
-    return found
+    result: Complex = (influence @ load[..., None])[..., 0]
+    return result
 
 
 def _weights(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | None) -> Iterator[BearingWeight]:
@@ -226,7 +226,7 @@ def _columns(scene: Prepared, fitted: Complex) -> dict[str, Real]:
     assert isinstance(machine, ReciprocatingMachine)  # of the kinematics
     friction, mean = scene.results.get("friction"), scene.results["torque_integrals"].mean
     constant = 0.0 if friction is None else friction.torque
-    found = {
+    results = {
         "peak_crosshead_pin_N": largest_of_rows(scene, "rod").lower,
         "peak_sudden_stop_N": largest_of_rows(scene, "rod_at_rest").lower,
         "own_base_peak_Nm": of_torque(scene, constant).lower,
@@ -235,8 +235,8 @@ def _columns(scene: Prepared, fitted: Complex) -> dict[str, Real]:
     if machine.bearings:
         weights = np.abs(on_bearings(scene, machine, fitted))
         names = labels([bearing.name for bearing in machine.bearings])
-        found |= {f"bearing_weight_N.{name}": weights[..., k] for k, name in enumerate(names)}
-    return found
+        results |= {f"bearing_weight_N.{name}": weights[..., k] for k, name in enumerate(names)}
+    return results
 
 
 LOADS = Output(

@@ -33,14 +33,14 @@ def orders(scene: Prepared, unbalance: Complex | None) -> OrdersComparison:
 
 
 def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
-    found: dict[str, Real] = {}
+    results: dict[str, Real] = {}
     for order, wrench in by_order(scene, unbalance).items():
         for quantity, unit, pair in (("force", "N", wrench.force), ("moment", "Nm", wrench.moment)):
-            found[f"{quantity}_peak_{unit}.order_{order}"] = pair.peak
+            results[f"{quantity}_peak_{unit}.order_{order}"] = pair.peak
             for sense, phasor in (("co", pair.co), ("counter", pair.counter)):
-                found[f"{quantity}_{sense}_rotating_real_{unit}.order_{order}"] = phasor.real
-                found[f"{quantity}_{sense}_rotating_imag_{unit}.order_{order}"] = phasor.imag
-    return found
+                results[f"{quantity}_{sense}_rotating_real_{unit}.order_{order}"] = phasor.real
+                results[f"{quantity}_{sense}_rotating_imag_{unit}.order_{order}"] = phasor.imag
+    return results
 
 
 ORDERS = Output(

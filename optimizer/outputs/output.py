@@ -61,5 +61,5 @@ class Output:
 
 def largest(values: Real | Complex, own: int = 2) -> Real:
     """Largest magnitude over the last ``own`` axes, (...); 0 where there is nothing."""
-    found: Real = np.max(np.abs(values), axis=tuple(range(-own, 0)), initial=0.0)
-    return found
+    result: Real = np.max(np.abs(values), axis=tuple(range(-own, 0)), initial=0.0)
+    return result

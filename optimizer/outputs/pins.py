@@ -16,8 +16,8 @@ from schemas.scroll.pin_loads import PinLoads
 
 
 def _figure(scene: Prepared, _fitted: Complex | None) -> PinLoads:
-    found: PinLoads = scene.results["pin_loads"]
-    return found
+    result: PinLoads = scene.results["pin_loads"]
+    return result
 
 
 def _columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
@@ -49,13 +49,13 @@ def _largest_product(angle_deg: Sequence[Any], values: Sequence[Any], pins: Real
     entries = len(angle_deg)
     cases = stacked([*angle_deg, *values, pins])
     distinct, which = np.unique(cases, axis=0, return_inverse=True)
-    found = np.zeros(len(distinct))
+    result = np.zeros(len(distinct))
     for k, case in enumerate(distinct):
         angles, torque, number = case[:entries], case[entries:-1], int(case[-1])
         inside = angles < 360.0
         shapes = LoadShapes.even(360.0 * np.arange(number) / number, 2.0 / number)
-        found[k] = np.max(peaks(shapes, PeriodicTable(angles[inside], torque[inside]))[0])
-    return found[which.reshape(-1)]
+        result[k] = np.max(peaks(shapes, PeriodicTable(angles[inside], torque[inside]))[0])
+    return result[which.reshape(-1)]
 
 
 # a sweep needs the peaks alone, not what every pin carries over the turn

@@ -100,13 +100,13 @@ def fields(
     scene = replace(scene, brackets={})
     searches = (search for name in outputs for search in OUTPUTS[name].searches(scene, unbalance))
     scene.brackets.update(searched(searches))
-    found = {name: OUTPUTS[name].figure(scene, unbalance) for name in outputs}
+    results = {name: OUTPUTS[name].figure(scene, unbalance) for name in outputs}
     if all(effect in scene.results for effect in FIRST_ORDER_EFFECTS):
-        found["balance_quality"] = balance_quality(scene, unbalance)
-        found["floor"] = floor(scene.layout, scene.first_order())
-    found["balance_rate"] = balance_rate(scene.machine, unbalance)
-    found["warnings"] = cautions(scene, unbalance, found, proven)
-    return found
+        results["balance_quality"] = balance_quality(scene, unbalance)
+        results["floor"] = floor(scene.layout, scene.first_order())
+    results["balance_rate"] = balance_rate(scene.machine, unbalance)
+    results["warnings"] = cautions(scene, unbalance, results, proven)
+    return results
 
 
 def columns(request: Scene, unbalance: Complex, always: tuple[str, ...], wanted: frozenset[str]) -> dict[str, Real]:
@@ -124,22 +124,22 @@ def columns(request: Scene, unbalance: Complex, always: tuple[str, ...], wanted:
     samples = request.angles.count if any(each.sampled for each in asked) else 1
     needs = {str(k): each.needs or () for k, each in enumerate(asked)}
     scene = simulated(request, needs, samples, unbalance.shape[:1])
-    found: dict[str, Real] = {}
+    results: dict[str, Real] = {}
     for each in asked:
-        found |= each.values(scene, unbalance)
-    return found
+        results |= each.values(scene, unbalance)
+    return results
 
 
 def column_groups(request: Scene, always: tuple[str, ...], wanted: frozenset[str]) -> list[Columns]:
     """The columns of a request's outputs that are wanted, in the groups in which they are worked out."""
-    found = []
+    results = []
     for name in dict.fromkeys((*always, *request.outputs)):
         output = OUTPUTS[name]
         keys = usual_keys(name)
         if output.columns is not None and (not keys or not wanted.isdisjoint(keys)):
-            found.append(replace(output.columns, needs=output.column_needs))
-        found += [each for each in DETAILED.get(name, ()) if not wanted.isdisjoint(each.keys)]
-    return found
+            results.append(replace(output.columns, needs=output.column_needs))
+        results += [each for each in DETAILED.get(name, ()) if not wanted.isdisjoint(each.keys)]
+    return results
 
 
 def require_inputs(machine: Machine, outputs: Sequence[str], samples: int = 1) -> None:

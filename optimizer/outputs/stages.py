@@ -146,7 +146,7 @@ def stages(
     return tuple(
         Stage(
             **heading._asdict(),
-            **found._asdict(),
+            **result._asdict(),
             value=float(value[k]),
             remaining=None if remaining is None else float(remaining[k]),
             acting=of_all if heading is _VIII else before[k : k + 1],
@@ -154,7 +154,7 @@ def stages(
             iron=in_planes if heading is _VII else (),
             rules_of_thumb=rules.get(heading, ()),
         )
-        for k, (heading, found) in enumerate(shapes.items())
+        for k, (heading, result) in enumerate(shapes.items())
     )
 
 
@@ -291,11 +291,11 @@ def _figure(scene: Prepared, unbalance: Complex | None) -> tuple[Stage, ...]:
 
 def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
     turning, first, second = (scene.results[name] for name in _PARTS)
-    found: dict[str, Real] = {}
+    results: dict[str, Real] = {}
     for name, fitted in (("value", None), ("remaining", unbalance)):
         sizes = amounts(scene.layout, turning, first, second, fitted)
-        found |= {f"stage_{name}.{stage}": sizes[..., k] for k, stage in enumerate(STAGE_UNITS)}
-    return found
+        results |= {f"stage_{name}.{stage}": sizes[..., k] for k, stage in enumerate(STAGE_UNITS)}
+    return results
 
 
 STAGES = Output("stages", "the eight balancing stages", _PARTS, _figure, Columns(_columns))

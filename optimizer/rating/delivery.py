@@ -36,15 +36,15 @@ def leakage_coefficients(stages: Sequence[CompressionStage]) -> list[float]:
 
     Gas lost through a packing passed every stage before: nu holds the packings of the later stages too.
     """
-    found, packings = [], 0.0
+    results, packings = [], 0.0
     for stage in reversed(stages):
         leaks = stage.relative_leaks
         if leaks is not None:
             packings += leaks.packing
-            found.append(1.0 / (1.0 + leaks.valves + leaks.piston_rings + packings))
+            results.append(1.0 / (1.0 + leaks.valves + leaks.piston_rings + packings))
         elif stage.leakage_coefficient is not None:
-            found.append(stage.leakage_coefficient)
-    return found[::-1]
+            results.append(stage.leakage_coefficient)
+    return results[::-1]
 
 
 def coefficients(volumetric: float, pressure: float, temperature: float, leakage: float) -> DeliveryCoefficients:

@@ -67,7 +67,7 @@ def design(request: RatingRequest, rods: Sequence[float]) -> list[StageDesign]:
         stage.expansion_exponent or expansion_exponent(p1, request.isentropic_exponent)
         for stage, p1 in zip(stages, pressures[:-1], strict=True)
     ]
-    found = delivery(request, nominal, expansion)
+    result = delivery(request, nominal, expansion)
     saturation = _saturation(request)
     condensate = [1.0] * len(stages)
     if saturation is not None:
@@ -79,7 +79,7 @@ def design(request: RatingRequest, rods: Sequence[float]) -> list[StageDesign]:
         temperatures = stages[0].suction_temperature_K, stage.suction_temperature_K
         here = stage_flow(flow, pressures[0], pressures[i], *temperatures, share)
         piston = Piston(stage.cylinders, stage.acting, rods[i], request.stroke_m)
-        bore = piston.bore(swept_volume(here, request.speed_rpm, found[i].delivery))
+        bore = piston.bore(swept_volume(here, request.speed_rpm, result[i].delivery))
         designs.append(
             StageDesign(
                 stage=stage,
@@ -87,7 +87,7 @@ def design(request: RatingRequest, rods: Sequence[float]) -> list[StageDesign]:
                 m=expansion[i],
                 n=exponents[i],
                 nominal=nominal[i],
-                coefficients=found[i],
+                coefficients=result[i],
                 saturation_pressure=None if saturation is None else saturation[i],
                 condensate=condensate[i],
                 size=piston.size(bore),

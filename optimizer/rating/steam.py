@@ -48,9 +48,9 @@ def condensate_coefficients(
     """
     vapour = humidity * saturation_pressures[0]
     entering = left = vapour / (suction_pressures[0] - vapour)
-    found = [1.0]
+    results = [1.0]
     for p, p_s in zip(suction_pressures[1:], saturation_pressures[1:], strict=True):
         if p_s < p:
             left = min(left, p_s / (p - p_s))
-        found.append((1.0 + left) / (1.0 + entering))
-    return found
+        results.append((1.0 + left) / (1.0 + entering))
+    return results

@@ -5,7 +5,7 @@ goes by this table: rules, options, equal castings, refusals of studies, reports
 """
 
 from collections.abc import Callable, Iterator
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from schemas.base.rules import Rule
 from schemas.machine.catalogue import in_sector, masses_rules
@@ -17,12 +17,14 @@ Option = tuple[float | None, float | None]
 class ChoiceKind(NamedTuple):
     """What a field of a web says.
 
+    says : what every option of it says.
     options : what its contents allow.
     rules : what is wrong with its contents, and with them in its web; paths from the web.
     label : in a report, after which the options stand.
     text : an option in a report.
     """
 
+    says: Literal["mass", "angle", "both"]
     options: Callable[[Any], list[Option]]
     rules: Callable[[Any, Any], Iterator[Rule]]
     label: str
@@ -61,10 +63,10 @@ def sector_rules(path: tuple[str | int, ...], angle_deg: Any, web: Any, what: st
 #: by field of a web
 KINDS: dict[str, ChoiceKind] = {
     "catalogue_masses_kg": ChoiceKind(
-        lambda masses: [(mass, None) for mass in masses], _masses, "masses of {}, kg", "{0:g}"
+        "mass", lambda masses: [(mass, None) for mass in masses], _masses, "masses of {}, kg", "{0:g}"
     ),
     "hole_angles_deg": ChoiceKind(
-        lambda angles: [(None, angle) for angle in angles], _holes, "holes of {}, deg", "{1:g}"
+        "angle", lambda angles: [(None, angle) for angle in angles], _holes, "holes of {}, deg", "{1:g}"
     ),
     # beside these two
 }
@@ -76,12 +78,13 @@ def stated(web: Any) -> list[str]:
 
 
 def own_options(web: Any) -> OwnOptions:
-    """What all of these fields of a web say; where one of them is empty the web takes nothing."""
-    options = [KINDS[name].options(getattr(web, name)) for name in stated(web)]
-    if not all(options):
-        return OwnOptions(None, None, ())
-    every = [option for some in options for option in some]
+    """What all of these fields of a web say."""
+    parts = {KINDS[name].says for name in stated(web)}
+    every = [option for name in stated(web) for option in KINDS[name].options(getattr(web, name))]
     masses = tuple(mass for mass, angle in every if mass is not None and angle is None)
     angles = tuple(angle for mass, angle in every if mass is None and angle is not None)
     pairs = tuple((mass, angle) for mass, angle in every if mass is not None and angle is not None)
-    return OwnOptions(masses or None, angles or None, pairs or None)
+    # of an empty list nothing may be chosen
+    return OwnOptions(
+        masses if "mass" in parts else None, angles if "angle" in parts else None, pairs if "both" in parts else None
+    )

@@ -204,8 +204,8 @@ def extremes(title: str, angle_deg: Sequence[float], series: Iterable[tuple[str,
     rows = []
     for name, values in series:
         known = [(value, angle) for value, angle in zip(values, angle_deg, strict=True) if value is not None]
-        found = (*max(known, key=itemgetter(0)), *min(known, key=itemgetter(0))) if known else (None,) * 4
-        rows.append((name, *found))
+        result = (*max(known, key=itemgetter(0)), *min(known, key=itemgetter(0))) if known else (None,) * 4
+        rows.append((name, *result))
     return table(title, ["", "#largest", "#at, deg", "#smallest", "#at, deg"], rows)
 
 

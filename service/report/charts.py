@@ -91,9 +91,9 @@ def chart(
     rows = -(-len(lines) // beside) if len(lines) > 1 else 0
     top, left = 24.0 + 16.0 * rows, 66.0
     drawing = Drawing(PAGE_WIDTH, top + 190.0, f"{title}: {', '.join(line.name for line in lines)}")
-    found = [value for line in lines for value in line.values if value is not None]
-    factor, large = prefix(max(map(abs, found), default=0.0))
-    low, high, steps = axis(min(found, default=0.0) / factor, max(found, default=0.0) / factor)
+    results = [value for line in lines for value in line.values if value is not None]
+    factor, large = prefix(max(map(abs, results), default=0.0))
+    low, high, steps = axis(min(results, default=0.0) / factor, max(results, default=0.0) / factor)
     bottom = top + 150.0
     x = _Scale(*_ends(places, ticks), left, PAGE_WIDTH - 14.0)
     y = _Scale(low, high, bottom, top)
@@ -171,12 +171,12 @@ def floor(radius: float) -> Ellipse:
 
 def _ellipse(one: Ellipse) -> list[Point]:
     turn = complex(math.cos(math.radians(one.axis_deg)), math.sin(math.radians(one.axis_deg)))
-    found = []
+    results = []
     for step in range(181):
         angle = math.radians(2 * step)
         tip = complex(one.major * math.cos(angle), one.minor * math.sin(angle)) * turn
-        found.append((tip.real, tip.imag))
-    return found
+        results.append((tip.real, tip.imag))
+    return results
 
 
 def prefix(largest: float) -> tuple[float, str]:

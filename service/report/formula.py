@@ -24,16 +24,16 @@ def _runs(text: str) -> Iterator[Run]:
     for match in _TOKEN.finditer(text):
         yield Run(_signs(text[end : match.start()]))
         end = match.end()
-        found = match.groupdict()
-        if found["letter"] is not None:
-            yield Run(found["letter"])
-            yield Run(found["number"], "sub")
-        elif found["word"] is not None:
-            yield Run(_WORDS[found["word"].strip()])
-        elif found["long"] is not None or found["power"] is not None:
-            yield Run(_inside(found["long"] or found["power"]), "sup")
+        result = match.groupdict()
+        if result["letter"] is not None:
+            yield Run(result["letter"])
+            yield Run(result["number"], "sub")
+        elif result["word"] is not None:
+            yield Run(_WORDS[result["word"].strip()])
+        elif result["long"] is not None or result["power"] is not None:
+            yield Run(_inside(result["long"] or result["power"]), "sup")
         else:
-            yield Run(_inside(found["index"] or found["suffix"]), "sub")
+            yield Run(_inside(result["index"] or result["suffix"]), "sub")
     yield Run(_signs(text[end:]))
 
 

@@ -91,11 +91,11 @@ def _hodograph(number: int, request: OptimizeRequest, answer: OptimizeAnswer) ->
 
 
 def _bearings(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
-    found = answer.main_bearings
-    if found is None:
+    result = answer.main_bearings
+    if result is None:
         raise OutOfRange([FieldProblem(("machine",), "there are no loads of main bearings to draw")])
     words = "loads of the main bearings as the shaft sees them, each with its smallest circle"
-    return beside(words, loci(request.machine, found))
+    return beside(words, loci(request.machine, result))
 
 
 def _indicator(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:

@@ -21,11 +21,11 @@ class Column(NamedTuple):
 
 def front(across: Sequence[float], upward: Sequence[float]) -> list[int]:
     """Designs that no other beats, both columns to be small: places in the columns, by the first of them."""
-    found: list[int] = []
+    results: list[int] = []
     for place in sorted(range(len(across)), key=lambda one: (across[one], upward[one])):
-        if not found or upward[place] < upward[found[-1]]:
-            found.append(place)
-    return found
+        if not results or upward[place] < upward[results[-1]]:
+            results.append(place)
+    return results
 
 
 def scatter(across: Column, upward: Column) -> Drawing:

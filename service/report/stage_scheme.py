@@ -83,8 +83,8 @@ def _vectors(drawing: Drawing, machine: Machine, one: Stage) -> None:
     for each in left:
         _vector(drawing, each, largest, sense, AFTER, None)
     y = _BELOW
-    for name, found, stroke in (("without", one.acting, BEFORE), ("left", left, AFTER)):
-        for each in found:
+    for name, result, stroke in (("without", one.acting, BEFORE), ("left", left, AFTER)):
+        for each in result:
             drawing.text((0, y), f"{name}: {_said(each)}", size=8.5, fill=stroke)
             y += 11
     times = f"order {one.acting[0].order}, " if one.acting else ""

@@ -24,9 +24,11 @@ def _specific(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
 
 
 def _root_mean_square(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
-    found = _bearing_curves(scene)
-    offset = found.offsets(unbalance).reshape(found.webs.shape[:-1])
-    mean, variance = (np.array(each) for each in zip(*((one.mean, one.variance) for one in _alone(found)), strict=True))
+    result = _bearing_curves(scene)
+    offset = result.offsets(unbalance).reshape(result.webs.shape[:-1])
+    mean, variance = (
+        np.array(each) for each in zip(*((one.mean, one.variance) for one in _alone(result)), strict=True)
+    )
     rms = np.sqrt(variance + np.abs(mean + offset) ** 2) * scene.layout.omega[..., None] ** 2
     return _named(scene, "bearing_rms_N", dict(enumerate(np.moveaxis(rms, -1, 0))))
 
@@ -34,12 +36,12 @@ def _root_mean_square(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
 def _floors(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
     """Smallest circles around the loads, and what the largest of all bending moments comes to at least."""
     count, square = len(_bearings(scene)), scene.layout.omega[..., None] ** 2
-    found = scene.shaft_curves
-    group = one_by_one(count, found.webs.shape[-2] - count)
-    circles = [[each.circle for each in floors(one, FLOOR_TOLERANCE, None, group)] for one in _alone(found)]
+    result = scene.shaft_curves
+    group = one_by_one(count, result.webs.shape[-2] - count)
+    circles = [[each.circle for each in floors(one, FLOOR_TOLERANCE, None, group)] for one in _alone(result)]
     radius = np.array([[circle.radius for circle in one] for one in circles]) * square
     fixed = np.array([[circle.centre for circle in one[:count]] for one in circles])
-    centre = (fixed + found.offsets(unbalance).reshape(found.webs.shape[:-1])[..., :count]) * square
+    centre = (fixed + result.offsets(unbalance).reshape(result.webs.shape[:-1])[..., :count]) * square
     return {
         "bending_floor_Nm": np.max(radius[..., count:], axis=-1),
         **_named(scene, "bearing_floor_N", {k: radius[..., k] for k in range(count)}),

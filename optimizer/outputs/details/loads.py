@@ -38,14 +38,14 @@ def _sampled(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
         "frame_mean_N": 0.5 * (low + high) + 0.0,
         "frame_amplitude_N": 0.5 * (high - low),
     }
-    found: dict[str, Real] = {}
+    results: dict[str, Real] = {}
     for name, values in rows.items():
-        found |= by_part(scene, name, "rows", values)
+        results |= by_part(scene, name, "rows", values)
     if "gas" in scene.results:
         outward = np.abs(scene.results["gas"].forces.force)
-        found |= by_part(scene, "cover_largest_N", "chambers", of_chambers(scene, np.max(outward, axis=-1)))
-        found |= by_part(scene, "cover_smallest_N", "chambers", of_chambers(scene, np.min(outward, axis=-1)))
-    return found
+        results |= by_part(scene, "cover_largest_N", "chambers", of_chambers(scene, np.max(outward, axis=-1)))
+        results |= by_part(scene, "cover_smallest_N", "chambers", of_chambers(scene, np.min(outward, axis=-1)))
+    return results
 
 
 def _guides(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
@@ -63,22 +63,22 @@ def _guides(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
 
 
 def _stops(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
-    found = at_dead_centres(scene)
+    result = at_dead_centres(scene)
     return {
-        **by_part(scene, "stop_at_outer_dead_centre_N", "rows", found[..., 0]),
-        **by_part(scene, "stop_at_inner_dead_centre_N", "rows", found[..., 1]),
+        **by_part(scene, "stop_at_outer_dead_centre_N", "rows", result[..., 0]),
+        **by_part(scene, "stop_at_inner_dead_centre_N", "rows", result[..., 1]),
     }
 
 
 def _weights(scene: Prepared, fitted: Complex) -> dict[str, Real]:
-    machine, found = _machine(scene), dict[str, Real]()
+    machine, results = _machine(scene), dict[str, Real]()
     if machine.stationary_mass_kg is not None:
-        found["foundation_weight_N"] = whole_weight(scene, machine, fitted)
+        results["foundation_weight_N"] = whole_weight(scene, machine, fitted)
     if machine.bearings and machine.gravity_deg is not None:
         weights = on_bearings(scene, machine, fitted)
-        found |= by_part(scene, "bearing_weight_x_N", "bearings", weights.real)
-        found |= by_part(scene, "bearing_weight_y_N", "bearings", weights.imag)
-    return found
+        results |= by_part(scene, "bearing_weight_x_N", "bearings", weights.real)
+        results |= by_part(scene, "bearing_weight_y_N", "bearings", weights.imag)
+    return results
 
 
 def _masses(scene: Prepared, _fitted: Complex) -> dict[str, Real]:

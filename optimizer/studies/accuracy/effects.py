@@ -85,7 +85,7 @@ def effects_ladder(machine: Machine, layout: Layout, repeats: int) -> tuple[Effe
     ]
     reference = {**_by_panels(exact, breaks, turns), **_by_search(exact, breaks, turns)}
     estimate = _own_estimate(exact, breaks, turns)
-    found, first, times = timed([way.figures for way in ways], repeats)
+    result, first, times = timed([way.figures for way in ways], repeats)
     return tuple(
         EffectRow(
             quantity=name,
@@ -93,14 +93,14 @@ def effects_ladder(machine: Machine, layout: Layout, repeats: int) -> tuple[Effe
             setting=way.setting,
             time_ms=median_ms(times[n]) or 0.0,
             first_ms=first[n] * 1e3,
-            relative_error=_relative(found[n][figure], reference[figure])
+            relative_error=_relative(result[n][figure], reference[figure])
             if way.method == "samples" or way.setting != "exact kinematics"
             else estimate.get(figure),
             runs=len(times[n]),
         )
         for figure, name in (_WITH_GAS if has_gas else _INERTIA_ALONE).items()
         for n, way in enumerate(ways)
-        if figure in found[n]
+        if figure in result[n]
     )
 
 
@@ -120,11 +120,11 @@ def _inertia_torque(_machine: Machine, layout: Layout, fidelity: Fidelity, angle
 def _breaks(machine: Machine, layout: Layout, has_gas: bool) -> Real:
     """Shaft angles at which the torque jumps, has a kink or is steep, rad."""
     if not has_gas:
-        found, turns = break_angles(layout), 1
+        result, turns = break_angles(layout), 1
     else:
         gas = run(machine, layout, ("gas",), Fidelity(), np.zeros(1))["gas"]
-        found, turns = break_angles(layout, gas.opens, gas.traces), turns_of(gas.traces)
-    return np.unique(np.mod(found[~np.isnan(found)], TURN * turns))
+        result, turns = break_angles(layout, gas.opens, gas.traces), turns_of(gas.traces)
+    return np.unique(np.mod(result[~np.isnan(result)], TURN * turns))
 
 
 def _by_panels(torque: Torque, breaks: Real, turns: int = 1) -> Figures:
@@ -138,11 +138,11 @@ def _own_estimate(torque: Torque, breaks: Real, turns: int) -> Figures:
     """Difference from panels twice as wide, which the service reports as its error; the peak has none."""
     coarse = panels(breaks, _WIDEST_PANEL, turns=turns)
     values, fine = torque(coarse.angle), _by_panels(torque, breaks, turns)
-    found: dict[Figure, float | None] = {
+    results: dict[Figure, float | None] = {
         "mean": _relative(float(mean(coarse, values)), fine["mean"]),
         "energy": _relative(float(fluctuation(coarse, values)), fine["energy"]),
     }
-    return {figure: error for figure, error in found.items() if error is not None}
+    return {figure: error for figure, error in results.items() if error is not None}
 
 
 def _by_search(torque: Torque, breaks: Real, turns: int = 1) -> Figures:

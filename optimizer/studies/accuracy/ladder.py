@@ -127,12 +127,12 @@ def timed(ways: Sequence[Callable[[], Answer]], repeats: int) -> tuple[list[Answ
 
     After the first round there are only as many as the time of one method allows.
     """
-    found: list[Answer] = []
+    results: list[Answer] = []
     first: list[float] = []
     times: list[list[float]] = [[] for _ in ways]
     for way in ways:
         start = time.perf_counter()
-        found.append(way())
+        results.append(way())
         first.append(time.perf_counter() - start)
     clock = Clock.of(ROUNDS_S)
     for rounds in range(repeats):
@@ -142,7 +142,7 @@ def timed(ways: Sequence[Callable[[], Answer]], repeats: int) -> tuple[list[Answ
             start = time.perf_counter()
             way()
             taken.append(time.perf_counter() - start)
-    return found, first, times
+    return results, first, times
 
 
 def median_ms(times_s: Sequence[float], programs: int = 1) -> float | None:

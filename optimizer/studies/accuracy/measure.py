@@ -74,9 +74,9 @@ def _as_made(request: AccuracyRequest, scene: Prepared, solver: Solver) -> dict[
     fields: dict[str, object] = {"size": _size(request, closed.only(usable)), "ladder": ()}
     if float(closed.at_rest) == 0.0 or not np.any(usable):
         return fields | {"status": "nothing_to_choose", "reference": None}
-    found = choices_ladder(request, scene, solver)
-    status = "infeasible" if found.unreachable else "measured" if found.reference else "contradicted"
-    return fields | {"status": status, "reference": found.reference, "choices_ladder": found.rows}
+    result = choices_ladder(request, scene, solver)
+    status = "infeasible" if result.unreachable else "measured" if result.reference else "contradicted"
+    return fields | {"status": status, "reference": result.reference, "choices_ladder": result.rows}
 
 
 def _of_any_mass(request: AccuracyRequest, scene: Prepared, solver: Solver) -> dict[str, object]:

@@ -72,8 +72,8 @@ def peaks_ladder(machine: Machine, layout: Layout, repeats: int) -> tuple[PeakRo
         for quantity, curves in _curves(machine, layout).items()
         for way in _ways(quantity, whole, curves, friction if quantity == "peak_torque" else 0j)
     ]
-    found, first, times = timed([way.peak for way in ways], repeats)
-    sharpest = {way.quantity: one.lower for way, one in zip(ways, found, strict=True) if way.setting == _SHARPEST}
+    result, first, times = timed([way.peak for way in ways], repeats)
+    sharpest = {way.quantity: one.lower for way, one in zip(ways, result, strict=True) if way.setting == _SHARPEST}
     return tuple(
         PeakRow(
             quantity=way.quantity,
@@ -82,8 +82,8 @@ def peaks_ladder(machine: Machine, layout: Layout, repeats: int) -> tuple[PeakRo
             angles=way.angles,
             time_ms=median_ms(times[n]) or 0.0,
             first_ms=first[n] * 1e3,
-            relative_error=(sharpest[way.quantity] - found[n].lower) / sharpest[way.quantity],
-            certified_gap=_gap(found[n]),
+            relative_error=(sharpest[way.quantity] - result[n].lower) / sharpest[way.quantity],
+            certified_gap=_gap(result[n]),
             runs=len(times[n]),
         )
         for n, way in enumerate(ways)

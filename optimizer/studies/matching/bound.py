@@ -50,8 +50,8 @@ def best_plane(problem: Problem, minorants: Minorants, value: float, near: float
     value : of the best assignment known.
     near : a bound so near to it is good enough.
     """
-    found = [_ascended(problem, one, value, near) for one in minorants.each()]
-    return max(found, key=lambda one: one.least)
+    results = [_ascended(problem, one, value, near) for one in minorants.each()]
+    return max(results, key=lambda one: one.least)
 
 
 def _ascended(problem: Problem, one: Minorants, value: float, near: float) -> Plane:

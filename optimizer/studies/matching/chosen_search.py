@@ -66,11 +66,11 @@ class _Search:
 
     def solve(self, mass: Real) -> None:
         """Solve assignments (N, T), and add what they prove of all."""
-        found = self.chosen.at(mass, self.best.value if self._known else np.inf)
-        each = zip(found.value.tolist(), found.lower_bound.tolist(), mass, found.fitted, strict=True)
+        result = self.chosen.at(mass, self.best.value if self._known else np.inf)
+        each = zip(result.value.tolist(), result.lower_bound.tolist(), mass, result.fitted, strict=True)
         for one in each:
             self._known[self._key(one[2])] = _Known(*one)
-        self.below = self.below.plus(found.below)
+        self.below = self.below.plus(result.below)
 
     def values(self, mass: Real) -> Real:
         """What assignments (N, T) come to at least."""
@@ -89,8 +89,8 @@ def with_chosen(request: MatchRequest, problem: Problem, near: float) -> WithCho
     """The best assignment with the counterweights that are best for it: planes below what they reach, one by one."""
     until = time.thread_time() + request.accuracy.time_limit_s
     search = _Search(problem, Chosen(request, problem, own_solver(), near, until))
-    found = _best(search, near)
-    return WithChosen(found, search.best.fitted, search.listed.fitted)
+    result = _best(search, near)
+    return WithChosen(result, search.best.fitted, search.listed.fitted)
 
 
 def _best(search: _Search, near: float) -> Best:

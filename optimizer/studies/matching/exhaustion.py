@@ -40,15 +40,15 @@ class Half(NamedTuple):
 def _arranged(each: Places) -> Real | None:
     """All different arrangements of a class (N, rows), masses row by row; None where there are too many."""
     masses, times = np.unique(each.mass, return_counts=True)
-    found = arrangements(times, int(np.sum(each.row >= 0)), _SUMS)
-    return None if found is None else masses[found]
+    result = arrangements(times, int(np.sum(each.row >= 0)), _SUMS)
+    return None if result is None else masses[result]
 
 
 def halves(problem: Problem) -> tuple[Half, Half] | None:
     """The classes in two halves of as equal size as can be; None where there are too many arrangements."""
-    found = [_arranged(each) for each in problem.classes]
-    masses = [each for each in found if each is not None]
-    if len(masses) < len(found):
+    results = [_arranged(each) for each in problem.classes]
+    masses = [each for each in results if each is not None]
+    if len(masses) < len(results):
         return None
     sizes, every = [float(len(each)) for each in masses], range(len(masses))
     splits = [some for count in range(len(masses)) for some in combinations(every, count)]
@@ -93,10 +93,10 @@ def candidates(problem: Problem, minorants: Minorants, value: float, cut: Plane)
     kept, values = [], []
     for at in range(0, first.size, _CHUNK):
         part = slice(at, at + _CHUNK)
-        found = minorants.at(one.sums[first[part]] + base[second[part]])
-        below = np.flatnonzero(found < value)
+        result = minorants.at(one.sums[first[part]] + base[second[part]])
+        below = np.flatnonzero(result < value)
         kept.append(below + at)
-        values.append(found[below])
+        values.append(result[below])
     chosen, worth = np.concatenate([*kept, np.zeros(0, int)]), np.concatenate([*values, np.zeros(0)])
     # of one that is exactly the best known many may be equal: those are no better, and not here
     order = np.argsort(worth, kind="stable")[:_CHUNK]
@@ -110,7 +110,7 @@ def candidates(problem: Problem, minorants: Minorants, value: float, cut: Plane)
 
 def _assignment(problem: Problem, by_class: dict[int, Real]) -> Real:
     """Masses at all places (T,) of masses at rows; what is left over lies beside the machine."""
-    found = []
+    results = []
     for c, each in enumerate(problem.classes):
         on = each.row >= 0
         mass = np.empty_like(each.mass)
@@ -118,8 +118,8 @@ def _assignment(problem: Problem, by_class: dict[int, Real]) -> Real:
         kinds, left = np.unique(each.mass, return_counts=True)
         left = left - np.array([np.sum(by_class[c] == kind) for kind in kinds])
         mass[~on] = np.repeat(kinds, left)
-        found.append(mass)
-    return np.concatenate(found)
+        results.append(mass)
+    return np.concatenate(results)
 
 
 def _pairs(
@@ -172,8 +172,8 @@ def _in_ball(
     rest = cKDTree(second)
     if tree.count_neighbors(rest, radius) > _PAIRS:
         return None
-    found = tree.sparse_distance_matrix(rest, radius, output_type="ndarray")
-    return found["i"], found["j"]
+    result = tree.sparse_distance_matrix(rest, radius, output_type="ndarray")
+    return result["i"], result["j"]
 
 
 def _real(vectors: Complex) -> Real:

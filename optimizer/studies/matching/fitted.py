@@ -59,8 +59,8 @@ def as_fitted(problem: Problem, near: float, seconds: float, has_nuts: bool) -> 
     if value - bound > near or few(problem):
         better = candidates(problem, peaks, value, cut)
         if better is not None:
-            found, values = better
-            mass, value = (found[0], float(values[0])) if values.size else (mass, value)
+            result, values = better
+            mass, value = (result[0], float(values[0])) if values.size else (mass, value)
             bound, all_counted = value, True
         elif len(problem.classes) == 1 and listed.size <= MOST:
             ended = exhausted(problem, cut, value, near, spent)
@@ -98,10 +98,10 @@ def _improved(problem: Problem, cut: Plane, mass: Real, enough: float, spent: Ca
             free = part.start + places
             alone = _alone(problem, each, mass, places, free)
             low = plane(alone, cut.constant, cut.slope)[0]
-            found = exhausted(alone, low, value, max(enough - low.least, 0.0), spent, _SETS)
-            if found.mass is not None:
+            result = exhausted(alone, low, value, max(enough - low.least, 0.0), spent, _SETS)
+            if result.mass is not None:
                 tried = mass.copy()
-                tried[free] = found.mass
+                tried[free] = result.mass
                 mass = min((mass, tried), key=lambda one: _value(problem, one))
                 value = _value(problem, mass)
     return mass, value

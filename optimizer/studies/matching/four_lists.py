@@ -136,5 +136,5 @@ def _met(one: Real, other: Real) -> np.ndarray:
     wide, most = scatter > 0, 2 * _PAIRS
     few = len(one) * len(other) <= most or not np.any(wide)
     side = np.inf if few else float((_PAIRS / (len(one) * len(other)) * np.prod(scatter[wide])) ** (1.0 / np.sum(wide)))
-    found: np.ndarray = met(np.ascontiguousarray(one), np.ascontiguousarray(other), side, most)
-    return found
+    result: np.ndarray = met(np.ascontiguousarray(one), np.ascontiguousarray(other), side, most)
+    return result

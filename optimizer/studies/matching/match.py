@@ -55,12 +55,12 @@ def match(request: MatchRequest) -> MatchAnswer:
     choice = request.choose_counterweights and any(web.max_mass_kg != 0 for web in request.machine.webs)
     near = request.accuracy.relative_gap * float(problem.peaks.at(problem.vectors(problem.listed)))
     if choice:
-        found = with_chosen(request, problem, near)
+        result = with_chosen(request, problem, near)
     else:
         best = as_fitted(problem, near, request.accuracy.time_limit_s, bool(request.balance_nuts_kg))
-        found = WithChosen(best, None, None)
+        result = WithChosen(best, None, None)
     reporting = time.perf_counter()
-    fields = _answer(request, problem, found)
+    fields = _answer(request, problem, result)
     end = time.perf_counter()
     return MatchAnswer(
         **fields,

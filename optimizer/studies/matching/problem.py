@@ -98,11 +98,11 @@ class Problem:
 
     def row_masses(self, mass: Real) -> Real:
         """What the rows get (..., rows) of masses at places (..., T)."""
-        found = np.zeros((*mass.shape[:-1], self.rows))
+        result = np.zeros((*mass.shape[:-1], self.rows))
         for each, part in zip(self.classes, self.slices, strict=True):
             on = each.row >= 0
-            found[..., each.row[on]] += mass[..., part][..., on]
-        return found
+            result[..., each.row[on]] += mass[..., part][..., on]
+        return result
 
     @property
     def rounding(self) -> float:
@@ -174,7 +174,7 @@ def _of_one_kilogram(plan: Layout) -> Layout:
 
 def _classes(request: MatchRequest) -> tuple[Places, ...]:
     number = {place: i for i, place in enumerate(request.places)}
-    found = [
+    results = [
         Places(
             each.kind,
             each.names,
@@ -188,7 +188,7 @@ def _classes(request: MatchRequest) -> tuple[Places, ...]:
         rows = np.arange(len(number))
         names = (*(None for _ in rows), *(str(k) for k in range(1, len(nuts) + 1)))
         beside = np.full(len(nuts), -1)
-        found.append(
+        results.append(
             Places("balance_nut", names, np.array([*(0.0 for _ in rows), *nuts]), np.concatenate([rows, beside]))
         )
-    return tuple(found)
+    return tuple(results)

@@ -71,7 +71,7 @@ def exhausted(
     most : sets that are looked at; None is all.
     """
     one = _Class(problem, cut, value)
-    best, found, bound = value, None, cut.least
+    best, result, bound = value, None, cut.least
     if not one.coordinates.scatter.size:
         return Exhausted(None, value, bound, False)
     level, left = one.first_level(value), np.inf if most is None else float(most)
@@ -81,19 +81,19 @@ def exhausted(
         while at < one.below(level):
             bound = max(bound, min(level, float(one.least[at])))
             if best - bound <= near or left <= 0 or spent():
-                return Exhausted(found, best, bound, bound >= best)
+                return Exhausted(result, best, bound, bound >= best)
             asked = min(many, one.below(level) - at)
             reached, done, mass = one.look(slice(at, at + asked), level)
             if done == 0 and reached == level:
-                return Exhausted(found, best, bound, False)
+                return Exhausted(result, best, bound, False)
             if reached < level:
-                best, level, found = reached, reached, mass
+                best, level, result = reached, reached, mass
             at, many, left = at + done, min(2 * many, _MANY) if done == asked else max(done, 1), left - done
         bound = max(bound, level)
         if level >= best:
-            return Exhausted(found, best, best, True)
+            return Exhausted(result, best, best, True)
         level = min(cut.least + _RAISED * (level - cut.least), best)
-    return Exhausted(found, best, bound, bound >= best)
+    return Exhausted(result, best, bound, bound >= best)
 
 
 class _Class:
@@ -150,9 +150,9 @@ class _Class:
     def look(self, some: slice, level: float) -> tuple[float, int, Real]:
         """Below a level: the smallest peak of some sets, of how many, and the masses (n,) in the order of the class."""
         sets = Sets(*(each[some] for each in self._scaled))
-        reached, done, found = joined(self._quarters, self._tables, self._window, self._peaks, sets, level, _LOOKED)
-        mass = np.empty_like(found)
-        mass[self._place] = found
+        reached, done, result = joined(self._quarters, self._tables, self._window, self._peaks, sets, level, _LOOKED)
+        mass = np.empty_like(result)
+        mass[self._place] = result
         return float(reached), int(done), mass
 
     def _by_height(self, lever: Real, half: int) -> Sets:

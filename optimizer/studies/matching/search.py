@@ -37,19 +37,19 @@ def searched(problem: Problem, minorants: Minorants, known: Real) -> Real:
 
 def _pairs(problem: Problem) -> np.ndarray:
     """Two places of one class (2, P)."""
-    found = [np.stack(np.triu_indices(part.stop - part.start, 1)) + part.start for part in problem.slices]
-    return np.concatenate(found, axis=1)
+    results = [np.stack(np.triu_indices(part.stop - part.start, 1)) + part.start for part in problem.slices]
+    return np.concatenate(results, axis=1)
 
 
 def _starts(problem: Problem, count: int) -> list[Real]:
     """Assignments (1, T): sorted along the vectors as they are listed, and by chance."""
     listed = problem.listed
-    found = [sorted_masses(problem, problem.vectors(listed))[None]]
+    results = [sorted_masses(problem, problem.vectors(listed))[None]]
     rng = np.random.default_rng(_SEED)
-    found += [
+    results += [
         np.concatenate([rng.permutation(listed[part]) for part in problem.slices])[None] for _ in range(count - 1)
     ]
-    return found[:count]
+    return results[:count]
 
 
 def _swapped(problem: Problem, minorants: Minorants, mass: Real, pairs: np.ndarray, rounds: int) -> Real:

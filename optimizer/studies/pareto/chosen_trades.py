@@ -78,9 +78,9 @@ def chosen_trades(
             infeasibility=ends.why,
         )
     at, bound, size = ends
-    found = [search.point(share @ at, size, (len(points) - n)) for n, share in enumerate(points)]
-    decided = all(not isinstance(each, _Unkept) or each.proven for each in found)
-    kept = _best([each for each in found if isinstance(each, _Chosen)])
+    results = [search.point(share @ at, size, (len(points) - n)) for n, share in enumerate(points)]
+    decided = all(not isinstance(each, _Unkept) or each.proven for each in results)
+    kept = _best([each for each in results if isinstance(each, _Chosen)])
     told = [search.told(each, size) for each in kept]
     close = np.all(np.diag(at) - bound <= max(asked.accuracy.relative_gap, OPTIMUM_SHARE) * size)
     exact = decided and close and all(point.status == "optimal" for point in told)
@@ -119,8 +119,8 @@ class _Search:
 
     def values(self, u: Complex) -> Real:
         """What unbalances (K,) come to (D,)."""
-        found = self.traded.values(u) * self.square
-        return np.where(self._mass, found + self.fixed, found)
+        result = self.traded.values(u) * self.square
+        return np.where(self._mass, result + self.fixed, result)
 
     def ends(self) -> tuple[Real, Real, Real] | _Unkept:
         """Values where each counts first (D, D), what is proven of each by itself (D,), and yardsticks (D,)."""
@@ -130,11 +130,11 @@ class _Search:
         for i, name in enumerate(self.names):
             if name == "mass":
                 continue
-            found = self._optimum({name: 1.0}, self.asked.machine.max_total_mass_kg, self.gap, seconds)
-            if isinstance(found, _Unkept):
-                return found
-            alone[i] = found
-            gross = np.maximum(gross, self.traded.one_by_one(self._unbalance(found.answer)) * self.square)
+            result = self._optimum({name: 1.0}, self.asked.machine.max_total_mass_kg, self.gap, seconds)
+            if isinstance(result, _Unkept):
+                return result
+            alone[i] = result
+            gross = np.maximum(gross, self.traded.one_by_one(self._unbalance(result.answer)) * self.square)
         size = sizes(self.traded.at_rest * self.square, gross)
         for i, name in enumerate(self.names):
             if name == "mass":
@@ -163,12 +163,12 @@ class _Search:
         some = ~self._mass
         yardstick = float(np.max((self.values(self.nothing) / anchor)[some])) or 1.0
         gap = self.gap * float(np.min((size / anchor)[some])) / yardstick
-        found = self._optimum(weights, budget, gap, max(self.until - thread_time(), 0.0) / left)
-        if isinstance(found, _Unkept):
-            return found
-        proven = found.answer.certificate
+        result = self._optimum(weights, budget, gap, max(self.until - thread_time(), 0.0) / left)
+        if isinstance(result, _Unkept):
+            return result
+        proven = result.answer.certificate
         lowest = np.nan if proven is None or proven.lower_bound is None else proven.lower_bound
-        return replace(found, corner=np.where(self._mass, np.nan if budget is None else budget, lowest * anchor))
+        return replace(result, corner=np.where(self._mass, np.nan if budget is None else budget, lowest * anchor))
 
     def told(self, chosen: _Chosen, size: Real) -> TradedPoint:
         """A point with its proof."""
@@ -217,10 +217,10 @@ class _Search:
             if most - least <= self.gap * size or thread_time() >= until:
                 break
             middle = 0.5 * (least + most)
-            found = self._optimum({first: 1.0}, middle, 1.0, until - thread_time())
-            if isinstance(found, _Chosen):
-                best = found
-            elif found.proven:
+            result = self._optimum({first: 1.0}, middle, 1.0, until - thread_time())
+            if isinstance(result, _Chosen):
+                best = result
+            elif result.proven:
                 least = middle
             else:
                 break

@@ -100,12 +100,12 @@ def _point(
     request: OptimizeRequest, scene: Prepared, asked: CountTrade, number: int | None, solver: Solver
 ) -> CountPoint:
     best = (_smallest if asked.least == "objective" else _lightest)(request, scene, solver)
-    found = best.status != "infeasible"
+    result = best.status != "infeasible"
     machine = request.machine
     u = unbalance(best.mass_kg, best.angle_deg, stacked([web.radius_m for web in machine.webs]))
     after = scene.first_order(u)
-    weights = int(np.sum(best.mass_kg[_chosen(machine)] > 0)) if found else None
-    sizes = part_numbers(best.mass_kg[_chosen(machine)]) if found else None
+    weights = int(np.sum(best.mass_kg[_chosen(machine)] > 0)) if result else None
+    sizes = part_numbers(best.mass_kg[_chosen(machine)]) if result else None
     if number is None:
         # where no number limits it, so many as it takes
         used = weights if asked.of in PIECES else sizes
@@ -114,15 +114,15 @@ def _point(
         at_most=number,
         status=best.status,
         status_reason=best.reason,
-        value=best.value if found else None,
-        lower_bound=_or_none(best.lower_bound) if found else None,
-        relative_gap=_or_none(best.relative_gap) if found else None,
+        value=best.value if result else None,
+        lower_bound=_or_none(best.lower_bound) if result else None,
+        relative_gap=_or_none(best.relative_gap) if result else None,
         weights=weights,
         part_numbers=sizes,
-        total_mass_kg=float(np.sum(best.mass_kg)) if found else None,
-        force_peak_N=float(after.force.peak) if found else None,
-        moment_peak_Nm=float(after.moment.peak) if found else None,
-        counterweights=counterweights(machine, best.mass_kg, best.angle_deg) if found else (),
+        total_mass_kg=float(np.sum(best.mass_kg)) if result else None,
+        force_peak_N=float(after.force.peak) if result else None,
+        moment_peak_Nm=float(after.moment.peak) if result else None,
+        counterweights=counterweights(machine, best.mass_kg, best.angle_deg) if result else (),
         nodes=best.nodes,
         method=best.method,
     )

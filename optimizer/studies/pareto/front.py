@@ -92,7 +92,7 @@ def front(trade: Trade, count: int, relative_gap: float, least_mass: bool, solve
     if isinstance(smallest, Unreachable):
         return smallest
     trade, alone = smallest
-    ideal = np.array([_bound(each, found) for each, found in zip(trade.alone, alone, strict=True)])
+    ideal = np.array([_bound(each, result) for each, result in zip(trade.alone, alone, strict=True)])
     proofs = _of_ends(trade, alone)
     size = _size(trade, np.array([one.unbalance for one in alone]))
     try:
@@ -116,25 +116,25 @@ def _smallest(trade: Trade, solver: Solver) -> tuple[Trade, list[Solution]] | Un
     force, moment = (within_reach(program, solver).limits.max_mass for program in trade.alone)
     within = trade.within(np.maximum(force, moment), np.zeros(2))
     for _ in range(_REACHES):
-        found = _alone(within, solver)
-        if isinstance(found, Unreachable):
-            return found
-        u = np.array([one.unbalance for one in found[1]])
+        result = _alone(within, solver)
+        if isinstance(result, Unreachable):
+            return result
+        u = np.array([one.unbalance for one in result[1]])
         peaks = np.max([*trade.peaks(u), _size(trade, u)], axis=0)
         if np.all(peaks <= within.known):
             break
         within = trade.within(np.maximum(within.both.limits.max_mass, trade.reach(_ROOM * peaks)), _ROOM * peaks)
-    return found
+    return result
 
 
 def _alone(trade: Trade, solver: Solver) -> tuple[Trade, list[Solution]] | Unreachable:
-    found: list[Solution] = []
+    results: list[Solution] = []
     for program in trade.alone:
         one = optima(program.alone(), _SHARPNESS, True, solver).one()
         if isinstance(one, Unreachable):
             return one
-        found.append(one)
-    return trade, found
+        results.append(one)
+    return trade, results
 
 
 def _of_ends(trade: Trade, alone: list[Solution]) -> tuple[Multipliers, Multipliers]:
@@ -152,13 +152,13 @@ def _closest(
 ) -> Point:
     """Of the counterweights that make a peak smallest those that come closest to keeping the ceilings."""
     which = min((0, 1), key=lambda each: alone[each].excess)
-    found = alone[which]
+    result = alone[which]
     # its mass is the least of those that make this peak as small, whatever the other
-    limit = np.where(np.arange(2) == which, found.mass_target, trade.peaks(found.unbalance))
+    limit = np.where(np.arange(2) == which, result.mass_target, trade.peaks(result.unbalance))
     of_mass = None
-    if least_mass and found.mass_multipliers is not None:
-        of_mass = trade.of_one(which, found.mass_multipliers.admissible(trade.alone[which]))
-    return Point(found, ideal, proofs[which], of_mass, np.minimum(limit, trade.known))
+    if least_mass and result.mass_multipliers is not None:
+        of_mass = trade.of_one(which, result.mass_multipliers.admissible(trade.alone[which]))
+    return Point(result, ideal, proofs[which], of_mass, np.minimum(limit, trade.known))
 
 
 def _between(
@@ -215,11 +215,11 @@ def _meet(trade: Trade, anchor: Real, unit: Real, least_mass: bool, share: float
     best: Solution | None = None
     program = trade.along(anchor, unit)
     for part in _ALLOWANCES if least_mass else _ALLOWANCES[:1]:
-        found = optima(program.alone(), part * share, least_mass, solver).one()
-        if isinstance(found, Unreachable):
+        result = optima(program.alone(), part * share, least_mass, solver).one()
+        if isinstance(result, Unreachable):
             raise _Undecided
-        if best is None or _mass_gap(found) < _mass_gap(best):
-            best = found
+        if best is None or _mass_gap(result) < _mass_gap(best):
+            best = result
         if _mass_gap(best) <= MASS_GAP:
             break
     assert best is not None
@@ -309,8 +309,8 @@ def _at_end(trade: Trade, end: _End, span: Real, size: Real, share: float, least
     limits = trade.both.limits
 
     def nearest(unit: Real) -> Point:
-        found = _meet(trade, end.peaks, unit, least_mass, _END_SHARE * share, solver)
-        return replace(found, corner=end.corner, proof=end.proof)
+        result = _meet(trade, end.peaks, unit, least_mass, _END_SHARE * share, solver)
+        return replace(result, corner=end.corner, proof=end.proof)
 
     point = nearest(span)
     if not has_dust(limits, point.solution.unbalance):

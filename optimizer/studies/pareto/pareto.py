@@ -114,12 +114,12 @@ def _front(request: ParetoRequest, machine: Machine, scene: Prepared, solver: So
     if request.chosen:
         return _Made(_of_choices(request, machine, scene), time.perf_counter() - start, 0.0)
     traded = trade(machine, request.objective, scene.responses, scene.omega_squared)
-    found = front(traded, request.points, request.accuracy.relative_gap, request.objective.least_mass, solver)
+    result = front(traded, request.points, request.accuracy.relative_gap, request.objective.least_mass, solver)
     solve_s = time.perf_counter() - start
-    if isinstance(found, Unreachable):
-        return _Made(_infeasible(request, machine, solver), solve_s, found.certify_s)
-    certify_s = sum(point.solution.certify_s for point in found.points)
-    return _Made(_certified(request, machine, scene, found), solve_s, certify_s)
+    if isinstance(result, Unreachable):
+        return _Made(_infeasible(request, machine, solver), solve_s, result.certify_s)
+    certify_s = sum(point.solution.certify_s for point in result.points)
+    return _Made(_certified(request, machine, scene, result), solve_s, certify_s)
 
 
 def _of_choices(request: ParetoRequest, machine: Machine, scene: Prepared) -> ParetoFront:

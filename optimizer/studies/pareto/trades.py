@@ -63,8 +63,8 @@ def traded_front(request: ParetoRequest, machine: Machine, scene: Prepared) -> T
         return chosen_trades(asked, names, [*_places(len(names), request.points)], scene)
     turn = whole_turn_of(scene, asked.objective) if asked.objective.of_the_revolution else None
     traded = measures(asked, names, scene, turn)
-    found = _ends(traded)
-    if found is None:
+    result = _ends(traded)
+    if result is None:
         return TradedFront(
             max_total_mass_kg=machine.max_total_mass_kg,
             status="infeasible",
@@ -72,7 +72,7 @@ def traded_front(request: ParetoRequest, machine: Machine, scene: Prepared) -> T
             points=(),
             infeasibility=optimize(asked).infeasibility,
         )
-    ends, smallest, size = found
+    ends, smallest, size = result
     front = _Front(request, machine, scene, traded, size)
     span = np.max(ends, axis=0) - smallest[:, 1]
     together = np.all(span <= _NARROW * size)
@@ -113,12 +113,12 @@ def _ends(traded: Measures) -> tuple[Real, Real, Real] | None:
     for _ in range(2):
         ends, smallest, gross = [], [], np.zeros(size.shape)
         for which in range(len(traded.names)):
-            found = over_turn(traded.first(which, size, _END_SLACK), OPTIMUM_SHARE, False)
-            if isinstance(found, Unkept):
+            result = over_turn(traded.first(which, size, _END_SLACK), OPTIMUM_SHARE, False)
+            if isinstance(result, Unkept):
                 return None
-            ends.append(traded.values(found.point.unbalance))
-            gross = np.maximum(gross, traded.one_by_one(found.point.unbalance))
-            smallest.append((found.goals[0].value, found.goals[0].proof.bound))
+            ends.append(traded.values(result.point.unbalance))
+            gross = np.maximum(gross, traded.one_by_one(result.point.unbalance))
+            smallest.append((result.goals[0].value, result.goals[0].proof.bound))
         known = sizes(traded.at_rest, gross)
         if np.all(known == size):
             break
@@ -134,8 +134,8 @@ def _places(count: int, points: int) -> Real:
     side = 1
     while (side + 2) * (side + 3) // 2 <= points:
         side += 1
-    found = [(i, j, side - i - j) for i in range(side, -1, -1) for j in range(side - i, -1, -1)]
-    return np.array(found) / side
+    results = [(i, j, side - i - j) for i in range(side, -1, -1) for j in range(side - i, -1, -1)]
+    return np.array(results) / side
 
 
 class _Front:
@@ -154,14 +154,14 @@ class _Front:
         least = self.request.objective.least_mass and "mass" not in self.traded.names
         asked = self.request.accuracy.relative_gap
         share = min(1.0, float(np.min(self.size / unit)))
-        found = over_turn(self.traded.along(anchor, unit), share * asked, least)
-        assert isinstance(found, Found)  # the ends have kept the ceilings
-        masses, angles = masses_and_angles(self.machine, found.point.unbalance, found.limits)
-        u = unbalance(masses, angles, found.limits.radius)
+        result = over_turn(self.traded.along(anchor, unit), share * asked, least)
+        assert isinstance(result, Found)  # the ends have kept the ceilings
+        masses, angles = masses_and_angles(self.machine, result.point.unbalance, result.limits)
+        u = unbalance(masses, angles, result.limits.radius)
         values, excess = self.traded.values(u), self.traded.excess(u)
-        bound, rounding = self._bound(found, u, excess)
+        bound, rounding = self._bound(result, u, excess)
         mass = float(np.sum(masses))
-        proof = found.mass_proof
+        proof = result.mass_proof
         judged = verdict(
             Claim(
                 value=values,
@@ -170,14 +170,14 @@ class _Front:
                 yardstick=self.size,
                 excess=np.asarray(excess),
                 mass=np.asarray(mass),
-                mass_resolution=mass_resolution(found.proof.statement, np.ones(1)),
+                mass_resolution=mass_resolution(result.proof.statement, np.ones(1)),
                 mass_lower_bound=np.asarray(0.0 if proof is None else proof.bound) if least else None,
-                contradicted=found.contradicted,
+                contradicted=result.contradicted,
             ),
             asked,
         )
         on_crank = beside(self.machine, masses, angles)
-        plain = self.scene.first_order(unbalance(*on_crank, found.limits.radius))
+        plain = self.scene.first_order(unbalance(*on_crank, result.limits.radius))
         return TradedPoint(
             status="optimal" if judged.status == "optimal" else "inaccurate",
             status_reason=str(judged.reason),
@@ -191,8 +191,8 @@ class _Front:
                 relative_gap=finite_or_null(judged.relative_gap),
                 mass_lower_bound_kg=finite_or_null(judged.mass_lower_bound + self.fixed) if least else None,
                 mass_relative_gap=finite_or_null(judged.mass_gap) if least else None,
-                cuts=found.cuts,
-                rounds=found.rounds,
+                cuts=result.cuts,
+                rounds=result.rounds,
                 method=METHOD,
             ),
         )

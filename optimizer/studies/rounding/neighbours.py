@@ -47,7 +47,7 @@ def sides(machine: Machine, mass_kg: Real, angle_deg: Real, mass_step: float, an
     leader = list(range(len(machine.webs))) if alike is None else list(alike.leader)
     mirrored = [False] * len(leader) if alike is None else list(alike.mirrored)
     problems: list[FieldProblem] = []
-    found = [Sides()] * len(leader)
+    result = [Sides()] * len(leader)
     turns: dict[int, list[int]] = {}  # steps from the own crank, of first webs
     for k, first in enumerate(leader):
         crank = cranks[k]
@@ -68,9 +68,9 @@ def sides(machine: Machine, mass_kg: Real, angle_deg: Real, mass_step: float, an
         fit = tuple(mass for mass in masses if 0.0 < mass <= limit[k])
         signs = (-n if mirrored[k] else n for n in turns.get(first, ()))
         angles = tuple(_decimal((crank + n * angle_step) % 360.0 % 360.0) for n in signs)
-        found[k] = Sides(fit, angles) if fit and angles else Sides()
+        result[k] = Sides(fit, angles) if fit and angles else Sides()
     refuse(problems)
-    return found
+    return result
 
 
 def nearest(every: list[Sides]) -> tuple[Real, Real]:

@@ -17,16 +17,16 @@ def orders(given: CrankOrders) -> Real:
     if given.alike:
         # the first of them begins with the first angle
         rest = arrangements(times - np.eye(times.size, dtype=np.int64)[0], int(np.sum(times)) - 1, given.looked_through)
-        found = None if rest is None else np.concatenate([np.zeros((len(rest), 1), dtype=np.int64), rest], axis=1)
+        result = None if rest is None else np.concatenate([np.zeros((len(rest), 1), dtype=np.int64), rest], axis=1)
     else:
-        found = arrangements(times, int(np.sum(times)), given.looked_through)
-    assert found is not None  # there are no more than are looked through
-    own = _code(found, times.size)
+        result = arrangements(times, int(np.sum(times)), given.looked_through)
+    assert result is not None  # there are no more than are looked through
+    own = _code(result, times.size)
     for symmetry in given.symmetries:
-        image = np.array(symmetry.image)[found]
+        image = np.array(symmetry.image)[result]
         first = own <= _code(image[:, ::-1] if symmetry.reversed else image, times.size)
-        found, own = found[first], own[first]
-    angles: Real = np.array(given.angles_deg)[found]
+        result, own = result[first], own[first]
+    angles: Real = np.array(given.angles_deg)[result]
     return angles
 
 

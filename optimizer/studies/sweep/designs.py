@@ -52,12 +52,12 @@ def permuted(index: Indices, count: int, seed: int, axis: int) -> Indices:
     """
     bits = max((count - 1).bit_length(), _FEWEST_BITS)
     keys = Philox(key=[seed, 2 * axis + 1]).random_raw(_ROUNDS)
-    found = _feistel(index.astype(np.uint64), bits, keys)
-    outside = np.flatnonzero(found >= count)
+    result = _feistel(index.astype(np.uint64), bits, keys)
+    outside = np.flatnonzero(result >= count)
     while outside.size:
-        found[outside] = _feistel(found[outside], bits, keys)
-        outside = outside[found[outside] >= count]
-    return found.astype(np.int64)
+        result[outside] = _feistel(result[outside], bits, keys)
+        outside = outside[result[outside] >= count]
+    return result.astype(np.int64)
 
 
 def uniform(start: int, stop: int, seed: int, axis: int) -> Real:

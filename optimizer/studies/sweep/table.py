@@ -45,13 +45,13 @@ def result_table(columns: Mapping[str, Any], schema: pa.Schema) -> pa.Table:
 @cache
 def versions() -> dict[str, str]:
     """Versions of what computes the rows."""
-    found = {"python": platform.python_version(), "counterweight": package_version()}
+    results = {"python": platform.python_version(), "counterweight": package_version()}
     for package in _PACKAGES:
         try:
-            found[package] = version(package)
+            results[package] = version(package)
         except PackageNotFoundError:
-            found[package] = "not installed as a package"
-    return found
+            results[package] = "not installed as a package"
+    return results
 
 
 def _array(column: Any, kind: pa.DataType) -> pa.Array:

@@ -85,6 +85,6 @@ def analyzed(request: AnalyzeRequest, answer: AnalyzeAnswer) -> Iterator[Chapter
 def outputs(machine: Machine, answer: OutputFields) -> Iterator[Chapter]:
     """A chapter for every output that was asked for, but for first order and stages, which have their own places."""
     for name, chapter in CHAPTERS.items():
-        found = getattr(answer, name)
-        if found is not None:
-            yield chapter(machine, found)
+        result = getattr(answer, name)
+        if result is not None:
+            yield chapter(machine, result)

@@ -9,12 +9,12 @@ from service.report.blocks import Chapter, Paragraph, angle, table
 
 def balance_quality(machine: Machine, answer: OptimizeAnswer | AnalyzeAnswer) -> Iterator[Chapter]:
     """Nothing where none is asked for."""
-    found, asked = answer.balance_quality, machine.balance_quality
-    if found is None or asked is None:
+    result, asked = answer.balance_quality, machine.balance_quality
+    if result is None or asked is None:
         return
-    gradings = [("without counterweights", found.before)]
-    if found.after is not None:
-        gradings.append(("with counterweights", found.after))
+    gradings = [("without counterweights", result.before)]
+    if result.after is not None:
+        gradings.append(("with counterweights", result.after))
     rows = [
         (what, name, plane.position_m, plane.permissible_kg_m, plane.unbalance_kg_m, angle(plane.angle_deg))
         for what, grading in gradings

@@ -40,8 +40,8 @@ def versions() -> dict[str, str]:
 
 def body(request: ReportRequest) -> dict[str, Any]:
     """The request as it was read; what is the document's own only where it is given."""
-    found = request.model_dump(mode="json")
-    return {name: value for name, value in found.items() if name not in _DOCUMENTS or name in request.model_fields_set}
+    result = request.model_dump(mode="json")
+    return {name: value for name, value in result.items() if name not in _DOCUMENTS or name in request.model_fields_set}
 
 
 def _given(request: ReportRequest) -> dict[str, Any]:

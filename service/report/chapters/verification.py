@@ -43,12 +43,12 @@ class Check(NamedTuple):
 def check(request: OptimizeRequest, answer: OptimizeAnswer) -> Check:
     """The claims of the answer to a request."""
     try:
-        found = verify(
+        result = verify(
             VerifyRequest(request=request.model_dump(mode="json"), answer=json.loads(answer.model_dump_json()))
         )
     except InvalidRequest:
         return Check(None, digest(answer), request.outputs)
-    return Check(found, digest(answer), request.outputs)
+    return Check(result, digest(answer), request.outputs)
 
 
 def digest(answer: OptimizeAnswer) -> str:

@@ -51,9 +51,9 @@ def point(
     claimed : objective that the program sees, scaled.
     """
     webs = scaling.reach.size
-    found = ScaledSolution(v[:webs], v[webs : 2 * webs], row, term, ceiling, "")
-    unbalance = statement.limits.into(scaling.unbalance(statement, found))
-    return Point(unbalance, scaling.multipliers(statement, found), claimed * scaling.objective)
+    result = ScaledSolution(v[:webs], v[webs : 2 * webs], row, term, ceiling, "")
+    unbalance = statement.limits.into(scaling.unbalance(statement, result))
+    return Point(unbalance, scaling.multipliers(statement, result), claimed * scaling.objective)
 
 
 def exact(statement: Statement, tolerance: float, time_limit_s: float) -> Point | NoPoint:
@@ -64,9 +64,9 @@ def exact(statement: Statement, tolerance: float, time_limit_s: float) -> Point 
     tolerance : of the solver; ceilings are lowered by the same share.
     """
     data, scaling = scaled(statement, tolerance)
-    found = solved(data, tolerance, time_limit_s)
-    if isinstance(found, NoPoint):
-        return found
-    claimed = float(np.sum(found.level) + np.sum(statement.largest(statement.floor)) / scaling.objective)
-    unbalance = statement.limits.into(scaling.unbalance(statement, found.solution))
-    return Point(unbalance, scaling.multipliers(statement, found.solution), claimed * scaling.objective)
+    result = solved(data, tolerance, time_limit_s)
+    if isinstance(result, NoPoint):
+        return result
+    claimed = float(np.sum(result.level) + np.sum(statement.largest(statement.floor)) / scaling.objective)
+    unbalance = statement.limits.into(scaling.unbalance(statement, result.solution))
+    return Point(unbalance, scaling.multipliers(statement, result.solution), claimed * scaling.objective)

@@ -93,10 +93,10 @@ def sampled(
     add_discs(program, data)
     cost = np.zeros(program.columns)
     cost[first:] = 1.0
-    found = program.solve(cost, _TOLERANCE, time_limit_s)
-    if isinstance(found, NoPoint):
-        return found
-    v, dual = found
+    result = program.solve(cost, _TOLERANCE, time_limit_s)
+    if isinstance(result, NoPoint):
+        return result
+    v, dual = result
     at_angles = [vector_duals(dual[rows]) for rows in objective]
     # each peak is a row of its own under "max"; its share is what its angles have of the multipliers
     row = np.array([np.sum(np.abs(each)) for each in at_angles]) if together else np.ones(1)
