@@ -13,7 +13,7 @@ from service.fairness.table import Share
 #: whoever waits and has had no turn for so long is before all who have had less [s]
 PATIENCE_S = 2.0
 #: who had a turn, or wanted several, for a larger share of the last seconds asks without end
-_NOW_AND_THEN = 2 / 3
+_NOW_AND_THEN = 0.5
 
 
 class Full(Exception):
@@ -75,7 +75,7 @@ class FairQueue:
     last place to one of whom fewer wait.
 
     Little is at most half of an equal share of the cores that turns are for, among all owners who have a turn or wait.
-    And for a third of the time at least, the owner had no turn and wanted one at most. On a full machine, owners who ask
+    And for half of the time at least, the owner had no turn and wanted one at most. On a full machine, owners who ask
     without end may be given as little of a core as one who asks now and then. But they have a turn or want several all
     the time, so they leave those turns to him. What the busiest had is no measure: beside one whose computations are
     long, all others would have had little.
