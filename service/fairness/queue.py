@@ -12,8 +12,8 @@ from service.fairness.table import Share
 
 #: whoever waits and has had no turn for so long is before all who have had less [s]
 PATIENCE_S = 2.0
-#: who had a turn or waited for a larger share of the last seconds asks without end
-_NOW_AND_THEN = 2 / 3
+#: who had a turn, or wanted several, for a larger share of the last seconds asks without end
+_NOW_AND_THEN = 0.5
 
 
 class Full(Exception):
@@ -75,10 +75,10 @@ class FairQueue:
     last place to one of whom fewer wait.
 
     Little is at most half of an equal share of the cores that turns are for, among all owners who have a turn or wait.
-    And for a third of the time at least, the owner had no turn and waited for none. On a machine that is full, owners
-    who ask without end may be given as little of a core as one who asks now and then. But they wait all the time, so
-    they leave those turns to him. What the busiest had is no measure: beside one whose computations are long, all
-    others would have had little.
+    And for half of the time at least, the owner had no turn and wanted one at most. On a full machine, owners who ask
+    without end may be given as little of a core as one who asks now and then. But they have a turn or want several all
+    the time, so they leave those turns to him. What the busiest had is no measure: beside one whose computations are
+    long, all others would have had little.
 
     Parameters
     ----------
@@ -93,8 +93,10 @@ class FairQueue:
         self._places = places
         self._clock = clock
         self._accounts, self._loads = Accounts(clock), Loads(clock)
-        # the share of the last seconds for which owners had a turn or waited
-        self._presence = Loads(clock)
+        # the share of the last seconds for which owners had a turn or wanted several, and who does now: to wait for one
+        # is no pressure, else who waits once would wait ever longer
+        self._pressure = Loads(clock)
+        self._pressing: set[str] = set()
         self._running: Counter[str] = Counter()
         self._above = 0
         #: set while anybody waits
@@ -134,7 +136,7 @@ class FairQueue:
             self._leave(turn)
         if turn.owner in self._accounts and not self._running[turn.owner] and turn.owner not in self._waiting:
             self._accounts.go(turn.owner)
-            self._presence.end(turn.owner, 0.0, 0.0)
+        self._weigh(turn.owner)
         if self._waiting:
             self._go_on()
 
@@ -145,7 +147,6 @@ class FairQueue:
         turn.wanted = True
         if turn.owner not in self._accounts:
             self._accounts.come(turn.owner)
-            self._presence.take(turn.owner)
         # whoever waits may not begin, so nobody is overtaken
         if self._may_begin(turn):
             self._begin(turn)
@@ -164,6 +165,7 @@ class FairQueue:
             self._waiting[turn.owner] = deque()
             self._since[turn.owner] = self._clock()
         self._waiting[turn.owner].append(turn)
+        self._weigh(turn.owner)
         self.crowded.set()
 
     def _may_begin(self, turn: Turn) -> bool:
@@ -173,7 +175,7 @@ class FairQueue:
         if self._running[owner]:
             return False
         owners = {*self._running, *self._waiting, owner}
-        now_and_then = self._presence.of(owner) <= _NOW_AND_THEN
+        now_and_then = self._pressure.of(owner) <= _NOW_AND_THEN
         return now_and_then and self._loads.of(owner) <= 0.5 * self.size / len(owners)
 
     def _is_free(self) -> bool:
@@ -185,7 +187,17 @@ class FairQueue:
         self._running[turn.owner] += 1
         self._accounts.take(turn.owner, 1)
         self._loads.take(turn.owner)
+        self._weigh(turn.owner)
         turn.decided.set()
+
+    def _weigh(self, owner: str) -> None:
+        presses = self._running[owner] > 0 or len(self._waiting.get(owner, ())) > 1
+        if presses and owner not in self._pressing:
+            self._pressing.add(owner)
+            self._pressure.take(owner)
+        elif not presses and owner in self._pressing:
+            self._pressing.remove(owner)
+            self._pressure.end(owner, 0.0, 0.0)
 
     def _leave(self, turn: Turn) -> None:
         place = self._waiting.get(turn.owner)

@@ -324,6 +324,18 @@ def test_a_bystander_never_waits_for_owners_who_ask_without_end(each: int, long_
     play(FairQueue(2, 100, 64), story)
 
 
+def test_who_waited_once_does_not_wait_ever_longer() -> None:
+    async def story(asked: Asked) -> None:
+        # all turns are those of others who are new, for three seconds in which he waits
+        for name in ("a0", "b0", "c0", "d0", "a1", "b1", "a2", "b2", "z0"):
+            await asked.ask(name)
+        assert asked.begun == ["a0", "b0", "c0", "d0"]
+        await asked.end("c0", after_s=3.0)
+        assert asked.begun[4:] == ["z0"]
+
+    play(FairQueue(2, 100, 64), story)
+
+
 @pytest.mark.parametrize(("slow", "theirs_s"), [(1.0, 0.1), (2.0, 0.1), (3.0, 0.1), (1.0, 0.004), (3.0, 0.004)])
 def test_a_bystander_of_six_never_waits_on_a_machine_with_other_work(slow: float, theirs_s: float) -> None:
     """His turns last several times as long as they compute, as everybody's do: that is not what he had.
