@@ -121,11 +121,20 @@ def praised(answer: Answer) -> Answer:
     return found
 
 
+def exchanged(answer: Answer) -> Answer:
+    """What is on the first web is said to be on the last, and the other way round."""
+    found = copy.deepcopy(answer)
+    first, last = found["counterweights"][0], found["counterweights"][-1]
+    first["web"], last["web"] = last["web"], first["web"]
+    return found
+
+
 #: every way, and the one that takes the answer of another kind
 WAYS: dict[str, Callable[[Answer], Answer]] = {
     each.__name__: each
     for each in (
         idle, out_of_reach, twice, missing, without_proof, with_empty_proof, closed, turned, heavier, praised,
+        exchanged,
     )
 }  # fmt: skip
 KINDS = tuple(one for one in names() if one not in ("front", "sweep", "matching") and "infeasible" not in one)
@@ -136,7 +145,8 @@ def fabricated(name: str) -> Iterator[tuple[str, Any, Any]]:
     request, answer = pair(name)
     fitted = any(one["mass_kg"] > 0 and not one["fixed"] for one in answer["counterweights"])
     for way, change in WAYS.items():
-        if fitted or way not in ("idle", "turned", "heavier"):
+        several = len(answer["counterweights"]) > 1
+        if (fitted or way not in ("idle", "turned", "heavier")) and (several or way != "exchanged"):
             yield way, request, change(answer)
     _, other = pair(KINDS[KINDS.index(name) - 1])
     yield "another", request, other

@@ -10,6 +10,8 @@ Path = tuple[str | int, ...]
 Outcome = Literal["caught", "named", "rounding", "missed"]
 #: share of the largest figure of the same unit below which one is what rounding leaves
 _DUST = 1e-9
+#: m: with which the forces make a moment that others cancel
+_ARM = 0.1
 WAYS = ("x1.001", "x0.999", "x1000", "0", "sign", "swap", "deletion")
 
 
@@ -106,8 +108,12 @@ def _dust(answer: Any, path: Path) -> bool:
         return False
     here = at(answer, path[:-1])
     kind = "_Nm" if "moment" in path or any(str(part).startswith("couple") for part in path) else "_N"
-    figures = (one for one in numbers(answer["residual"], ("residual",)) if str(one[-1]).endswith(kind))
-    largest = max(abs(at(answer, one)) for one in figures)
+    sizes_of = {"_N": 1.0 if kind == "_N" else _ARM, "_Nm": 1.0 if kind == "_Nm" else 0.0}
+    figures = [
+        (one, sizes_of.get("_" + str(one[-1]).rpartition("_")[2], 0.0))
+        for one in numbers(answer["residual"], ("residual",))
+    ]
+    largest = max(arm * abs(at(answer, one)) for one, arm in figures)
     value = at(answer, path)
     if str(path[-1]).endswith("_deg"):
         # along what is smallest of it: one of both phasors, or the phasor itself
@@ -128,4 +134,4 @@ def silent() -> tuple[str, ...]:
     from sys import modules
 
     checker()
-    return (*modules["verify_leaves"].REMARKS, "multipliers", "implied_max_mass_kg")
+    return (*modules["verify_leaves"].REMARKS, "multipliers", "nominal_multipliers", "implied_max_mass_kg")
