@@ -7,7 +7,7 @@ Force and moment have four real dimensions, in which so many sums lie close toge
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import combinations, islice
 from typing import NamedTuple
 
@@ -76,8 +76,9 @@ def offer_light_sets(
     used = used_slots(light)
     if not used:
         return
+    better = _Nearer(incumbent, clock)
     if incumbent.options.limits_parts:
-        _PartSizes(incumbent, light, used, incumbent.options.most_parts or 0, enough, clock).run()
+        _PartSizes(incumbent, light, used, incumbent.options.most_parts or 0, better, enough, clock).run()
         return
     for one in _PASSES:
         for which in neighbourhoods(incumbent.options, light, one.near, one.many, one.others, one.several):
@@ -86,7 +87,7 @@ def offer_light_sets(
             exhaust(incumbent.options, which, incumbent, one.sums, _PAIRS, clock)
 
     # few sizes are few sums, and where any may be used they are among them
-    _PartSizes(incumbent, light, used, _SIZES, enough, clock).run()
+    _PartSizes(incumbent, light, used, _SIZES, better, enough, clock).run()
 
     def close(slot: int) -> np.ndarray:
         options, chosen = incumbent.options, incumbent.chosen
@@ -96,6 +97,40 @@ def offer_light_sets(
         return np.unique(np.concatenate([*near, _light(options, slot, _CLOSE // 2)]))
 
     _improve(incumbent, incumbent.options, close, enough, clock)
+
+
+class _Nearer(NamedTuple):
+    """Sets that come nearer to what no masses undercut."""
+
+    incumbent: Incumbent
+    clock: Clock
+
+    def found(self, options: Options, which: list[np.ndarray], sums: int) -> bool:
+        """Whether one of some options of every slot (K) does."""
+        before = self.incumbent.least
+        exhaust(options, which, self.incumbent, sums, _PAIRS, self.clock)
+        return self.incumbent.least < before - self.incumbent.resolution
+
+
+@dataclass
+class _Lighter:
+    """Sets that are lighter and no worse than a limit."""
+
+    incumbent: Incumbent
+    chosen: np.ndarray  # (K,) the lightest so far
+    limit: float  # of the objective
+    clock: Clock
+
+    def found(self, options: Options, which: list[np.ndarray], sums: int) -> bool:
+        """Whether one of some options of every slot (K) is."""
+        mass = float(np.sum(options.of(options.mass, self.chosen)))
+        light = lighter(
+            self.incumbent.statement, options, which, self.limit, mass, self.clock, most_pairs=_PAIRS
+        ).chosen
+        if light is None:
+            return False
+        self.chosen = light
+        return True
 
 
 def _improve(
@@ -124,16 +159,24 @@ def _improve(
         left = _PATIENCE if incumbent.least < before - incumbent.resolution else left - 1
 
 
-def lightest_near(incumbent: Incumbent, limit: float, clock: Clock) -> np.ndarray:
+def lightest_near(incumbent: Incumbent, relaxed: Complex, limit: float, clock: Clock) -> np.ndarray:
     """A light set (K,) near to the best one, no worse than a limit: some slots change at a time, and each by itself.
+
+    Of few part numbers other sizes are tried before.
 
     Parameters
     ----------
+    relaxed : (K,) kg m of first webs, an optimum of any masses.
     limit : of the objective.
     """
     options, statement = incumbent.options, incumbent.statement
     assert incumbent.chosen is not None
     chosen, chance = _lightened(incumbent, incumbent.chosen, limit), np.random.default_rng(_SEED)
+    used = used_slots(light := _lightest(statement, relaxed)) if options.limits_parts else []
+    if used:
+        sizes = _Lighter(incumbent, chosen, limit, clock)
+        _PartSizes(incumbent, light, used, options.most_parts or 0, sizes, lambda: False, clock).run()
+        chosen = _lightened(incumbent, sizes.chosen, limit)
     free, several = np.flatnonzero(np.sum(options.exists, axis=-1) > 1), 4 if options.limits_parts else 6
     for _ in range(_LIGHTER if free.size else 0):
         if clock.spent():
@@ -247,10 +290,11 @@ class _PartSizes:
         light: Complex,
         used: list[int],
         most: int,
+        better: "_Nearer | _Lighter",
         enough: Callable[[], bool],
         clock: Clock,
     ) -> None:
-        self.incumbent, self.most, self.enough, self.clock = incumbent, most, enough, clock
+        self.incumbent, self.most, self.better, self.enough, self.clock = incumbent, most, better, enough, clock
         options = incumbent.options
         self.used = sorted(used, key=lambda k: -abs(light[k]))
         self.light, self.near = light, options.nearest(light)
@@ -291,7 +335,8 @@ class _PartSizes:
             while moved is not None and not self._over():
                 sizes, small = moved
                 moved = self._moved(sizes, small, trims, sums)
-        _improve(self.incumbent, self.loose, self._in_use, self.enough, self.clock)
+        if isinstance(self.better, _Nearer):
+            _improve(self.incumbent, self.loose, self._in_use, self.enough, self.clock)
 
     def _in_use(self, slot: int) -> np.ndarray:
         """Nothing, and the options of a slot of the sizes that the best set has."""
@@ -316,7 +361,7 @@ class _PartSizes:
 
     def _better(self, main: Sizes, small: int, most_trims: int = _TRIMS, sums: int = _TRIED) -> bool:
         """Whether slots of the optimum with the main sizes, and others with the small one, make a better set."""
-        before = self.incumbent.least
+        found = False
         for trims in self.trims:
             which = [np.array([0]) for _ in range(self.incumbent.options.slots)]
             for k in self.used:
@@ -328,8 +373,8 @@ class _PartSizes:
                 if _half_of(which) * np.sqrt(some.size) <= sums:
                     which[k] = some
             if not self._over():
-                exhaust(self.loose, which, self.incumbent, max(_SUMS, sums), _PAIRS, self.clock)
-        return self.incumbent.least < before - self.incumbent.resolution
+                found |= self.better.found(self.loose, which, max(_SUMS, sums))
+        return found
 
     def _closest(self, slot: int, some: np.ndarray) -> np.ndarray:
         """Of some options of a slot the one nearest to the optimum."""

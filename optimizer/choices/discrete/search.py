@@ -120,7 +120,7 @@ def search(
     if closed and gap > 0 and known.below is None:
         # all within the asked gap are as good, and what is light is cheap
         light = Clock(min(clock.left_s, _LIGHTER * time_limit_s))
-        return replace(found, chosen=lightest_near(incumbent, bound + gap, light))
+        return replace(found, chosen=lightest_near(incumbent, relaxed, bound + gap, light))
     return found
 
 
