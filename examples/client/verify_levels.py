@@ -48,8 +48,12 @@ def levels(
 def _goal(place: Place, found: Range, rest: Range, allowance: float) -> Claims:
     """One of the machine."""
     value, off = (place / "value").double(), WIDE * rest.high
-    wide = max(allowance, ALLOWANCE) * rest.high
-    yield within("goals", place / "limit", max(value, found.low), value + wide, off)
+    wide, low = max(allowance, ALLOWANCE) * rest.high, max(value, found.low)
+    if rest.low <= 0 and (place / "limit").double() >= low - off:
+        # where all cancels an allowance is a share of what counterweights could make of it
+        yield "goals", place / "limit", None, ONE
+    else:
+        yield within("goals", place / "limit", low, value + wide, off)
     lowest = place / "lower_bound"
     above = value - lowest.double() + off if lowest else 0.0
     yield "goals", place / "value", ONE if above >= 0 else -ONE, ONE

@@ -28,6 +28,7 @@ from tests.optimize.choices import (
 )
 from tests.studies.sweep.single import assert_row_is_the_single_answer, sweep, table
 from tests.verification.checking import optimized
+from tests.verification.every import unchecked
 
 WEIGHTS = {"bearing_weight": 1, "force_weight": 0.5, "moment_weight": 2.0}
 
@@ -209,7 +210,8 @@ def test_a_goal_below_its_bound_contradicts(monkeypatch: pytest.MonkeyPatch) -> 
         return picked, replace(found, lower_bound=2.0 * found.lower_bound) if first else found
 
     monkeypatch.setattr(certified_choice, "in_rounds", above)
-    answer = optimize(OptimizeRequest.model_validate(asked(twin(), **in_order("bearings", "external"))))
+    # the limit of the first goal is counted from the wrong bound
+    answer = unchecked(optimize)(OptimizeRequest.model_validate(asked(twin(), **in_order("bearings", "external"))))
     assert (answer.status, answer.status_reason) == ("inaccurate", CONTRADICTED)
     assert answer.certificate is not None
     assert [goal.lower_bound for goal in answer.certificate.goals] == [None]

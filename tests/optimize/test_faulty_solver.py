@@ -15,16 +15,17 @@ from optimizer.program.reference.assembled import Assembled, NoPoint, solved
 from optimizer.program.scaled_program import ScaledSolution
 from optimizer.program.verdict import CONTRADICTED
 from schemas.answer.answers import Certificate, OptimizeAnswer
-from schemas.request.requests import AnalyzeRequest
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from tests.optimize.whole_turn import ALONE, asked, one_throw
+from tests.verification.every import unchecked
 
 #: published for a rod ratio of 1/3: the largest load with and without the best counterweights, N
 _SMALLEST, _AT_REST = 0.346038, 1.0 + 1.0 / 6.0
 _EXTERNAL_FIRST = [{"goal": "external", "allowance": 0.5}, {"goal": "bearings"}]
 
 
-def _answer(**objective: Any) -> OptimizeAnswer:
-    return optimize(asked(one_throw(3.0), bearing_weight=1, **objective))
+def _answer(compute: Callable[[OptimizeRequest], OptimizeAnswer] = optimize, **objective: Any) -> OptimizeAnswer:
+    return compute(asked(one_throw(3.0), bearing_weight=1, **objective))
 
 
 def _proof(found: OptimizeAnswer) -> Certificate:
@@ -57,7 +58,8 @@ def test_a_solver_that_finds_nothing_leaves_what_rest_proves(
 
 def test_a_ceiling_below_a_floor_needs_no_solver_to_be_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cut_stage, "solved", lambda *_, **__: NoPoint("not solved within 5 s"))
-    found = _answer(**ALONE, bearing_ceiling_N=0.1)
+    # the smallest force and moment are as far from their bounds as that solver leaves them
+    found = _answer(unchecked(optimize), **ALONE, bearing_ceiling_N=0.1)
     assert found.status == "infeasible"
     assert found.infeasibility is not None
     assert found.infeasibility.conflict == ("bearing_ceiling_N",)
@@ -139,7 +141,8 @@ def test_a_bound_above_its_value_is_a_fault_that_is_said(
 ) -> None:
     """Never clipped: nothing is proven, and it is logged, which is what counts faults."""
     _raised(monkeypatch, wrong)
-    found = _answer(least_mass=False, **objective)
+    # the limit of a goal is counted from the wrong bound
+    found = _answer(unchecked(optimize), least_mass=False, **objective)
     assert (found.status, found.status_reason) == ("inaccurate", CONTRADICTED)
     proof = _proof(found)
     assert proof.lower_bound is proof.gap is proof.relative_gap is None
