@@ -71,7 +71,11 @@ def _cost(name: str, place: Place, answer: Place, fitted: Fitted, last: bool) ->
     """What castings cost: their mass, with those fixed, their number or their sizes, without."""
     proof, chosen = answer / "certificate", [one for one in answer / "counterweights" if not (one / "fixed").value]
     masses = sorted((one / "mass_kg").double() for one in chosen if (one / "mass_kg").double() > 0)
-    comes_to = {"mass": float(fitted.mass), "pieces": float(len(masses)), "sizes": float(_sizes(masses))}[name]
+    comes_to = {
+        "mass": float(fitted.mass + fitted.on_shafts_mass),
+        "pieces": float(len(masses)),
+        "sizes": float(_sizes(masses)),
+    }[name]
     value, limit = (place / "value").double(), (place / "limit").double()
     off = SAME * comes_to
     yield "goals", place / "limit", real(min(limit - comes_to, limit - value) + off), ONE

@@ -30,6 +30,7 @@ ONCE_WRONG: Sequence[Combination] = (
     ("twin", ("few counterweights", "all fixed")),
     ("twin", ("masses of a catalogue", "fixed")),
     ("vee", ("least fitted", "least mass false", "bending weight")),
+    ("twin", ("external, then mass", "balance shaft backwards")),
 )
 
 
