@@ -26,6 +26,7 @@ def expected() -> "object":
     return run_chunk(request.model_dump_json().encode(), 0, request.total)
 
 
+@pytest.mark.nightly
 def test_kills_at_random_moments(tmp_path: Path) -> None:
     # a hundred, of longer sweeps: python -m tests.jobs.kills. A hundred chunks take 20 s, and no life lasts as long
     sweeps, midway = kill(tmp_path, kills=4, seed=7, longest_s=0.5, kills_of_one=2, body=analyses(20, 320))

@@ -232,14 +232,16 @@ class _Search:
         """The best choice for the largest of the responses times their weights."""
         machine = self.asked.machine.model_copy(update={"max_total_mass_kg": budget})
         answer = optimize(
-            OptimizeRequest(
-                machine=machine,
-                objective=self._weighing(weights),
-                accuracy=Accuracy(
-                    relative_gap=min(max(gap, _LEAST_GAP), 1.0),
-                    time_limit_s=min(max(seconds, _LEAST_TIME), self.seconds),
-                ),
-                fidelity=self.asked.fidelity,
+            # by a copy: a budget below what is fixed is no legal request
+            self.asked.model_copy(
+                update={
+                    "machine": machine,
+                    "objective": self._weighing(weights),
+                    "accuracy": Accuracy(
+                        relative_gap=min(max(gap, _LEAST_GAP), 1.0),
+                        time_limit_s=min(max(seconds, _LEAST_TIME), self.seconds),
+                    ),
+                }
             )
         )
         if not isinstance(answer.certificate, Certificate):

@@ -48,19 +48,19 @@ def count_front(request: ParetoRequest, machine: Machine, scene: Prepared, solve
     asked, half = request.counts, 0.5 * request.accuracy.time_limit_s
     assert asked is not None  # else it would be another front
 
-    def limited(within: Machine, seconds: float) -> OptimizeRequest:
-        accuracy = Accuracy(relative_gap=request.accuracy.relative_gap, time_limit_s=max(seconds, 1e-3))
-        return OptimizeRequest(
-            machine=within, objective=request.objective, accuracy=accuracy, fidelity=request.fidelity
-        )
-
-    lacking = list(missing(limited(machine, half)))
+    whole = OptimizeRequest(
+        machine=machine, objective=request.objective, accuracy=request.accuracy, fidelity=request.fidelity
+    )
+    lacking = list(missing(whole))
     if lacking:
         raise MissingInput(lacking)
 
     def point(number: int | None, seconds: float) -> CountPoint:
         within = machine if number is None else at_most(machine, asked.of, number)
-        return _point(limited(within, seconds), scene, asked, number, solver)
+        accuracy = Accuracy(relative_gap=request.accuracy.relative_gap, time_limit_s=max(seconds, 1e-3))
+        # by a copy: fewer counterweights than sizes are no legal request
+        limited = whole.model_copy(update={"machine": within, "accuracy": accuracy})
+        return _point(limited, scene, asked, number, solver)
 
     # what is limited by no number says how many are of any use; it may take half of the time, and the others the other
     points = [point(None, half)]

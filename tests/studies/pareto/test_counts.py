@@ -283,3 +283,14 @@ def test_what_the_whole_turn_needs_is_named() -> None:
     with pytest.raises(MissingInput) as refused:
         front(choices.asked(machine, bearing_weight=1), "weights", "objective")
     assert [problem.path for problem in refused.value.problems] == [("machine", "bearings")]
+
+
+def test_fewer_counterweights_than_sizes_are_counted_too() -> None:
+    """Analytic: with no counterweight, and with one, there is no second size to leave out."""
+    asked = body(90.0, counts={"of": "pieces", "least": "objective"}, points=3)
+    free = pareto(ParetoRequest.model_validate(asked)).counts[0].points
+    asked["machine"]["catalogue"]["max_part_numbers"] = 2
+    two = pareto(ParetoRequest.model_validate(asked)).counts[0].points
+    assert two[0].at_most == 0
+    assert two[0].value == free[0].value
+    assert all((one.part_numbers or 0) <= 2 for one in two)
