@@ -7,7 +7,7 @@ Force and moment have four real dimensions, in which so many sums lie close toge
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import combinations, islice
 from typing import NamedTuple
 
@@ -15,6 +15,7 @@ import numpy as np
 
 from optimizer.choices.discrete.clock import Clock
 from optimizer.choices.discrete.halves import exhaust
+from optimizer.choices.discrete.light_sizes import LightSizes
 from optimizer.choices.discrete.lightest import lighter
 from optimizer.choices.discrete.options import Incumbent, Options
 from optimizer.numerics.arrays import Complex, Real
@@ -112,27 +113,6 @@ class _Nearer(NamedTuple):
         return self.incumbent.least < before - self.incumbent.resolution
 
 
-@dataclass
-class _Lighter:
-    """Sets that are lighter and no worse than a limit."""
-
-    incumbent: Incumbent
-    chosen: np.ndarray  # (K,) the lightest so far
-    limit: float  # of the objective
-    clock: Clock
-
-    def found(self, options: Options, which: list[np.ndarray], sums: int) -> bool:
-        """Whether one of some options of every slot (K) is."""
-        mass = float(np.sum(options.of(options.mass, self.chosen)))
-        light = lighter(
-            self.incumbent.statement, options, which, self.limit, mass, self.clock, most_pairs=_PAIRS
-        ).chosen
-        if light is None:
-            return False
-        self.chosen = light
-        return True
-
-
 def _improve(
     incumbent: Incumbent,
     options: Options,
@@ -174,9 +154,8 @@ def lightest_near(incumbent: Incumbent, relaxed: Complex, limit: float, clock: C
     chosen, chance = _lightened(incumbent, incumbent.chosen, limit), np.random.default_rng(_SEED)
     used = used_slots(light := _lightest(statement, relaxed)) if options.limits_parts else []
     if used:
-        sizes = _Lighter(incumbent, chosen, limit, clock)
-        _PartSizes(incumbent, light, used, options.most_parts or 0, sizes, lambda: False, clock).run()
-        chosen = _lightened(incumbent, sizes.chosen, limit)
+        chosen = LightSizes(statement, options, limit, clock).below(chosen, light, used)
+        chosen = _lightened(incumbent, chosen, limit)
     free, several = np.flatnonzero(np.sum(options.exists, axis=-1) > 1), 4 if options.limits_parts else 6
     for _ in range(_LIGHTER if free.size else 0):
         if clock.spent():
@@ -290,7 +269,7 @@ class _PartSizes:
         light: Complex,
         used: list[int],
         most: int,
-        better: "_Nearer | _Lighter",
+        better: _Nearer,
         enough: Callable[[], bool],
         clock: Clock,
     ) -> None:
@@ -335,8 +314,7 @@ class _PartSizes:
             while moved is not None and not self._over():
                 sizes, small = moved
                 moved = self._moved(sizes, small, trims, sums)
-        if isinstance(self.better, _Nearer):
-            _improve(self.incumbent, self.loose, self._in_use, self.enough, self.clock)
+        _improve(self.incumbent, self.loose, self._in_use, self.enough, self.clock)
 
     def _in_use(self, slot: int) -> np.ndarray:
         """Nothing, and the options of a slot of the sizes that the best set has."""

@@ -25,8 +25,8 @@ _SUMS, _PAIRS = 20_000_000, 3_000_000
 _FEW_SUMS, _COORDINATES = 10_000, 4
 #: share of the time for light sets near the optimum of any masses; where part numbers are few no tree closes soon
 _LIGHT, _LIGHT_OF_PARTS = 0.4, 0.7
-#: share of the time for lighter sets that are as good as asked
-_LIGHTER = 0.1
+#: share of the time for lighter sets that are as good as asked; of few part numbers many sizes are tried
+_LIGHTER, _LIGHTER_OF_PARTS = 0.1, 0.3
 #: how long neighbourhoods are tried before a tree, and the nodes of that, whose roundings are better sooner
 _SEARCHES = ((0, 1), (0, 1_200.0), (6, np.inf))
 
@@ -119,7 +119,8 @@ def search(
     found = _found(incumbent, bound, nodes, TREE, closed and gap < 0, ended)
     if closed and gap > 0 and known.below is None:
         # all within the asked gap are as good, and what is light is cheap
-        light = Clock(min(clock.left_s, _LIGHTER * time_limit_s))
+        share = _LIGHTER_OF_PARTS if options.limits_parts else _LIGHTER
+        light = Clock(min(clock.left_s, share * time_limit_s))
         return replace(found, chosen=lightest_near(incumbent, relaxed, bound + gap, light))
     return found
 

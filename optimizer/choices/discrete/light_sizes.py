@@ -1,0 +1,149 @@
+"""Lighter sets of few part numbers: main sizes and a small one change together.
+
+A main size of a step more or less leaves another residual, which small castings of another size cancel. So neither is
+moved alone. Slots of the optimum take the options nearest to it, which are few; the others take any of the small size.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import product
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.discrete.lightest import lighter
+from optimizer.choices.discrete.options import Options
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.statement import Statement
+
+#: options of a slot of the optimum that are tried, and steps of the main sizes
+_NEAR, _STEPS = 7, (0, 1, -1, 2, -2)
+#: smallest sizes that are tried beside them, and how many castings of these a set has, about and at least
+_SMALL, _TRIMS, _FEWEST = 12, 4, 2
+#: sums of a half, and pairs of them, that are compared
+_SUMS, _PAIRS = 130_000, 60_000
+#: main sizes of which every one has steps of its own
+_APART = 2
+
+
+class Sizes(NamedTuple):
+    """Main sizes and a small one, by their places in the order of masses."""
+
+    main: tuple[int, ...]
+    small: int
+
+
+class LightSizes:
+    """Sets of few part numbers near to some unbalances, no worse than a limit."""
+
+    def __init__(self, statement: Statement, options: Options, limit: float, clock: Clock) -> None:
+        """``limit``: of the objective."""
+        self.statement, self.options, self.limit, self.clock = statement, options, limit, clock
+        # what is left of the choice by its sizes is not to be counted again
+        self.loose = replace(options, most_parts=None)
+        parts = np.unique(options.part[options.exists & (options.part >= 0)])
+        mass = np.array([np.min(options.mass[options.part == part]) for part in parts])
+        order = np.argsort(mass, kind="stable")
+        self.parts, self.mass = parts[order], mass[order]
+
+    def below(self, chosen: np.ndarray, about: Complex, used: list[int]) -> np.ndarray:
+        """A set (K,) that is lighter than the one that is known, or that one.
+
+        Parameters
+        ----------
+        about : (K,) kg m of first webs, to which the slots of the main sizes are near.
+        used : these slots.
+        """
+        near = self.options.nearest(about)
+        own = np.array([self._nearest(float(self.options.mass[k, near[k]])) for k in used])
+        middles, tried = self._middles(own), set[Sizes]()
+        while middles and not self.clock.spent():
+            sizes = [one for one in self._about(middles) if one not in tried]
+            tried.update(sizes)
+            before, chosen = chosen, self._lightest(chosen, sizes, about, used)
+            # what was better may be better still a step farther
+            middles = set() if chosen is before else {self._of(chosen)}
+        return chosen
+
+    def _lightest(self, chosen: np.ndarray, several: list[Sizes], about: Complex, used: list[int]) -> np.ndarray:
+        """A lighter set of some sizes than the one that is known, or that one: the lightest sizes first."""
+        mass = self._mass(chosen)
+        main = [len(used) * float(self.mass[sizes.main[0]]) for sizes in several]
+        small = [float(self.mass[sizes.small]) for sizes in several]
+        for n in np.argsort(np.array(main) + _TRIMS * np.array(small), kind="stable").tolist():
+            if main[n] + _FEWEST * small[n] >= mass:
+                continue
+            for which in self._options(several[n], about, used):
+                if self.clock.spent():
+                    return chosen
+                light = lighter(
+                    self.statement, self.loose, which, self.limit, mass, self.clock, most_pairs=_PAIRS
+                ).chosen
+                if light is not None:
+                    chosen, mass = light, self._mass(light)
+        return chosen
+
+    def _middles(self, own: np.ndarray) -> set[tuple[int, ...]]:
+        """Main sizes of slots of the optimum, in as many heaps as there may be sizes or one fewer."""
+        most = self.options.most_parts or 0
+        found = set()
+        for number in range(max(most - 1, 1), most + 1):
+            heaps = [heap for heap in np.array_split(np.sort(self.mass[own]), number) if heap.size]
+            found.add(tuple(sorted({self._nearest(float(np.mean(heap))) for heap in heaps})))
+        return found
+
+    def _of(self, chosen: np.ndarray) -> tuple[int, ...]:
+        """Sizes of a set."""
+        parts = self.options.of(self.options.part, chosen)
+        return tuple(np.flatnonzero(np.isin(self.parts, parts)).tolist())
+
+    def _about(self, middles: set[tuple[int, ...]]) -> list[Sizes]:
+        """Main sizes near to some, with a small one where there may be another."""
+        found = set[Sizes]()
+        for middle in middles:
+            apart = len(middle) <= _APART
+            steps = product(_STEPS, repeat=len(middle)) if apart else ((step,) * len(middle) for step in _STEPS)
+            for step in steps:
+                main = tuple(sorted({size + more for size, more in zip(middle, step, strict=True)}))
+                if not 0 <= main[0] <= main[-1] < self.mass.size:
+                    continue
+                fewer = len(main) < (self.options.most_parts or 0)
+                found.update(Sizes(main, small) for small in (range(min(_SMALL, main[0])) if fewer else (main[0],)))
+        return sorted(found)
+
+    def _options(self, sizes: Sizes, about: Complex, used: list[int]) -> Iterator[list[np.ndarray]]:
+        """Options of every slot (K): near ones of those of the optimum, small ones of as many others as can be."""
+        main = {k: self._close(k, {*sizes.main, sizes.small}, complex(about[k])) for k in used}
+        rest = [k for k in range(self.options.slots) if k not in main]
+        small = {k: self._of_sizes(k, {sizes.small}) for k in rest}
+        # every second first: trims on either end
+        for order in (rest[::2] + rest[1::2], rest[1::2] + rest[::2]):
+            which = [main.get(k, np.array([0])) for k in range(self.options.slots)]
+            whole = True
+            for k in order:
+                if np.prod([float(some.size) for some in which]) * small[k].size <= float(_SUMS) ** 2:
+                    which[k] = small[k]
+                else:
+                    whole = False
+            yield which
+            if whole:
+                break
+
+    def _close(self, slot: int, sizes: set[int], about: complex) -> np.ndarray:
+        """Nothing, and of the options of a slot that have some sizes those nearest to an unbalance."""
+        some = self._of_sizes(slot, sizes)
+        off = np.abs(self.options.unbalance[slot, some] - about)
+        return np.union1d([0], some[np.argsort(off, kind="stable")[:_NEAR]])
+
+    def _of_sizes(self, slot: int, sizes: set[int]) -> np.ndarray:
+        """Nothing, and the options of a slot that have some sizes."""
+        options, parts = self.options, self.parts[list(sizes)]
+        return np.union1d([0], np.flatnonzero(options.exists[slot] & np.isin(options.part[slot], parts)))
+
+    def _mass(self, chosen: np.ndarray) -> float:
+        return float(np.sum(self.options.of(self.options.mass, chosen)))
+
+    def _nearest(self, mass: float) -> int:
+        masses: Real = self.mass
+        return int(np.argmin(np.abs(masses - mass)))
