@@ -39,6 +39,8 @@ _MAIN = 3
 _SHARES, _STEPS = (0.025, 0.05, 0.075, 0.1, 0.15, 0.2, 0.3, 0.5), (1, -1, 2, -2, 4, -4)
 #: options near to what a slot takes and to the optimum, where four slots change; changes in a row that lead nowhere
 _CLOSE, _PATIENCE = 30, 40
+#: share of the time of few part numbers in which sizes are tried for a light set that is as good as asked
+_FIRST = 0.4
 #: times that some slots change for less mass
 _LIGHTER = 24
 _SEED = 20_261_123
@@ -62,8 +64,28 @@ class Pass(NamedTuple):
 _PASSES = (Pass(40, 200, 2, 28, _SUMS), Pass(40, 100, 4, 4, 500_000), Pass(20, 50, 6, 2, 4_000_000))
 
 
+def light_sizes(statement: Statement, options: Options, relaxed: Complex) -> LightSizes | None:
+    """Sets of few part numbers near to the lightest optimum of any masses; None where these are not few.
+
+    Parameters
+    ----------
+    relaxed : (K,) kg m of first webs, an optimum of any masses.
+    """
+    if not options.limits_parts:
+        return None
+    light = _lightest(statement, relaxed)
+    used = used_slots(light)
+    return LightSizes(statement, options, light, used) if used else None
+
+
 def offer_light_sets(
-    incumbent: Incumbent, below: Statement, relaxed: Complex, enough: Callable[[], bool], clock: Clock
+    incumbent: Incumbent,
+    below: Statement,
+    relaxed: Complex,
+    enough: Callable[[], bool],
+    clock: Clock,
+    sizes: LightSizes | None,
+    limit: float,
 ) -> None:
     """Offer the sets that are found so.
 
@@ -72,6 +94,8 @@ def offer_light_sets(
     below : the incumbent's program, or one of fewer rows that is nowhere above it.
     relaxed : (K,) kg m of first webs, an optimum of any masses.
     enough : whether the best set is as good as asked.
+    sizes : of few part numbers, what is tried first for a set that is as good.
+    limit : of the objective of such a set.
     """
     light = _lightest(below, relaxed)
     used = used_slots(light)
@@ -79,6 +103,9 @@ def offer_light_sets(
         return
     better = _Nearer(incumbent, clock)
     if incumbent.options.limits_parts:
+        chosen = None if sizes is None else sizes.below(None, limit, Clock(_FIRST * clock.left_s))
+        if chosen is not None:
+            incumbent.offer(chosen[None])
         _PartSizes(incumbent, light, used, incumbent.options.most_parts or 0, better, enough, clock).run()
         return
     for one in _PASSES:
@@ -139,23 +166,19 @@ def _improve(
         left = _PATIENCE if incumbent.least < before - incumbent.resolution else left - 1
 
 
-def lightest_near(incumbent: Incumbent, relaxed: Complex, limit: float, clock: Clock) -> np.ndarray:
+def lightest_near(incumbent: Incumbent, limit: float, clock: Clock, sizes: LightSizes | None) -> np.ndarray:
     """A light set (K,) near to the best one, no worse than a limit: some slots change at a time, and each by itself.
-
-    Of few part numbers other sizes are tried before.
 
     Parameters
     ----------
-    relaxed : (K,) kg m of first webs, an optimum of any masses.
     limit : of the objective.
+    sizes : of few part numbers, what is tried before.
     """
     options, statement = incumbent.options, incumbent.statement
     assert incumbent.chosen is not None
     chosen, chance = _lightened(incumbent, incumbent.chosen, limit), np.random.default_rng(_SEED)
-    used = used_slots(light := _lightest(statement, relaxed)) if options.limits_parts else []
-    if used:
-        chosen = LightSizes(statement, options, limit, clock).below(chosen, light, used)
-        chosen = _lightened(incumbent, chosen, limit)
+    light = None if sizes is None else sizes.below(chosen, limit, clock)
+    chosen = chosen if light is None else _lightened(incumbent, light, limit)
     free, several = np.flatnonzero(np.sum(options.exists, axis=-1) > 1), 4 if options.limits_parts else 6
     for _ in range(_LIGHTER if free.size else 0):
         if clock.spent():

@@ -35,56 +35,66 @@ class Sizes(NamedTuple):
 
 
 class LightSizes:
-    """Sets of few part numbers near to some unbalances, no worse than a limit."""
+    """Sets of few part numbers near to an optimum of any masses, no worse than a limit."""
 
-    def __init__(self, statement: Statement, options: Options, limit: float, clock: Clock) -> None:
-        """``limit``: of the objective."""
-        self.statement, self.options, self.limit, self.clock = statement, options, limit, clock
+    def __init__(self, statement: Statement, options: Options, light: Complex, used: list[int]) -> None:
+        """
+        Parameters
+        ----------
+        light : (K,) kg m of first webs, the optimum.
+        used : slots that it uses, one at least.
+        """
+        self.statement, self.options, self.light, self.used = statement, options, light, used
         # what is left of the choice by its sizes is not to be counted again
         self.loose = replace(options, most_parts=None)
         parts = np.unique(options.part[options.exists & (options.part >= 0)])
         mass = np.array([np.min(options.mass[options.part == part]) for part in parts])
         order = np.argsort(mass, kind="stable")
         self.parts, self.mass = parts[order], mass[order]
+        self.limit, self.clock = -np.inf, Clock(0.0)
+        self.chosen: np.ndarray | None = None
+        self.tried = set[Sizes]()
 
-    def below(self, chosen: np.ndarray, about: Complex, used: list[int]) -> np.ndarray:
-        """A set (K,) that is lighter than the one that is known, or that one.
+    def below(self, chosen: np.ndarray | None, limit: float, clock: Clock) -> np.ndarray | None:
+        """The lightest set (K,) that is known; None where none is.
 
         Parameters
         ----------
-        about : (K,) kg m of first webs, to which the slots of the main sizes are near.
-        used : these slots.
+        chosen : one that keeps the limit, if it is known.
+        limit : of the objective. Sizes that were tried for no less are not tried again.
         """
-        near = self.options.nearest(about)
-        own = np.array([self._nearest(float(self.options.mass[k, near[k]])) for k in used])
-        middles, tried = self._middles(own), set[Sizes]()
-        while middles and not self.clock.spent():
-            sizes = [one for one in self._about(middles) if one not in tried]
-            tried.update(sizes)
-            before, chosen = chosen, self._lightest(chosen, sizes, about, used)
+        if limit > self.limit:
+            self.tried.clear()
+        self.limit, self.clock = limit, clock
+        if self.chosen is None or (chosen is not None and self._mass(chosen) < self._mass(self.chosen)):
+            self.chosen = chosen
+        near = self.options.nearest(self.light)
+        middles = self._middles([self._nearest(float(self.options.mass[k, near[k]])) for k in self.used])
+        while middles and not clock.spent():
+            before = self.chosen
+            self._try([one for one in self._about(middles) if one not in self.tried])
             # what was better may be better still a step farther
-            middles = set() if chosen is before else {self._of(chosen)}
-        return chosen
+            middles = set() if self.chosen is None or self.chosen is before else {self._of(self.chosen)}
+        return self.chosen
 
-    def _lightest(self, chosen: np.ndarray, several: list[Sizes], about: Complex, used: list[int]) -> np.ndarray:
-        """A lighter set of some sizes than the one that is known, or that one: the lightest sizes first."""
-        mass = self._mass(chosen)
-        main = [len(used) * float(self.mass[sizes.main[0]]) for sizes in several]
+    def _try(self, several: list[Sizes]) -> None:
+        """Look for a lighter set of some sizes, the lightest of them first."""
+        main = [len(self.used) * float(self.mass[sizes.main[0]]) for sizes in several]
         small = [float(self.mass[sizes.small]) for sizes in several]
         for n in np.argsort(np.array(main) + _TRIMS * np.array(small), kind="stable").tolist():
-            if main[n] + _FEWEST * small[n] >= mass:
-                continue
-            for which in self._options(several[n], about, used):
-                if self.clock.spent():
-                    return chosen
-                light = lighter(
-                    self.statement, self.loose, which, self.limit, mass, self.clock, most_pairs=_PAIRS
-                ).chosen
-                if light is not None:
-                    chosen, mass = light, self._mass(light)
-        return chosen
+            mass = np.inf if self.chosen is None else self._mass(self.chosen)
+            if main[n] + _FEWEST * small[n] < mass:
+                for which in self._options(several[n]):
+                    if self.clock.spent():
+                        return
+                    light = lighter(
+                        self.statement, self.loose, which, self.limit, mass, self.clock, most_pairs=_PAIRS
+                    ).chosen
+                    if light is not None:
+                        self.chosen, mass = light, self._mass(light)
+            self.tried.add(several[n])
 
-    def _middles(self, own: np.ndarray) -> set[tuple[int, ...]]:
+    def _middles(self, own: list[int]) -> set[tuple[int, ...]]:
         """Main sizes of slots of the optimum, in as many heaps as there may be sizes or one fewer."""
         most = self.options.most_parts or 0
         found = set()
@@ -112,9 +122,9 @@ class LightSizes:
                 found.update(Sizes(main, small) for small in (range(min(_SMALL, main[0])) if fewer else (main[0],)))
         return sorted(found)
 
-    def _options(self, sizes: Sizes, about: Complex, used: list[int]) -> Iterator[list[np.ndarray]]:
+    def _options(self, sizes: Sizes) -> Iterator[list[np.ndarray]]:
         """Options of every slot (K): near ones of those of the optimum, small ones of as many others as can be."""
-        main = {k: self._close(k, {*sizes.main, sizes.small}, complex(about[k])) for k in used}
+        main = {k: self._close(k, {*sizes.main, sizes.small}) for k in self.used}
         rest = [k for k in range(self.options.slots) if k not in main]
         small = {k: self._of_sizes(k, {sizes.small}) for k in rest}
         # every second first: trims on either end
@@ -130,10 +140,10 @@ class LightSizes:
             if whole:
                 break
 
-    def _close(self, slot: int, sizes: set[int], about: complex) -> np.ndarray:
-        """Nothing, and of the options of a slot that have some sizes those nearest to an unbalance."""
+    def _close(self, slot: int, sizes: set[int]) -> np.ndarray:
+        """Nothing, and of the options of a slot that have some sizes those nearest to the optimum."""
         some = self._of_sizes(slot, sizes)
-        off = np.abs(self.options.unbalance[slot, some] - about)
+        off = np.abs(self.options.unbalance[slot, some] - self.light[slot])
         return np.union1d([0], some[np.argsort(off, kind="stable")[:_NEAR]])
 
     def _of_sizes(self, slot: int, sizes: set[int]) -> np.ndarray:
