@@ -51,6 +51,8 @@ class LightSizes:
         mass = np.array([np.min(options.mass[options.part == part]) for part in parts])
         order = np.argsort(mass, kind="stable")
         self.parts, self.mass = parts[order], mass[order]
+        near = options.nearest(light)
+        self.own = np.sort([float(options.mass[k, near[k]]) for k in used])
         self.limit, self.clock = -np.inf, Clock(0.0)
         self.chosen: np.ndarray | None = None
         self.tried = set[Sizes]()
@@ -63,44 +65,61 @@ class LightSizes:
         chosen : one that keeps the limit, if it is known.
         limit : of the objective. Sizes that were tried for no less are not tried again.
         """
-        if limit > self.limit:
+        if self.chosen is not None and self._value(self.chosen) > limit:
+            self.chosen = None
+        if limit > self.limit or self.chosen is None:
             self.tried.clear()
         self.limit, self.clock = limit, clock
         if self.chosen is None or (chosen is not None and self._mass(chosen) < self._mass(self.chosen)):
             self.chosen = chosen
-        near = self.options.nearest(self.light)
-        middles = self._middles([self._nearest(float(self.options.mass[k, near[k]])) for k in self.used])
-        while middles and not clock.spent():
-            before = self.chosen
-            self._try([one for one in self._about(middles) if one not in self.tried])
-            # what was better may be better still a step farther
-            middles = set() if self.chosen is None or self.chosen is before else {self._of(self.chosen)}
+        first = self._middles()
+        middles, step = first, 1
+        while not clock.spent():
+            if self._improved(self._about(middles, step)):
+                # what was better may be better still farther on
+                assert self.chosen is not None
+                middles, step = {self._of(self.chosen)}, 2 * step
+            elif step > 1:
+                step = 1
+            elif middles != first:
+                middles = first
+            else:
+                break
         return self.chosen
 
-    def _try(self, several: list[Sizes]) -> None:
-        """Look for a lighter set of some sizes, the lightest of them first."""
-        main = [len(self.used) * float(self.mass[sizes.main[0]]) for sizes in several]
-        small = [float(self.mass[sizes.small]) for sizes in several]
-        for n in np.argsort(np.array(main) + _TRIMS * np.array(small), kind="stable").tolist():
-            mass = np.inf if self.chosen is None else self._mass(self.chosen)
-            if main[n] + _FEWEST * small[n] < mass:
-                for which in self._options(several[n]):
-                    if self.clock.spent():
-                        return
-                    light = lighter(
-                        self.statement, self.loose, which, self.limit, mass, self.clock, most_pairs=_PAIRS
-                    ).chosen
-                    if light is not None:
-                        self.chosen, mass = light, self._mass(light)
-            self.tried.add(several[n])
+    def _improved(self, several: list[Sizes]) -> bool:
+        """Look for a lighter set of some sizes, what is likely to be lightest first; whether one was found."""
+        before = self.chosen
+        mass = np.inf if before is None else self._mass(before)
+        for sizes in sorted((one for one in several if one not in self.tried), key=self._likely):
+            least = len(self.used) * float(self.mass[sizes.main[0]]) + _FEWEST * float(self.mass[sizes.small])
+            for which in self._options(sizes) if least < mass else ():
+                if self.clock.spent():
+                    return self.chosen is not before
+                light = lighter(
+                    self.statement, self.loose, which, self.limit, mass, self.clock, most_pairs=_PAIRS
+                ).chosen
+                if light is not None:
+                    self.chosen, mass = light, self._mass(light)
+            self.tried.add(sizes)
+            if self.chosen is not before:
+                return True
+        return False
 
-    def _middles(self, own: list[int]) -> set[tuple[int, ...]]:
-        """Main sizes of slots of the optimum, in as many heaps as there may be sizes or one fewer."""
-        most = self.options.most_parts or 0
-        found = set()
-        for number in range(max(most - 1, 1), most + 1):
-            heaps = [heap for heap in np.array_split(np.sort(self.mass[own]), number) if heap.size]
-            found.add(tuple(sorted({self._nearest(float(np.mean(heap))) for heap in heaps})))
+    def _likely(self, sizes: Sizes) -> float:
+        """About what a set of some sizes weighs, kg: those nearest to the optimum, and some castings of a small one."""
+        main = self.mass[list(sizes.main)]
+        own = main[np.argmin(np.abs(self.own[:, None] - main), axis=-1)]
+        return float(np.sum(own)) + _TRIMS * float(self.mass[sizes.small]) * (sizes.small < sizes.main[0])
+
+    def _middles(self) -> set[tuple[int, ...]]:
+        """Main sizes of slots of the optimum, in one heap fewer than there may be sizes, or in as many."""
+        most, found = self.options.most_parts or 0, set()
+        for number in (most - 1, most):
+            # that few slots are as many heaps helps nothing: all others would be trimmed by a main size
+            if number >= 1 and (number < most or most == 1 or self.own.size > most):
+                heaps = [heap for heap in np.array_split(self.own, number) if heap.size]
+                found.add(tuple(sorted({self._nearest(float(np.mean(heap))) for heap in heaps})))
         return found
 
     def _of(self, chosen: np.ndarray) -> tuple[int, ...]:
@@ -108,15 +127,16 @@ class LightSizes:
         parts = self.options.of(self.options.part, chosen)
         return tuple(np.flatnonzero(np.isin(self.parts, parts)).tolist())
 
-    def _about(self, middles: set[tuple[int, ...]]) -> list[Sizes]:
-        """Main sizes near to some, with a small one where there may be another."""
+    def _about(self, middles: set[tuple[int, ...]], far: int) -> list[Sizes]:
+        """Main sizes so far from some, with a small one where there may be another."""
         found = set[Sizes]()
         for middle in middles:
             apart = len(middle) <= _APART
             steps = product(_STEPS, repeat=len(middle)) if apart else ((step,) * len(middle) for step in _STEPS)
             for step in steps:
-                main = tuple(sorted({size + more for size, more in zip(middle, step, strict=True)}))
-                if not 0 <= main[0] <= main[-1] < self.mass.size:
+                main = tuple(sorted({size + far * more for size, more in zip(middle, step, strict=True)}))
+                # of no castings there are no sizes
+                if not main or not 0 <= main[0] <= main[-1] < self.mass.size:
                     continue
                 fewer = len(main) < (self.options.most_parts or 0)
                 found.update(Sizes(main, small) for small in (range(min(_SMALL, main[0])) if fewer else (main[0],)))
@@ -153,6 +173,9 @@ class LightSizes:
 
     def _mass(self, chosen: np.ndarray) -> float:
         return float(np.sum(self.options.of(self.options.mass, chosen)))
+
+    def _value(self, chosen: np.ndarray) -> float:
+        return float(self.statement.objective(self.options.carried(chosen)))
 
     def _nearest(self, mass: float) -> int:
         masses: Real = self.mass
