@@ -14,7 +14,7 @@ import numpy as np
 
 from optimizer.choices.catalogue import Catalogue
 from optimizer.choices.catalogue_options import part_numbers
-from optimizer.choices.discrete.ample import neighbourhoods, offer_light_sets
+from optimizer.choices.discrete.ample import light_sizes, neighbourhoods, offer_light_sets
 from optimizer.choices.discrete.clock import Clock
 from optimizer.choices.discrete.exchange import start
 from optimizer.choices.discrete.lightest import lighter, lightest
@@ -279,7 +279,8 @@ class Costs:
         about = about if options.alike is None else options.alike.means(about)
         start(incumbent, about[None])
         if incumbent.chosen is not None:
-            offer_light_sets(incumbent, statement, about, lambda: incumbent.least <= level, clock)
+            sizes = light_sizes(statement, options, about) if np.isfinite(level) else None
+            offer_light_sets(incumbent, statement, about, lambda: incumbent.least <= level, clock, sizes, level)
             self.offer(choices.picked(incumbent.chosen, COMPARED))
 
     def _lightest(self, level: float, seconds: float) -> float:

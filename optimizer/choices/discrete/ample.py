@@ -7,7 +7,7 @@ Force and moment have four real dimensions, in which so many sums lie close toge
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import combinations, islice
 from typing import NamedTuple
 
@@ -15,6 +15,7 @@ import numpy as np
 
 from optimizer.choices.discrete.clock import Clock
 from optimizer.choices.discrete.halves import exhaust
+from optimizer.choices.discrete.light_sizes import LightSizes
 from optimizer.choices.discrete.lightest import lighter
 from optimizer.choices.discrete.options import Incumbent, Options
 from optimizer.numerics.arrays import Complex, Real
@@ -38,6 +39,8 @@ _MAIN = 3
 _SHARES, _STEPS = (0.025, 0.05, 0.075, 0.1, 0.15, 0.2, 0.3, 0.5), (1, -1, 2, -2, 4, -4)
 #: options near to what a slot takes and to the optimum, where four slots change; changes in a row that lead nowhere
 _CLOSE, _PATIENCE = 30, 40
+#: share of the time of few part numbers in which sizes are tried for a light set that is as good as asked
+_FIRST = 0.4
 #: times that some slots change for less mass
 _LIGHTER = 24
 _SEED = 20_261_123
@@ -61,8 +64,28 @@ class Pass(NamedTuple):
 _PASSES = (Pass(40, 200, 2, 28, _SUMS), Pass(40, 100, 4, 4, 500_000), Pass(20, 50, 6, 2, 4_000_000))
 
 
+def light_sizes(statement: Statement, options: Options, relaxed: Complex) -> LightSizes | None:
+    """Sets of few part numbers near to the lightest optimum of any masses; None where these are not few.
+
+    Parameters
+    ----------
+    relaxed : (K,) kg m of first webs, an optimum of any masses.
+    """
+    if not options.limits_parts:
+        return None
+    light = _lightest(statement, relaxed)
+    used = used_slots(light)
+    return LightSizes(statement, options, light, used) if used else None
+
+
 def offer_light_sets(
-    incumbent: Incumbent, below: Statement, relaxed: Complex, enough: Callable[[], bool], clock: Clock
+    incumbent: Incumbent,
+    below: Statement,
+    relaxed: Complex,
+    enough: Callable[[], bool],
+    clock: Clock,
+    sizes: LightSizes | None,
+    limit: float,
 ) -> None:
     """Offer the sets that are found so.
 
@@ -71,6 +94,8 @@ def offer_light_sets(
     below : the incumbent's program, or one of fewer rows that is nowhere above it.
     relaxed : (K,) kg m of first webs, an optimum of any masses.
     enough : whether the best set is as good as asked.
+    sizes : of few part numbers, what is tried first for a set that is as good.
+    limit : of the objective of such a set.
     """
     light = _lightest(below, relaxed)
     used = used_slots(light)
@@ -78,6 +103,9 @@ def offer_light_sets(
         return
     better = _Nearer(incumbent, clock)
     if incumbent.options.limits_parts:
+        chosen = None if sizes is None else sizes.below(None, limit, Clock(_FIRST * clock.left_s))
+        if chosen is not None:
+            incumbent.offer(chosen[None])
         _PartSizes(incumbent, light, used, incumbent.options.most_parts or 0, better, enough, clock).run()
         return
     for one in _PASSES:
@@ -112,27 +140,6 @@ class _Nearer(NamedTuple):
         return self.incumbent.least < before - self.incumbent.resolution
 
 
-@dataclass
-class _Lighter:
-    """Sets that are lighter and no worse than a limit."""
-
-    incumbent: Incumbent
-    chosen: np.ndarray  # (K,) the lightest so far
-    limit: float  # of the objective
-    clock: Clock
-
-    def found(self, options: Options, which: list[np.ndarray], sums: int) -> bool:
-        """Whether one of some options of every slot (K) is."""
-        mass = float(np.sum(options.of(options.mass, self.chosen)))
-        light = lighter(
-            self.incumbent.statement, options, which, self.limit, mass, self.clock, most_pairs=_PAIRS
-        ).chosen
-        if light is None:
-            return False
-        self.chosen = light
-        return True
-
-
 def _improve(
     incumbent: Incumbent,
     options: Options,
@@ -159,24 +166,19 @@ def _improve(
         left = _PATIENCE if incumbent.least < before - incumbent.resolution else left - 1
 
 
-def lightest_near(incumbent: Incumbent, relaxed: Complex, limit: float, clock: Clock) -> np.ndarray:
+def lightest_near(incumbent: Incumbent, limit: float, clock: Clock, sizes: LightSizes | None) -> np.ndarray:
     """A light set (K,) near to the best one, no worse than a limit: some slots change at a time, and each by itself.
-
-    Of few part numbers other sizes are tried before.
 
     Parameters
     ----------
-    relaxed : (K,) kg m of first webs, an optimum of any masses.
     limit : of the objective.
+    sizes : of few part numbers, what is tried before.
     """
     options, statement = incumbent.options, incumbent.statement
     assert incumbent.chosen is not None
     chosen, chance = _lightened(incumbent, incumbent.chosen, limit), np.random.default_rng(_SEED)
-    used = used_slots(light := _lightest(statement, relaxed)) if options.limits_parts else []
-    if used:
-        sizes = _Lighter(incumbent, chosen, limit, clock)
-        _PartSizes(incumbent, light, used, options.most_parts or 0, sizes, lambda: False, clock).run()
-        chosen = _lightened(incumbent, sizes.chosen, limit)
+    light = None if sizes is None else sizes.below(chosen, limit, clock)
+    chosen = chosen if light is None else _lightened(incumbent, light, limit)
     free, several = np.flatnonzero(np.sum(options.exists, axis=-1) > 1), 4 if options.limits_parts else 6
     for _ in range(_LIGHTER if free.size else 0):
         if clock.spent():
@@ -290,7 +292,7 @@ class _PartSizes:
         light: Complex,
         used: list[int],
         most: int,
-        better: "_Nearer | _Lighter",
+        better: _Nearer,
         enough: Callable[[], bool],
         clock: Clock,
     ) -> None:
@@ -335,8 +337,7 @@ class _PartSizes:
             while moved is not None and not self._over():
                 sizes, small = moved
                 moved = self._moved(sizes, small, trims, sums)
-        if isinstance(self.better, _Nearer):
-            _improve(self.incumbent, self.loose, self._in_use, self.enough, self.clock)
+        _improve(self.incumbent, self.loose, self._in_use, self.enough, self.clock)
 
     def _in_use(self, slot: int) -> np.ndarray:
         """Nothing, and the options of a slot of the sizes that the best set has."""

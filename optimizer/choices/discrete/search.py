@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.choices.discrete.ample import lightest_near, offer_light_sets
+from optimizer.choices.discrete.ample import light_sizes, lightest_near, offer_light_sets
 from optimizer.choices.discrete.branch import Tree, branch
 from optimizer.choices.discrete.clock import Clock
 from optimizer.choices.discrete.exchange import neighbourhoods, start
@@ -25,8 +25,8 @@ _SUMS, _PAIRS = 20_000_000, 3_000_000
 _FEW_SUMS, _COORDINATES = 10_000, 4
 #: share of the time for light sets near the optimum of any masses; where part numbers are few no tree closes soon
 _LIGHT, _LIGHT_OF_PARTS = 0.4, 0.7
-#: share of the time for lighter sets that are as good as asked
-_LIGHTER = 0.1
+#: share of the time for lighter sets that are as good as asked; of few part numbers many sizes are tried
+_LIGHTER, _LIGHTER_OF_PARTS = 0.1, 0.3
 #: how long neighbourhoods are tried before a tree, and the nodes of that, whose roundings are better sooner
 _SEARCHES = ((0, 1), (0, 1_200.0), (6, np.inf))
 
@@ -100,6 +100,8 @@ def search(
         return incumbent.least - at_least <= gap
 
     light: Clock | None = None
+    # over the turn and where all equals count nothing is made lighter
+    sizes = light_sizes(statement, options, relaxed) if known.below is None and gap > 0 else None
     for patience, most_nodes in _SEARCHES:
         neighbourhoods(incumbent, relaxed, patience, enough, half)
         tree = branch(options, incumbent, at_least, gap, lambda bound: False, clock, most_nodes, below)
@@ -108,7 +110,7 @@ def search(
         ample = tree.nodes == 1 and tree.lower_bound <= floor + gap
         if light is None and (ample or options.limits_parts or most_nodes > 1):
             light = Clock((_LIGHT_OF_PARTS if options.limits_parts else _LIGHT) * time_limit_s)
-            offer_light_sets(incumbent, below, relaxed, enough, light)
+            offer_light_sets(incumbent, below, relaxed, enough, light, sizes, at_least + gap)
         if ample:
             quarters(incumbent, enough, half)
         bound = min(at_least, incumbent.least)
@@ -119,8 +121,9 @@ def search(
     found = _found(incumbent, bound, nodes, TREE, closed and gap < 0, ended)
     if closed and gap > 0 and known.below is None:
         # all within the asked gap are as good, and what is light is cheap
-        light = Clock(min(clock.left_s, _LIGHTER * time_limit_s))
-        return replace(found, chosen=lightest_near(incumbent, relaxed, bound + gap, light))
+        share = _LIGHTER_OF_PARTS if options.limits_parts else _LIGHTER
+        light = Clock(min(clock.left_s, share * time_limit_s))
+        return replace(found, chosen=lightest_near(incumbent, bound + gap, light, sizes))
     return found
 
 
