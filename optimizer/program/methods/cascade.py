@@ -114,6 +114,8 @@ def _by_all(
     if quick.certified:
         return quick.lightest
     found = solver.smallest_objective(statement, _SHARPNESS * target.share, quick.smallest)
+    if statement.row.size == 1 and statement.limits.radius.size and found.gap > target.demand:
+        found = _by_one_web(statement, found)
     if target.least_mass and found.below_ceilings:
         found = solver.least_mass(statement, found, target.share, _MASS_GAP, quick.lightest)
     precision = finest(statement.limits.radius.size) if finer and suits_kernel(statement) else None
@@ -122,6 +124,18 @@ def _by_all(
     fine = polished(statement, target, interior_point(statement, target, precision, inside), inside)
     fine = lightened(statement, target, fine, precision)
     return fine.lightest if fine.certified else _better_of(found, fine.lightest, target.share)
+
+
+def _by_one_web(statement: Statement, found: Solution) -> Solution:
+    """The better of a point and of what each web comes to alone, exact of the only term.
+
+    Where one web does 1e10 times as much with a kilogram as another, no units suit both in a solver.
+    """
+    constant, influence = statement.norms.constant[0], statement.norms.influence[0]
+    does = influence != 0
+    alone = statement.limits.into(np.diag(np.where(does, -constant / np.where(does, influence, 1.0), 0.0)))
+    best = found.moved_to(statement, alone[np.argmin(statement.objective(alone))])
+    return best if best.below_ceilings and best.objective < found.objective else found
 
 
 def _better_of(first: Solution, second: Solution, share: float) -> Solution:
