@@ -172,7 +172,7 @@ class Statement:
         share = _share((price, gains[name]) for name in free if price.low > 0 and machine.left is None)
         least = least * share
         if machine.left is not None and not printed and any(web.plate for web in machine.webs):
-            price = cost + spent(machine, pulls, share, cost)
+            price = cost + spent(machine, pulls, share, cost, implied if believed else Place(None))
         for web in machine.webs:
             if web.plate is not None:
                 least = least - of_plate(web, web.plate, pulls[web.name] * share, price)
@@ -263,10 +263,11 @@ class Statement:
         return min(found, key=lambda one: one.high, default=None)
 
 
-def spent(machine: Machine, pulls: dict[str, Number], share: Number, cost: Number) -> Number:
+def spent(machine: Machine, pulls: dict[str, Number], share: Number, cost: Number, implied: Place) -> Number:
     """A price of the budget beside plates, at which it is spent: any price proves something, this one most.
 
     What is worth more than it is made in full, of a plate up to the opening that is worth no more. By halving.
+    A web without a limit that is worth next to nothing spends no more than what the missing limit implies.
     """
     assert machine.left is not None
     worth = {web.name: max((pulls[web.name] * share).middle().real, 0.0) for web in machine.webs}
@@ -275,7 +276,8 @@ def spent(machine: Machine, pulls: dict[str, Number], share: Number, cost: Numbe
     for _ in range(100):
         middle, mass = (low + high) / 2, 0.0
         for web in machine.webs:
-            limit = inf if web.limit is None else float(web.limit)
+            said = implied / web.name
+            limit = min(inf if web.limit is None else float(web.limit), said.double(least=0) if said else inf)
             if web.plate is not None:
                 mass += min(web.plate.mass(web.plate.opening(worth[web.name], middle + least)), limit)
             elif worth[web.name] * levers[web.name] > middle + least:

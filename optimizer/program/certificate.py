@@ -20,6 +20,8 @@ _EPS = float(np.finfo(float).eps)
 _EACH = 16
 #: of these, those of influences (arms, weights) and of multipliers as they are printed, which no finer sum mends
 _DATA = 6
+#: for the rounding of a product
+_UP = 1.0 + 64 * _EPS
 #: a slope is summed in finer numbers where its rounding would cost the bound this share of its constant
 _DEAR = 1e-10
 
@@ -155,6 +157,16 @@ def mass_lower_bound(statement: Statement, multipliers: Multipliers, target: Rea
         return np.maximum(minorant.constant - charge + least - rounding, 0.0)
 
     return _in_loops(statement, multipliers, target, in_full)
+
+
+def mass_bound_up_to(bound: Real, price: Real, more: Real) -> Real:
+    """A bound on the mass of all whose objective comes to so much more, by the multipliers that proved it (...).
+
+    Parameters
+    ----------
+    price : (...) kg per unit of the objective.
+    """
+    return np.maximum(bound - price * more * _UP, 0.0)
 
 
 def _in_loops(statement: Statement, multipliers: Multipliers, target: Real | None, in_full: Callable[[], Real]) -> Real:

@@ -74,6 +74,8 @@ def judged(
     """
     mass, angle = masses_and_angles(machine, found.unbalance, program.limits)
     u = unbalance(mass, angle, program.limits.radius)
+    if wanted.least_mass:
+        found = found.counting(program, program.objective(u))
     mass_bound = found.mass_lower_bound if wanted.least_mass else None
     claimed = claim(program, u, np.add.reduce(mass, axis=-1), found.lower_bound, found.multipliers, mass_bound)
     judged = verdict(claimed, wanted.relative_gap)

@@ -11,6 +11,7 @@ from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import objective_lower_bound
 from optimizer.program.limits import Limits
 from optimizer.program.methods.feasibility_phase import Unreachable
+from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.solution import Solution
@@ -167,6 +168,29 @@ def test_no_webs_at_all() -> None:
     assert answer.unbalance.size == 0
     assert answer.objective == 4.0
     assert answer.gap <= 1e-13
+
+
+def test_webs_so_unlike_that_only_the_weak_one_can_cancel() -> None:
+    """Analytic: the strong web may only point the other way, and the weak one cancels the term by itself."""
+    limits = replace(
+        one_web(1e300),
+        radius=np.array([1e-6, 4.3107748390726144e-08]),
+        max_mass=np.array([1e300, 1e300]),
+        free=np.array([False, True]),
+        centre=np.exp(1j * np.deg2rad([158.68295482609085, 0.0])),
+        half_angle_cos=np.cos(np.deg2rad([60.0, 90.0])),
+        half_angle_sin=np.sin(np.deg2rad([60.0, 90.0])),
+    )
+    constant = 0.22317 * np.exp(1j * np.deg2rad(138.41393411405795 + 180.0))
+    moment = Response(
+        "moment", "N m", Phasors(np.asarray(constant), np.asarray(1.1e-7 + 0j)), np.array([-0.5, -7.83e-11])
+    )
+    problem = within_reach(statement(combined([weighted_peak(moment, 1.0)], "sum"), [], limits), SOLVER)
+    found = solve(problem, 1e-7, least_mass=False)
+    assert found.objective == pytest.approx(1.1e-7, rel=1e-6)
+    assert found.gap <= 1e-7 * float(problem.at_rest)
+    assert found.unbalance[0] == 0.0
+    assert found.unbalance[1] == pytest.approx(constant / 7.83e-11, rel=1e-9)
 
 
 @pytest.mark.parametrize("largest", [1e12, 1e6])

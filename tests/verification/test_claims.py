@@ -124,6 +124,26 @@ def test_what_missing_limits_imply_need_not_be_believed() -> None:
     assert any(one.startswith("lower_bound") for one in broken(body, answer))
 
 
+def test_a_budget_beyond_any_need_beside_plates_costs_nothing() -> None:
+    """Regression: what rounding leaves of the worth of a web without a limit was the price of all of the budget."""
+    envelope = {"shape": "sector", "outer_radius_m": 0.2, "thickness_m": 0.01, "density_kg_m3": 7800}
+    machine = {
+        "kind": "reciprocating",
+        "speed_rpm": 1000,
+        "throws": [{"position_m": 0, "crank_radius_m": 0.1, "crank_angle_deg": 10, "rotating_mass_kg": 50}],
+        "webs": [
+            {"name": "free", "position_m": -0.1, "counterweight_radius_m": 0.2, "max_mass_kg": None},
+            {"name": "plate", "position_m": 0.13, "envelope": {**envelope, "inner_radius_m": 0.05}},
+        ],
+        "max_total_mass_kg": 1e14,
+    }
+    body = {"machine": machine, "objective": {"moment_weight": 3.7}}
+    answer = json.loads(optimized(body).model_dump_json())
+    assert answer["status"] == "optimal"
+    answer["certificate"]["mass_lower_bound_kg"] *= 1 + 1e-9
+    assert any(one.startswith("mass_lower_bound") for one in broken(body, answer))
+
+
 def test_what_the_checker_does_not_know_is_not_covered() -> None:
     body = SINGLE["sum"]
     answer = json.loads(optimize(OptimizeRequest.model_validate(body)).model_dump_json())

@@ -10,6 +10,7 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.certificate import (
     Multipliers,
     best_proof,
+    mass_bound_up_to,
     mass_lower_bound,
     nothing_proven,
     objective_lower_bound,
@@ -22,8 +23,6 @@ from optimizer.program.statement import Statement
 
 #: shares of several sums, which are to sum to no more than 1
 _MEAN = 1.0 - 64 * np.finfo(float).eps
-#: for the rounding of a product
-_UP = 1.0 + 64 * np.finfo(float).eps
 
 
 @dataclass(frozen=True)
@@ -66,7 +65,7 @@ class Proof:
         """That of the mass of all whose last goal comes to so much more."""
         # of one sum the multipliers tell it; of several they sum to 1 and the groups have the prices
         price = self.prices * float(self.multipliers.admissible(self.statement).price(self.statement))
-        return replace(self, bound=max(self.bound - price * more * _UP, 0.0))
+        return replace(self, bound=float(mass_bound_up_to(np.asarray(self.bound), price, np.asarray(more))))
 
 
 def resting_proof(program: Problem, cuts: Cuts, statement: Statement) -> Proof:

@@ -67,7 +67,9 @@ def _settled(statement: Statement, target: Target, solution: Solution) -> Soluti
     if solution.below_ceilings:
         # what exceeds the ceilings is judged by a lower bound
         share = (TARGET if target.least_mass else ENOUGH) * target.share
-        limit = solution.lower_bound + share - float(statement.rounding(solution.unbalance))
+        nearest = solution.lower_bound + share - float(statement.rounding(solution.unbalance))
+        # no further than what is proven of the mass holds
+        limit = min(nearest, max(solution.mass_target, limit))
     bound = np.array([solution.mass_lower_bound]) if target.least_mass else None
     alone = statement.alone()
     points = settled(alone, points_at(alone, solution.unbalance[None]), np.array([limit]), bound)
@@ -112,6 +114,8 @@ def _by_all(
     if quick.certified:
         return quick.lightest
     found = solver.smallest_objective(statement, _SHARPNESS * target.share, quick.smallest)
+    if statement.row.size == 1 and statement.limits.radius.size and found.gap > target.demand:
+        found = _by_one_web(statement, found)
     if target.least_mass and found.below_ceilings:
         found = solver.least_mass(statement, found, target.share, _MASS_GAP, quick.lightest)
     precision = finest(statement.limits.radius.size) if finer and suits_kernel(statement) else None
@@ -122,22 +126,35 @@ def _by_all(
     return fine.lightest if fine.certified else _better_of(found, fine.lightest, target.share)
 
 
+def _by_one_web(statement: Statement, found: Solution) -> Solution:
+    """The better of a point and of what each web comes to alone, exact of the only term.
+
+    Where one web does 1e10 times as much with a kilogram as another, no units suit both in a solver.
+    """
+    constant, influence = statement.norms.constant[0], statement.norms.influence[0]
+    does = influence != 0
+    alone = statement.limits.into(np.diag(np.where(does, -constant / np.where(does, influence, 1.0), 0.0)))
+    best = found.moved_to(statement, alone[np.argmin(statement.objective(alone))])
+    return best if best.below_ceilings and best.objective < found.objective else found
+
+
 def _better_of(first: Solution, second: Solution, share: float) -> Solution:
-    """The better point with the better bound on the objective; of two optima the lighter one."""
+    """The better point with the better bound on the objective; of two optima the one that is closer to the least mass.
+
+    A bound on the mass holds for what comes to no more than its own first stage counts as an optimum. That of the other
+    may come to more, since its first stage was another.
+    """
     first = first.bounded(second.lower_bound, second.multipliers)
     if not second.below_ceilings:
         return first
-    bound = first.lower_bound
-    both_optimal = max(first.objective, second.objective) - bound <= share
-    lighter = second.mass < first.mass
-    chosen = (
-        second
-        if not first.below_ceilings or (lighter if both_optimal else second.objective < first.objective)
-        else first
-    )
-    # a bound on the mass holds for its own first stage only, unless that stage was the worse one
-    heavier = second if second.mass_lower_bound > first.mass_lower_bound else first
-    proof = heavier if both_optimal else chosen
+    bound, both = first.lower_bound, (first, second)
+    if not first.below_ceilings:
+        chosen = proof = second
+    elif max(first.objective, second.objective) - bound > share:
+        chosen = proof = min(both, key=lambda one: one.objective)
+    else:
+        pairs = ((one, of) for one in both for of in both if of is one or one.objective <= of.mass_target)
+        chosen, proof = min(pairs, key=lambda pair: pair[0].mass - pair[1].mass_lower_bound)
     return replace(
         chosen.bounded(bound, first.multipliers),
         mass_lower_bound=proof.mass_lower_bound,

@@ -52,7 +52,9 @@ def leave_empty(statement: Statement, solutions: Solutions, share: Real, least_m
         some = slice(n, n + 1)
         program = statement.chosen(np.array([n]))
         old = points_at(program, solutions.unbalance[some])
-        largest = np.maximum(solutions.lower_bound[some] + TARGET * share[some] - old.rounding, old.objective)
+        close = solutions.lower_bound[some] + TARGET * share[some] - old.rounding
+        # no further than what is proven of the mass holds, which is no limit where that does not count
+        largest = np.maximum(np.minimum(close, solutions.mass_target[some]), old.objective)
         optimum = Optimum(
             largest,
             np.maximum(old.mass, solutions.mass_lower_bound[some] / (1.0 - _HEAVIER))

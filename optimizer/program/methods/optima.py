@@ -7,7 +7,8 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from optimizer.program.certificate import Multipliers, nothing_proven
+from optimizer.numerics.arrays import Real
+from optimizer.program.certificate import Multipliers, mass_bound_up_to, nothing_proven
 from optimizer.program.equal_unknowns import apart, united
 from optimizer.program.methods.cascade import cascade
 from optimizer.program.methods.compiled import both_stages, suits_kernel
@@ -36,6 +37,16 @@ class Optima(Solutions):
     unreachable: np.ndarray  # (N,) bool: proven that no counterweights keep the ceilings
     method: np.ndarray  # (N,) str
     conflict: Multipliers  # (N, ...), those of the excess over the ceilings where they are unreachable, 0 elsewhere
+
+    def counting(self, statement: Statement, objective: Real) -> "Optima":
+        """With the mass proven for all that come to no more than what is returned (N,): a limit that was counted with
+        may be below that, and then says nothing of it."""
+        more = np.maximum(objective - self.mass_target, 0.0)
+        if not more.any():
+            return self
+        price = self.mass_multipliers.admissible(statement).price(statement)
+        bound = mass_bound_up_to(self.mass_lower_bound, price, more)
+        return replace(self, mass_lower_bound=bound, mass_target=np.maximum(self.mass_target, objective))
 
     def one(self, n: int = 0) -> Solution | Unreachable:
         """One of them."""

@@ -31,7 +31,8 @@ def polished(statement: Statement, target: Target, stages: StagePair, inside: Co
         bound = float(objective_lower_bound(statement, multipliers))
         smallest, lightest = smallest.bounded(bound, multipliers), lightest.bounded(bound, multipliers)
     if target.least_mass and smallest.below_ceilings:
-        counted = np.asarray(smallest.objective + target.share)
+        # a point that exceeds the ceilings by rounding is below what is proven of those that keep them
+        counted = np.asarray(max(smallest.objective, smallest.lower_bound) + target.share)
         candidates = list(supporting_multipliers(statement, lightest.unbalance))
         if lightest.mass_multipliers is not None:
             candidates += mass_multipliers(statement, lightest.unbalance, lightest.mass_multipliers)

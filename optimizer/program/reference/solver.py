@@ -115,8 +115,8 @@ class Solver:
         if nothing.objective <= target and nothing.below_ceilings:
             return nothing
         # the smallest objective lies between first.lower_bound and first.objective: a bound for all
-        # that are within the share of it must allow for the larger
-        counted = first.objective + share
+        # that are within the share of it must allow for the larger; rounding of ceilings may turn them round
+        counted = max(first.objective, first.lower_bound) + share
         best, natural = first, float(natural_reach(statement))
         needed, largest = float(np.max(np.abs(first.unbalance))), float(np.max(statement.limits.reach))
 
