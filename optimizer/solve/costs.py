@@ -271,9 +271,11 @@ class Costs:
 
     def _light_sizes(self, choices: Catalogue, level: float, clock: Clock) -> None:
         """Try light sets of so few sizes, of one goal of the first order, until one keeps the level."""
-        statement, options = self.program.finite, choices.stock.options
-        if statement is None or options.most_parts == 0:
+        options = choices.stock.options
+        if self.program.finite is None or options.most_parts == 0:
             return
+        # webs without a largest mass of their own have that of what there is
+        statement = replace(self.program.finite, limits=self.caps.within(self.best.limits))
         incumbent = Incumbent(statement, options, EQUAL * self.size)
         about = self.best.point.unbalance
         about = about if options.alike is None else options.alike.means(about)

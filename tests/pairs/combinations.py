@@ -31,6 +31,7 @@ ONCE_WRONG: Sequence[Combination] = (
     ("twin", ("masses of a catalogue", "fixed")),
     ("vee", ("least fitted", "least mass false", "bending weight")),
     ("twin", ("external, then mass", "balance shaft backwards")),
+    ("twin", ("cheaper choices", "no largest mass")),
 )
 
 
