@@ -3,7 +3,7 @@
 A fitted counterweight has a radius of its own, so what is fitted stands on a machine of plain webs.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import lru_cache
 
 import numpy as np
@@ -53,14 +53,25 @@ def fitted(machine: Machine, half_angle: Real) -> Machine:
     half_angle : (P,) rad, of its plates; 0 has the radius that a first gram would have.
     """
     cut = plates(machine)
-    if cut is None:
-        return machine
-    mass, webs = cut.mass(half_angle), list(machine.webs)
-    fits = mass > 0.0
-    radius = np.where(fits, cut.unbalance(half_angle) / np.where(fits, mass, 1.0), cut.lever(np.zeros(mass.shape)))
-    for k, each in zip(cut.webs.tolist(), radius.tolist(), strict=True):
-        webs[k] = webs[k].model_copy(update={"counterweight_radius_m": each})
-    return machine.model_copy(update={"webs": tuple(webs)})
+    return machine if cut is None else _cut_machine(machine)(tuple(half_angle.tolist()))
+
+
+@remembered
+def _cut_machine(machine: Machine) -> Callable[[tuple[float, ...]], Machine]:
+    """Fits the plates of a machine; what was judged last is the very machine that is told, with all known of it."""
+    cut = _side_by_side(tuple(web.envelope for web in machine.webs))
+
+    @lru_cache(maxsize=4)
+    def with_radii(half_angle: tuple[float, ...]) -> Machine:
+        angle = np.array(half_angle)
+        mass, webs = cut.mass(angle), list(machine.webs)
+        fits = mass > 0.0
+        radius = np.where(fits, cut.unbalance(angle) / np.where(fits, mass, 1.0), cut.lever(np.zeros(mass.shape)))
+        for k, each in zip(cut.webs.tolist(), radius.tolist(), strict=True):
+            webs[k] = webs[k].model_copy(update={"counterweight_radius_m": each})
+        return machine.model_copy(update={"webs": tuple(webs)})
+
+    return with_radii
 
 
 def closed(machine: Machine) -> Machine:

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -72,13 +73,7 @@ def judged(
     ----------
     program : (N,), over omega^2, of the machine.
     """
-    mass, angle = masses_and_angles(machine, found.unbalance, program.limits)
-    u = unbalance(mass, angle, program.limits.radius)
-    if wanted.least_mass:
-        found = found.counting(program, program.objective(u))
-    mass_bound = found.mass_lower_bound if wanted.least_mass else None
-    claimed = claim(program, u, np.add.reduce(mass, axis=-1), found.lower_bound, found.multipliers, mass_bound)
-    judged = verdict(claimed, wanted.relative_gap)
+    mass, angle, u, found, claimed, judged = judgement(machine, wanted, program, found)
     certificate = figures(machine, claimed, judged, program.at_rest, found.mass_target, omega_squared)
     certificate["method"] = found.method
     status, reason = judged.status, judged.reason
@@ -86,6 +81,33 @@ def judged(
         status = np.where(found.unreachable, "infeasible", status)
         reason = np.where(found.unreachable, INFEASIBLE, reason)
     return Certified(program, omega_squared, found, mass, angle, u, judged, certificate, status, reason)
+
+
+class Judgement(NamedTuple):
+    """Counterweights of N designs as they are fitted, and what is true of them in the units of their program."""
+
+    mass_kg: Real  # (N, K)
+    angle_deg: Real  # (N, K)
+    unbalance: Complex  # (N, K) kg m
+    optima: Optima  # with the mass proven for all that come to no more than these
+    claim: Claim
+    verdict: Verdict
+
+
+def judgement(machine: Machine, wanted: Demand, program: Statement, found: Optima) -> Judgement:
+    """What may be claimed of counterweights as they are fitted, whatever the speed.
+
+    Parameters
+    ----------
+    program : (N,), over omega^2, of the machine.
+    """
+    mass, angle = masses_and_angles(machine, found.unbalance, program.limits)
+    u = unbalance(mass, angle, program.limits.radius)
+    if wanted.least_mass:
+        found = found.counting(program, program.objective(u))
+    mass_bound = found.mass_lower_bound if wanted.least_mass else None
+    claimed = claim(program, u, np.add.reduce(mass, axis=-1), found.lower_bound, found.multipliers, mass_bound)
+    return Judgement(mass, angle, u, found, claimed, verdict(claimed, wanted.relative_gap))
 
 
 def figures(

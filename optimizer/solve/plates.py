@@ -16,7 +16,7 @@ import numpy as np
 
 from optimizer.choices.equal_plates import Cut, alike, emptied, one_size, total_mass
 from optimizer.choices.plate_guess import guessed
-from optimizer.formulation.demand import demand
+from optimizer.formulation.demand import Demand
 from optimizer.formulation.limits import limits
 from optimizer.mechanics.plates import Plates
 from optimizer.mechanics.shapes import fitted
@@ -32,10 +32,10 @@ from optimizer.program.plate_pieces import Pieces, Webs, closer_nodes, first_nod
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.program.statement import Statement
-from optimizer.program.verdict import MASS_GAP, mass_resolution, yardstick
-from optimizer.solve.certify import Certified, judged
+from optimizer.program.verdict import MASS_GAP, Verdict, mass_resolution, yardstick
+from optimizer.solve.certify import judgement
 from optimizer.solve.cut_plates import limits_of_cut, openings
-from schemas.request.requests import OptimizeRequest
+from schemas.machine.machine import Machine
 
 #: how often nodes are laid
 _ROUNDS = 12
@@ -51,29 +51,41 @@ _WITH_ROOM = 0.999
 
 
 def cut_optimum(
-    request: OptimizeRequest, cut: Plates, program: Problem, statement: Statement, solver: Solver
+    machine: Machine, cut: Plates, program: Problem, statement: Statement, wanted: Demand, solver: Solver
 ) -> Found | Unkept:
     """Certified unbalances that are cut from plates, of a problem that is a cone program without a budget.
 
     Parameters
     ----------
-    request : whose machine the problem is of.
-    cut : the plates of its webs.
+    machine : with plates in place of some webs, that the problem is of.
+    cut : these plates.
     statement : the cone program.
     """
-    end = thread_time() + request.accuracy.time_limit_s
-    stated, every = statement.alone(), np.ones(len(request.machine.webs), bool)
+    end = thread_time() + wanted.time_limit_s
+    stated, every = statement.alone(), np.ones(len(machine.webs), bool)
     whole = within_reach(stated, solver)
-    task = _Task(request, whole, cut, solver, request.accuracy.relative_gap, every)
+    task = _Task(machine, wanted, program.symmetric, whole, cut, solver, wanted.relative_gap, every)
     found = task.optimum(end)
     if whole is not stated:
         statement = replace(statement, limits=mapped(whole.limits, lambda array: array[0]))
-    return solution(program, statement, found, found.unbalance[0], request.objective.least_mass)
+    return solution(program, statement, found, found.unbalance[0], wanted.least_mass)
 
 
-def _gap(found: Certified) -> float:
-    """What is left open of mass and objective, for rounds to be compared; inf where nothing is proven."""
-    return float(np.nan_to_num(found.verdict.relative_gap[0] + found.verdict.mass_gap[0], nan=np.inf))
+class _Attempt(NamedTuple):
+    """What is found of a cut, and what may be claimed of it."""
+
+    found: Optima
+    verdict: Verdict
+
+    @property
+    def status(self) -> str:
+        """That of an answer; what keeps no ceiling is the best there is."""
+        return "infeasible" if self.found.unreachable[0] else str(self.verdict.status[0])
+
+    @property
+    def gap(self) -> float:
+        """What is left open of mass and objective, for rounds to be compared; inf where nothing is proven."""
+        return float(np.nan_to_num(self.verdict.relative_gap[0] + self.verdict.mass_gap[0], nan=np.inf))
 
 
 class _Round(NamedTuple):
@@ -86,7 +98,9 @@ class _Round(NamedTuple):
 
 @dataclass(frozen=True)
 class _Task:
-    request: OptimizeRequest
+    machine: Machine  # with plates in place of some webs
+    wanted: Demand
+    symmetric: bool  # whether what is alike is to be alike
     whole: Statement  # (1,), whose limits are how far the plates reach
     plates: Plates
     solver: Solver
@@ -96,7 +110,7 @@ class _Task:
     @cached_property
     def kinds(self) -> np.ndarray:
         """Webs (K,) with the same plate have the same number, those without one another."""
-        kinds = np.full(len(self.request.machine.webs), -1)
+        kinds = np.full(len(self.machine.webs), -1)
         kinds[self.plates.webs] = self.plates.kinds
         return kinds
 
@@ -118,14 +132,14 @@ class _Task:
             found = self.lightest(tried)
             if not self.too_heavy(found):
                 best = self.judged_alike(self.without_dust(found, nodes), nodes)
-                if best.status[0] != "inaccurate":
+                if best.status != "inaccurate":
                     return best.found
             if thread_time() > end:
                 break
             nodes = closer_nodes(nodes, self.opened(tried[-1].called_for))
         # of those that are equally near the last
         attempts = (*reversed(tried), self.lightest(tried))
-        return min((self.judged(each.proven, each.cut) for each in attempts), key=_gap).found
+        return min((self.judged(each.proven, each.cut) for each in attempts), key=lambda best: best.gap).found
 
     def opened(self, u: Complex) -> Real:
         """Half-angles (P,) of what is cut for unbalances (K,), of alike webs alike, rad."""
@@ -133,17 +147,16 @@ class _Task:
 
     def guessed(self, nodes: Real) -> Real:
         """Nodes about what is guessed from those of tangents."""
-        goal = self.request.objective
-        share = min(OPTIMUM_SHARE, self.request.accuracy.relative_gap) * self.size
-        angle = guessed(self.whole, self.plates, nodes, share, goal.least_mass)
+        share = min(OPTIMUM_SHARE, self.wanted.relative_gap) * self.size
+        angle = guessed(self.whole, self.plates, nodes, share, self.wanted.least_mass)
         return nodes if angle is None else closer_nodes(nodes, angle)
 
     def round(self, nodes: Real) -> _Round:
         """What tangents at half-angles (n, P) come to."""
-        goal, whole = self.request.objective, self.whole
+        whole = self.whole
         of_tangents, proven = self._optimum(tangents(self.plates, nodes))
         called_for = u = of_tangents.carried(proven.unbalance[0])
-        if goal.symmetric:
+        if self.symmetric:
             # no worse in any term, so that what is proven of those that were found holds
             u = symmetric(whole, u[None], self.kinds)[0]
         angle = self.opened(u)
@@ -153,7 +166,7 @@ class _Task:
     def lightest(self, tried: Sequence[_Round]) -> _Round:
         """The last round, or the lightest of all cuts with the largest bound of the mass: proofs hold for all cuts."""
         *_, last = tried
-        if not self.request.objective.least_mass or last.proven.unreachable[0]:
+        if not self.wanted.least_mass or last.proven.unreachable[0]:
             return last
         proven = max((each.proven for each in reversed(tried)), key=lambda each: float(each.mass_lower_bound[0]))
         optima = [each.cut for each in tried if self._keeps(proven, each.cut)]
@@ -178,7 +191,7 @@ class _Task:
 
     def _optimum(self, webs: Webs) -> tuple[Pieces, Optima]:
         laid = pieces(self.whole, self.plates, webs, self.left)
-        return laid, optima(laid.program, self.relative_gap, self.request.objective.least_mass, self.solver)
+        return laid, optima(laid.program, self.relative_gap, self.wanted.least_mass, self.solver)
 
     def without_dust(self, found: _Round, nodes: Real) -> _Round:
         """The same with webs left empty that carry next to nothing, where what is proven of all holds for it."""
@@ -220,13 +233,13 @@ class _Task:
 
     def too_heavy(self, found: _Round) -> bool:
         """Whether what would be cut is not the lightest, so that it need not be judged."""
-        if not self.request.objective.least_mass or found.proven.unreachable[0]:
+        if not self.wanted.least_mass or found.proven.unreachable[0]:
             return False
         mass = found.cut.mass
         size = np.maximum(mass, _NEARER * mass_resolution(self.whole, self.size[..., None])[0])
         return bool(mass - found.proven.mass_lower_bound[0] > MASS_GAP * size)
 
-    def judged_alike(self, found: _Round, nodes: Real) -> Certified:
+    def judged_alike(self, found: _Round, nodes: Real) -> _Attempt:
         """What is cut, with plates opened alike where what is proven still holds."""
         cut = self._alike(found, nodes)
         # those that are chosen anew for it may be next to nothing
@@ -243,26 +256,25 @@ class _Task:
         if proven.unreachable[0]:
             return found.cut
         optimum = float(proven.lower_bound[0]), self._largest(proven)
-        least_mass = float(proven.mass_lower_bound[0]) if self.request.objective.least_mass else np.inf
+        least_mass = float(proven.mass_lower_bound[0]) if self.wanted.least_mass else np.inf
         return alike(self.whole, self.plates, nodes, found.cut, optimum, least_mass)
 
     def _largest(self, proven: Optima) -> float:
         """Largest objective of an optimum, of which what is proven of the mass holds."""
-        largest = float(proven.lower_bound[0] + self.request.accuracy.relative_gap * self.size[0])
-        return min(largest, float(proven.mass_target[0])) if self.request.objective.least_mass else largest
+        largest = float(proven.lower_bound[0] + self.wanted.relative_gap * self.size[0])
+        return min(largest, float(proven.mass_target[0])) if self.wanted.least_mass else largest
 
-    def _optimal(self, proven: Optima, cut: Cut) -> Certified | None:
+    def _optimal(self, proven: Optima, cut: Cut) -> _Attempt | None:
         """What may be claimed of another cut, None where that is not an optimum."""
         if not proven.unreachable[0] and not self._keeps(proven, cut):
             return None
         best = self.judged(proven, cut)
-        return best if best.status[0] == "optimal" else None
+        return best if best.status == "optimal" else None
 
-    def judged(self, proven: Optima, cut: Cut) -> Certified:
+    def judged(self, proven: Optima, cut: Cut) -> _Attempt:
         """What may be claimed of what is cut."""
-        asked = self.request.model_copy(update={"machine": fitted(self.request.machine, cut.angle)})
-        stated = limits(asked.machine, (1,))
+        machine = fitted(self.machine, cut.angle)
+        stated = limits(machine, (1,))
         program = replace(self.whole, limits=limits_of_cut(stated, self.whole.limits, self.plates, cut.angle))
         found = replace(proven, unbalance=cut.unbalance[None])
-        # in any unit
-        return judged(asked.machine, demand(asked), program, found, np.ones(1))
+        return _Attempt(found, judgement(machine, self.wanted, program, found).verdict)

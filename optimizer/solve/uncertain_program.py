@@ -209,7 +209,7 @@ class Robust:
         statement = None if cut is None or budget else cone_program(program, self.wanted.least_mass)
         if cut is None or statement is None:
             return None
-        return cut_optimum(self.posed, cut, program, statement, solver)
+        return cut_optimum(self.posed.machine, cut, program, statement, self.wanted, solver)
 
 
 def _scenarios(request: OptimizeRequest, share: float) -> Iterator[Machine]:

@@ -245,7 +245,7 @@ def test_the_guess_is_near_enough_for_one_round(name: str, monkeypatch: pytest.M
 
 
 def test_rounds_that_cannot_be_the_least_mass_are_not_judged(monkeypatch: pytest.MonkeyPatch) -> None:
-    rounds, judged = _counted(monkeypatch, "optima"), _counted(monkeypatch, "judged")
+    rounds, judged = _counted(monkeypatch, "optima"), _counted(monkeypatch, "judgement")
     monkeypatch.setattr(certified_shapes, "guessed", lambda *given: None)
     assert answered(bodies()["plate-single"]).status == "optimal"
     assert len(rounds) > len(judged) == 1

@@ -89,7 +89,12 @@ class Found:
     def within(self, limits: Limits) -> "Found":
         """With limits that say the same by other radii: those of what is cut from plates."""
         goals = tuple(each._replace(proof=each.proof.within(limits)) for each in self.goals)
-        of_mass = None if self.mass_proof is None else self.mass_proof.within(limits)
+        of_mass = self.mass_proof
+        if of_mass is not None:
+            # one statement stays one: both bounds are told of it at once
+            same = of_mass.statement is self.proof.statement
+            of_mass = of_mass.within(limits)
+            of_mass = replace(of_mass, statement=goals[-1].proof.statement) if same else of_mass
         return replace(self, goals=goals, mass_proof=of_mass, limits=limits)
 
     @property
