@@ -101,12 +101,11 @@ def offer_light_sets(
     used = used_slots(light)
     if not used:
         return
-    better = _Nearer(incumbent, clock)
     if incumbent.options.limits_parts:
         chosen = None if sizes is None else sizes.below(None, limit, Clock(_FIRST * clock.left_s))
         if chosen is not None:
             incumbent.offer(chosen[None])
-        _PartSizes(incumbent, light, used, incumbent.options.most_parts or 0, better, enough, clock).run()
+        _PartSizes(incumbent, light, used, incumbent.options.most_parts or 0, enough, clock).run()
         return
     for one in _PASSES:
         for which in neighbourhoods(incumbent.options, light, one.near, one.many, one.others, one.several):
@@ -115,7 +114,7 @@ def offer_light_sets(
             exhaust(incumbent.options, which, incumbent, one.sums, _PAIRS, clock)
 
     # few sizes are few sums, and where any may be used they are among them
-    _PartSizes(incumbent, light, used, _SIZES, better, enough, clock).run()
+    _PartSizes(incumbent, light, used, _SIZES, enough, clock).run()
 
     def close(slot: int) -> np.ndarray:
         options, chosen = incumbent.options, incumbent.chosen
@@ -292,11 +291,11 @@ class _PartSizes:
         light: Complex,
         used: list[int],
         most: int,
-        better: _Nearer,
         enough: Callable[[], bool],
         clock: Clock,
     ) -> None:
-        self.incumbent, self.most, self.better, self.enough, self.clock = incumbent, most, better, enough, clock
+        self.incumbent, self.most, self.enough, self.clock = incumbent, most, enough, clock
+        self.better, self.climb = _Nearer(incumbent, clock), clock
         options = incumbent.options
         self.used = sorted(used, key=lambda k: -abs(light[k]))
         self.light, self.near = light, options.nearest(light)
@@ -319,16 +318,22 @@ class _PartSizes:
         main = (
             np.unique(own) if np.unique(own).size < most else np.unique([self._nearest(float(np.mean(self.mass[own])))])
         )
-        sizes = tuple(main.tolist())
-        small = sizes[-1]
+        # sizes in as many heaps, where nothing is left for a small one
+        heaps = np.array_split(np.sort(self.mass[own]), most) if own.size >= most > 1 else []
+        several = np.unique(np.array([self._nearest(float(np.mean(heap))) for heap in heaps], int))
+        starts: list[Sizes] = list(dict.fromkeys(tuple(each.tolist()) for each in (main, several) if each.size))
+        for n, sizes in enumerate(starts):
+            self._climb(sizes, Clock(self.clock.left_s / (len(starts) - n)))
+        _improve(self.incumbent, self.loose, self._in_use, self.enough, self.clock)
+
+    def _climb(self, sizes: Sizes, clock: Clock) -> None:
+        """Move sizes until no move is better. What is known of other sizes ends no climb."""
+        own = Incumbent(self.incumbent.statement, self.incumbent.options, self.incumbent.resolution)
+        own.offer(np.zeros((1, own.options.slots), int))
+        self.better, self.climb = _Nearer(self.incumbent if own.chosen is None else own, clock), clock
+        small = sizes[0] if len(sizes) == self.most else sizes[-1]
         self._better(sizes, small)
-        if own.size > most > 1:
-            # sizes in so many heaps, where the optimum is on many slots
-            heaps = np.array_split(np.sort(self.mass[own]), most)
-            several = tuple(np.unique([self._nearest(float(np.mean(heap))) for heap in heaps]).tolist())
-            if self._better(several, several[0]):
-                sizes, small = several, several[0]
-        if len(sizes) < most:
+        if len(sizes) < self.most:
             for size in dict.fromkeys(self._nearest(share * float(self.mass[sizes[-1]])) for share in _SHARES):
                 small = size if self._better(sizes, size) else small
         for trims, sums in ((_TRIMS, _TRIED), (self.incumbent.options.slots, _WIDE)):
@@ -337,7 +342,6 @@ class _PartSizes:
             while moved is not None and not self._over():
                 sizes, small = moved
                 moved = self._moved(sizes, small, trims, sums)
-        _improve(self.incumbent, self.loose, self._in_use, self.enough, self.clock)
 
     def _in_use(self, slot: int) -> np.ndarray:
         """Nothing, and the options of a slot of the sizes that the best set has."""
@@ -347,7 +351,7 @@ class _PartSizes:
         return np.union1d([0], np.flatnonzero(options.exists[slot] & np.isin(options.part[slot], parts[parts >= 0])))
 
     def _over(self) -> bool:
-        return self.enough() or self.clock.spent()
+        return self.enough() or self.climb.spent()
 
     def _moved(self, main: Sizes, small: int, trims: int, sums: int) -> tuple[Sizes, int] | None:
         """Sizes of which one is some steps up or down, with which a better set was found; None where there are none."""
@@ -375,6 +379,9 @@ class _PartSizes:
                     which[k] = some
             if not self._over():
                 found |= self.better.found(self.loose, which, max(_SUMS, sums))
+        best = self.better.incumbent.chosen
+        if found and best is not None:
+            self.incumbent.offer(best[None])
         return found
 
     def _closest(self, slot: int, some: np.ndarray) -> np.ndarray:

@@ -4,9 +4,10 @@ A main size of a step more or less leaves another residual, which small castings
 moved alone. Slots of the optimum take the options nearest to it, which are few; the others take any of the small size.
 """
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import product
+from itertools import combinations, product
 from typing import NamedTuple
 
 import numpy as np
@@ -25,6 +26,8 @@ _SMALL, _TRIMS, _FEWEST = 12, 4, 2
 _SUMS, _PAIRS = 130_000, 60_000
 #: main sizes of which every one has steps of its own
 _APART = 2
+#: ways to part masses in heaps up to which all are compared
+_CUTS = 1_000
 
 
 class Sizes(NamedTuple):
@@ -118,8 +121,7 @@ class LightSizes:
         for number in (most - 1, most):
             # that few slots are as many heaps helps nothing: all others would be trimmed by a main size
             if number >= 1 and (number < most or most == 1 or self.own.size > most):
-                heaps = [heap for heap in np.array_split(self.own, number) if heap.size]
-                found.add(tuple(sorted({self._nearest(float(np.mean(heap))) for heap in heaps})))
+                found.add(tuple(sorted({self._nearest(float(np.mean(heap))) for heap in _heaps(self.own, number)})))
         return found
 
     def _of(self, chosen: np.ndarray) -> tuple[int, ...]:
@@ -180,3 +182,14 @@ class LightSizes:
     def _nearest(self, mass: float) -> int:
         masses: Real = self.mass
         return int(np.argmin(np.abs(masses - mass)))
+
+
+def _heaps(masses: Real, number: int) -> list[Real]:
+    """Masses (n,) in order, in so many heaps at most, as near to their means as can be where ways are few."""
+    if math.comb(masses.size - 1, min(number, masses.size) - 1) > _CUTS:
+        return [heap for heap in np.array_split(masses, number) if heap.size]
+    cuts = combinations(range(1, masses.size), min(number, masses.size) - 1)
+    return min(
+        (np.split(masses, cut) for cut in cuts),
+        key=lambda heaps: sum(heap.size * float(np.var(heap)) for heap in heaps),
+    )
