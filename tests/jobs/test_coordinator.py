@@ -362,3 +362,37 @@ def test_what_a_version_does_not_know_is_told_from_what_is_wrong() -> None:
     assert not sweep(json.dumps({**json.loads(today), "axes": []}).encode())
     points = {"machine": MACHINE, "points": 3}
     assert (front(json.dumps(points).encode()), front(json.dumps({**points, "new": 1}).encode())) == (False, True)
+
+
+def test_one_thread_and_none_of_what_has_been_stopped(house: House) -> None:
+    with house.coordinator(threads()) as coordinator:
+        before = coordinator._thread
+        coordinator.start()
+        assert coordinator._thread is before
+    stopped = house.coordinator_on(threads())
+    stopped.stop()
+    stopped.start()
+    assert stopped._thread is None
+
+
+def test_chunks_are_computed_in_their_order(house: House) -> None:
+    """A worker alone, to which several chunks are leased at a time, computes them in the order of their rows."""
+    order: list[int] = []
+
+    def run(*arguments: Any) -> ChunkResult:
+        order.append(next(one for one in arguments if isinstance(one, int)))
+        return synthetic.run(*arguments)
+
+    class Alone(Threads):
+        def window(self) -> int:
+            # leased two at a time
+            return 32
+
+    job = house.submit(total=200, chunk_rows=10)
+    coordinator = house.coordinator_on(Engine(lambda: Alone(1)), run=run)
+    coordinator.start()
+    try:
+        house.wait(job)
+    finally:
+        coordinator.stop()
+    assert order == list(range(0, 200, 10))

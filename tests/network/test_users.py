@@ -92,3 +92,14 @@ def test_without_the_setting_the_header_is_nothing(tmp_path: Path) -> None:
     with TestClient(create_app(Settings(data_dir=tmp_path), warm=False)) as client:
         started = client.post("/v1/sweeps", json=SWEEP, headers={"X-Portal-User": "alice"})
         assert client.get(started.headers["location"], headers={"X-Portal-User": "bob"}).status_code == 200
+
+
+def test_whom_a_key_acts_for() -> None:
+    """Analytic: nobody named leaves the caller as it is; a user has a name of its own and administers nothing."""
+    portal = keys.Caller("1", "portal", frozenset(("read", "sweeps", "admin")))
+    assert portal.acting_for(None) is portal
+    user = portal.acting_for("ann")
+    assert (user.owner, user.key) == ("portal/ann", "1")
+    assert user.may("read")
+    assert not user.may("admin")
+    assert keys.Caller("1", None, frozenset(("read",))).acting_for("ann").owner == "/ann"

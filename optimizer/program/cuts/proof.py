@@ -64,7 +64,7 @@ class Proof:
     def up_to(self, more: float) -> "Proof":
         """That of the mass of all whose last goal comes to so much more."""
         # of one sum the multipliers tell it; of several they sum to 1 and the groups have the prices
-        price = self.prices * float(self.multipliers.admissible(self.statement).price(self.statement))
+        price = self.prices * self.multipliers.admissible(self.statement).price(self.statement)
         return replace(self, bound=float(mass_bound_up_to(np.asarray(self.bound), price, np.asarray(more))))
 
 
