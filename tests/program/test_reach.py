@@ -6,7 +6,7 @@ import pytest
 from optimizer.mechanics.angles import direction
 from optimizer.numerics.arrays import Complex
 from optimizer.program.limits import Limits
-from optimizer.program.methods.implied_bounds import _masses_by_inverse, within_reach
+from optimizer.program.methods.implied_bounds import _masses_by_inverse, carrying_mass, within_reach
 from optimizer.program.reference.solver import _blended
 from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.solution import evaluated
@@ -52,6 +52,26 @@ def test_a_web_that_is_all_but_free_has_a_proven_reach() -> None:
     force = Response("force", "N", Phasors(10.0 + 0j, 0j), np.ones(1))
     program = statement(combined([weighted_peak(force, 1.0)], "sum"), [], limits(1, STEEP))
     assert within_reach(program, SOLVER).limits.max_mass == pytest.approx([30.0 / 0.25], rel=1e-8)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_two_webs_carry_what_two_responses_may_change(seed: int) -> None:
+    """Analytic: Cramer's rule; the mass that is told is that of the changes which call for most."""
+    rng = np.random.default_rng(seed)
+    influence, most = rng.uniform(-1.0, 1.0, (2, 2)), rng.uniform(0.5, 3.0, 2)
+    two, apart = limits(2, 90.0), np.zeros(2, bool)
+    free = Limits(
+        two.radius, two.max_mass, ~apart, two.centre, two.half_angle_cos, two.half_angle_sin, np.asarray(np.inf)
+    )
+    told = carrying_mass(influence, free, most, apart)
+    inverse = np.abs(np.linalg.inv(influence))
+    assert told == pytest.approx(np.sum(inverse @ most), rel=1e-9)
+    changes = most[:, None] * np.exp(1j * rng.uniform(0.0, 2 * np.pi, (2, 200)))
+    assert np.all(np.sum(np.abs(np.linalg.solve(influence, changes)), axis=0) <= told * (1 + 1e-12))
+    # one response of two webs: the one that does most
+    assert carrying_mass(influence[:1], free, most[:1], apart[:1]) == pytest.approx(
+        most[0] / np.max(np.abs(influence[0]))
+    )
 
 
 def test_what_is_blended_stays_in_its_sector() -> None:
