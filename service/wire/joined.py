@@ -87,7 +87,12 @@ class Joined:
             return
         self.flush()
         self._lingers = self._loop.call_later(self._patience_s, self._transport.close)
-        self._transport.write_eof()
+        try:
+            self._transport.write_eof()
+        except OSError:
+            # the client has gone already: nobody sends, and nobody reads
+            self._transport.close()
+            return
         self._full = self._held_back = False
         self._read_on()
 

@@ -4,7 +4,8 @@ import asyncio
 import json
 import select
 import socket
-from typing import Any
+import struct
+from typing import Any, cast
 
 import pytest
 from starlette.types import Receive, Scope, Send
@@ -83,3 +84,31 @@ def test_an_early_answer_is_not_taken_from_who_still_sends(target: Service, codi
     assert said.startswith(b"HTTP/1.1 413 ")
     assert said.count(b"\r\n\r\n") == 1
     assert json.loads(said.partition(b"\r\n\r\n")[2])["status"] == 413
+
+
+def test_a_client_that_has_gone_leaves_no_fault_behind() -> None:
+    """Unread bytes, and a reset before the answer is closed: the sockets' own error is no fault of the service."""
+
+    async def close() -> bool:
+        loop = asyncio.get_running_loop()
+        made: asyncio.Future[asyncio.Transport] = loop.create_future()
+
+        class Peer(asyncio.Protocol):
+            def connection_made(self, transport: asyncio.BaseTransport) -> None:
+                made.set_result(cast(asyncio.Transport, transport))
+
+        listening = listen(SETTINGS)
+        async with await loop.create_server(Peer, sock=listening):
+            client = socket.create_connection(listening.getsockname()[:2])
+            transport = await made
+            joined = Joined(transport, loop, lambda: True, 60.0)
+            # nothing looks at the socket in between, so that only the closing itself can see it
+            transport.pause_reading()
+            client.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+            client.close()
+            await asyncio.sleep(0.05)
+            joined.close()
+            joined.ended()
+            return transport.is_closing()
+
+    assert asyncio.run(close())
