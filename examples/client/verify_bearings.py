@@ -42,13 +42,19 @@ def largest(claim: str, place: Place, curve: Periodic, unit: str, size: float = 
     """
     found = peak_of(curve, place)
     off = SAMPLE * max(curve.size, size)
-    yield within(claim, place / f"peak_{unit}", found.low * (1 - PEAK), found.high, off)
-    ends = list(place / f"peak_bracket_{unit}")
-    yield claim, place / f"peak_bracket_{unit}", ONE if len(ends) == 2 else -ONE, ONE
-    if len(ends) == 2:
-        yield within(claim, ends[0], found.low * (1 - PEAK), found.high, off)
-        yield within(claim, ends[1], found.low, found.high * (1 + PEAK), off)
+    yield from magnitude(claim, place, "peak", unit, found, off)
     return found
+
+
+def magnitude(claim: str, place: Place, name: str, unit: str, peak: Peak, off: float) -> Claims:
+    """A largest length with its bracket."""
+    value, bracket = place / f"{name}_{unit}", place / f"{name}_bracket_{unit}"
+    yield within(claim, value, peak.low * (1 - PEAK), peak.high, off)
+    ends = list(bracket)
+    yield claim, bracket, ONE if len(ends) == 2 else -ONE, ONE
+    if len(ends) == 2:
+        yield within(claim, ends[0], peak.low * (1 - PEAK), peak.high, off)
+        yield within(claim, ends[1], peak.low, peak.high * (1 + PEAK), off)
 
 
 def where(claim: str, place: Place, loads: Loads, curve: Periodic, peak: Peak) -> Claim:

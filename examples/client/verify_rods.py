@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf, pi, radians, sqrt
 from typing import Callable, Dict, Optional
 
-from verify_bearings import PEAK, SAMPLE, within
+from verify_bearings import PEAK, SAMPLE, magnitude, within
 from verify_claims import LARGE, Claim, Claims, same
 from verify_dynamics import RUBBED, alone, enclosed, of_row, series, shown, signed
 from verify_harmonics import Peak
@@ -56,16 +56,6 @@ def rod_loads(request: Place, pistons: Pistons, place: Place) -> Claims:
 def leaning(row: Piston) -> float:
     """What a force on the piston is at most multiplied by."""
     return 2 / sqrt(1 - row.ratio**2)
-
-
-def magnitude(claim: str, place: Place, name: str, unit: str, peak: Peak, off: float) -> Claims:
-    """A largest length with its bracket."""
-    yield within(claim, place / f"{name}_{unit}", peak.low * (1 - PEAK), peak.high, off)
-    ends = list(place / f"{name}_bracket_{unit}")
-    yield claim, place / f"{name}_bracket_{unit}", ONE if len(ends) == 2 else -ONE, ONE
-    if len(ends) == 2:
-        yield within(claim, ends[0], peak.low * (1 - PEAK), peak.high, off)
-        yield within(claim, ends[1], peak.low, peak.high * (1 + PEAK), off)
 
 
 def where(claim: str, place: Place, curve: Pressed, peak: Peak, off: float, sign: int = 0) -> Claim:

@@ -317,8 +317,8 @@ def test_a_bystander_never_waits_for_owners_who_ask_without_end(each: int, long_
         assert waits == []
         if long_s > 0.025:
             return
-        # two of theirs at a time, and more in the first moments; each a quarter of them
-        assert sum(begun[owner] for owner in "abcd") == pytest.approx(2 * 4.0 / 0.025, rel=0.1)
+        # two of theirs at a time, and of each a few more in the first moments, when he has had no turn; each a quarter
+        assert 0.93 <= sum(begun[owner] for owner in "abcd") / (2 * 4.0 / 0.025) <= 1.08
         assert max(begun[owner] for owner in "abcd") - min(begun[owner] for owner in "abcd") <= 8
 
     play(FairQueue(2, 100, 64), story)
