@@ -56,12 +56,13 @@ class Turn:
         """It was had, or is not wanted any more."""
         self.turns.end(self)
 
-    async def __aenter__(self) -> None:
+    async def __aenter__(self) -> "Turn":
         try:
             await self.granted()
         except BaseException:
             self.end()
             raise
+        return self
 
     async def __aexit__(self, *raised: object) -> None:
         self.end()
@@ -172,7 +173,8 @@ class FairQueue:
         return self._is_free() or (self._above < self._most_above and self._had_little(turn.owner))
 
     def _had_little(self, owner: str) -> bool:
-        if self._running[owner]:
+        # averages tell of an owner who has just come only later
+        if owner in self._pressing:
             return False
         owners = {*self._running, *self._waiting, owner}
         now_and_then = self._pressure.of(owner) <= _NOW_AND_THEN

@@ -8,8 +8,9 @@ from typing import Any, TypeVar
 from anyio import CapacityLimiter, to_thread
 from starlette.requests import Request
 
+from service.fairness.queue import FairQueue
 from service.fairness.quotas import holding
-from service.fairness.table import LOOKS
+from service.fairness.table import ANY, LOOKS
 
 Result = TypeVar("Result")
 #: after a look its client takes none for so many times what it computed; and, if it waits again, for as many times what
@@ -37,7 +38,9 @@ class SingleFlight:
         loop = asyncio.get_running_loop()
         if loop is not self._loop:
             # what was asked for in a loop that has ended is gone with it
-            self._loop, self._threads = loop, CapacityLimiter(LOOKS.altogether)
+            self._loop, self._queue = loop, FairQueue(LOOKS, ANY)
+            # the queue says who is next
+            self._threads = CapacityLimiter(LOOKS.altogether + LOOKS.kept)
             self._asked: dict[tuple[str, Hashable], asyncio.Task[Any]] = {}
             self._own: dict[str, asyncio.Semaphore] = {}
         return loop
@@ -79,7 +82,10 @@ class SingleFlight:
         own = self._own.setdefault(who, asyncio.Semaphore(int(LOOKS.each)))
         await own.acquire()
         try:
-            return await to_thread.run_sync(work, limiter=self._threads)
+            async with self._queue.turn(who) as turn:
+                found = await to_thread.run_sync(work, limiter=self._threads)
+                turn.computed_s = computed_s
+            return found
         finally:
             others = self._others(who)
             loop.call_later(_REST * (computed_s + others * took_s), self._go_on, who, own)

@@ -8,6 +8,7 @@ from typing import Any
 
 from service.fairness.scheduler import FairScheduler
 from service.fairness.single_flight import SingleFlight
+from service.fairness.table import LOOKS
 
 
 class Slow:
@@ -65,6 +66,22 @@ def test_a_client_looks_at_one_thing_at_a_time_and_keeps_nobody_else_waiting() -
         return taken, other, waits
 
     assert run(found) == (1, "seen", True)
+
+
+def test_who_looks_now_and_then_does_not_wait_for_others_whose_looks_take_long() -> None:
+    async def found() -> tuple[str, bool]:
+        looks, slow = SingleFlight(FairScheduler().turn), [Slow() for _ in range(int(LOOKS.altogether))]
+        others = [asyncio.create_task(looks.at(f"client {k}", 0, look)) for k, look in enumerate(slow)]
+        for look in slow:
+            await asyncio.to_thread(look.begun.wait, 180)
+        seen = await looks.at("other", 0, lambda: "seen")
+        waits = not any(task.done() for task in others)
+        for look in slow:
+            look.go.set()
+        await asyncio.gather(*others)
+        return seen, waits
+
+    assert run(found) == ("seen", True)
 
 
 def test_who_leaves_takes_nothing_from_the_others() -> None:

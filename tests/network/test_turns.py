@@ -146,6 +146,20 @@ def test_owners_who_ask_without_end_leave_two_to_who_asks_now_and_then() -> None
     play(FairQueue(2, 20, 20), story)
 
 
+def test_who_wants_several_in_its_first_moments_has_none_of_those_turns() -> None:
+    async def story(asked: Asked) -> None:
+        for name in ("a0", "b0", "c0", "d0", "c1", "c2", "d1"):
+            await asked.ask(name)
+        assert asked.begun == ["a0", "b0", "c0", "d0"]
+        await asked.end("c0", "d0", after_s=0.01)
+        # c and d are as new, but c wants two
+        assert asked.begun[4:] == ["d1"]
+        await asked.ask("e0")
+        assert asked.begun[5:] == ["e0"]
+
+    play(FairQueue(2, 20, 20), story)
+
+
 def test_who_has_had_least_is_next() -> None:
     async def story(asked: Asked) -> None:
         for name in ("a0", "b0", "a1", "a2", "b1", "b2"):
