@@ -92,15 +92,14 @@ def _hodograph(number: int, request: OptimizeRequest, answer: OptimizeAnswer) ->
 
 def _bearings(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
     result = answer.main_bearings
-    if result is None:
-        raise OutOfRange([FieldProblem(("machine",), "there are no loads of main bearings to draw")])
+    drawn = [] if result is None else loci(request.machine, result)
     words = "loads of the main bearings as the shaft sees them, each with its smallest circle"
-    return beside(words, loci(request.machine, result))
+    return _grid(words, drawn, "there are no loads of main bearings to draw")
 
 
 def _indicator(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
     drawn = [] if answer.gas is None else list(indicators(request.machine, answer.gas))
-    return beside("indicator diagrams", drawn)
+    return _grid("indicator diagrams", drawn, "no row has a chamber whose pressure could be drawn", "throws")
 
 
 def _stages(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
@@ -110,9 +109,14 @@ def _stages(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
 def _orders(_request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
     figures = [] if answer.orders is None else order_hodographs(answer.orders)
     drawn = [each for one in figures for each in one.drawings]
+    words = "hodographs of force and moment, order by order"
+    return _grid(words, drawn, "no order has a force or a moment to draw")
+
+
+def _grid(label: str, drawn: list[Drawing], nothing: str, *field: str) -> Drawing:
     if not drawn:
-        raise OutOfRange([FieldProblem(("machine",), "no order has a force or a moment to draw")])
-    return beside("hodographs of force and moment, order by order", drawn)
+        raise OutOfRange([FieldProblem(("machine", *field), nothing)])
+    return beside(label, drawn)
 
 
 def _pin_loads(_request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:

@@ -5,6 +5,8 @@ from xml.etree import ElementTree
 import pytest
 from starlette.testclient import TestClient
 
+from optimizer.errors import OutOfRange
+from schemas.request.requests import OptimizeRequest
 from service.app import create_app
 from service.computations import COMPUTATIONS
 from service.report.blocks import Figure
@@ -44,6 +46,21 @@ def test_it_is_the_one_of_the_report(name: str) -> None:
         for drawing in block.drawings
     ]
     assert one.function(asked("2d12")).svg() in of_report
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if name != "pin_loads"])
+def test_throws_without_rows_are_drawn_or_refused_by_their_field(name: str) -> None:
+    request = asked("2d12").alone
+    throws = tuple(throw.model_copy(update={"rows": ()}) for throw in request.machine.throws)
+    machine = request.machine.model_copy(update={"throws": throws, "friction": None})
+    computation = COMPUTATIONS[f"picture_{name}"].function
+    bare = OptimizeRequest.model_validate(request.model_copy(update={"machine": machine}).model_dump())
+    if name == "indicator":
+        with pytest.raises(OutOfRange) as refused:
+            computation(bare)
+        assert refused.value.problems[0].path == ("machine", "throws")
+    else:
+        assert ElementTree.fromstring(computation(bare).svg()).get("aria-label")
 
 
 def test_bearings_stand_two_to_a_row() -> None:
