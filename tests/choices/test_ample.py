@@ -5,7 +5,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from optimizer.choices.discrete import ample
+from optimizer.choices.discrete.lightest import Lighter, lighter
 from schemas.answer.answers import OptimizeAnswer
+from tests.benchmarks.discrete import choice
 from tests.hard.cases.case import Body
 from tests.verification.checking import optimized
 
@@ -96,6 +99,20 @@ def test_by_hand_and_by_answer_the_objective_is_the_same() -> None:
     u = np.array([complex(each.x_kg_m, each.y_kg_m) for each in free.counterweights])
     assert free.certificate is not None
     assert objective_of(machine(), u) == pytest.approx(free.certificate.objective, rel=1e-9)
+
+
+def test_no_slots_are_searched_twice_for_what_is_lighter_than_a_set(monkeypatch: pytest.MonkeyPatch) -> None:
+    searched: list[tuple[object, ...]] = []
+
+    def counted(*arguments: Any) -> Lighter:
+        _, _, which, level, below_kg, *_ = arguments
+        searched.append((*(options.tobytes() for options in which), level, below_kg))
+        return lighter(*arguments)
+
+    monkeypatch.setattr(ample, "lighter", counted)
+    assert optimized(choice(webs=4, holes=12, masses=16)).status == "optimal"
+    assert searched
+    assert len({*searched}) == len(searched)
 
 
 def test_what_a_foundry_would_cast() -> None:

@@ -179,12 +179,17 @@ def lightest_near(incumbent: Incumbent, limit: float, clock: Clock, sizes: Light
     light = None if sizes is None else sizes.below(chosen, limit, clock)
     chosen = chosen if light is None else _lightened(incumbent, light, limit)
     free, several = np.flatnonzero(np.sum(options.exists, axis=-1) > 1), 4 if options.limits_parts else 6
+    # slots of which no lighter options are beside this set
+    settled: list[set[int]] = []
     for _ in range(_LIGHTER if free.size else 0):
         if clock.spent():
             break
+        slots = chance.choice(free, min(free.size, several), replace=False).tolist()
+        if any(whole.issuperset(slots) for whole in settled):
+            continue
         loose, which = options, [np.array([option]) for option in chosen]
         parts = options.of(options.part, chosen)
-        for k in chance.choice(free, min(free.size, several), replace=False).tolist():
+        for k in slots:
             if options.limits_parts:
                 # of the sizes that there are
                 loose = replace(options, most_parts=None)
@@ -197,7 +202,10 @@ def lightest_near(incumbent: Incumbent, limit: float, clock: Clock, sizes: Light
         if not found.whole:
             # where hardly any set is ruled out by the limit, fewer slots at a time
             several = max(several - 2, 2)
-        chosen = chosen if found.chosen is None else _lightened(incumbent, found.chosen, limit)
+        if found.chosen is not None:
+            chosen, settled = _lightened(incumbent, found.chosen, limit), []
+        elif found.whole:
+            settled.append(set(slots))
     return chosen
 
 

@@ -11,6 +11,8 @@ from optimizer.numerics.arrays import Complex, Real
 
 #: sums nearer than this share of the largest are one
 _SAME = 1e-12
+#: powers of an odd number, multiplied by keys modulo 2^64, are unlike for unlike keys but for chance
+_ODD = np.uint64(0x9E3779B97F4A7C15)
 #: how many times more sums than wanted are made on the way, most of them too heavy
 _WIDEST = 40
 
@@ -117,9 +119,18 @@ def _merged(sums: Sums) -> Sums:
     size = float(np.max(np.abs(sums.z), initial=0.0)) or 1.0
     parts = np.concatenate([sums.z.real, sums.z.imag], axis=-1) / (_SAME * size)
     keys = np.column_stack([np.round(parts).astype(np.int64), sums.fitted, sums.parts])
-    mass = np.round(sums.mass / (EQUAL * (float(np.max(sums.mass, initial=0.0)) or 1.0)))
-    order = np.lexsort((sums.square, mass, *keys.T))
+    # few have an equal, which numbers made of the keys tell sooner than to sort by all keys
+    number = (keys.astype(np.uint64) * _ODD ** np.arange(1, keys.shape[-1] + 1, dtype=np.uint64)).sum(axis=-1)
+    ordered = np.sort(number)
+    equal = np.unique(ordered[1:][ordered[1:] == ordered[:-1]])
+    if not equal.size:
+        return sums
+    alike = np.flatnonzero(np.isin(number, equal))
+    mass = np.round(sums.mass[alike] / (EQUAL * (float(np.max(sums.mass, initial=0.0)) or 1.0)))
+    keys = keys[alike]
+    order = np.lexsort((sums.square[alike], mass, *keys.T))
     keys = keys[order]
-    new = np.concatenate([np.ones(min(order.size, 1), bool), np.any(keys[1:] != keys[:-1], axis=-1)])
-    kept = np.sort(order[new])
+    again = np.concatenate([np.zeros(1, bool), np.all(keys[1:] == keys[:-1], axis=-1)])
+    kept: np.ndarray = np.ones(number.size, bool)
+    kept[alike[order[again]]] = False
     return Sums(*(each[kept] for each in sums))
