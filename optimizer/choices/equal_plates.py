@@ -13,31 +13,20 @@ import numpy as np
 from optimizer.mechanics.plates import Plates
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.methods.compiled import suits_kernel, unproven
-from optimizer.program.methods.rounding import at_edge, made_up
+from optimizer.program.methods.plate_sizes import NEARLY, Cut, at_limits, total_mass
+from optimizer.program.methods.rounding import made_up
 from optimizer.program.plate_pieces import pieces, tangents
 from optimizer.program.points import excess_at
 from optimizer.program.solution import CEILING_ROUNDING
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import MASS_GAP
 
-#: unbalances that differ by less than this share are nearly the same, as in ``optimizer.program.methods.rounding``
-_NEAR = 1e-4
 #: openings that are tried at once for plates that are to be alike, and how often closer ones
 _TRIED, _ROUNDS = 6, 3
 #: shares of what is certified that may be used up: of the mass, and of the objective by the choice of the others
 _OF_MASS, _OF_OBJECTIVE = 0.9, 0.5
-#: openings that differ by less are one size where that leaves an optimum, rad: 1e-3 degrees, and less
-_ONE_SIZE = (1.75e-5, 1e-7, 1e-9, 1e-11)
 #: openings that differ by less than this share are the same
 _SAME = 1e-12
-
-
-class Cut(NamedTuple):
-    """Counterweights, of which some are cut from plates."""
-
-    unbalance: Complex  # (K,) kg m
-    angle: Real  # (P,) rad, half-angles of the plates
-    mass: float  # kg, of all together
 
 
 def alike(
@@ -81,62 +70,16 @@ def alike(
     return _opened(whole, plates, nodes, turned, every, apart, admitted) or one_by_one
 
 
-def one_size(whole: Statement, plates: Plates, cut: Cut) -> Iterator[Cut]:
-    """The same with openings that nearly agree put to the largest or the mean of them, those that differ more first.
-
-    What nearly goes as far as it can goes so far. Other counterweights make up for it; the last is the cut as it is.
-    """
-    size, limits, held = np.abs(cut.unbalance), whole.limits, _at_limits(whole, cut)
-    for near in _ONE_SIZE:
-        near_full = np.where(cut.angle >= plates.most - near, plates.most, cut.angle)
-        order = np.lexsort((near_full, plates.kinds))
-        apart = (np.diff(near_full[order]) > near) | (np.diff(plates.kinds[order]) != 0)
-        clusters = np.split(order, np.flatnonzero(apart) + 1)
-        room = np.where(held, 0.0, size)
-        for some in clusters:
-            room[plates.webs[some]] *= some.size == 1
-        for common in (np.max, np.mean):
-            angle = near_full.copy()
-            for some in clusters:
-                angle[some] = common(near_full[some])
-            angle = np.where(cut.angle > 0, angle, 0.0)
-            if not np.any(angle != cut.angle):
-                continue
-            put = cut.unbalance.copy()
-            put[plates.webs] *= plates.unbalance(angle) / np.where(size[plates.webs] > 0, size[plates.webs], 1.0)
-            change = whole.every_influence[0] @ (put - cut.unbalance)
-            balanced = put + made_up(limits.alike, whole.every_influence, room[None], change[None])[0]
-            balanced = np.where(room > 0, limits.into(balanced[None])[0], put)
-            moved = np.where(room[plates.webs] > 0, plates.opened(np.abs(balanced[plates.webs])), angle)
-            for u, opened in ((balanced, moved), (put, angle)):
-                yield Cut(u, opened, float(total_mass(whole, plates, u, opened)))
-    yield cut
-
-
 def emptied(whole: Statement, plates: Plates, cut: Cut, empty: np.ndarray) -> Cut:
     """The same with some webs (K,) bool left empty, for which counterweights between their limits make up."""
     limits, put = whole.limits, np.where(empty, 0.0, cut.unbalance)
-    room = np.where(empty | _at_limits(whole, cut), 0.0, np.abs(cut.unbalance))
+    room = np.where(empty | at_limits(whole, cut), 0.0, np.abs(cut.unbalance))
     change = whole.every_influence[0] @ (put - cut.unbalance)
     balanced = put + made_up(limits.alike, whole.every_influence, room[None], change[None])[0]
     u = np.where(room > 0, limits.into(balanced[None])[0], put)
     angle = np.where(room[plates.webs] > 0, plates.opened(np.abs(u[plates.webs])), cut.angle)
     angle = np.where(empty[plates.webs], 0.0, angle)
     return Cut(u, angle, float(total_mass(whole, plates, u, angle)))
-
-
-def _at_limits(whole: Statement, cut: Cut) -> np.ndarray:
-    """Webs (K,) that are all but full, or next to an edge of their sector."""
-    limits = whole.limits
-    full = np.abs(cut.unbalance) >= limits.reach[0] * (1.0 - _NEAR)
-    return np.asarray(full | at_edge(limits, cut.unbalance[None], _NEAR)[0])
-
-
-def total_mass(whole: Statement, plates: Plates, u: Complex, angle: Real) -> Real:
-    """What unbalances (..., K) weigh (...), kg, those of plates (..., P) as they are opened."""
-    mass = np.abs(u) / whole.limits.radius[0]
-    mass[..., plates.webs] = plates.mass(angle)
-    return np.add.reduce(mass, axis=-1)
 
 
 class _Cluster(NamedTuple):
@@ -151,11 +94,11 @@ class _Cluster(NamedTuple):
 def _clusters(plates: Plates, cut: Cut) -> Iterator[_Cluster]:
     """Plates of one kind that hold nearly the same, and plates that are all but full."""
     size = np.abs(cut.unbalance[plates.webs])
-    full = size >= plates.unbalance(plates.most) * (1.0 - _NEAR)
+    full = size >= plates.unbalance(plates.most) * (1.0 - NEARLY)
     for kind in np.unique(plates.kinds):
         places = np.flatnonzero((plates.kinds == kind) & (size > 0))
         places = places[np.argsort(size[places], kind="stable")]
-        apart = np.flatnonzero(np.diff(size[places]) > _NEAR * size[places][1:]) + 1
+        apart = np.flatnonzero(np.diff(size[places]) > NEARLY * size[places][1:]) + 1
         for some in np.split(places, apart):
             if some.size > 1 or np.any(full[some]):
                 angle, to_the_end = cut.angle[some], bool(np.any(full[some]))

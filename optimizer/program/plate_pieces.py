@@ -27,6 +27,10 @@ class Plates(Protocol):
         """(P,) which webs of the program."""
 
     @property
+    def kinds(self) -> np.ndarray:
+        """(P,) of those that are the same the same number."""
+
+    @property
     def most(self) -> Real:
         """Largest half-angles, rad."""
 

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.choices.equal_plates import Cut, alike, emptied, one_size, total_mass
+from optimizer.choices.equal_plates import alike, emptied
 from optimizer.choices.plate_guess import guessed
 from optimizer.formulation.demand import Demand
 from optimizer.formulation.limits import limits
@@ -25,6 +25,7 @@ from optimizer.program.cuts.optimum import Found, Unkept
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import Optima, optima
+from optimizer.program.methods.plate_sizes import Cut, one_size, total_mass
 from optimizer.program.methods.rounding import dust
 from optimizer.program.methods.symmetry import symmetric
 from optimizer.program.optimum import solution

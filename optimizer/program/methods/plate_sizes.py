@@ -1,0 +1,70 @@
+"""Plates that are cut: what they weigh, and openings that nearly agree put to one size."""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.methods.rounding import at_edge, made_up
+from optimizer.program.plate_pieces import Plates
+from optimizer.program.statement import Statement
+
+#: unbalances that differ by less than this share are nearly the same, as in ``optimizer.program.methods.rounding``
+NEARLY = 1e-4
+#: openings that differ by less are one size where that leaves an optimum, rad: 1e-3 degrees, and less
+_ONE_SIZE = (1.75e-5, 1e-7, 1e-9, 1e-11)
+
+
+class Cut(NamedTuple):
+    """Counterweights, of which some are cut from plates."""
+
+    unbalance: Complex  # (K,) kg m
+    angle: Real  # (P,) rad, half-angles of the plates
+    mass: float  # kg, of all together
+
+
+def one_size(whole: Statement, plates: Plates, cut: Cut) -> Iterator[Cut]:
+    """The same with openings that nearly agree put to the largest or the mean of them, those that differ more first.
+
+    What nearly goes as far as it can goes so far. Other counterweights make up for it; the last is the cut as it is.
+    """
+    size, limits, held = np.abs(cut.unbalance), whole.limits, at_limits(whole, cut)
+    for near in _ONE_SIZE:
+        near_full = np.where(cut.angle >= plates.most - near, plates.most, cut.angle)
+        order = np.lexsort((near_full, plates.kinds))
+        apart = (np.diff(near_full[order]) > near) | (np.diff(plates.kinds[order]) != 0)
+        clusters = np.split(order, np.flatnonzero(apart) + 1)
+        room = np.where(held, 0.0, size)
+        for some in clusters:
+            room[plates.webs[some]] *= some.size == 1
+        for common in (np.max, np.mean):
+            angle = near_full.copy()
+            for some in clusters:
+                angle[some] = common(near_full[some])
+            angle = np.where(cut.angle > 0, angle, 0.0)
+            if not np.any(angle != cut.angle):
+                continue
+            put = cut.unbalance.copy()
+            put[plates.webs] *= plates.unbalance(angle) / np.where(size[plates.webs] > 0, size[plates.webs], 1.0)
+            change = whole.every_influence[0] @ (put - cut.unbalance)
+            balanced = put + made_up(limits.alike, whole.every_influence, room[None], change[None])[0]
+            balanced = np.where(room > 0, limits.into(balanced[None])[0], put)
+            moved = np.where(room[plates.webs] > 0, plates.opened(np.abs(balanced[plates.webs])), angle)
+            for u, opened in ((balanced, moved), (put, angle)):
+                yield Cut(u, opened, float(total_mass(whole, plates, u, opened)))
+    yield cut
+
+
+def at_limits(whole: Statement, cut: Cut) -> np.ndarray:
+    """Webs (K,) that are all but full, or next to an edge of their sector."""
+    limits = whole.limits
+    full = np.abs(cut.unbalance) >= limits.reach[0] * (1.0 - NEARLY)
+    return np.asarray(full | at_edge(limits, cut.unbalance[None], NEARLY)[0])
+
+
+def total_mass(whole: Statement, plates: Plates, u: Complex, angle: Real) -> Real:
+    """What unbalances (..., K) weigh (...), kg, those of plates (..., P) as they are opened."""
+    mass = np.abs(u) / whole.limits.radius[0]
+    mass[..., plates.webs] = plates.mass(angle)
+    return np.add.reduce(mass, axis=-1)
