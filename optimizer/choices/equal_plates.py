@@ -13,7 +13,7 @@ import numpy as np
 from optimizer.mechanics.plates import Plates
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.methods.compiled import suits_kernel, unproven
-from optimizer.program.methods.plate_sizes import NEARLY, Cut, at_limits, total_mass
+from optimizer.program.methods.plate_sizes import NEARLY, SAME_SIZE, Cut, at_limits, total_mass
 from optimizer.program.methods.rounding import made_up
 from optimizer.program.plate_pieces import pieces, tangents
 from optimizer.program.points import excess_at
@@ -25,8 +25,6 @@ from optimizer.program.verdict import MASS_GAP
 _TRIED, _ROUNDS = 6, 3
 #: shares of what is certified that may be used up: of the mass, and of the objective by the choice of the others
 _OF_MASS, _OF_OBJECTIVE = 0.9, 0.5
-#: openings that differ by less than this share are the same
-_SAME = 1e-12
 
 
 def alike(
@@ -45,7 +43,7 @@ def alike(
     if not suits_kernel(whole):
         return cut
     clusters = list(_clusters(plates, cut))
-    apart = [each for each in clusters if each.high - each.low > _SAME * each.high]
+    apart = [each for each in clusters if each.high - each.low > SAME_SIZE * each.high]
     if not apart:
         return cut
     admitted = _admitted(whole, cut, optimum, least_mass)
@@ -60,7 +58,7 @@ def alike(
     one_by_one, held, left = cut, empty.copy(), False
     for each in clusters:
         held[plates.webs[each.places]] = True
-        if each.high - each.low > _SAME * each.high:
+        if each.high - each.low > SAME_SIZE * each.high:
             found = _opened(whole, plates, nodes, one_by_one, held, [each], admitted)
             one_by_one, left = found or one_by_one, left or found is None
     if not left:

@@ -15,10 +15,8 @@ from optimizer.mechanics.shapes import fitted, plates
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.equal_castings import Alike
 from optimizer.program.limits import Limits
+from optimizer.program.methods.plate_sizes import SAME_SIZE
 from schemas.request.requests import OptimizeRequest
-
-#: openings that agree this closely, relative, are equal: what rounding leaves
-_EQUAL = 1e-14
 
 
 class CutPlates(NamedTuple):
@@ -43,7 +41,7 @@ def cut_plates(request: OptimizeRequest, scene: Prepared, asked: Goals, u: Compl
         return CutPlates(request, scene, asked, *masses_and_angles(machine, u, reached))
     angle = openings(of_machine, u, reached.alike)
     # plates that differ by what rounding leaves are the same to the last digit
-    near = (np.abs(angle[:, None] - angle) <= _EQUAL * angle) & (of_machine.kinds[:, None] == of_machine.kinds)
+    near = (np.abs(angle[:, None] - angle) <= SAME_SIZE * angle) & (of_machine.kinds[:, None] == of_machine.kinds)
     first, same = np.argmax(near, axis=1), np.arange(u.size)
     angle, same[of_machine.webs] = angle[first], of_machine.webs[first]
     request = request.model_copy(update={"machine": fitted(request.machine, angle)})

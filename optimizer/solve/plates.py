@@ -25,7 +25,7 @@ from optimizer.program.cuts.optimum import Found, Unkept
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import Optima, optima
-from optimizer.program.methods.plate_sizes import Cut, one_size, total_mass
+from optimizer.program.methods.plate_sizes import Cut, one_size, total_mass, unlike
 from optimizer.program.methods.rounding import dust
 from optimizer.program.methods.symmetry import symmetric
 from optimizer.program.optimum import solution
@@ -49,6 +49,8 @@ _PARTS = np.linspace(0.0, 1.0, 17)[1:-1]
 _NEARER = 2.5
 #: share of what optima may differ by that is used where webs are left empty
 _WITH_ROOM = 0.999
+#: the same where plates are to be alike: the first that is enough
+_ROOM_TO_BE_ALIKE = (0.999, 0.99, 0.9)
 
 
 def cut_optimum(
@@ -242,6 +244,18 @@ class _Task:
 
     def judged_alike(self, found: _Round, nodes: Real) -> _Attempt:
         """What is cut, with plates opened alike where what is proven still holds."""
+        best = self._judged_alike(found, nodes)
+        if best.status != "optimal" or not unlike(self.plates, self.opened(best.found.unbalance[0])):
+            return best
+        for share in _ROOM_TO_BE_ALIKE:
+            # the least mass spends all that an optimum may be off, so that none is left for plates to be alike
+            task = replace(self, relative_gap=share * min(self.relative_gap, OPTIMUM_SHARE))
+            other = self._judged_alike(found._replace(cut=task.round(nodes).cut), nodes)
+            if other.status == "optimal" and not unlike(self.plates, self.opened(other.found.unbalance[0])):
+                return other
+        return best
+
+    def _judged_alike(self, found: _Round, nodes: Real) -> _Attempt:
         cut = self._alike(found, nodes)
         # those that are chosen anew for it may be next to nothing
         alike_first = cut is not found.cut and not dust(self._masses(cut)).any()

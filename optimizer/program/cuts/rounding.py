@@ -5,9 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from optimizer.numerics.arrays import Real, mapped
+from optimizer.numerics.arrays import Complex, Real, mapped
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.cuts.stage import Point
+from optimizer.program.methods.plate_sizes import Cut, one_size, unlike
 from optimizer.program.methods.rounding import HEAVIER, NEAR, brought
 from optimizer.program.solution import CEILING_ROUNDING
 from optimizer.program.statement import Statement
@@ -42,12 +43,28 @@ def settled_turn(
         u, moved = brought(limits, influence[None], point.unbalance[None], dust, touched)
         if not moved.size:
             continue
-        mass = program.mass(u[0])
-        if mass > max(point.mass, heaviest):
-            continue
-        old, new = program.values(point.unbalance, width), program.values(u[0], width)
-        kept = np.all(new.goals <= np.maximum(most, old.goals))
-        kept &= new.over_budget <= max(old.over_budget, 0.0)
-        if kept and new.excess <= max(old.excess, CEILING_ROUNDING):
-            point = replace(point, unbalance=u[0], values=new, mass=mass)
+        point = _settled(program, point, u[0], most, heaviest, width) or point
+    if program.plates is None:
+        return point
+    plates = program.plates
+    angle = plates.opened(np.abs(point.unbalance[plates.webs]))
+    if not unlike(plates, angle):
+        return point
+    alone = statement.alone()
+    for cut in one_size(alone, plates, Cut(point.unbalance, angle, point.mass)):
+        alike = _settled(program, point, cut.unbalance, most, heaviest, width)
+        if alike is not None:
+            return alike
     return point
+
+
+def _settled(program: Problem, point: Point, u: Complex, most: Real, heaviest: float, width: float) -> Point | None:
+    """The point with other counterweights (K,), None where it is worse for them."""
+    mass = program.mass(u)
+    if mass > max(point.mass, heaviest):
+        return None
+    old, new = program.values(point.unbalance, width), program.values(u, width)
+    kept = np.all(new.goals <= np.maximum(most, old.goals))
+    kept &= new.over_budget <= max(old.over_budget, 0.0)
+    kept &= new.excess <= max(old.excess, CEILING_ROUNDING)
+    return replace(point, unbalance=u, values=new, mass=mass) if kept else None

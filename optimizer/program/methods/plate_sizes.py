@@ -14,6 +14,8 @@ from optimizer.program.statement import Statement
 NEARLY = 1e-4
 #: openings that differ by less are one size where that leaves an optimum, rad: 1e-3 degrees, and less
 _ONE_SIZE = (1.75e-5, 1e-7, 1e-9, 1e-11)
+#: openings that differ by less than this share are the same: what rounding leaves
+SAME_SIZE = 1e-12
 
 
 class Cut(NamedTuple):
@@ -54,6 +56,13 @@ def one_size(whole: Statement, plates: Plates, cut: Cut) -> Iterator[Cut]:
             for u, opened in ((balanced, moved), (put, angle)):
                 yield Cut(u, opened, float(total_mass(whole, plates, u, opened)))
     yield cut
+
+
+def unlike(plates: Plates, angle: Real) -> bool:
+    """Whether plates of one kind are opened (P,) rad so nearly alike that they should be alike."""
+    apart = np.abs(angle[:, None] - angle)
+    near = (apart <= _ONE_SIZE[0]) & (plates.kinds[:, None] == plates.kinds) & (angle[:, None] > 0) & (angle > 0)
+    return bool(np.any(near & (apart > SAME_SIZE * angle)))
 
 
 def at_limits(whole: Statement, cut: Cut) -> np.ndarray:
