@@ -29,7 +29,8 @@ class Cut(NamedTuple):
 def one_size(whole: Statement, plates: Plates, cut: Cut) -> Iterator[Cut]:
     """The same with openings that nearly agree put to the largest or the mean of them, those that differ more first.
 
-    What nearly goes as far as it can goes so far. Other counterweights make up for it; the last is the cut as it is.
+    What nearly goes as far as it can goes so far, or else to the mean too. Other counterweights make up for it; the
+    last is the cut as it is.
     """
     size, limits, held = np.abs(cut.unbalance), whole.limits, at_limits(whole, cut)
     for near in _ONE_SIZE:
@@ -40,10 +41,10 @@ def one_size(whole: Statement, plates: Plates, cut: Cut) -> Iterator[Cut]:
         room = np.where(held, 0.0, size)
         for some in clusters:
             room[plates.webs[some]] *= some.size == 1
-        for common in (np.max, np.mean):
-            angle = near_full.copy()
+        for common, opened in ((np.max, near_full), (np.mean, near_full), (np.mean, cut.angle)):
+            angle = opened.copy()
             for some in clusters:
-                angle[some] = common(near_full[some])
+                angle[some] = common(opened[some])
             angle = np.where(cut.angle > 0, angle, 0.0)
             if not np.any(angle != cut.angle):
                 continue
@@ -53,8 +54,8 @@ def one_size(whole: Statement, plates: Plates, cut: Cut) -> Iterator[Cut]:
             balanced = put + made_up(limits.alike, whole.every_influence, room[None], change[None])[0]
             balanced = np.where(room > 0, limits.into(balanced[None])[0], put)
             moved = np.where(room[plates.webs] > 0, plates.opened(np.abs(balanced[plates.webs])), angle)
-            for u, opened in ((balanced, moved), (put, angle)):
-                yield Cut(u, opened, float(total_mass(whole, plates, u, opened)))
+            for u, half in ((balanced, moved), (put, angle)):
+                yield Cut(u, half, float(total_mass(whole, plates, u, half)))
     yield cut
 
 
