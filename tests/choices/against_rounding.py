@@ -14,6 +14,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+from numba import njit
 
 from optimizer.optimize import optimize
 from schemas.answer.answers import OptimizeAnswer
@@ -103,6 +104,28 @@ def with_choices(free: Body, mode: str, rng: np.random.Generator) -> Body:
     return found
 
 
+@njit  # type: ignore[untyped-decorator]
+def _best_pair(
+    one: np.ndarray,
+    other: np.ndarray,
+    carried_one: np.ndarray,
+    carried_other: np.ndarray,
+    weight: np.ndarray,
+    still: np.ndarray,
+) -> tuple[float, int, int]:
+    """The smallest cost of one of (a, 2) with one of (b, 2), and which they are."""
+    best, at_one, at_other = np.inf, 0, 0
+    for i in range(len(one)):
+        for j in range(len(other)):
+            cost = carried_one[i] + carried_other[j]
+            for k in range(2):
+                z = one[i, k] + other[j, k]
+                cost += weight[k] * (np.sqrt(z.real * z.real + z.imag * z.imag) + still[k])
+            if cost < best:
+                best, at_one, at_other = cost, i, j
+    return best, at_one, at_other
+
+
 class Plain:
     """Rounding by hand with local search; it knows nothing of the service but the continuous optimum."""
 
@@ -185,11 +208,10 @@ class Plain:
                         continue
                     co, weight = without(i, j)
                     some = rng.choice(len(options[i]), min(_PAIRED, len(options[i])), replace=False)
-                    cost = self.values(co + effects[i][some][:, None] + effects[j][None])
-                    cost = cost + price * (weight + mass[i][some][:, None] + mass[j][None])
-                    if cost.min() < best * (1 - 1e-12):
-                        a, b = np.unravel_index(int(np.argmin(cost)), cost.shape)
-                        best, at[i], at[j], moved = float(cost.min()), int(some[a]), int(b), True
+                    carried = price * (weight + mass[i][some]), price * mass[j]
+                    cost, a, b = _best_pair(co + effects[i][some], effects[j], *carried, self.weight, self.still)
+                    if cost < best * (1 - 1e-12):
+                        best, at[i], at[j], moved = cost, int(some[a]), b, True
         co, weight = without()
         self.ends.append((float(self.values(co)), weight))
         return self.ends[-1]
