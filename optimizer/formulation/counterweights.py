@@ -111,7 +111,7 @@ def unbalances_of_shaft(
     machine: Machine, shaft: BalanceShaft, mass_kg: Real, angles_deg: Real
 ) -> tuple[Counterweight, ...]:
     """The unbalances of a balance shaft (S,), one for each of its webs."""
-    alone = machine.model_copy(update={"webs": shaft.webs})
+    alone = machine.with_webs(shaft.webs)
     return _placed(alone, mass_kg, angles_deg, [None] * len(shaft.webs), float(shaft.speed_ratio))
 
 

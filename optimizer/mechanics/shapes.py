@@ -69,7 +69,7 @@ def _cut_machine(machine: Machine) -> Callable[[tuple[float, ...]], Machine]:
         radius = np.where(fits, cut.unbalance(angle) / np.where(fits, mass, 1.0), cut.lever(np.zeros(mass.shape)))
         for k, each in zip(cut.webs.tolist(), radius.tolist(), strict=True):
             webs[k] = webs[k].model_copy(update={"counterweight_radius_m": each})
-        return machine.model_copy(update={"webs": tuple(webs)})
+        return machine.with_webs(tuple(webs))
 
     return with_radii
 

@@ -60,6 +60,7 @@ def prepare(
     always: tuple[str, ...] = (),
     objective: tuple[str, ...] = (),
     outputs: Sequence[str] | None = None,
+    machine: Machine | None = None,
 ) -> Prepared:
     """Simulate what the outputs of a request call for.
 
@@ -68,6 +69,7 @@ def prepare(
     always : outputs that are needed whether they were asked for or not.
     objective : effects that the objective needs, which the machine gives.
     outputs : those that are simulated for; None are those that the request asks for.
+    machine : another in place of that of the request.
 
     Raises
     ------
@@ -75,11 +77,11 @@ def prepare(
         if the machine lacks what an output needs.
     """
     every = dict.fromkeys((*always, *(request.outputs if outputs is None else outputs)))
-    require_inputs(request.machine, tuple(every), request.angles.count)
+    require_inputs(request.machine if machine is None else machine, tuple(every), request.angles.count)
     needs = {name: OUTPUTS[name].needs for name in every}
     if objective:
         needs["objective"] = objective
-    return simulated(request, needs, request.angles.count)
+    return simulated(request, needs, request.angles.count, machine=machine)
 
 
 def fields(

@@ -6,9 +6,9 @@ from optimizer.effects.registry import problems_of
 from optimizer.formulation.goals import missing_sizes
 from optimizer.outputs.registry import OUTPUTS
 from schemas.base.model import FieldProblem
+from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.objective import Objective
-from schemas.request.requests import OptimizeRequest
 
 #: effects that an objective over the whole turn needs, and one about peaks on the frame alone
 _TURN, _ON_FRAME = ("whole_turn",), ("frame_forces",)
@@ -26,9 +26,8 @@ def effects_of_objective(objective: Objective) -> tuple[str, ...]:
     return _TURN if objective.of_the_shaft or objective.roll_weight > 0 else _ON_FRAME
 
 
-def missing(request: OptimizeRequest) -> Iterator[FieldProblem]:
+def missing(machine: Machine, goal: Objective) -> Iterator[FieldProblem]:
     """Fields that the objective of one request needs and the machine does not give; paths from the request."""
-    machine, goal = request.machine, request.objective
     if not goal.of_the_revolution:
         return
     needs = OUTPUTS["main_bearings"].needs if goal.of_the_shaft else effects_of_objective(goal)

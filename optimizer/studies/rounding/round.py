@@ -8,7 +8,7 @@ import numpy as np
 
 from optimizer.errors import NotComputable
 from optimizer.formulation.counterweights import counterweights, unbalance
-from optimizer.formulation.demand import demand
+from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import beside
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Real
@@ -82,8 +82,9 @@ class _Judge:
 
     @classmethod
     def of(cls, request: OptimizeRequest) -> "_Judge":
-        scene = prepare(request, ("residual",), () if request.cases else effects_of_objective(request.objective))
-        program = Robust(request, scene, demand(request)).asked().program
+        effects = effects_of_objective(request.objective)
+        scene, task = prepare(request, ("residual",), () if request.cases else effects), Task.of(request)
+        program = Robust(task, scene, task.demand).asked().program
         return cls(request.machine, program, scene.omega_squared)
 
     def values(self, weights: _Set) -> tuple[float, float]:
