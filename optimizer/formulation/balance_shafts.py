@@ -17,6 +17,7 @@ from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex, Real
 from schemas.answer.counterweights import Counterweight, FittedShaft
 from schemas.answer.limits import MachineLimit, WebLimit
+from schemas.base.variation import with_fields
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import BalanceShaft, ReciprocatingMachine
 from schemas.machine.webs import Web
@@ -49,8 +50,7 @@ def design_space(machine: Machine, objective: Objective) -> DesignSpace:
 
 
 def _mirrored(web: Web) -> Web:
-    sector = web.sector and web.sector.model_copy(update={"centre_deg": -web.sector.centre_deg})
-    return web.model_copy(update={"sector": sector})
+    return web if web.sector is None else with_fields(web, {("sector", "centre_deg"): -web.sector.centre_deg})
 
 
 class Fitted(NamedTuple):

@@ -98,7 +98,7 @@ def with_worst_case(
     proof : fields of the price that prove the nominal optimum.
     """
     u = told.unbalance
-    price = _price(robust, u, nominal).model_copy(update=dict(proof))
+    price = PriceOfRobustness.model_validate({**_price(robust, u, nominal), **proof})
     worst = {"worst_case": _worst_case(robust, u, told.certificate.objective), "price_of_robustness": price}
     return replace(told, reason=f"{told.reason}{_NO_PRICE if late else ''}", fields={**told.fields, **worst})
 
@@ -176,14 +176,14 @@ def _nominal_optimum(robust: Robust, solver: Solver) -> tuple[Found | None, bool
     return found if isinstance(found, Found) and not late else None, late
 
 
-def _price(robust: Robust, u: Complex, best: Complex | None) -> PriceOfRobustness:
+def _price(robust: Robust, u: Complex, best: Complex | None) -> dict[str, float | None]:
     """What the worst case costs nominally, and the best of the machine as it is given in the worst case."""
     program, square = _nominal(robust).program, robust.scene.omega_squared
-    return PriceOfRobustness(
-        nominal=float(program.values(u, _CLOSE).goals[-1]) * square,
-        nominal_optimum=None if best is None else float(program.values(best, _CLOSE).goals[-1]) * square,
-        nominal_optimum_worst_case=None if best is None else _objective(robust, best),
-    )
+    return {
+        "nominal": float(program.values(u, _CLOSE).goals[-1]) * square,
+        "nominal_optimum": None if best is None else float(program.values(best, _CLOSE).goals[-1]) * square,
+        "nominal_optimum_worst_case": None if best is None else _objective(robust, best),
+    }
 
 
 def _nominal(robust: Robust) -> Goals:
