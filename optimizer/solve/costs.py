@@ -14,10 +14,11 @@ import numpy as np
 
 from optimizer.choices.catalogue import Catalogue
 from optimizer.choices.catalogue_options import part_numbers
-from optimizer.choices.discrete.ample import light_sizes, neighbourhoods, offer_light_sets
+from optimizer.choices.discrete.ample import light_sizes, offer_light_sets
 from optimizer.choices.discrete.clock import Clock
 from optimizer.choices.discrete.exchange import start
 from optimizer.choices.discrete.lightest import lighter, lightest
+from optimizer.choices.discrete.neighbourhoods import neighbourhoods
 from optimizer.choices.discrete.options import EQUAL, Incumbent, Options
 from optimizer.choices.discrete.search import EXHAUSTED
 from optimizer.choices.feasible_set import Choice, FeasibleSet
