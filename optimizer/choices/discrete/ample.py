@@ -94,9 +94,8 @@ def offer_light_sets(
     # few sizes are few sums, and where any may be used they are among them
     PartSizes(incumbent, light, used, _SIZES, enough, clock).run()
 
-    def close(slot: int) -> np.ndarray:
-        options, chosen = incumbent.options, incumbent.chosen
-        assert chosen is not None
+    def close(slot: int, chosen: np.ndarray) -> np.ndarray:
+        options = incumbent.options
         about = (options.unbalance[slot, chosen[slot]], light[slot])
         near = [near_options(options, slot, complex(each), CLOSE) for each in about]
         return np.unique(np.concatenate([*near, light_options(options, slot, CLOSE // 2)]))

@@ -39,7 +39,7 @@ class Nearer(NamedTuple):
 def improve(
     incumbent: Incumbent,
     options: Options,
-    some: Callable[[int], np.ndarray],
+    some: Callable[[int, np.ndarray], np.ndarray],
     enough: Callable[[], bool],
     clock: Clock,
 ) -> None:
@@ -48,31 +48,33 @@ def improve(
     Parameters
     ----------
     options : without limits that every choice keeps anyway.
-    some : options of a slot that are tried.
+    some : options of a slot that are tried, beside what a set (K,) has.
     """
     chance, free = np.random.default_rng(_SEED), np.flatnonzero(np.sum(options.exists, axis=-1) > 1)
     left = min(math.comb(free.size, 4) + 1, _PATIENCE)
-    while left > 0 and not (enough() or clock.spent()):
-        assert incumbent.chosen is not None
-        which = [np.array([option]) for option in incumbent.chosen]
+    while left > 0 and incumbent.chosen is not None and not (enough() or clock.spent()):
+        chosen = incumbent.chosen
+        which = [np.array([option]) for option in chosen]
         for k in chance.choice(free, min(free.size, 4), replace=False).tolist():
-            which[k] = np.union1d(which[k], some(k))
+            which[k] = np.union1d(which[k], some(k, chosen))
         before = incumbent.least
         exhaust(options, which, incumbent, SUMS, PAIRS, clock)
         left = _PATIENCE if incumbent.least < before - incumbent.resolution else left - 1
 
 
-def lightest_near(incumbent: Incumbent, limit: float, clock: Clock, sizes: LightSizes | None) -> np.ndarray:
+def lightest_near(
+    incumbent: Incumbent, best: np.ndarray, limit: float, clock: Clock, sizes: LightSizes | None
+) -> np.ndarray:
     """A light set (K,) near to the best one, no worse than a limit: some slots change at a time, and each by itself.
 
     Parameters
     ----------
+    best : (K,) the set that is made lighter.
     limit : of the objective.
     sizes : of few part numbers, what is tried before.
     """
     options, statement = incumbent.options, incumbent.statement
-    assert incumbent.chosen is not None
-    chosen, chance = lightened(incumbent, incumbent.chosen, limit), np.random.default_rng(_SEED)
+    chosen, chance = lightened(incumbent, best, limit), np.random.default_rng(_SEED)
     light = None if sizes is None else sizes.below(chosen, limit, clock)
     chosen = chosen if light is None else lightened(incumbent, light, limit)
     free, several = np.flatnonzero(np.sum(options.exists, axis=-1) > 1), 4 if options.limits_parts else 6

@@ -88,10 +88,9 @@ class PartSizes:
                 sizes, small = moved
                 moved = self._moved(sizes, small, trims, sums)
 
-    def _in_use(self, slot: int) -> np.ndarray:
-        """Nothing, and the options of a slot of the sizes that the best set has."""
-        options, chosen = self.incumbent.options, self.incumbent.chosen
-        assert chosen is not None
+    def _in_use(self, slot: int, chosen: np.ndarray) -> np.ndarray:
+        """Nothing, and the options of a slot of the sizes that a set (K,) has."""
+        options = self.incumbent.options
         parts = options.of(options.part, chosen)
         return np.union1d([0], np.flatnonzero(options.exists[slot] & np.isin(options.part[slot], parts[parts >= 0])))
 

@@ -134,9 +134,8 @@ def _proven(statement: Statement, best: Solution, bounds: list[float], objective
     cost, so a bound above the value by no more is lowered to it (docs/mathematics.md, section 5).
     """
     bound, slack = max(bounds), float(statement.rounding(best.unbalance))
-    if best.multipliers is not None:
-        over = np.full(statement.ceilings.size.shape, max(excess, 0.0))
-        slack += float(ceiling_allowance(statement, best.multipliers, over))
+    over = np.full(statement.ceilings.size.shape, max(excess, 0.0))
+    slack += float(ceiling_allowance(statement, best.multipliers, over))
     if bound <= objective + slack:
         return min(bound, objective)
     _LOG.error("a lower bound is above the value of an answer: %.17g above %.17g", bound, objective)
