@@ -135,7 +135,7 @@ def _placed(
     }
     if vectors is None:
         vectors = unbalance(mass_kg, angles_deg, stacked([web.radius_m for web in machine.webs]))
-    throws = machine.throws if isinstance(machine, ReciprocatingMachine) else ()
+    throws = machine.throws
     shapes = _shapes(machine, mass_kg)
     fastest = ratio * (machine.overspeed_rpm or machine.speed_rpm) * np.pi / 30.0
     return tuple(

@@ -102,13 +102,11 @@ class Prepared:
     @cached_property
     def bearing_influence(self) -> Real:
         """Loads of the main bearings for unit loads in all planes, (..., B, L)."""
-        assert isinstance(self.machine, ReciprocatingMachine)  # no other has bearings
         return INFLUENCES[self.request.fidelity.shaft](bearing_places(self.machine), planes(self.layout))
 
     @cached_property
     def shaft_curves(self) -> ShaftCurves:
         """Loads of the B main bearings and bending moments at the S corners, over omega^2: B + S curves together."""
-        assert isinstance(self.machine, ReciprocatingMachine)  # no other has bearings
         places, reaction = bearing_places(self.machine), self.bearing_influence
         moments = bending_influence(self.layout, places, reaction, stations(self.layout, places))
         both = np.concatenate([reaction, moments], axis=-2)

@@ -28,7 +28,6 @@ from optimizer.outputs.stages import STAGES
 from schemas.base.model import FieldProblem
 from schemas.base.rules import Path, Rule
 from schemas.machine.machine import Machine
-from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.scene import Scene
 from schemas.sweep.details import usual_keys
 
@@ -194,6 +193,4 @@ def _reached(machine: Machine, outputs: Sequence[str]) -> Iterator[tuple[str, st
 
 def _series(machine: Machine) -> int:
     """Rows and bearings of a machine: so many series does an output hold."""
-    if not isinstance(machine, ReciprocatingMachine):
-        return 0
     return sum(len(throw.rows) for throw in machine.throws) + len(machine.bearings)

@@ -7,7 +7,6 @@ from optimizer.formulation.goals import missing_sizes
 from optimizer.outputs.registry import OUTPUTS
 from schemas.base.model import FieldProblem
 from schemas.machine.machine import Machine
-from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.objective import Objective
 
 #: effects that an objective over the whole turn needs, and one about peaks on the frame alone
@@ -36,5 +35,5 @@ def missing(machine: Machine, goal: Objective) -> Iterator[FieldProblem]:
         why = _FREE if path == ("bearings",) and field.startswith("bending") else message
         yield FieldProblem(("machine", *path), f"{why}; needed by objective.{field}")
     specific = goal.specific_load_ceiling_Pa is not None or (goal.bearing_weight and goal.bearing_measure == "specific")
-    if specific and isinstance(machine, ReciprocatingMachine):
+    if specific:
         yield from missing_sizes(machine)

@@ -26,7 +26,6 @@ from optimizer.solve.solution import Infeasible, Solution, finite_or_null, multi
 from optimizer.solve.uncertain_program import MachineOfCase, Measure, Robust
 from schemas.answer.first_order import ResponsePeak
 from schemas.answer.robust import PriceOfRobustness, WorstCase
-from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.scene import Fidelity
 
 #: width of brackets of what is shown, relative; and of those that tell which of several peaks may be the largest
@@ -160,9 +159,7 @@ def _peak(robust: Robust, machine: MachineOfCase, responses: Sequence[TurnRespon
 
 
 def _bearing_responses(machine: MachineOfCase, fidelity: Fidelity) -> Iterator[TurnResponse]:
-    made, scene = machine.space.machine, machine.scene
-    assert isinstance(made, ReciprocatingMachine)  # no other has bearings
-    yield from bearing_responses(made, fidelity, machine.turn, scene.laden)
+    yield from bearing_responses(machine.space.machine, fidelity, machine.turn, machine.scene.laden)
 
 
 def _nominal_optimum(robust: Robust, solver: Solver) -> tuple[Found | None, bool]:

@@ -30,7 +30,6 @@ from optimizer.studies.accuracy.peaks import peaks_ladder
 from optimizer.studies.accuracy.rivals.sampled import OverTheTurn, WeightedResponse
 from schemas.base.mappings import or_mapping
 from schemas.base.version import package_version
-from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.accuracy import (
     AccuracyAnswer,
     AccuracyRequest,
@@ -225,7 +224,7 @@ def _size(request: AccuracyRequest, statement: Statement) -> ProgramSize:
         ceilings=len(statement.ceilings.names),
         sectors=int(np.sum(~statement.limits.free)),
         mass_budget=machine.max_total_mass_kg is not None,
-        rows=sum(len(throw.rows) for throw in machine.throws) if isinstance(machine, ReciprocatingMachine) else 0,
+        rows=sum(len(throw.rows) for throw in machine.throws),
     )
 
 
