@@ -102,8 +102,7 @@ def _cheaper(
             level = best * (1.0 + allowance) + EQUAL * size
             left = _SHARES[minimised] * seconds / (len(allowances) - n if minimised == "mass" else 1 + n)
             choice, bound = costs.least(minimised, level, left)
-            assert choice is not None  # the best one keeps every level
-            if cost(choice, minimised) < cost(cheapest, minimised) * (1.0 - EQUAL):
+            if choice is not None and cost(choice, minimised) < cost(cheapest, minimised) * (1.0 - EQUAL):
                 yield _Cheap(minimised, allowance, choice, costs.value(choice), bound)
                 cheapest = choice
 
