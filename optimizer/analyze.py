@@ -30,10 +30,10 @@ def analyze(request: AnalyzeRequest) -> AnalyzeAnswer:
     mass, angle = as_given(request.machine, request.counterweights)
     refuse(too_heavy(request.machine, request.counterweights, "counterweights"))
     # what is cut from a plate has the radius that its mass gives it
-    request = request.model_copy(update={"machine": fitted_masses(request.machine, mass)})
-    scene = prepare(request)
+    machine = fitted_masses(request.machine, mass)
+    scene = prepare(request, machine=machine)
     reporting = time.perf_counter()
-    given = fitted(request.machine, mass, angle)
+    given = fitted(machine, mass, angle)
     found = fields(replace(scene, shafts=given.on_shafts), given.on_crank)
     end = time.perf_counter()
     return AnalyzeAnswer(

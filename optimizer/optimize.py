@@ -5,11 +5,12 @@ from dataclasses import replace
 
 from optimizer.errors import MissingInput, refuse
 from optimizer.formulation.counterweights import too_heavy
+from optimizer.formulation.task import Task
 from optimizer.outputs.registry import fields as answered
 from optimizer.outputs.registry import prepare
 from optimizer.outputs.requirements import effects_of_objective, missing
 from optimizer.program.reference.solver import Solver
-from optimizer.solve.alternatives import alternatives, for_best
+from optimizer.solve.alternatives import BEST, alternatives
 from optimizer.solve.process_solver import own_solver
 from optimizer.solve.solution import Solution
 from optimizer.solve.solve import solve
@@ -18,6 +19,7 @@ from optimizer.solve.worst_case import nothing_off
 from schemas.answer.alternatives import Alternative
 from schemas.answer.answers import OptimizeAnswer, Timing
 from schemas.base.mappings import or_mapping
+from schemas.request.objective import Objective
 from schemas.request.requests import OptimizeRequest
 
 #: outputs that every answer holds, and what it holds too where bearings or bending count, or the roll moment
@@ -37,29 +39,31 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
         if the machine lacks what a requested output, or the objective, needs.
     """
     start = time.perf_counter()
-    lacking = list(missing(request))
+    task = Task.of(request)
+    lacking = list(missing(task.machine, task.objective))
     if lacking:
         raise MissingInput(lacking)
     refuse(too_heavy(request.machine, request.fitted, "fitted"))
-    always = _always(request)
+    always = _always(task.objective)
     # of cases every one is a machine of its own, simulated for itself
-    scene = prepare(request, always, () if request.cases else effects_of_objective(request.objective))
+    scene = prepare(request, always, () if task.scenarios else effects_of_objective(task.objective))
     solving, began = time.perf_counter(), time.thread_time()
     solver = solver or own_solver()
-    best = solve(for_best(request), scene, solver)
+    first = replace(task, time_limit_s=BEST * task.time_limit_s) if request.alternatives else task
+    best = solve(first, scene, solver)
     cheaper: tuple[Alternative, ...] = ()
     if request.alternatives and isinstance(best, Solution):
-        left_s = request.accuracy.time_limit_s - (time.thread_time() - began)
-        cheaper = alternatives(request, scene, best.unbalance, solver, left_s)
+        left_s = task.time_limit_s - (time.thread_time() - began)
+        cheaper = alternatives(task, request.alternatives, scene, best.unbalance, solver, left_s)
     reporting = time.perf_counter()
     there, on_crank, told, u, report_s = best.cut or scene, None, best.answer, None, 0.0
     if isinstance(best, Solution):
         there, on_crank = replace(there, shafts=best.shown.on_shafts), best.shown.on_crank
         u, report_s = best.unbalance, best.report_s
-        if request.tolerances is not None and not request.robust:
-            told |= nothing_off(request, scene, u, best.certificate.objective)
+        if task.tolerances is not None and not task.robust:
+            told |= nothing_off(task, scene, u, best.certificate.objective)
     figures = answered(there, on_crank, always, told)
-    if request.objective.orders == "all":
+    if task.objective.orders == "all":
         figures["residual"] = with_turn(figures["residual"], scene, u)
     end = time.perf_counter()
     return OptimizeAnswer(
@@ -80,7 +84,7 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
     )
 
 
-def _always(request: OptimizeRequest) -> tuple[str, ...]:
-    """Outputs that the answer to a request holds, whether they were asked for or not."""
-    counted = ((_OF_THE_SHAFT, request.objective.of_the_shaft), (_ROLL, request.objective.roll_weight > 0))
+def _always(objective: Objective) -> tuple[str, ...]:
+    """Outputs that an answer holds, whether they were asked for or not."""
+    counted = ((_OF_THE_SHAFT, objective.of_the_shaft), (_ROLL, objective.roll_weight > 0))
     return (*_ALWAYS, *(name for name, counts in counted if counts))

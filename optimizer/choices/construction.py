@@ -1,16 +1,16 @@
-"""The set that a request states."""
+"""The set that counterweights are chosen from."""
 
 from optimizer.choices.catalogue import Catalogue
 from optimizer.choices.catalogue_options import stock
 from optimizer.choices.feasible_set import FeasibleSet
 from optimizer.choices.minimum_masses import MinimumMasses
+from optimizer.formulation.task import Task
 from optimizer.mechanics.layout import stacked
 from optimizer.program.limits import Limits
 from optimizer.program.reference.solver import Solver
-from schemas.request.requests import OptimizeRequest
 
 
-def feasible_set(request: OptimizeRequest, limits: Limits, solver: Solver) -> FeasibleSet:
+def feasible_set(task: Task, limits: Limits, solver: Solver) -> FeasibleSet:
     """What counterweights are chosen from: a catalogue, or any mass at any angle that is 0 or no less than a least one.
 
     Parameters
@@ -22,8 +22,8 @@ def feasible_set(request: OptimizeRequest, limits: Limits, solver: Solver) -> Fe
     OutOfRange
         where the options of a web cannot be told, or webs of a group are unlike.
     """
-    machine = request.machine
-    if machine.discrete:
+    machine = task.machine
+    if task.choice == "catalogue":
         return Catalogue(stock(machine), limits.radius)
     least = stacked([web.min_fitted_mass_kg or 0.0 for web in machine.webs])
-    return MinimumMasses(machine, least, limits, request.objective.least_mass, solver)
+    return MinimumMasses(machine, least, limits, task.objective.least_mass, solver)

@@ -17,10 +17,11 @@ from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex, Real
 from schemas.answer.counterweights import Counterweight, FittedShaft
 from schemas.answer.limits import MachineLimit, WebLimit
+from schemas.base.variation import with_fields
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import BalanceShaft, ReciprocatingMachine
 from schemas.machine.webs import Web
-from schemas.request.requests import OptimizeRequest
+from schemas.request.objective import Objective
 
 _TURNS = {1: "at its speed", 2: "at twice its speed"}
 
@@ -30,25 +31,26 @@ def balance_shafts(machine: Machine) -> tuple[BalanceShaft, ...]:
     return machine.balance_shafts if isinstance(machine, ReciprocatingMachine) else ()
 
 
-def posed(request: OptimizeRequest) -> OptimizeRequest:
-    """The request whose machine has the webs of its balance shafts behind its own: all that its program chooses."""
-    machine, shafts = request.machine, balance_shafts(request.machine)
+class DesignSpace(NamedTuple):
+    """All that a program chooses: a machine with the webs of its balance shafts behind its own, and its objective."""
+
+    machine: Machine
+    objective: Objective
+
+
+def design_space(machine: Machine, objective: Objective) -> DesignSpace:
+    """What a program chooses of a machine."""
+    shafts = balance_shafts(machine)
     if not shafts:
-        return request
-    mirrored = request.objective.orders == "first"
+        return DesignSpace(machine, objective)
+    mirrored = objective.orders == "first"
     webs = (_mirrored(web) if mirrored and shaft.speed_ratio == -1 else web for shaft in shafts for web in shaft.webs)
-    return request.model_copy(
-        update={
-            "machine": machine.model_copy(update={"webs": (*machine.webs, *webs)}),
-            # default weights count throws and webs of the crankshaft alone
-            "objective": with_weights_of(machine, request.objective),
-        }
-    )
+    # default weights count throws and webs of the crankshaft alone
+    return DesignSpace(machine.with_webs((*machine.webs, *webs)), with_weights_of(machine, objective))
 
 
 def _mirrored(web: Web) -> Web:
-    sector = web.sector and web.sector.model_copy(update={"centre_deg": -web.sector.centre_deg})
-    return web.model_copy(update={"sector": sector})
+    return web if web.sector is None else with_fields(web, {("sector", "centre_deg"): -web.sector.centre_deg})
 
 
 class Fitted(NamedTuple):
@@ -83,22 +85,24 @@ class Fitted(NamedTuple):
         }
 
 
-def chosen(request: OptimizeRequest, mass_kg: Real, angle_deg: Real, vectors: Complex | None = None) -> Fitted:
+def chosen(
+    machine: Machine, objective: Objective, mass_kg: Real, angle_deg: Real, vectors: Complex | None = None
+) -> Fitted:
     """What a program has chosen, shaft by shaft, beside the weights that are fixed.
 
     Parameters
     ----------
-    mass_kg, angle_deg : (K + S,) of the webs of :func:`posed`.
+    mass_kg, angle_deg : (K + S,) of the webs of :func:`design_space`.
     vectors : (K + S,) kg m, their unbalances where they are known.
     """
-    machine, shafts = request.machine, balance_shafts(request.machine)
+    shafts = balance_shafts(machine)
     if not shafts and not fixed_webs(machine).any():
         return fitted(machine, mass_kg, angle_deg, vectors)
     mass_kg, angle_deg = beside(machine, mass_kg, angle_deg)
     if not shafts:
         return fitted(machine, mass_kg, angle_deg)
     ratio = np.array([shaft.speed_ratio for shaft in shafts for _ in shaft.webs])
-    mirrored = (ratio == -1) & (request.objective.orders == "first")
+    mirrored = (ratio == -1) & (objective.orders == "first")
     own = len(machine.webs)
     angle = angle_deg.copy()
     angle[own:] = np.where(mirrored, np.mod(-angle[own:], 360.0), angle[own:])

@@ -111,7 +111,7 @@ def unbalances_of_shaft(
     machine: Machine, shaft: BalanceShaft, mass_kg: Real, angles_deg: Real
 ) -> tuple[Counterweight, ...]:
     """The unbalances of a balance shaft (S,), one for each of its webs."""
-    alone = machine.model_copy(update={"webs": shaft.webs})
+    alone = machine.with_webs(shaft.webs)
     return _placed(alone, mass_kg, angles_deg, [None] * len(shaft.webs), float(shaft.speed_ratio))
 
 
@@ -135,7 +135,7 @@ def _placed(
     }
     if vectors is None:
         vectors = unbalance(mass_kg, angles_deg, stacked([web.radius_m for web in machine.webs]))
-    throws = machine.throws if isinstance(machine, ReciprocatingMachine) else ()
+    throws = machine.throws
     shapes = _shapes(machine, mass_kg)
     fastest = ratio * (machine.overspeed_rpm or machine.speed_rpm) * np.pi / 30.0
     return tuple(

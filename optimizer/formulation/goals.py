@@ -35,7 +35,6 @@ from schemas.answer.limits import CeilingField, MachineLimit
 from schemas.base.model import FieldProblem
 from schemas.base.responses import CeilingFields
 from schemas.machine.machine import Machine
-from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.objective import COSTS, Objective
 from schemas.request.scene import Fidelity
 
@@ -83,7 +82,7 @@ class Goals:
 
 
 def bearing_responses(
-    machine: ReciprocatingMachine, fidelity: Fidelity, turn: WholeTurn, layout: Layout
+    machine: Machine, fidelity: Fidelity, turn: WholeTurn, layout: Layout
 ) -> tuple[TurnResponse, ...]:
     """Loads of the main bearings of one machine."""
     names = [f"bearing:{bearing.name}" for bearing in machine.bearings]
@@ -180,8 +179,7 @@ class _Asked:
         self._places: dict[str, range] = {}
 
     @property
-    def machine(self) -> ReciprocatingMachine:
-        assert isinstance(self.case.machine, ReciprocatingMachine)  # no other has bearings
+    def machine(self) -> Machine:
         return self.case.machine
 
     @property
@@ -357,7 +355,7 @@ def _in_order(objective: Objective, groups: dict[str, list[tuple[Group, ...]]]) 
     return (_largest("all", every),)
 
 
-def missing_sizes(machine: ReciprocatingMachine) -> Iterator[FieldProblem]:
+def missing_sizes(machine: Machine) -> Iterator[FieldProblem]:
     """Sizes of bearings that specific loads need and the machine does not give."""
     for k, bearing in enumerate(machine.bearings):
         for name in ("diameter_m", "length_m"):

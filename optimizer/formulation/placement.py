@@ -1,7 +1,11 @@
 """Counterweights that are on a machine at a radius or in a plane of their own: webs of the machine that they are on."""
 
 from collections.abc import Iterator
+from typing import Any
 
+from schemas.base.rules import Path
+from schemas.base.variation import with_fields
+from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.machine.webs import Web
 from schemas.request.requests import AnalyzeRequest
@@ -20,35 +24,40 @@ def on_webs(request: AnalyzeRequest) -> AnalyzeRequest:
     radii = {one.web: one.radius_m for one in request.counterweights if one.web and one.radius_m is not None}
     machine = request.machine
 
-    def own(webs: tuple[Web, ...]) -> tuple[Web, ...]:
-        """Webs at the radius of what they carry, which then is not cut from their plate."""
-        return tuple(
-            web.model_copy(update={"counterweight_radius_m": radii[web.name], "envelope": None})
-            if web.name in radii
-            else web
-            for web in webs
-        )
-
-    names, placed, fitted = _names(request), list(own(machine.webs)), []
-    for one in request.counterweights:
+    values: dict[Path, Any] = {}
+    for place, webs in _webs(machine):
+        for k, web in enumerate(webs):
+            if web.name in radii:
+                # what is at a radius of its own is not cut from the plate of its web
+                own = {"counterweight_radius_m": radii[web.name], "envelope": None}
+                values |= {("machine", *place, k, field): value for field, value in own.items()}
+    names, placed = _names(request), []
+    for n, one in enumerate(request.counterweights):
         if one.web is None:
-            update = {"name": next(names), "position_m": one.position_m, "counterweight_radius_m": one.radius_m}
-            placed.append(_PLACE.model_copy(update=update))
-            one = one.model_copy(update={"web": update["name"]})
-        fitted.append(one)
-    changes: dict[str, object] = {"webs": tuple(placed)}
+            name = next(names)
+            values["counterweights", n, "web"] = name
+            placed.append(
+                with_fields(
+                    _PLACE,
+                    {("name",): name, ("position_m",): one.position_m, ("counterweight_radius_m",): one.radius_m},
+                )
+            )
+    request = with_fields(request, values)
+    webs = (*request.machine.webs, *placed)
+    return with_fields(request, {("machine", "webs"): webs})
+
+
+def _webs(machine: Machine) -> Iterator[tuple[Path, tuple[Web, ...]]]:
+    """Webs of the crankshaft and of every balance shaft, with paths from the machine."""
+    yield ("webs",), machine.webs
     if isinstance(machine, ReciprocatingMachine):
-        changes["balance_shafts"] = tuple(
-            shaft.model_copy(update={"webs": own(shaft.webs)}) for shaft in machine.balance_shafts
-        )
-    return request.model_copy(update={"machine": machine.model_copy(update=changes), "counterweights": tuple(fitted)})
+        for i, shaft in enumerate(machine.balance_shafts):
+            yield ("balance_shafts", i, "webs"), shaft.webs
 
 
 def _names(request: AnalyzeRequest) -> Iterator[str]:
     """Names of planes, none of them that of a web."""
-    machine = request.machine
-    shafts = machine.balance_shafts if isinstance(machine, ReciprocatingMachine) else ()
-    taken = {web.name for place in (machine, *shafts) for web in place.webs}
+    taken = {web.name for _, webs in _webs(request.machine) for web in webs}
     for number, one in enumerate(request.counterweights, 1):
         if one.web is None:
             name = f"counterweight {number}"

@@ -37,9 +37,15 @@ class Prepared:
     """A machine as arrays and what was simulated of it.
 
     A request whose fields hold columns (n,) is many designs of one shape: all arrays then have that leading axis.
+
+    request : what is asked of it.
+    machine : that of the request, of a scenario, or with the radii of what is cut from its plates.
+    objective : what is to be small; the usual where nothing is asked.
     """
 
     request: Scene
+    machine: ReciprocatingMachine | ScrollMachine
+    objective: Objective
     layout: Layout
     angle_deg: Real  # (T,) sampled shaft angles, the end point not repeated
     simulated: Simulated
@@ -47,10 +53,6 @@ class Prepared:
     shafts: Complex | None = None  # (S,) kg m, unbalances of the balance shafts that go with counterweights
     turns: int = 1  # over which the samples go: 2 where gas takes so long
     brackets: dict[Any, Bracket] = field(default_factory=dict)  # peaks over the turn, searched before outputs show them
-
-    @property
-    def machine(self) -> ReciprocatingMachine | ScrollMachine:
-        return self.request.machine
 
     @property
     def results(self) -> Mapping[str, Any]:
@@ -100,13 +102,11 @@ class Prepared:
     @cached_property
     def bearing_influence(self) -> Real:
         """Loads of the main bearings for unit loads in all planes, (..., B, L)."""
-        assert isinstance(self.machine, ReciprocatingMachine)  # no other has bearings
         return INFLUENCES[self.request.fidelity.shaft](bearing_places(self.machine), planes(self.layout))
 
     @cached_property
     def shaft_curves(self) -> ShaftCurves:
         """Loads of the B main bearings and bending moments at the S corners, over omega^2: B + S curves together."""
-        assert isinstance(self.machine, ReciprocatingMachine)  # no other has bearings
         places, reaction = bearing_places(self.machine), self.bearing_influence
         moments = bending_influence(self.layout, places, reaction, stations(self.layout, places))
         both = np.concatenate([reaction, moments], axis=-2)
@@ -116,11 +116,6 @@ class Prepared:
     def roll(self) -> TurnResponse:
         """Alternating moment about the crankshaft on the frame of one machine, over omega^2."""
         return roll(self.results["whole_turn"], self.layout)
-
-    @property
-    def objective(self) -> Objective:
-        """What is to be small; the usual where nothing is asked."""
-        return self.request.objective if isinstance(self.request, OptimizeRequest) else Objective()
 
     @cached_property
     def added(self) -> tuple[tuple[ResponseFields, Shares], ...]:
@@ -134,7 +129,11 @@ class Prepared:
 
 
 def simulated(
-    request: Scene, asked: Mapping[str, Sequence[str]], samples: int, leading: tuple[int, ...] = ()
+    request: Scene,
+    asked: Mapping[str, Sequence[str]],
+    samples: int,
+    leading: tuple[int, ...] = (),
+    machine: Machine | None = None,
 ) -> Prepared:
     """Simulate what the outputs call for.
 
@@ -144,15 +143,19 @@ def simulated(
     asked : outputs by name, with the effects that each needs.
     samples : number of sampled shaft angles in one turn.
     leading : axes of all results; none for one machine.
+    machine : another in place of that of the request.
     """
     start = time.perf_counter()
-    plan = layout(request.machine)
+    machine = request.machine if machine is None else machine
+    plan = layout(machine)
     if leading:
         plan = spread(plan, leading)
-    turns = turns_over(request.machine, [need for needs in asked.values() for need in needs])
+    turns = turns_over(machine, [need for needs in asked.values() for need in needs])
     angle: Real = np.arange(samples * turns, dtype=float) * (360.0 / samples)
-    result = simulate(request.machine, plan, asked, request.fidelity, np.deg2rad(angle))
-    return Prepared(request, plan, angle, result, (time.perf_counter() - start) * 1e3, turns=turns)
+    result = simulate(machine, plan, asked, request.fidelity, np.deg2rad(angle))
+    objective = request.objective if isinstance(request, OptimizeRequest) else Objective()
+    spent_ms = (time.perf_counter() - start) * 1e3
+    return Prepared(request, machine, objective, plan, angle, result, spent_ms, turns=turns)
 
 
 def turns_over(machine: Machine, needs: Sequence[str]) -> int:

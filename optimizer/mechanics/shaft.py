@@ -4,7 +4,7 @@ from optimizer.mechanics.bearings import continuous_beam_influence, simple_spans
 from optimizer.mechanics.layout import stacked
 from optimizer.mechanics.shaft_curves import Influence
 from optimizer.numerics.arrays import Real
-from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.machine.machine import Machine
 
 #: loads of the bearings, by the model of the shaft
 INFLUENCES: dict[str, Influence] = {
@@ -13,6 +13,6 @@ INFLUENCES: dict[str, Influence] = {
 }
 
 
-def bearing_places(machine: ReciprocatingMachine) -> Real:
+def bearing_places(machine: Machine) -> Real:
     """Planes of the main bearings (..., B) m."""
     return stacked([bearing.position_m for bearing in machine.bearings])

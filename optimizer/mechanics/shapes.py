@@ -12,6 +12,7 @@ from optimizer.mechanics.envelope import AnnularSector, Segment
 from optimizer.mechanics.plates import Plates
 from optimizer.numerics.arrays import Real
 from optimizer.numerics.memoization import remembered
+from schemas.base.variation import with_fields
 from schemas.machine.machine import Machine
 from schemas.machine.webs import Envelope
 
@@ -64,12 +65,11 @@ def _cut_machine(machine: Machine) -> Callable[[tuple[float, ...]], Machine]:
     @lru_cache(maxsize=4)
     def with_radii(half_angle: tuple[float, ...]) -> Machine:
         angle = np.array(half_angle)
-        mass, webs = cut.mass(angle), list(machine.webs)
+        mass = cut.mass(angle)
         fits = mass > 0.0
         radius = np.where(fits, cut.unbalance(angle) / np.where(fits, mass, 1.0), cut.lever(np.zeros(mass.shape)))
-        for k, each in zip(cut.webs.tolist(), radius.tolist(), strict=True):
-            webs[k] = webs[k].model_copy(update={"counterweight_radius_m": each})
-        return machine.model_copy(update={"webs": tuple(webs)})
+        at = zip(cut.webs.tolist(), radius.tolist(), strict=True)
+        return with_fields(machine, {("webs", k, "counterweight_radius_m"): each for k, each in at})
 
     return with_radii
 

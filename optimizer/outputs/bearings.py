@@ -33,7 +33,6 @@ from schemas.machine.reciprocating import ReciprocatingMachine
 def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
     """Loads of the main bearings of one machine, and the bending moments of its shaft."""
     machine = scene.machine
-    assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
     planes = stations(scene.layout, bearing_places(machine))
     found = scene.shaft_curves
     count = len(machine.bearings)
@@ -107,7 +106,6 @@ def _loads(
     bare : (B, T) N, without counterweights.
     """
     machine = scene.machine
-    assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
     bearings = machine.bearings
     square, turn = scene.omega_squared, np.deg2rad(scene.angle_deg)
     offset = found.offsets(unbalance)
@@ -140,7 +138,6 @@ def _over_area(load: float, bearing: Bearing) -> float | None:
 
 def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
     machine = scene.machine
-    assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
     curves = scene.shaft_curves
     # the largest bending moment alone; the bearings one by one
     count = len(machine.bearings)

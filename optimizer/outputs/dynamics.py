@@ -35,7 +35,6 @@ from schemas.answer.dynamics import (
     RowTorque,
     Torque,
 )
-from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.machine.throws import row_cylinders
 from schemas.sweep.details import Case
 
@@ -71,7 +70,6 @@ def gas(scene: Prepared, _fitted: Complex | None = None) -> Gas:
     cycle, motion = scene.results["gas"], scene.results["kinematics"]
     total, force = cycle.forces.total, cycle.forces.force
 
-    assert isinstance(scene.machine, ReciprocatingMachine)  # of the kinematics
     # a row without a cylinder has two sides without area
     names = [
         [getattr(one, "name", None) for _, one in row_cylinders(row)] or [None]
@@ -228,7 +226,6 @@ def overturning(scene: Prepared, _fitted: Complex | None = None) -> Overturning:
 def rows_of(scene: Prepared) -> Iterator[tuple[int, dict[str, Any]]]:
     """Number of every row, and its labels."""
     machine = scene.machine
-    assert isinstance(machine, ReciprocatingMachine)  # no other has effects over the turn
     places = [(t, i, row.name) for t, throw in enumerate(machine.throws) for i, row in enumerate(throw.rows)]
     for number, (t, i, name) in enumerate(places):
         yield number, {"throw": t, "row": i, "name": name}

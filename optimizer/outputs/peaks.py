@@ -15,7 +15,6 @@ from optimizer.mechanics.shaft_curves import ShaftCurves
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
 from optimizer.numerics.arrays import Complex, Real, spread
 from optimizer.responses.piecewise_cubics import Bracket, Index
-from schemas.machine.reciprocating import ReciprocatingMachine
 
 #: of a bracket, relative to the peak; and of a floor
 TOLERANCE, FLOOR_TOLERANCE = 1e-9, 1e-7
@@ -171,7 +170,7 @@ def _parts(found: Bracket, number: int) -> Iterator[Bracket]:
 
 def customary_search(scene: Prepared, customary: Complex) -> Search:
     """The largest load of a bearing, and the largest bending moment, of one machine with customary counterweights."""
-    found, bearings = scene.shaft_curves, len(_reciprocating(scene).bearings)
+    found, bearings = scene.shaft_curves, len(scene.machine.bearings)
     kind = np.minimum(np.arange(found.curves.weights.shape[1]) // bearings, 1)
     return Search(("customary",), found.curves, np.arange(kind.size), found.offsets(customary), group=kind)
 
@@ -191,12 +190,6 @@ def _times_square(scene: Prepared, found: Bracket) -> Bracket:
     angle, value, lower, upper = _reshaped(scene, found)
     square = scene.layout.omega[..., None] ** 2
     return Bracket(angle, value * square, lower * square, upper * square)
-
-
-def _reciprocating(scene: Prepared) -> ReciprocatingMachine:
-    machine = scene.machine
-    assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
-    return machine
 
 
 def _one(found: Bracket) -> Bracket:

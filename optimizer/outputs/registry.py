@@ -28,7 +28,6 @@ from optimizer.outputs.stages import STAGES
 from schemas.base.model import FieldProblem
 from schemas.base.rules import Path, Rule
 from schemas.machine.machine import Machine
-from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.scene import Scene
 from schemas.sweep.details import usual_keys
 
@@ -60,6 +59,7 @@ def prepare(
     always: tuple[str, ...] = (),
     objective: tuple[str, ...] = (),
     outputs: Sequence[str] | None = None,
+    machine: Machine | None = None,
 ) -> Prepared:
     """Simulate what the outputs of a request call for.
 
@@ -68,6 +68,7 @@ def prepare(
     always : outputs that are needed whether they were asked for or not.
     objective : effects that the objective needs, which the machine gives.
     outputs : those that are simulated for; None are those that the request asks for.
+    machine : another in place of that of the request.
 
     Raises
     ------
@@ -75,11 +76,11 @@ def prepare(
         if the machine lacks what an output needs.
     """
     every = dict.fromkeys((*always, *(request.outputs if outputs is None else outputs)))
-    require_inputs(request.machine, tuple(every), request.angles.count)
+    require_inputs(request.machine if machine is None else machine, tuple(every), request.angles.count)
     needs = {name: OUTPUTS[name].needs for name in every}
     if objective:
         needs["objective"] = objective
-    return simulated(request, needs, request.angles.count)
+    return simulated(request, needs, request.angles.count, machine=machine)
 
 
 def fields(
@@ -192,6 +193,4 @@ def _reached(machine: Machine, outputs: Sequence[str]) -> Iterator[tuple[str, st
 
 def _series(machine: Machine) -> int:
     """Rows and bearings of a machine: so many series does an output hold."""
-    if not isinstance(machine, ReciprocatingMachine):
-        return 0
     return sum(len(throw.rows) for throw in machine.throws) + len(machine.bearings)

@@ -6,9 +6,8 @@ from optimizer.effects.registry import problems_of
 from optimizer.formulation.goals import missing_sizes
 from optimizer.outputs.registry import OUTPUTS
 from schemas.base.model import FieldProblem
-from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.machine.machine import Machine
 from schemas.request.objective import Objective
-from schemas.request.requests import OptimizeRequest
 
 #: effects that an objective over the whole turn needs, and one about peaks on the frame alone
 _TURN, _ON_FRAME = ("whole_turn",), ("frame_forces",)
@@ -26,9 +25,8 @@ def effects_of_objective(objective: Objective) -> tuple[str, ...]:
     return _TURN if objective.of_the_shaft or objective.roll_weight > 0 else _ON_FRAME
 
 
-def missing(request: OptimizeRequest) -> Iterator[FieldProblem]:
+def missing(machine: Machine, goal: Objective) -> Iterator[FieldProblem]:
     """Fields that the objective of one request needs and the machine does not give; paths from the request."""
-    machine, goal = request.machine, request.objective
     if not goal.of_the_revolution:
         return
     needs = OUTPUTS["main_bearings"].needs if goal.of_the_shaft else effects_of_objective(goal)
@@ -37,5 +35,5 @@ def missing(request: OptimizeRequest) -> Iterator[FieldProblem]:
         why = _FREE if path == ("bearings",) and field.startswith("bending") else message
         yield FieldProblem(("machine", *path), f"{why}; needed by objective.{field}")
     specific = goal.specific_load_ceiling_Pa is not None or (goal.bearing_weight and goal.bearing_measure == "specific")
-    if specific and isinstance(machine, ReciprocatingMachine):
+    if specific:
         yield from missing_sizes(machine)

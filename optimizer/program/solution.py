@@ -8,7 +8,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, mapped
 from optimizer.program.ceilings import CEILING_TOLERANCE
-from optimizer.program.certificate import Multipliers
+from optimizer.program.certificate import Multipliers, nothing_proven
 from optimizer.program.statement import Statement
 
 #: an excess that rounding alone may make, as a share of the size: solvers keep the ceilings they are given up to here
@@ -35,9 +35,9 @@ class Solution:
     mass: float  # kg
     mass_lower_bound: float  # kg, 0 until the least mass was sought
     excess: float  # largest relative excess over a ceiling; -inf without ceilings
+    multipliers: Multipliers  # those of the lower bound; all 0 where nothing is proven yet
     method: str = CLOSED_FORM
     certify_s: float = 0.0  # time spent on bounds
-    multipliers: Multipliers | None = None  # those of the lower bound
     mass_multipliers: Multipliers | None = None  # those of the lower bound of the mass
     mass_target: float = np.inf  # largest objective that this bound counts as an optimum
 
@@ -55,7 +55,7 @@ class Solution:
         """Up to rounding."""
         return self.excess <= CEILING_ROUNDING
 
-    def bounded(self, bound: float, multipliers: Multipliers | None) -> "Solution":
+    def bounded(self, bound: float, multipliers: Multipliers) -> "Solution":
         """The same point with the better of two proofs of its objective."""
         return replace(self, lower_bound=bound, multipliers=multipliers) if bound > self.lower_bound else self
 
@@ -115,5 +115,5 @@ def joined(parts: Sequence[Any], order: np.ndarray) -> Any:
 
 def evaluated(statement: Statement, u: Complex) -> Solution:
     """What an unbalance amounts to; nothing proven yet."""
-    nothing = Solution(u, objective=np.inf, lower_bound=-np.inf, mass=np.inf, mass_lower_bound=0.0, excess=np.inf)
+    nothing = Solution(u, np.inf, -np.inf, np.inf, 0.0, np.inf, nothing_proven(statement))
     return nothing.moved_to(statement, u)

@@ -10,6 +10,7 @@ from typing import NamedTuple
 from optimizer.errors import refuse
 from optimizer.rating.loads import rod_loads
 from schemas.base.model import FieldProblem
+from schemas.base.variation import with_fields
 from schemas.rating.answer import Choice, ChoiceStep, RatingAnswer
 from schemas.rating.request import RatingRequest
 from schemas.rating.tables import Motor, PistonRod
@@ -44,7 +45,7 @@ def chosen(request: RatingRequest, rated: Rated) -> RatingAnswer:
         diameters = [table[k].diameter_m if own is None else own for own, k in zip(given, state.rods, strict=True)]
         motor = motors[state.motor] if motors else None
         speed = request.speed_rpm if motor is None or motor.speed_rpm is None else motor.speed_rpm
-        answer = rated(request.model_copy(update={"speed_rpm": speed}), diameters)
+        answer = rated(with_fields(request, {("speed_rpm",): speed}), diameters)
         loads = rod_loads([stage.actual_loads for stage in answer.stages], answer.tandem_loads)
         steps.append(
             ChoiceStep(

@@ -15,8 +15,8 @@ from optimizer.choices.construction import feasible_set
 from optimizer.choices.discrete.options import EQUAL
 from optimizer.choices.feasible_set import Choice, FeasibleSet
 from optimizer.formulation.counterweights import counterweights, masses_and_angles
-from optimizer.formulation.demand import of_any_mass
 from optimizer.formulation.simulation import Prepared
+from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import beside
 from optimizer.numerics.arrays import Complex
 from optimizer.program.cuts.optimum import Found, over_turn
@@ -25,51 +25,42 @@ from optimizer.program.reference.solver import Solver
 from optimizer.solve.costs import COMPARED, Costs, cost
 from optimizer.solve.uncertain_program import MOST_ROUNDS, Robust
 from schemas.answer.alternatives import Alternative, Cheaper
-from schemas.request.requests import OptimizeRequest
+from schemas.machine.machine import Machine
 
 _LOG = logging.getLogger(__name__)
-#: share of the time limit of the request that the best choice may take; of the rest the shares of the costs
+#: share of the time limit that the best choice may take; of the rest the shares of the costs
 BEST, _SHARES = 0.6, {"mass": 0.4, "pieces": 0.3, "sizes": 0.3}
 #: what is left open at the end of every search, which looks at the time now and then
 _SPARE = 0.9
 
 
-def for_best(request: OptimizeRequest) -> OptimizeRequest:
-    """The request with the time that the best choice may take."""
-    if not request.alternatives:
-        return request
-    limit = request.accuracy.time_limit_s
-    return request.model_copy(
-        update={"accuracy": request.accuracy.model_copy(update={"time_limit_s": BEST * limit}), "alternatives": ()}
-    )
-
-
 def alternatives(
-    request: OptimizeRequest, scene: Prepared, u: Complex, solver: Solver, left_s: float
+    task: Task, allowances: Sequence[float], scene: Prepared, u: Complex, solver: Solver, left_s: float
 ) -> tuple[Alternative, ...]:
     """What is cheaper than the best choice within each allowance, without what a smaller allowance gives already.
 
     Parameters
     ----------
+    allowances : shares of the objective of the best choice.
     u : (K,) kg m, the best choice, without the weights that are fixed.
     left_s : what is left of the time limit.
     """
 
     def choices(limits: Limits) -> FeasibleSet:
-        return feasible_set(request, limits, solver)
+        return feasible_set(task, limits, solver)
 
-    wanted = of_any_mass(request)
-    robust = Robust(request, scene, wanted._replace(time_limit_s=_SPARE * max(left_s, 0.0)))
+    wanted = task.of_any_mass
+    robust = Robust(task, scene, wanted._replace(time_limit_s=_SPARE * max(left_s, 0.0)))
     known = [u]
     for _ in range(MOST_ROUNDS):
         robust.learnt(u)
-        found = list(_cheaper(request, robust, choices, solver, known))
+        found = list(_cheaper(allowances, robust, choices, solver, known))
         # of masses that scatter, what makes one of these worse than is known so far
         worse = [robust.learnt(one.choice.unbalance) for one in found]
         if not any(worse):
             break
         known += [one.choice.unbalance for one in found]
-    return tuple(_described(request, scene, one) for one in found)
+    return tuple(_described(task.machine, scene, one) for one in found)
 
 
 class _Cheap(NamedTuple):
@@ -83,7 +74,7 @@ class _Cheap(NamedTuple):
 
 
 def _cheaper(
-    request: OptimizeRequest,
+    every: Sequence[float],
     robust: Robust,
     choices: Callable[[Limits], FeasibleSet],
     solver: Solver,
@@ -95,13 +86,13 @@ def _cheaper(
     ----------
     known : (K,) kg m each, the best choice first.
     """
-    allowances = sorted(set(request.alternatives))
+    allowances = sorted(set(every))
     program = robust.asked().program
     first, size = over_turn(program, robust.wanted.relative_gap, False, robust.left_s), float(program.units[-1])
     assert isinstance(first, Found)  # the best choice keeps the ceilings
     costs, seconds = Costs(program, first, (), choices, solver, size=size), robust.left_s
     # to the last digit, as it is answered
-    offered = [Choice(*masses_and_angles(request.machine, u, program.limits), u, COMPARED) for u in known]
+    offered = [Choice(*masses_and_angles(robust.task.machine, u, program.limits), u, COMPARED) for u in known]
     for start in offered:
         costs.offer(start)
     best = costs.value(offered[0])
@@ -111,16 +102,14 @@ def _cheaper(
             level = best * (1.0 + allowance) + EQUAL * size
             left = _SHARES[minimised] * seconds / (len(allowances) - n if minimised == "mass" else 1 + n)
             choice, bound = costs.least(minimised, level, left)
-            assert choice is not None  # the best one keeps every level
-            if cost(choice, minimised) < cost(cheapest, minimised) * (1.0 - EQUAL):
+            if choice is not None and cost(choice, minimised) < cost(cheapest, minimised) * (1.0 - EQUAL):
                 yield _Cheap(minimised, allowance, choice, costs.value(choice), bound)
                 cheapest = choice
 
 
-def _described(request: OptimizeRequest, scene: Prepared, one: _Cheap) -> Alternative:
+def _described(machine: Machine, scene: Prepared, one: _Cheap) -> Alternative:
     """As it is answered."""
     minimised, allowance, choice, value, bound = one
-    machine = request.machine
     mass, angle = beside(machine, choice.mass, choice.angle)
     total, own = float(np.sum(mass)), cost(choice, minimised)
     fixed = total - cost(choice, "mass") if minimised == "mass" else 0.0

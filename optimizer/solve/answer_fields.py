@@ -7,13 +7,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.formulation.balance_shafts import chosen, posed
+from optimizer.formulation.balance_shafts import DesignSpace, chosen
 from optimizer.formulation.counterweights import unbalance
-from optimizer.formulation.demand import Demand
 from optimizer.formulation.formulate import given_ceilings
 from optimizer.formulation.goals import Goals
 from optimizer.formulation.limits import TOUCHED
 from optimizer.formulation.simulation import Prepared
+from optimizer.formulation.task import Demand, Task
 from optimizer.mechanics.fixed_weights import beside
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.certificate import Multipliers, budget_price, ceiling_allowance
@@ -33,7 +33,6 @@ from optimizer.solve.solution import Proofs, Solution, certificate, finite_or_nu
 from optimizer.solve.statuses import SearchProof, status_of
 from schemas.answer.answers import GoalReached
 from schemas.answer.limits import MachineLimit, ShadowPrice, WebLimit
-from schemas.request.requests import OptimizeRequest
 
 #: width of the brackets by which the counterweights of an answer are judged, as a share of goals and ceilings
 _CLOSE = 1e-10
@@ -51,9 +50,7 @@ class Candidate(NamedTuple):
     found: Found
 
 
-def fitted(
-    request: OptimizeRequest, scene: Prepared, asked: Goals, found: Found, wanted: Demand, in_full: bool = True
-) -> Solution:
+def fitted(task: Task, scene: Prepared, asked: Goals, found: Found, wanted: Demand, in_full: bool = True) -> Solution:
     """What is told of counterweights that were found.
 
     Parameters
@@ -61,15 +58,15 @@ def fitted(
     asked : what the counterweights are judged by: the program that was solved, or one with more variants.
     in_full : with prices of the limits and what misplaced counterweights may cost.
     """
-    request, scene, asked, mass, angle = cut_plates(request, scene, asked, found.point.unbalance, found.limits)
+    task, scene, asked, mass, angle = cut_plates(task, scene, asked, found.point.unbalance, found.limits)
     if asked.program.plates is not None:
         found = found.within(asked.program.limits)
-    outcome = told(request, scene, asked, Candidate(mass, angle, found), wanted, in_full=in_full)
+    outcome = told(task, scene, asked, Candidate(mass, angle, found), wanted, in_full=in_full)
     return outcome if asked.program.plates is None else replace(outcome, cut=scene)
 
 
 def told(
-    request: OptimizeRequest,
+    task: Task,
     scene: Prepared,
     asked: Goals,
     candidate: Candidate,
@@ -85,24 +82,24 @@ def told(
     in_full : with prices of the limits and what misplaced counterweights may cost.
     """
     began, (mass, angle, found) = time.perf_counter(), candidate
-    together, program, square = posed(request), asked.program, scene.omega_squared
+    together, program, square = task.space, asked.program, scene.omega_squared
     machine, u = together.machine, unbalance(mass, angle, found.limits.radius)
-    shown = chosen(request, mass, angle, u)
+    shown = chosen(task.machine, task.objective, mass, angle, u)
     values = program.values(u, _CLOSE if len(program.goals) == 1 else _CLOSER)
     found = found.counting(float(values.goals[-1]))
     claimed = _claim(wanted, program, found, u, values, mass, -np.inf if search is None else search.lower_bound)
     # what the last goal allows is for the mass, and for what castings cost, after it
     judged = verdict(claimed, wanted.relative_gap + program.goals[-1].allowance)
     there, _ = beside(machine, mass, angle)
-    touched = tuple(dict.fromkeys((*touched_by_mass(machine, there), *_touched(request, asked, values))))
+    touched = tuple(dict.fromkeys((*touched_by_mass(machine, there), *_touched(task, asked, values))))
     proofs = Proofs.of(found, square, asked.speeds)
-    prices, several = tuple[ShadowPrice, ...](), request.robust or request.objective.priorities
+    prices, several = tuple[ShadowPrice, ...](), task.robust or task.objective.priorities
     if in_full and search is None and not (several or np.isnan(judged.gap[0]) or machine.web_groups):
         # of a group no web gives way by itself, and no choice gives way at all
         active = shown.active_limits(touched)
         prices = _prices(together, asked, found.proof, proofs.objective, u, active, float(judged.gap[0]), square)
     at_rest, target = program.at_rest.goals[-1], np.asarray(found.mass_target)
-    printed = figures(request.machine, claimed, judged, at_rest, target, square) | _of_search(
+    printed = figures(task.machine, claimed, judged, at_rest, target, square) | _of_search(
         found, judged, search, square
     )
     status, reason = status_of(found, judged, wanted, search, program.goals[-1].allowance)
@@ -176,7 +173,7 @@ def _mass_level(found: Found, kilograms: float, least: object) -> GoalReached:
 
 
 def _prices(
-    request: OptimizeRequest,
+    together: DesignSpace,
     asked: Goals,
     proof: Proof,
     in_units: PhysicalMultipliers,
@@ -189,8 +186,8 @@ def _prices(
     usable = Multipliers(in_units.term, in_units.row, in_units.ceiling)
     budget = None if proof.laid is None else budget_price(proof.laid, usable, 0.0)
     return priced(
-        request.machine,
-        request.objective,
+        together.machine,
+        together.objective,
         shadow_prices(proof.statement, u, usable, budget),
         [(each, proof.cuts[each.quantity]) for each in asked.limited],
         active,
@@ -244,12 +241,12 @@ def _bound(proof: Proof, u: Complex, excess: float) -> tuple[float, float]:
     return proof.bound - allowance, float(points_at(statement, u).rounding) + charge * np.finfo(float).eps
 
 
-def _touched(request: OptimizeRequest, asked: Goals, values: Values) -> Iterator[MachineLimit]:
+def _touched(task: Task, asked: Goals, values: Values) -> Iterator[MachineLimit]:
     """Ceilings that are touched, in any case."""
     program = asked.program
     if not values.over.size:
         return
-    called = {each.response: each.limit for each, _ in given_ceilings(request.objective)}
+    called = {each.response: each.limit for each, _ in given_ceilings(task.objective)}
     limits = [*(called[each.name] for each, _ in program.ceilings), *(each.limit for each in asked.limited)]
     caps = np.array([cap for _, cap in (*program.ceilings, *program.limited)])
     for limit, over in zip(limits, values.over * program.sizes + TOUCHED * caps, strict=True):

@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.formulation.counterweights import masses_and_angles, unbalance
-from optimizer.formulation.demand import Demand
 from optimizer.formulation.goals import cone_program
+from optimizer.formulation.task import Demand
 from optimizer.mechanics.fixed_weights import fixed_masses
 from optimizer.numerics.arrays import Complex, Real, Reals
 from optimizer.program.methods.implied_bounds import within_reach

@@ -14,9 +14,9 @@ from optimizer.choices.construction import feasible_set
 from optimizer.choices.discrete.options import EQUAL
 from optimizer.choices.feasible_set import Choice, FeasibleSet
 from optimizer.formulation.balance_shafts import chosen
-from optimizer.formulation.demand import demand, of_any_mass
 from optimizer.formulation.goals import Goals
 from optimizer.formulation.simulation import Prepared
+from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import fixed_masses
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex, Real
@@ -34,9 +34,7 @@ from optimizer.solve.statuses import SearchProof, told_status
 from optimizer.solve.uncertain_program import MOST_ROUNDS, Robust
 from optimizer.solve.worst_case import best_of_any_mass, with_worst_case
 from schemas.answer.answers import GoalReached
-from schemas.request.cases import AS_GIVEN
 from schemas.request.objective import COSTS, Cost
-from schemas.request.requests import OptimizeRequest
 
 #: width of the brackets by which choices are told apart, as a share of goals
 _CLOSE = 1e-10
@@ -44,9 +42,7 @@ _CLOSE = 1e-10
 _ROUNDING = 1e-12
 
 
-def best_choice(
-    request: OptimizeRequest, scene: Prepared, solver: Solver, in_full: bool = True
-) -> Solution | Infeasible:
+def best_choice(task: Task, scene: Prepared, solver: Solver, in_full: bool = True) -> Solution | Infeasible:
     """Of what can be chosen the best, over the turn and in the worst of all scenarios.
 
     Parameters
@@ -60,18 +56,18 @@ def best_choice(
     MissingInput
         if a machine lacks what the objective needs.
     """
-    if request.machine.semicontinuous:
-        free = best_of_any_mass(request, scene, solver, in_full)
-        if isinstance(free, Infeasible) or _heavy_enough(request, free.mass):
+    if task.choice == "least masses":
+        free = best_of_any_mass(task, scene, solver, in_full)
+        if isinstance(free, Infeasible) or _heavy_enough(task, free.mass):
             return free
-    any_mass = of_any_mass(request)
-    robust = Robust(request, scene, any_mass)
+    any_mass = task.of_any_mass
+    robust = Robust(task, scene, any_mass)
     for _ in range(MOST_ROUNDS):
         asked = robust.asked()
         first = _of_any_mass(asked.program, any_mass.relative_gap, robust, solver)
         if isinstance(first, Unkept):
-            return out_of_reach(request, scene, asked, first, solver)
-        course = _in_order(request, robust, asked, first, solver)
+            return out_of_reach(task, scene, asked, first, solver)
+        course = _in_order(task, robust, asked, first, solver)
         stages, picked = course.stages, course.known
         if picked is None or not robust.learnt(picked.unbalance) or robust.left_s == 0.0:
             break
@@ -82,18 +78,18 @@ def best_choice(
     found = last.found
     best = replace(last.best, contradicted=last.best.contradicted or any(stage.contradicted for stage in stages))
     if not found.kept and found.lower_bound == np.inf:
-        shown = chosen(request, picked.mass, picked.angle)
+        shown = chosen(task.machine, task.objective, picked.mass, picked.angle)
         status, reason = told_status(found, "infeasible", "", True)
-        none = unreachable(request, scene, asked, shown, best.limits, None, solver)
+        none = unreachable(task, scene, asked, shown, best.limits, None, solver)
         return replace(none, status=status, reason=reason, method=found.method, nodes=_nodes(stages))
-    judged = demand(request)._replace(least_mass=False)
+    judged = task.demand._replace(least_mass=False)
     if len(stages) < len(asked.program.goals):
         # nothing is proven of what goals come to in their order
         asked, of_any = robust.solved(solver)
         if isinstance(of_any, Unkept):
-            return out_of_reach(request, scene, asked, of_any, solver)
+            return out_of_reach(task, scene, asked, of_any, solver)
         nothing = SearchProof(found, found.nodes, found.rounds, None, True)
-        return told(request, scene, asked, Candidate(picked.mass, picked.angle, of_any), judged, nothing, in_full)
+        return told(task, scene, asked, Candidate(picked.mass, picked.angle, of_any), judged, nothing, in_full)
     proof = SearchProof(
         found,
         _nodes(stages),
@@ -102,9 +98,9 @@ def best_choice(
         course.closed,
         course.levels,
     )
-    answer = told(request, scene, asked, Candidate(picked.mass, picked.angle, best), judged, proof, in_full)
-    if request.robust:
-        answer = with_worst_case(robust, answer, *_nominal_choice(request, scene, robust.left_s, solver))
+    answer = told(task, scene, asked, Candidate(picked.mass, picked.angle, best), judged, proof, in_full)
+    if task.robust:
+        answer = with_worst_case(robust, answer, *_nominal_choice(task, scene, robust.left_s, solver))
     return answer
 
 
@@ -122,10 +118,10 @@ def _of_any_mass(program: Problem, gap: float, robust: Robust, solver: Solver) -
     return optimum(program.changed(goals=program.goals[:1]), gap, False, solver, robust.left_s)
 
 
-def _in_order(request: OptimizeRequest, robust: Robust, asked: Goals, best: Found, solver: Solver) -> "_Course":
+def _in_order(task: Task, robust: Robust, asked: Goals, best: Found, solver: Solver) -> "_Course":
     """The goals one after the other, each with the most that those before it may come to."""
-    course = _Course(request, robust, asked.program, best, solver)
-    order = list(request.objective.priorities)
+    course = _Course(task, robust, asked.program, best, solver)
+    order = list(task.objective.priorities)
     if order and order[-1].goal == "mass" and asked.program.goals[-1].allowance == 0.0:
         # of equal choices the lightest is taken anyhow
         order.pop()
@@ -145,7 +141,7 @@ def _in_order(request: OptimizeRequest, robust: Robust, asked: Goals, best: Foun
 class _Course:
     """Goals one after the other."""
 
-    request: OptimizeRequest
+    task: Task
     robust: Robust
     program: Problem
     first: Found  # of any masses, the first goal that is no cost by itself
@@ -167,8 +163,8 @@ class _Course:
             assert known is not None  # else it would have ended
             best = next_goal(so_far, self._reached, known.unbalance, gap, self.robust.left_s)
         size = float(program.units[n])
-        limits = self.caps.within(_limits(self.request, so_far, best, self._reached, known))
-        asked_gap, left_s = self.request.accuracy.relative_gap, _left(self.robust, kept_back)
+        limits = self.caps.within(_limits(self.task, so_far, best, self._reached, known))
+        asked_gap, left_s = self.task.relative_gap, _left(self.robust, kept_back)
         choices = self.caps.of(self._choices(limits))
         picked, found = in_rounds(so_far, replace(best, limits=limits), choices, asked_gap, size, left_s, Start(known))
         value = float(so_far.values(picked.unbalance, _CLOSE).goals[-1])
@@ -179,7 +175,7 @@ class _Course:
         # choices that are this near are equal, which leaves room for the brackets by which they are judged
         most = max(value, found.lower_bound + goal.allowance * size) + EQUAL * size if later else value
         self._reached.append(Reached(goal.name, value, best.proof, most))
-        if self.request.objective.priorities and found.kept:
+        if self.task.objective.priorities and found.kept:
             self._told(goal.name, value, found.lower_bound, most)
         self.known = picked
         return found.kept
@@ -204,10 +200,10 @@ class _Course:
             return
         value = cost(choice, kind)
         most = value * (1.0 + allowance) if kind == "mass" else np.floor(value * (1.0 + allowance) * (1.0 + _ROUNDING))
-        gap = self.request.accuracy.relative_gap * value if kind == "mass" else 0.0
+        gap = self.task.relative_gap * value if kind == "mass" else 0.0
         self.closed &= value - bound <= gap
         self.caps, self.known = self.caps.lower(kind, most), choice
-        fixed = float(np.sum(fixed_masses(self.request.machine))) if kind == "mass" else 0.0
+        fixed = float(np.sum(fixed_masses(self.task.machine))) if kind == "mass" else 0.0
         limits = {"value": value + fixed, "lower_bound": min(bound, value) + fixed, "limit": most + fixed}
         self.levels.append(GoalReached(goal=kind, **limits))
 
@@ -217,12 +213,10 @@ class _Course:
         return self.program.changed(goals=self.program.goals[:count], limits=limits)
 
     def _choices(self, limits: Limits) -> FeasibleSet:
-        return feasible_set(self.request, limits, self.solver)
+        return feasible_set(self.task, limits, self.solver)
 
 
-def _limits(
-    request: OptimizeRequest, program: Problem, best: Found, before: Sequence[Reached], known: Choice | None
-) -> Limits:
+def _limits(task: Task, program: Problem, best: Found, before: Sequence[Reached], known: Choice | None) -> Limits:
     """Limits that hold some best choice for the last goal.
 
     Parameters
@@ -230,7 +224,7 @@ def _limits(
     before : the goals before it.
     known : a choice that keeps these and the ceilings, if there is one.
     """
-    if not request.machine.semicontinuous:
+    if task.choice == "catalogue":
         # what is chosen from a catalogue is what it holds
         return best.limits
     if known is not None:
@@ -238,7 +232,7 @@ def _limits(
     else:
         rest = program.at_rest
         value = float(rest.goals[-1]) if rest.excess <= 0.0 else np.inf
-    least = stacked([web.min_fitted_mass_kg or 0.0 for web in request.machine.webs])
+    least = stacked([web.min_fitted_mass_kg or 0.0 for web in task.machine.webs])
     most = np.array([*(goal.most for goal in before), value])
     return semicontinuous_limits(program, least, most)
 
@@ -253,19 +247,15 @@ def _nodes(stages: list[_Stage]) -> int:
     return sum(stage.found.nodes for stage in stages)
 
 
-def _heavy_enough(request: OptimizeRequest, mass: Real) -> bool:
-    least = stacked([web.min_fitted_mass_kg or 0.0 for web in request.machine.webs])
+def _heavy_enough(task: Task, mass: Real) -> bool:
+    least = stacked([web.min_fitted_mass_kg or 0.0 for web in task.machine.webs])
     return bool(np.all((mass == 0) | (mass >= least)))
 
 
-def _nominal_choice(
-    request: OptimizeRequest, scene: Prepared, left_s: float, solver: Solver
-) -> tuple[Complex | None, bool]:
+def _nominal_choice(task: Task, scene: Prepared, left_s: float, solver: Solver) -> tuple[Complex | None, bool]:
     """The best choice for the machine as it is given, if it is found; whether the limit of time left it open."""
     if left_s == 0.0:
         return None, True
-    accuracy = request.accuracy.model_copy(update={"time_limit_s": left_s})
-    alone = request.model_copy(update={**AS_GIVEN, "tolerances": None, "accuracy": accuracy})
-    of_machine = best_choice(alone, scene, solver, in_full=False)
+    of_machine = best_choice(task.as_given(left_s), scene, solver, in_full=False)
     late = of_machine.status == "inaccurate"
     return of_machine.unbalance if isinstance(of_machine, Solution) and not late else None, late

@@ -5,6 +5,7 @@ it is below the level, or proven to be above it. The least mass is a goal as oth
 light sets are compared outright.
 """
 
+import logging
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
@@ -14,10 +15,11 @@ import numpy as np
 
 from optimizer.choices.catalogue import Catalogue
 from optimizer.choices.catalogue_options import part_numbers
-from optimizer.choices.discrete.ample import light_sizes, neighbourhoods, offer_light_sets
+from optimizer.choices.discrete.ample import light_sizes, offer_light_sets
 from optimizer.choices.discrete.clock import Clock
 from optimizer.choices.discrete.exchange import start
 from optimizer.choices.discrete.lightest import lighter, lightest
+from optimizer.choices.discrete.neighbourhoods import neighbourhoods
 from optimizer.choices.discrete.options import EQUAL, Incumbent, Options
 from optimizer.choices.discrete.search import EXHAUSTED
 from optimizer.choices.feasible_set import Choice, FeasibleSet
@@ -29,10 +31,12 @@ from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.limits import Limits
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import total_mass
+from optimizer.program.statement import Statement
 from optimizer.solve.cutting_plane_rounds import Ended, Start, in_rounds
 from optimizer.solve.few_webs import UNKNOWN, FewWebs, compare_on_few_webs, few_webs, lightened
 from schemas.request.objective import Cost
 
+_LOG = logging.getLogger(__name__)
 #: width of the brackets by which sets are told apart, as a share of goals
 _CLOSE = 1e-10
 #: gap of a search for a number of castings, of any masses of least mass, and of the lightest choice
@@ -229,8 +233,9 @@ class Costs:
             clock, caps = Clock(seconds), self.caps.lower(kind, number)
             limits = caps.within(self.best.limits)
             choices = caps.of(self.choices(limits))
-            if len(few.points) and isinstance(choices, Catalogue):
-                bound = max(bound, self._on_few_webs(few, choices, limits, level, clock))
+            if self.program.finite is not None and len(few.points) and isinstance(choices, Catalogue):
+                statement = replace(self.program.finite, limits=limits)
+                bound = max(bound, self._on_few_webs(few, statement, choices, level, clock))
             elif kind == "sizes" and isinstance(choices, Catalogue):
                 self._light_sizes(choices, level, Clock(_FIRST * seconds))
             known = self.cheapest(kind, level)
@@ -259,14 +264,12 @@ class Costs:
             self.few[number] = few_webs(self.program, limits, number, self.solver)
         return self.few[number]
 
-    def _on_few_webs(self, few: FewWebs, choices: Catalogue, limits: Limits, level: float, clock: Clock) -> float:
+    def _on_few_webs(self, few: FewWebs, statement: Statement, choices: Catalogue, level: float, clock: Clock) -> float:
         """Compare choices near the optima on few webs: the last goal at least."""
-        assert self.program.finite is not None  # else there are no such optima
 
         def offer(chosen: np.ndarray) -> None:
             self.offer(choices.picked(chosen, COMPARED))
 
-        statement = replace(self.program.finite, limits=limits)
         return compare_on_few_webs(few, statement, choices.stock.options, level, EQUAL * self.size, offer, clock)
 
     def _light_sizes(self, choices: Catalogue, level: float, clock: Clock) -> None:
@@ -297,11 +300,16 @@ class Costs:
             any_mass = next_goal(weighed, reached, known.unbalance, _SHARP, seconds)
         else:
             any_mass = over_turn(weighed, _SHARP, False, seconds)
-        assert isinstance(any_mass, Found)  # what is known keeps the ceilings
+        if isinstance(any_mass, Unkept):
+            if known is None:
+                return np.inf
+            _LOG.error("no masses are proven to keep ceilings that a choice of %g kg keeps", cost(known, "mass"))
+            return 0.0
         bound = max(any_mass.proof.bound, 0.0)
         choices = self.caps.of(self.choices(any_mass.limits))
         if self.program.finite is not None and known is not None and isinstance(choices, Catalogue):
-            return self._compared(choices, level, bound, any_mass.point.unbalance, clock)
+            statement = replace(self.program.finite, limits=self.caps.within(self.best.limits))
+            return self._compared(statement, choices, known, level, bound, any_mass.point.unbalance, clock)
         size = max(any_mass.point.mass, bound) or 1.0
         choice, found = in_rounds(
             weighed,
@@ -318,12 +326,25 @@ class Costs:
         off = self.program.scatter.of(1.0 / self.program.limits.radius, np.zeros(1, complex))
         return max((max(found.lower_bound, bound) - off) / (1.0 + self.program.scatter.share), 0.0)
 
-    def _compared(self, choices: Catalogue, level: float, least: float, relaxed: Complex, clock: Clock) -> float:
-        """The same of one goal of the first order, by light sets that are compared outright."""
-        options, known = choices.stock.options, self.cheapest("mass", level)
-        assert self.program.finite is not None  # told before
-        assert known is not None  # likewise
-        statement = replace(self.program.finite, limits=self.caps.within(self.best.limits))
+    def _compared(
+        self,
+        statement: Statement,
+        choices: Catalogue,
+        known: Choice,
+        level: float,
+        least: float,
+        relaxed: Complex,
+        clock: Clock,
+    ) -> float:
+        """The same of one goal of the first order, by light sets that are compared outright.
+
+        Parameters
+        ----------
+        known : the lightest choice so far.
+        least : kg, that none is lighter than.
+        relaxed : (K,) kg m, the lightest of any masses.
+        """
+        options = choices.stock.options
         every, above = [np.flatnonzero(some) for some in options.exists], cost(known, "mass")
         found = lightest(statement, options, every, level, (least, above), clock)
         if found.chosen is not None:
@@ -332,8 +353,7 @@ class Costs:
             about = relaxed if options.alike is None else options.alike.means(relaxed)
             for near, many in _COUNTS:
                 for which in neighbourhoods(options, about, near, many):
-                    cheapest = self.cheapest("mass", level)
-                    assert cheapest is not None  # one is known
+                    cheapest = self.cheapest("mass", level) or known
                     chosen = None
                     if not clock.spent():
                         chosen = lighter(statement, options, which, level, cost(cheapest, "mass"), clock).chosen

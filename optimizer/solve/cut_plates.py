@@ -5,51 +5,50 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.formulation.balance_shafts import posed
 from optimizer.formulation.counterweights import masses_and_angles
 from optimizer.formulation.goals import Goals
 from optimizer.formulation.limits import limits
 from optimizer.formulation.simulation import Prepared
+from optimizer.formulation.task import Task
 from optimizer.mechanics.plates import Plates
 from optimizer.mechanics.shapes import fitted, plates
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.equal_castings import Alike
 from optimizer.program.limits import Limits
 from optimizer.program.methods.plate_sizes import SAME_SIZE
-from schemas.request.requests import OptimizeRequest
 
 
 class CutPlates(NamedTuple):
-    """A request and its problem with the radii of what is cut, and counterweights as they are cut."""
+    """A task and its problem with the radii of what is cut, and counterweights as they are cut."""
 
-    request: OptimizeRequest
+    task: Task
     scene: Prepared
     asked: Goals
     mass: Real  # (K,) kg
     angle: Real  # (K,) degrees
 
 
-def cut_plates(request: OptimizeRequest, scene: Prepared, asked: Goals, u: Complex, reached: Limits) -> CutPlates:
+def cut_plates(task: Task, scene: Prepared, asked: Goals, u: Complex, reached: Limits) -> CutPlates:
     """Unbalances (K,) kg m as they are fitted, with the radii that plates come to; all as it was where there are none.
 
     Parameters
     ----------
     reached : limits that the proofs count with.
     """
-    of_machine, machine = plates(request.machine), posed(request).machine
+    of_machine, machine = plates(task.machine), task.space.machine
     if of_machine is None:
-        return CutPlates(request, scene, asked, *masses_and_angles(machine, u, reached))
+        return CutPlates(task, scene, asked, *masses_and_angles(machine, u, reached))
     angle = openings(of_machine, u, reached.alike)
     # plates that differ by what rounding leaves are the same to the last digit
     near = (np.abs(angle[:, None] - angle) <= SAME_SIZE * angle) & (of_machine.kinds[:, None] == of_machine.kinds)
     first, same = np.argmax(near, axis=1), np.arange(u.size)
     angle, same[of_machine.webs] = angle[first], of_machine.webs[first]
-    request = request.model_copy(update={"machine": fitted(request.machine, angle)})
+    task = replace(task, machine=fitted(task.machine, angle))
     # the price of a budget is that of its pieces: what a plate is worth is told where it is full
-    within = limits_of_cut(limits(request.machine), reached, of_machine, of_machine.most)
-    mass, towards = masses_and_angles(request.machine, u, within)
+    within = limits_of_cut(limits(task.machine), reached, of_machine, of_machine.most)
+    mass, towards = masses_and_angles(task.machine, u, within)
     asked = replace(asked, program=asked.program.changed(limits=within))
-    return CutPlates(request, replace(scene, request=request), asked, mass[same], towards)
+    return CutPlates(task, replace(scene, machine=task.machine), asked, mass[same], towards)
 
 
 def openings(of_machine: Plates, u: Complex, alike: Alike | None) -> Real:

@@ -8,10 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.choices.discrete.ample import near_options
 from optimizer.choices.discrete.clock import Clock
 from optimizer.choices.discrete.halves import exhaust
 from optimizer.choices.discrete.lightest import lighter
+from optimizer.choices.discrete.neighbourhoods import near_options
 from optimizer.choices.discrete.options import Incumbent, Options
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.cuts.semi_infinite import Problem

@@ -6,11 +6,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.formulation.balance_shafts import Fitted, chosen, posed
+from optimizer.formulation.balance_shafts import Fitted, chosen
 from optimizer.formulation.formulate import RESPONSES, given_ceilings
 from optimizer.formulation.formulate import limited as limited_responses
 from optimizer.formulation.goals import Goals
 from optimizer.formulation.simulation import Prepared
+from optimizer.formulation.task import Task
 from optimizer.mechanics.shapes import closed
 from optimizer.outputs.first_order import added_peaks, first_order, smallest_peaks, smallest_proofs
 from optimizer.program.certificate import Multipliers, objective_lower_bound
@@ -32,7 +33,6 @@ from schemas.answer.infeasibility import Closest, Infeasibility, SmallestPeak
 from schemas.answer.limits import CeilingField
 from schemas.answer.proof import BoundMultipliers, InfeasibilityMultipliers
 from schemas.base.responses import PAIR
-from schemas.request.requests import OptimizeRequest
 
 #: relative gap of the smallest peaks by themselves
 _ALONE = 1e-7
@@ -51,7 +51,7 @@ class Smallest(NamedTuple):
 
 
 class StatedCeiling(NamedTuple):
-    """A ceiling of a request."""
+    """A ceiling of a task."""
 
     response: str
     field: CeilingField
@@ -117,15 +117,15 @@ def report(
     )
 
 
-def out_of_reach(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Unkept, solver: Solver) -> Infeasible:
+def out_of_reach(task: Task, scene: Prepared, asked: Goals, found: Unkept, solver: Solver) -> Infeasible:
     """Which ceilings conflict, what each peak comes to by itself, and the best compromise."""
-    cut, there, within, mass, angle = cut_plates(request, scene, asked, found.closest.unbalance, found.limits)
-    told = unreachable(request, there, asked, chosen(cut, mass, angle), found.limits, found, solver)
+    cut, there, within, mass, angle = cut_plates(task, scene, asked, found.closest.unbalance, found.limits)
+    told = unreachable(task, there, asked, chosen(cut.machine, cut.objective, mass, angle), found.limits, found, solver)
     return told if within.program.plates is None else replace(told, cut=there)
 
 
 def unreachable(
-    request: OptimizeRequest,
+    task: Task,
     scene: Prepared,
     asked: Goals,
     shown: Fitted,
@@ -136,9 +136,9 @@ def unreachable(
     """The same of what is shown as closest, with the proof by multipliers where there is one."""
     square = scene.omega_squared
     alone = asked.program.changed(ceilings=(), limited=())
-    groups = {name: Group(rows=rows) for name, rows in _alone(request, asked, square).items()}
+    groups = {name: Group(rows=rows) for name, rows in _alone(task, asked, square).items()}
     # of quantities those that the conflict is about, all that are limited where that is not told
-    at_fault = _under_ceilings(request, asked) if found is None else _at_fault(found)
+    at_fault = _under_ceilings(task, asked) if found is None else _at_fault(found)
     limited = {alone.quantities[each.quantity].name: each for each in asked.limited}
     limited = {name: each for name, each in limited.items() if name in at_fault}
     for name in limited:
@@ -160,7 +160,7 @@ def unreachable(
         for name, (goal,) in ((name, each.goals) for name, each in least.items())
     }
     # of all orders the ceilings are among what is limited over the turn
-    given = given_ceilings(request.objective) if request.objective.orders == "first" else []
+    given = given_ceilings(task.objective) if task.objective.orders == "first" else []
     exact = [StatedCeiling(each.response, each.field, allowed) for each, allowed in given]
     both = [
         StatedCeiling(name, each.field, each.ceiling, over_turn=True)
@@ -176,7 +176,7 @@ def unreachable(
         scales, proof = asked.program.excess_scales(found.proof.cuts), found.proof
         conflict = named_excess(proof.with_pieces, proof.multipliers, scales, asked.speeds)
         scenarios = _scenarios(asked.program, found, solver)
-    implied = implied_max_mass(closed(posed(request).machine), common.max_mass[None])[0]
+    implied = implied_max_mass(closed(task.space.machine), common.max_mass[None])[0]
     told = report(scene, shown, (*exact, *both), together, peaks, implied, conflict, scenarios)
     spent = (0.0 if found is None else found.certify_s) + sum(each.certify_s for each in least.values())
     return Infeasible("infeasible", INFEASIBLE, told, spent, METHOD if found is None else found.method)
@@ -209,12 +209,12 @@ def _of_one_ceiling(excess: Statement, ceiling: int, peak: Multipliers) -> Multi
     return Multipliers(peak.term * only, peak.row * only, np.zeros_like(excess.ceilings.norms.constant))
 
 
-def _alone(request: OptimizeRequest, asked: Goals, omega_squared: float) -> dict[str, tuple[Row, ...]]:
+def _alone(task: Task, asked: Goals, omega_squared: float) -> dict[str, tuple[Row, ...]]:
     """Peaks of the first order, and components with a ceiling, by themselves: the largest of all cases."""
     rows: dict[str, list[Row]] = {}
     for case in asked.cases:
         for responses in case.variants:
-            limited = limited_responses(responses, request.objective) if request.objective.orders == "first" else ()
+            limited = limited_responses(responses, task.objective) if task.objective.orders == "first" else ()
             components = [each for each, _ in limited if each.name not in RESPONSES]
             for each in (*responses, *components):
                 of_name = rows.setdefault(each.name, [])
@@ -251,9 +251,9 @@ def _at_fault(found: Unkept) -> list[str]:
     return sorted(leant, key=lambda name: -share[name])[:_MOST_AT_FAULT]
 
 
-def _under_ceilings(request: OptimizeRequest, asked: Goals) -> list[str]:
+def _under_ceilings(task: Task, asked: Goals) -> list[str]:
     """Responses that have a ceiling, the first of them."""
-    given = given_ceilings(request.objective) if request.objective.orders == "first" else ()
+    given = given_ceilings(task.objective) if task.objective.orders == "first" else ()
     limited = (asked.program.quantities[each.quantity].name for each in asked.limited)
     return list(dict.fromkeys((*(each.response for each, _ in given), *limited)))[:_MOST_AT_FAULT]
 

@@ -6,8 +6,8 @@ import numpy as np
 
 from optimizer.choices.construction import feasible_set
 from optimizer.choices.feasible_set import Choice, SearchResult
-from optimizer.formulation.demand import demand
 from optimizer.formulation.simulation import Prepared
+from optimizer.formulation.task import Task
 from optimizer.numerics.arrays import Real
 from optimizer.program.cuts.dominance import Group
 from optimizer.program.cuts.optimum import Unkept
@@ -19,7 +19,6 @@ from optimizer.program.rows import total_mass
 from optimizer.solve.cutting_plane_rounds import in_rounds
 from optimizer.solve.statuses import ended, told_ample
 from optimizer.solve.uncertain_program import Robust
-from schemas.request.requests import OptimizeRequest
 
 #: gap of the least mass of any masses at any angles, which the search begins with
 _SHARP = 1e-6
@@ -38,7 +37,7 @@ class Lightest:
     method: str
 
 
-def minimum_mass(request: OptimizeRequest, scene: Prepared, solver: Solver) -> Lightest:
+def minimum_mass(task: Task, scene: Prepared, solver: Solver) -> Lightest:
     """The lightest set that can be chosen and keeps the ceilings, of the first order or over the turn.
 
     Raises
@@ -46,14 +45,14 @@ def minimum_mass(request: OptimizeRequest, scene: Prepared, solver: Solver) -> L
     OutOfRange
         where the options of a web cannot be told.
     """
-    gap, robust = request.accuracy.relative_gap, Robust(request, scene, demand(request))
+    gap, robust = task.relative_gap, Robust(task, scene, task.demand)
     program = robust.asked().program
     weighed = program.changed(goals=(Goal("mass", (Group((total_mass(program.limits),)),)),))
     best = optimum(weighed, _SHARP, False, solver, robust.left_s)
     if isinstance(best, Unkept):
         return _none(program.limits, best.method)
     size = max(best.point.mass, best.proof.bound) or 1.0
-    choices = feasible_set(request, best.limits, solver)
+    choices = feasible_set(task, best.limits, solver)
     choice, found = in_rounds(weighed, best, choices, gap, size, lambda: robust.left_s)
     reason = told_ample(ended(found), found, best.proof.bound)
     return _lightest(choice, found, found.lower_bound, gap, reason)

@@ -16,8 +16,8 @@ import numpy as np
 
 from optimizer.choices.equal_plates import alike, emptied
 from optimizer.choices.plate_guess import guessed
-from optimizer.formulation.demand import Demand
 from optimizer.formulation.limits import limits
+from optimizer.formulation.task import Demand
 from optimizer.mechanics.plates import Plates
 from optimizer.mechanics.shapes import fitted
 from optimizer.numerics.arrays import Complex, Real, mapped

@@ -10,7 +10,7 @@ import numpy as np
 
 from optimizer.choices.discrete.search import EXHAUSTED
 from optimizer.choices.feasible_set import SearchResult
-from optimizer.formulation.demand import Demand
+from optimizer.formulation.task import Demand
 from optimizer.program.cuts.optimum import Found
 from optimizer.program.verdict import CONTRADICTED, Verdict
 from optimizer.solve.cutting_plane_rounds import Ended

@@ -1,4 +1,4 @@
-"""The program of one request: of the machine as it is given, or of several; counterweights may be a little off.
+"""The program of one task: of the machine as it is given, or of several; counterweights may be a little off.
 
 Scenarios are cases of one program; without any the machine as it is given is the only one. What counterweights are off
 by is part of it. Of reciprocating masses that scatter
@@ -15,11 +15,11 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.errors import MissingInput
-from optimizer.formulation.balance_shafts import posed
-from optimizer.formulation.demand import Demand
+from optimizer.formulation.balance_shafts import DesignSpace
 from optimizer.formulation.formulate import counted, given_ceilings, responses, weights
 from optimizer.formulation.goals import Case, Goals, formulate
 from optimizer.formulation.simulation import Prepared
+from optimizer.formulation.task import Demand, Task
 from optimizer.mechanics.scatter import changed, row_parts, weighted, worst_signs
 from optimizer.mechanics.shapes import plates
 from optimizer.mechanics.whole_turn import WholeTurn
@@ -36,9 +36,7 @@ from optimizer.solve.plates import cut_optimum
 from optimizer.solve.whole_turn import whole_turn_of
 from schemas.base.model import FieldProblem
 from schemas.base.target import pointer
-from schemas.request.cases import AS_GIVEN
-from schemas.request.requests import OptimizeRequest
-from schemas.request.scenarios import Tolerances, machine_of
+from schemas.request.scenarios import Tolerances
 
 #: a corner that is worse by less than this share is as good as known
 _ALIKE = 1e-12
@@ -66,10 +64,10 @@ def scatter_of(tolerances: Tolerances | None) -> Scatter:
 
 
 @dataclass(frozen=True)
-class Machine:
+class MachineOfCase:
     """The machine as it is given, or that of a scenario, with reciprocating masses that scatter."""
 
-    request: OptimizeRequest  # with its machine, and the webs of its balance shafts behind those of the crankshaft
+    space: DesignSpace  # with the webs of its balance shafts behind those of the crankshaft
     scene: Prepared
     scenario: str | None
     weight: float
@@ -79,7 +77,7 @@ class Machine:
     def nominal(self) -> tuple[Response, ...]:
         """Responses with the masses as they should be."""
         every = self.scene.responses
-        if self.request.objective.orders == "all":
+        if self.space.objective.orders == "all":
             # nothing is mirrored
             every = tuple(each.unmirrored() for each in every)
         return every if self.scenario is None else tuple(replace(each, scenario=self.scenario) for each in every)
@@ -88,7 +86,7 @@ class Machine:
     def parts(self) -> tuple[Phasors, ...]:
         """What every row adds to the responses, (rows,) each."""
         plan = self.scene.layout
-        return tuple(each.baseline for each in responses(plan, row_parts(plan), self.request.objective))
+        return tuple(each.baseline for each in responses(plan, row_parts(plan), self.space.objective))
 
     @property
     def scatters(self) -> bool:
@@ -109,7 +107,7 @@ class Machine:
     @cached_property
     def turn(self) -> WholeTurn:
         """The forces of its rows over the turn."""
-        return whole_turn_of(self.scene, self.request.objective)
+        return whole_turn_of(self.scene, self.space.objective)
 
     def case(self, known: Sequence[Real] = ()) -> Case:
         """What the program asks of it, with the masses as they should be or with changes of these signs (rows,)."""
@@ -120,16 +118,16 @@ class Machine:
             )
             for signs in known
         )
-        turn = (self.turn, self.scene.laden) if self.request.objective.of_the_revolution else None
+        turn = (self.turn, self.scene.laden) if self.space.objective.of_the_revolution else None
         masses = self.share if self.scatters else 0.0
         named = self.scenario, self.weight, masses
-        return Case(self.request.machine, self.scene.omega_squared, variants or (self.nominal,), turn, *named)
+        return Case(self.space.machine, self.scene.omega_squared, variants or (self.nominal,), turn, *named)
 
 
 class Robust:
-    """The program of one request, as far as the worst masses are known where they scatter."""
+    """The program of one task, as far as the worst masses are known where they scatter."""
 
-    def __init__(self, request: OptimizeRequest, scene: Prepared, wanted: Demand) -> None:
+    def __init__(self, task: Task, scene: Prepared, wanted: Demand) -> None:
         """Prepare the machines of all scenarios.
 
         Raises
@@ -137,11 +135,11 @@ class Robust:
         MissingInput
             if one of them lacks what the objective needs.
         """
-        self.request, self.scene, self.wanted, self.posed = request, scene, wanted, posed(request)
-        tolerances = request.tolerances
+        self.task, self.scene, self.wanted, self.space = task, scene, wanted, task.space
+        tolerances = task.tolerances
         self.scatter = scatter_of(tolerances)
         share = 0.0 if tolerances is None else tolerances.reciprocating_mass_relative
-        self.machines = list(_scenarios(request, share)) or [Machine(self.posed, scene, None, 1.0, share)]
+        self.machines = list(_scenarios(task, scene, share)) or [MachineOfCase(self.space, scene, None, 1.0, share)]
         for machine in self.machines:
             if machine.scene is not scene:
                 scene.simulated.join(machine.scene.simulated, "scenarios")
@@ -149,7 +147,7 @@ class Robust:
         #: signs of the changes of masses that are known of every machine
         self._known: list[list[Real]] = [[] for _ in self.machines]
         if self.scatters:
-            self.learnt(np.zeros(len(self.posed.machine.webs), complex))
+            self.learnt(np.zeros(len(self.space.machine.webs), complex))
 
     @cached_property
     def scatters(self) -> bool:
@@ -158,7 +156,7 @@ class Robust:
 
     @cached_property
     def _measures(self) -> list[Measure]:
-        return list(dict.fromkeys(_measures(self.request)))
+        return list(dict.fromkeys(_measures(self.task)))
 
     @property
     def left_s(self) -> float:
@@ -168,7 +166,7 @@ class Robust:
     def asked(self) -> Goals:
         """The program with the changes of masses that are known."""
         cases = [machine.case(known) for machine, known in zip(self.machines, self._known, strict=True)]
-        machine, objective, fidelity = self.posed.machine, self.posed.objective, self.posed.fidelity
+        (machine, objective), fidelity = self.space, self.task.fidelity
         return formulate(machine, objective, cases, self.scene.omega_squared, fidelity, self.scatter, self.scatters)
 
     def learnt(self, u: Complex) -> bool:
@@ -180,7 +178,7 @@ class Robust:
             known += more
         return any(new)
 
-    def _worse(self, machine: Machine, known: Sequence[Real], u: Complex) -> Iterator[Real]:
+    def _worse(self, machine: MachineOfCase, known: Sequence[Real], u: Complex) -> Iterator[Real]:
         found: list[Real] = []
         for measure in self._measures if machine.scatters else ():
             corners, so_far = machine.corners(measure), [*known, *found]
@@ -205,32 +203,29 @@ class Robust:
 
         A budget holds of what is cut and not of its tangents, by which it is found here.
         """
-        cut, budget = plates(self.posed.machine), program.limits.max_total_mass < np.inf
+        cut, budget = plates(self.space.machine), program.limits.max_total_mass < np.inf
         statement = None if cut is None or budget else cone_program(program, self.wanted.least_mass)
         if cut is None or statement is None:
             return None
-        return cut_optimum(self.posed.machine, cut, program, statement, self.wanted, solver)
+        return cut_optimum(self.space.machine, cut, program, statement, self.wanted, solver)
 
 
-def _scenarios(request: OptimizeRequest, share: float) -> Iterator[Machine]:
-    for case in request.cases:
-        scenario = case.scenario
-        made = request.model_copy(
-            update={"machine": machine_of(request, scenario), **AS_GIVEN, "tolerances": None, "outputs": ()}
-        )
-        lacking = list(missing(made))
+def _scenarios(task: Task, given: Prepared, share: float) -> Iterator[MachineOfCase]:
+    objective = task.objective
+    for name, machine, weight, changes in task.scenarios:
+        lacking = list(missing(machine, objective))
         if lacking:
-            raise MissingInput(FieldProblem(case.changes, f"{pointer(path)}: {message}") for path, message in lacking)
-        scene = prepare(made, ("residual",), effects_of_objective(made.objective))
-        yield Machine(made, scene, scenario.name, scenario.weight, share)
+            raise MissingInput(FieldProblem(changes, f"{pointer(path)}: {message}") for path, message in lacking)
+        scene = prepare(given.request, ("residual",), effects_of_objective(objective), (), machine)
+        yield MachineOfCase(DesignSpace(machine, objective), replace(scene, objective=objective), name, weight, share)
 
 
-def _measures(request: OptimizeRequest) -> Iterator[Measure]:
+def _measures(task: Task) -> Iterator[Measure]:
     """Peaks of the first order that count or are limited."""
-    objective = request.objective
+    objective = task.objective
     if objective.orders == "all":
         return
-    across, wanted = objective.direction_weights, weights(request.machine, objective)
+    across, wanted = objective.direction_weights, weights(task.machine, objective)
     names = [each.name for each in counted(objective)]
     for r, name in enumerate(names):
         if wanted[name] > 0:

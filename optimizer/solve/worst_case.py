@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from optimizer.formulation.balance_shafts import Fitted, chosen
+from optimizer.formulation.balance_shafts import DesignSpace, Fitted, chosen
 from optimizer.formulation.counterweights import unbalance
-from optimizer.formulation.demand import demand
 from optimizer.formulation.formulate import added, counted, of_all_orders
 from optimizer.formulation.goals import Goals, bearing_responses, formulate
 from optimizer.formulation.simulation import Prepared
+from optimizer.formulation.task import Task
 from optimizer.numerics.arrays import Complex
 from optimizer.program.cuts.brackets import Brackets
 from optimizer.program.cuts.cut import Quantity
@@ -23,11 +23,10 @@ from optimizer.solve.answer_fields import fitted
 from optimizer.solve.cut_plates import cut_plates
 from optimizer.solve.infeasibility import out_of_reach
 from optimizer.solve.solution import Infeasible, Solution, finite_or_null, multipliers_of
-from optimizer.solve.uncertain_program import Machine, Measure, Robust
+from optimizer.solve.uncertain_program import MachineOfCase, Measure, Robust
 from schemas.answer.first_order import ResponsePeak
 from schemas.answer.robust import PriceOfRobustness, WorstCase
-from schemas.machine.reciprocating import ReciprocatingMachine
-from schemas.request.requests import OptimizeRequest
+from schemas.request.scene import Fidelity
 
 #: width of brackets of what is shown, relative; and of those that tell which of several peaks may be the largest
 _CLOSE, _ABOUT = 1e-10, 1e-2
@@ -35,9 +34,7 @@ _NO_PROOF: Mapping[str, object] = {}
 _NO_PRICE = " The time limit ended before the nominal optimum of price_of_robustness was found."
 
 
-def best_of_any_mass(
-    request: OptimizeRequest, scene: Prepared, solver: Solver, in_full: bool = True
-) -> Solution | Infeasible:
+def best_of_any_mass(task: Task, scene: Prepared, solver: Solver, in_full: bool = True) -> Solution | Infeasible:
     """Counterweights of any mass that are optimal, in the worst of all cases where there are several.
 
     Parameters
@@ -49,26 +46,28 @@ def best_of_any_mass(
     MissingInput
         if a machine lacks what the objective needs.
     """
-    robust = Robust(request, scene, demand(request))
+    robust = Robust(task, scene, task.demand)
     asked, found = robust.solved(solver)
     if isinstance(found, Unkept):
-        return out_of_reach(request, scene, asked, found, solver)
-    told = fitted(request, scene, asked, found, robust.wanted, in_full)
-    return _beside_nominal(robust, asked, told, solver) if request.robust else told
+        return out_of_reach(task, scene, asked, found, solver)
+    told = fitted(task, scene, asked, found, robust.wanted, in_full)
+    return _beside_nominal(robust, asked, told, solver) if task.robust else told
 
 
 def _beside_nominal(robust: Robust, asked: Goals, told: Solution, solver: Solver) -> Solution:
     """The same with the worst case, and what it costs beside the optimum of the machine as it is given."""
-    request, scene = robust.request, robust.scene
+    task, scene = robust.task, robust.scene
     best, late = _nominal_optimum(robust, solver)
     if best is None:
         return with_worst_case(robust, told, None, late)
     # of the masses that are printed, like every figure
-    request, scene, asked, mass, angle = cut_plates(request, scene, asked, best.point.unbalance, best.limits)
+    task, scene, asked, mass, angle = cut_plates(task, scene, asked, best.point.unbalance, best.limits)
     if asked.program.plates is not None:
         best = best.within(asked.program.limits)
     u = unbalance(mass, angle, best.limits.radius)
-    return with_worst_case(robust, told, u, late, _proof_of(scene, best, chosen(request, mass, angle)))
+    return with_worst_case(
+        robust, told, u, late, _proof_of(scene, best, chosen(task.machine, task.objective, mass, angle))
+    )
 
 
 def _proof_of(scene: Prepared, best: Found, shown: Fitted) -> dict[str, object]:
@@ -98,15 +97,15 @@ def with_worst_case(
     proof : fields of the price that prove the nominal optimum.
     """
     u = told.unbalance
-    price = _price(robust, u, nominal).model_copy(update=dict(proof))
+    price = PriceOfRobustness.model_validate({**_price(robust, u, nominal), **proof})
     worst = {"worst_case": _worst_case(robust, u, told.certificate.objective), "price_of_robustness": price}
     return replace(told, reason=f"{told.reason}{_NO_PRICE if late else ''}", fields={**told.fields, **worst})
 
 
-def nothing_off(request: OptimizeRequest, scene: Prepared, u: Complex, objective: float) -> dict[str, object]:
+def nothing_off(task: Task, scene: Prepared, u: Complex, objective: float) -> dict[str, object]:
     """The same fields where tolerances are stated and all are 0: the worst case is what counterweights (K,) come to."""
     return {
-        "worst_case": _worst_case(Robust(request, scene, demand(request)), u, objective),
+        "worst_case": _worst_case(Robust(task, scene, task.demand), u, objective),
         "price_of_robustness": PriceOfRobustness(
             nominal=objective, nominal_optimum=objective, nominal_optimum_worst_case=objective
         ),
@@ -115,36 +114,36 @@ def nothing_off(request: OptimizeRequest, scene: Prepared, u: Complex, objective
 
 def _worst_case(robust: Robust, u: Complex, objective: float) -> WorstCase:
     """Peaks in the worst case, each by itself, with counterweights (K,) kg m."""
-    on_frame = counted(robust.request.objective)
+    on_frame = counted(robust.task.objective)
     peaks = {
         each.name: max(_external(robust, machine, k, u) for machine in robust.machines)
         for k, each in enumerate(on_frame)
     }
-    bearings = robust.machines if robust.request.objective.of_the_shaft else []
-    loads = [_peak(robust, machine, list(_bearing_responses(machine)), u) for machine in bearings]
+    bearings = robust.machines if robust.task.objective.of_the_shaft else []
+    loads = [_peak(robust, machine, list(_bearing_responses(machine, robust.task.fidelity)), u) for machine in bearings]
     return WorstCase(
         force_peak_N=peaks["force"],
         moment_peak_Nm=peaks["moment"],
         responses=tuple(
             ResponsePeak(response=each.name, label=each.fields.label, unit=each.unit, peak=peaks[each.name])
-            for each in added(robust.request.objective)
+            for each in added(robust.task.objective)
         ),
         bearing_peak_N=max(loads) if loads else None,
         objective=objective,
     )
 
 
-def _external(robust: Robust, machine: Machine, response: int, u: Complex) -> float:
+def _external(robust: Robust, machine: MachineOfCase, response: int, u: Complex) -> float:
     """A peak on the frame: of the first order, or of all where these count."""
-    if robust.request.objective.orders == "all":
-        every = of_all_orders(machine.turn, machine.scene.laden, robust.request.objective)
+    if robust.task.objective.orders == "all":
+        every = of_all_orders(machine.turn, machine.scene.laden, robust.task.objective)
         return _peak(robust, machine, every[response : response + 1], u)
     measure = Measure(response, 1.0, 1.0)
     off = robust.scatter.of(machine.nominal[response].influence, u)
     return (float(np.max(machine.sizes(measure, machine.corners(measure), u))) + off) * machine.scene.omega_squared
 
 
-def _peak(robust: Robust, machine: Machine, responses: Sequence[TurnResponse], u: Complex) -> float:
+def _peak(robust: Robust, machine: MachineOfCase, responses: Sequence[TurnResponse], u: Complex) -> float:
     """The largest of the peaks of several responses: closely of those alone that may have it."""
     masses = machine.share if machine.scatters else 0.0
     quantities = [Quantity(each, "peak", machine.scenario, masses) for each in responses]
@@ -159,10 +158,8 @@ def _peak(robust: Robust, machine: Machine, responses: Sequence[TurnResponse], u
     return float(most) * machine.scene.omega_squared
 
 
-def _bearing_responses(machine: Machine) -> Iterator[TurnResponse]:
-    made, scene = machine.request.machine, machine.scene
-    assert isinstance(made, ReciprocatingMachine)  # no other has bearings
-    yield from bearing_responses(made, machine.request.fidelity, machine.turn, scene.laden)
+def _bearing_responses(machine: MachineOfCase, fidelity: Fidelity) -> Iterator[TurnResponse]:
+    yield from bearing_responses(machine.space.machine, fidelity, machine.turn, machine.scene.laden)
 
 
 def _nominal_optimum(robust: Robust, solver: Solver) -> tuple[Found | None, bool]:
@@ -176,21 +173,21 @@ def _nominal_optimum(robust: Robust, solver: Solver) -> tuple[Found | None, bool
     return found if isinstance(found, Found) and not late else None, late
 
 
-def _price(robust: Robust, u: Complex, best: Complex | None) -> PriceOfRobustness:
+def _price(robust: Robust, u: Complex, best: Complex | None) -> dict[str, float | None]:
     """What the worst case costs nominally, and the best of the machine as it is given in the worst case."""
     program, square = _nominal(robust).program, robust.scene.omega_squared
-    return PriceOfRobustness(
-        nominal=float(program.values(u, _CLOSE).goals[-1]) * square,
-        nominal_optimum=None if best is None else float(program.values(best, _CLOSE).goals[-1]) * square,
-        nominal_optimum_worst_case=None if best is None else _objective(robust, best),
-    )
+    return {
+        "nominal": float(program.values(u, _CLOSE).goals[-1]) * square,
+        "nominal_optimum": None if best is None else float(program.values(best, _CLOSE).goals[-1]) * square,
+        "nominal_optimum_worst_case": None if best is None else _objective(robust, best),
+    }
 
 
 def _nominal(robust: Robust) -> Goals:
     """The program of the machine as it is given, with nothing off."""
-    request, scene = robust.request, robust.scene
-    case = Machine(request, scene, None, 1.0, 0.0).case()
-    return formulate(request.machine, request.objective, [case], scene.omega_squared, request.fidelity)
+    task, scene = robust.task, robust.scene
+    case = MachineOfCase(DesignSpace(task.machine, task.objective), scene, None, 1.0, 0.0).case()
+    return formulate(task.machine, task.objective, [case], scene.omega_squared, task.fidelity)
 
 
 def _objective(robust: Robust, u: Complex) -> float:

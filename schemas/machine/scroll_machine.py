@@ -9,7 +9,9 @@ from schemas.base.model import Model
 from schemas.base.presence import conditions, either
 from schemas.base.quantities import Angle, Count, Length, Mass, Position
 from schemas.base.rules import Rule
+from schemas.machine.drive import Bearing
 from schemas.machine.rotor import Rotor
+from schemas.machine.throws import Throw
 from schemas.scroll.drive_bearing import DriveBearing
 from schemas.scroll.over_turn import ForceOverTurn, PinRadius, TorqueOverTurn
 
@@ -64,6 +66,16 @@ class ScrollMachine(Rotor):
         description="tangential gas force on the scroll, in place of the torque that it causes",
         examples=[5000.0],
     )
+
+    @property
+    def throws(self) -> tuple[Throw, ...]:
+        """None: it has no cranks."""
+        return ()
+
+    @property
+    def bearings(self) -> tuple[Bearing, ...]:
+        """None: main bearings are those of a crankshaft."""
+        return ()
 
     def rules(self) -> Iterator[Rule]:
         yield from super().rules()

@@ -12,8 +12,7 @@ from typing import Any, NamedTuple
 
 from schemas.machine.choices import own_options
 from schemas.machine.machine import Machine
-from schemas.machine.reciprocating import ReciprocatingMachine
-from schemas.machine.throws import Row, Throw, row_cylinders
+from schemas.machine.throws import Row, row_cylinders
 
 #: angles and planes so near are one
 _NEAR = 1e-9
@@ -122,7 +121,7 @@ def _off(difference: float, period: float) -> float:
 
 def _turns_freely(machine: Machine) -> bool:
     """Whether nothing on the machine stands at an angle of its own."""
-    rows = [row for throw in _throws(machine) for row in throw.rows]
+    rows = [row for throw in machine.throws for row in throw.rows]
     tabled = any(one.pressure is not None for row in rows for _, one in row_cylinders(row))
     own = [own_options(web) for web in machine.webs]
     free = all(web.sector is None and web.fixed is None for web in machine.webs)
@@ -132,7 +131,7 @@ def _turns_freely(machine: Machine) -> bool:
 
 def _same_in_a_mirror(machine: Machine, alike_across: bool) -> bool:
     """Whether there is a line along which every throw's rows are their own mirror image; gas knows its direction."""
-    throws = _throws(machine)
+    throws = machine.throws
     if any(row.cylinder is not None or row.cylinders for throw in throws for row in throw.rows):
         return False
     axes = [row.axis_deg for throw in throws[:1] for row in throw.rows] or [0.0]
@@ -160,7 +159,7 @@ def _alike(one: Row, other: Row) -> bool:
 
 def _same_from_both_ends(machine: Machine) -> bool:
     """Whether throws, webs and bearings are the same from both ends, about the plane of moments if one is given."""
-    throws = _throws(machine)
+    throws = machine.throws
     ends = throws[0].position_m + throws[-1].position_m
     size = max(abs(throw.position_m) for throw in throws)
     given = machine.reference_plane_m
@@ -172,8 +171,7 @@ def _same_from_both_ends(machine: Machine) -> bool:
     if given is not None and abs(2 * given - ends) > _NEAR * max(size, abs(given)):
         return False
     sides = [[_from_an_end(one, ends, turned) for one in throws] for turned in (False, True)]
-    bearings = machine.bearings if isinstance(machine, ReciprocatingMachine) else ()
-    places = [*machine.webs, *bearings]
+    places = [*machine.webs, *machine.bearings]
     last = len(throws) - 1 if machine.discrete else None
     turned = [_from_an_end(one, ends, True, last) for one in places]
     there = [_from_an_end(one, ends, False, last) for one in places]
@@ -212,7 +210,3 @@ def _equal(one: Sequence[dict[str, Any]], other: Sequence[dict[str, Any]], size:
 def _same(one: dict[str, Any], other: dict[str, Any], size: float) -> bool:
     near = abs(one["position_m"] - other["position_m"]) <= _NEAR * size
     return near and one.keys() == other.keys() and all(one[key] == other[key] for key in one if key != "position_m")
-
-
-def _throws(machine: Machine) -> tuple[Throw, ...]:
-    return machine.throws if isinstance(machine, ReciprocatingMachine) else ()

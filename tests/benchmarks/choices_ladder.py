@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from optimizer.choices.catalogue_options import part_numbers, stock
-from optimizer.formulation.demand import of_any_mass
+from optimizer.formulation.task import Task
 from optimizer.outputs.registry import prepare
 from optimizer.solve.certify import certified
 from optimizer.solve.process_solver import own_solver
@@ -84,7 +84,9 @@ def theirs(request: AccuracyRequest) -> Iterator[Row]:
     """What others find in the time, on the same options."""
     scene = prepare(request.model_copy(update={"outputs": ("residual",)}))
     square = np.array([scene.omega_squared])
-    relaxed = certified(request.machine, request.objective, scene.responses, square, of_any_mass(request), own_solver())
+    relaxed = certified(
+        request.machine, request.objective, scene.responses, square, Task.of(request).of_any_mass, own_solver()
+    )
     program, held = relaxed.program.chosen(0), stock(request.machine)
     size = float(relaxed.certificate["yardstick"][0] / square[0])
     for name, rival in _RIVALS.items():

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from optimizer.choices.catalogue_options import stock
-from optimizer.formulation.demand import of_any_mass
+from optimizer.formulation.task import Task
 from optimizer.optimize import optimize
 from optimizer.outputs.registry import prepare
 from optimizer.solve.certify import certified
@@ -89,7 +89,9 @@ def beside(body: dict[str, Any], repeats: int, time_limit_s: float) -> Beside:
     assert proof.nodes is not None
     scene = prepare(request, ("residual",))
     square = np.array([scene.omega_squared])
-    relaxed = certified(request.machine, request.objective, scene.responses, square, of_any_mass(request), own_solver())
+    relaxed = certified(
+        request.machine, request.objective, scene.responses, square, Task.of(request).of_any_mass, own_solver()
+    )
     size = float(relaxed.certificate["yardstick"][0] / square[0])
     began = time.process_time()
     theirs = scip(relaxed.program.chosen(0), stock(request.machine).options, _GAP, size, time_limit_s)

@@ -16,7 +16,7 @@ from scipy.sparse import lil_matrix
 
 from optimizer.choices.catalogue_options import stock
 from optimizer.choices.discrete.options import Options
-from optimizer.formulation.demand import of_any_mass
+from optimizer.formulation.task import Task
 from optimizer.optimize import optimize
 from optimizer.outputs.registry import prepare
 from optimizer.program.statement import Statement
@@ -125,7 +125,7 @@ def main(limit_s: float) -> None:
         scene = prepare(request, ("residual",))
         square = np.array([scene.omega_squared])
         free = certified(
-            request.machine, request.objective, scene.responses, square, of_any_mass(request), own_solver()
+            request.machine, request.objective, scene.responses, square, Task.of(request).of_any_mass, own_solver()
         )
         size = float(free.certificate["yardstick"][0] / square[0])
         program, options = free.program.chosen(0), stock(request.machine).options

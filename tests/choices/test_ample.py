@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optimizer.choices.discrete import ample
+from optimizer.choices.discrete import few_slots
 from optimizer.choices.discrete.lightest import Lighter, lighter
 from schemas.answer.answers import OptimizeAnswer
 from tests.benchmarks.discrete import choice
@@ -109,7 +109,7 @@ def test_no_slots_are_searched_twice_for_what_is_lighter_than_a_set(monkeypatch:
         searched.append((*(options.tobytes() for options in which), level, below_kg))
         return lighter(*arguments)
 
-    monkeypatch.setattr(ample, "lighter", counted)
+    monkeypatch.setattr(few_slots, "lighter", counted)
     assert optimized(choice(webs=4, holes=12, masses=16)).status == "optimal"
     assert searched
     assert len({*searched}) == len(searched)

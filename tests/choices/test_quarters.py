@@ -10,7 +10,7 @@ from optimizer.choices.discrete.clock import Clock
 from optimizer.choices.discrete.exchange import neighbourhoods, start
 from optimizer.choices.discrete.options import EQUAL, Incumbent
 from optimizer.choices.discrete.quarters import quarters
-from optimizer.formulation.demand import of_any_mass
+from optimizer.formulation.task import Task
 from optimizer.outputs.registry import prepare
 from optimizer.solve.certify import certified
 from optimizer.solve.process_solver import own_solver
@@ -46,7 +46,7 @@ def test_it_keeps_the_limits_and_is_never_worse(limits: dict[str, float]) -> Non
         request.objective,
         scene.responses,
         np.array([scene.omega_squared]),
-        of_any_mass(request),
+        Task.of(request).of_any_mass,
         own_solver(),
     )
     problem, options = best.program.chosen(0), stock(request.machine).options

@@ -5,8 +5,8 @@ from typing import Any
 
 import pytest
 
+from optimizer.formulation.task import Task
 from optimizer.optimize import optimize
-from optimizer.solve.alternatives import for_best
 from optimizer.solve.costs import Costs
 from schemas.answer.alternatives import Alternative
 from schemas.answer.answers import OptimizeAnswer
@@ -129,21 +129,29 @@ def test_fixed_weights_count_and_are_not_chosen() -> None:
     assert found.alternatives
 
 
-def test_all_of_it_shares_one_time_limit(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Analytic: the best choice has 6 s of 10, and the rest is what it left."""
-    asked = OptimizeRequest.model_validate(question(small(), accuracy={"time_limit_s": 10}))
-    assert (for_best(asked).accuracy.time_limit_s, for_best(asked).alternatives) == (6.0, ())
-    alone = asked.model_copy(update={"alternatives": ()})
-    assert for_best(alone) is alone
-    left: list[float] = []
+@pytest.mark.parametrize(("alternatives", "first_s"), [([0.01], 6.0), ([], 10.0)])
+def test_all_of_it_shares_one_time_limit(
+    monkeypatch: pytest.MonkeyPatch, alternatives: list[float], first_s: float
+) -> None:
+    """Analytic: the best choice has 6 s of 10 where cheaper ones are listed, and the rest is what it left."""
+    body = question(small(), accuracy={"time_limit_s": 10}) | {"alternatives": alternatives}
+    module, limits, left = import_module("optimizer.optimize"), list[float](), list[float]()
+    search = module.solve
+
+    def solved(task: Task, *rest: Any) -> Any:
+        limits.append(task.time_limit_s)
+        return search(task, *rest)
 
     def listed(*some: Any) -> tuple[Alternative, ...]:
         left.append(some[-1])
         return ()
 
-    monkeypatch.setattr(import_module("optimizer.optimize"), "alternatives", listed)
-    optimize(asked)
-    assert 4.0 <= left[0] < 10.0
+    monkeypatch.setattr(module, "solve", solved)
+    monkeypatch.setattr(module, "alternatives", listed)
+    optimize(OptimizeRequest.model_validate(body))
+    assert limits == [first_s]
+    assert all(4.0 <= each < 10.0 for each in left)
+    assert len(left) == len(alternatives)
 
 
 @pytest.mark.parametrize(

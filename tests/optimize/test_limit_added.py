@@ -6,8 +6,8 @@ One crank with a rotating mass, and one web opposite: the counterweight m R take
 import numpy as np
 import pytest
 
-from optimizer.formulation.demand import demand
 from optimizer.formulation.limits import WEB_LIMITS, MassLimit, limits
+from optimizer.formulation.task import Task
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Real, mapped
 from optimizer.outputs.registry import prepare
@@ -47,7 +47,12 @@ def _solved(request: OptimizeRequest) -> tuple[Certified, list[str], dict[str, P
     """The optimum, the limits that it touches, and all prices in N per unit."""
     scene, machine = prepare(request, ("residual",)), request.machine
     best = certified(
-        request.machine, request.objective, scene.responses, np.array([scene.omega_squared]), demand(request), Solver()
+        request.machine,
+        request.objective,
+        scene.responses,
+        np.array([scene.omega_squared]),
+        Task.of(request).demand,
+        Solver(),
     )
     touched = [name for name, limit in WEB_LIMITS.items() if limit.touched(machine, best.mass_kg, best.angle_deg)[0, 0]]
     prices = mapped(shadow_prices(best.program, best.unbalance, best.found.multipliers), lambda array: array[0])

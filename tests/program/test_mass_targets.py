@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optimizer.program.certificate import mass_lower_bound
+from optimizer.program.certificate import Multipliers, mass_lower_bound
 from optimizer.program.methods.cascade import _better_of
 from optimizer.program.methods.optima import optima
 from optimizer.program.solution import Solution
@@ -18,7 +18,8 @@ _SHARE = 1.0
 
 
 def _solution(objective: float, mass: float, bound: float, target: float) -> Solution:
-    return Solution(np.zeros(0), objective, 0.0, mass, bound, -np.inf, mass_target=target)
+    nothing = Multipliers(np.zeros(0, complex), np.zeros(0), np.zeros(0, complex))
+    return Solution(np.zeros(0), objective, 0.0, mass, bound, -np.inf, nothing, mass_target=target)
 
 
 def test_a_lighter_point_beyond_the_target_of_a_proof_does_not_take_it_over() -> None:

@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optimizer.formulation.demand import demand
 from optimizer.formulation.formulate import responses
 from optimizer.formulation.goals import cone_program
+from optimizer.formulation.task import Task
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import layout
 from optimizer.program.certificate import mass_lower_bound, objective_lower_bound
@@ -55,7 +55,7 @@ def test_least_masses_of_even_layouts_are_proven_without_another_solver(most: fl
     shaft = layout(request.machine)
     square = np.broadcast_to(shaft.omega**2, (ORDERS,))
     asked = responses(shaft, rotating(shaft).plus(reciprocating(shaft, 1)), Objective())
-    best = certified(request.machine, request.objective, asked, square, demand(request), own_solver())
+    best = certified(request.machine, request.objective, asked, square, Task.of(request).demand, own_solver())
     assert set(best.found.method) == {INTERIOR_POINT}
     assert set(best.status) == {"optimal"}
     # the same program as both stages leave it: some of its masses are not proven

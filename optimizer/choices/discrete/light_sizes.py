@@ -78,10 +78,10 @@ class LightSizes:
         first = self._middles()
         middles, step = first, 1
         while not clock.spent():
-            if self._improved(self._about(middles, step)):
+            better = self._better(self._about(middles, step))
+            if better is not None:
                 # what was better may be better still farther on
-                assert self.chosen is not None
-                middles, step = {self._of(self.chosen)}, 2 * step
+                middles, step = {self._of(better)}, 2 * step
             elif step > 1:
                 step = 1
             elif middles != first:
@@ -90,24 +90,24 @@ class LightSizes:
                 break
         return self.chosen
 
-    def _improved(self, several: list[Sizes]) -> bool:
-        """Look for a lighter set of some sizes, what is likely to be lightest first; whether one was found."""
-        before = self.chosen
-        mass = np.inf if before is None else self._mass(before)
+    def _better(self, several: list[Sizes]) -> np.ndarray | None:
+        """A lighter set (K,) of some sizes, what is likely to be lightest first; None where there is none."""
+        better: np.ndarray | None = None
+        mass = np.inf if self.chosen is None else self._mass(self.chosen)
         for sizes in sorted((one for one in several if one not in self.tried), key=self._likely):
             least = len(self.used) * float(self.mass[sizes.main[0]]) + _FEWEST * float(self.mass[sizes.small])
             for which in self._options(sizes) if least < mass else ():
                 if self.clock.spent():
-                    return self.chosen is not before
+                    return better
                 light = lighter(
                     self.statement, self.loose, which, self.limit, mass, self.clock, most_pairs=_PAIRS
                 ).chosen
                 if light is not None:
-                    self.chosen, mass = light, self._mass(light)
+                    self.chosen, better, mass = light, light, self._mass(light)
             self.tried.add(sizes)
-            if self.chosen is not before:
-                return True
-        return False
+            if better is not None:
+                break
+        return better
 
     def _likely(self, sizes: Sizes) -> float:
         """About what a set of some sizes weighs, kg: those nearest to the optimum, and some castings of a small one."""

@@ -66,7 +66,7 @@ def quarters(incumbent: Incumbent, enough: Callable[[], bool], clock: Clock) -> 
         return
     left = _PATIENCE
     while left > 0 and incumbent.chosen is not None and not enough() and not clock.spent():
-        before, chosen, measure = incumbent.least, incumbent.chosen, _Measure(incumbent)
+        before, chosen, measure = incumbent.least, incumbent.chosen, _Measure(incumbent, incumbent.chosen)
         some = _near(options, chosen, _SUMS)
         a, b, c, d = (_quarter(measure, chosen, slots, some) for slots in _dealt(some, _SUMS, chance))
         middle = [np.mean(each.points, axis=-1) for each in (a, b, c, d)]
@@ -125,13 +125,12 @@ def _met(one: Real, other: Real) -> tuple[np.ndarray, np.ndarray]:
 class _Measure:
     """What the slots do to the terms, in real coordinates whose unit is what a row may still come to."""
 
-    def __init__(self, incumbent: Incumbent) -> None:
+    def __init__(self, incumbent: Incumbent, chosen: np.ndarray) -> None:
         statement, self._options = incumbent.statement, incumbent.options
         lever, self._effect = incumbent.coordinates
         left = np.maximum(incumbent.left(0.0), SMALLEST)[statement.row]
         turn, self._scale = np.linalg.qr(lever / left[:, None])
-        assert incumbent.chosen is not None  # it is what is made better
-        terms = statement.norms.at(self._options.carried(incumbent.chosen)) / left
+        terms = statement.norms.at(self._options.carried(chosen)) / left
         #: what the changes have to come to
         self.wanted = -_real(np.conj(turn.T) @ terms)
 

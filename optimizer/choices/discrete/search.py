@@ -6,10 +6,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.choices.discrete.ample import light_sizes, lightest_near, offer_light_sets
+from optimizer.choices.discrete.ample import light_sizes, offer_light_sets
 from optimizer.choices.discrete.branch import Tree, branch
 from optimizer.choices.discrete.clock import Clock
 from optimizer.choices.discrete.exchange import neighbourhoods, start
+from optimizer.choices.discrete.few_slots import lightest_near
 from optimizer.choices.discrete.halves import exhaust
 from optimizer.choices.discrete.options import EQUAL, Incumbent, Options
 from optimizer.choices.discrete.quarters import quarters
@@ -123,7 +124,7 @@ def search(
         # all within the asked gap are as good, and what is light is cheap
         share = _LIGHTER_OF_PARTS if options.limits_parts else _LIGHTER
         light = Clock(min(clock.left_s, share * time_limit_s))
-        return replace(found, chosen=lightest_near(incumbent, bound + gap, light, sizes))
+        return replace(found, chosen=lightest_near(incumbent, found.chosen, bound + gap, light, sizes))
     return found
 
 

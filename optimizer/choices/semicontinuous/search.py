@@ -72,16 +72,18 @@ def search(
     sharing(incumbent, continuous, clock)
     if known:
         incumbent.offer(np.stack(known))
-    if incumbent.unbalance is None:
+    first = incumbent.unbalance
+    if first is None:
         within = _within(statement, places, continuous, clock, solver, below or statement)
         if not within.kept:
             return within
-        incumbent.offer(within.unbalance[None])
+        first = within.unbalance
+        incumbent.offer(first[None])
     tree = branch(incumbent, at_least, gap, lambda bound: False, clock, below or statement)
     bound = min(max(at_least, tree.lower_bound), incumbent.least)
     share = min(asked.share, max(bound + gap - incumbent.least, 0.0))
-    assert incumbent.unbalance is not None  # that keeps the ceilings was offered
-    lightest = lightened(incumbent, incumbent.unbalance, share, clock)
+    best = first if incumbent.unbalance is None else incumbent.unbalance
+    lightest = lightened(incumbent, best, share, clock)
     closed = incumbent.least - bound <= gap
     return Found(lightest, True, bound, tree.nodes, _ended(tree, closed))
 

@@ -54,6 +54,5 @@ def solved(program: Statement, alike: Alike | None, share: Real, gap: Real, leas
             points[n], nowhere[n] = answer.closest, answer.excess > CEILING_TOLERANCE
             continue
         points[n] = answer.unbalance
-        if answer.multipliers is not None:
-            multipliers.put(n, answer.multipliers)
+        multipliers.put(n, answer.multipliers)
     return Solved(points, multipliers, nowhere)

@@ -13,7 +13,6 @@ from optimizer.outputs.peaks import FLOOR_TOLERANCE, of_shaft, one_by_one
 from optimizer.responses.curve import floors
 from schemas.answer.outputs import labels
 from schemas.machine.drive import Bearing
-from schemas.machine.reciprocating import ReciprocatingMachine
 
 
 def _specific(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
@@ -71,13 +70,7 @@ def _area(bearing: Bearing) -> Real | None:
 
 
 def _bearings(scene: Prepared) -> tuple[Bearing, ...]:
-    return _machine(scene).bearings
-
-
-def _machine(scene: Prepared) -> ReciprocatingMachine:
-    machine = scene.machine
-    assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
-    return machine
+    return scene.machine.bearings
 
 
 BEARINGS = (

@@ -80,7 +80,6 @@ def _under_ceilings(statement: Statement, target: Target, solver: Solver, quick:
     """With ceilings: first whether they can be kept, and with how much room (docs/mathematics.md section 9)."""
     nearest = smallest_excess(statement, solver)
     if nearest.lower_bound > CEILING_ROUNDING:
-        assert nearest.multipliers is not None  # they are what proves the bound
         return Unreachable(nearest.unbalance, nearest.objective, nearest.certify_s, nearest.multipliers)
     if target.least_mass and (rest := at_rest(statement, target, quick.smallest)):
         return replace(rest, certify_s=rest.certify_s + nearest.certify_s)

@@ -61,7 +61,6 @@ def at_rest(statement: Statement, target: Target, solution: Solution) -> Solutio
         return None
     rest = replace(rest, mass_lower_bound=0.0, mass_multipliers=nothing_proven(statement))
     rest = replace(rest, mass_target=rest.objective + target.share)
-    assert solution.multipliers is not None  # those of rest, at least
     allowance = ceiling_allowance(statement, solution.multipliers, statement.ceilings.excess(rest.unbalance))
     return rest if rest.gap + float(allowance) <= target.share else None
 
@@ -74,8 +73,7 @@ def raised(statement: Statement) -> Statement:
 def proven_again(statement: Statement, solution: Solution) -> Solution:
     """The same point with its bounds, both for the ceilings that were asked for."""
     solution = solution.moved_to(statement, solution.unbalance)
-    if solution.multipliers is not None:
-        solution = replace(solution, lower_bound=float(objective_lower_bound(statement, solution.multipliers)))
+    solution = replace(solution, lower_bound=float(objective_lower_bound(statement, solution.multipliers)))
     if solution.mass_multipliers is not None:
         target = np.asarray(solution.mass_target)
         solution = replace(

@@ -24,6 +24,7 @@ from optimizer.program.solution import (
     OPTIMUM_SHARE,
     Solution,
     Solutions,
+    evaluated,
     joined,
 )
 from optimizer.program.statement import Statement
@@ -60,9 +61,9 @@ class Optima(Solutions):
             float(self.mass[n]),
             float(self.mass_lower_bound[n]),
             float(self.excess[n]),
+            self.multipliers.chosen(n),
             str(self.method[n]),
             spent,
-            self.multipliers.chosen(n),
             self.mass_multipliers.chosen(n),
             float(self.mass_target[n]),
         )
@@ -158,8 +159,8 @@ def _put(answer: Optima, n: int, statement: Statement, solution: Solution | Unre
         answer.conflict.put(n, solution.multipliers)
         # that ceilings cannot be kept is a finding of the reference solver alone
         method = CONE_PROGRAM if solution.closest.size else CLOSED_FORM
-        nowhere = Solution(solution.closest, np.inf, -np.inf, np.inf, 0.0, np.inf, method, solution.certify_s)
-        solution = nowhere.moved_to(statement, solution.closest)
+        nowhere = evaluated(statement, solution.closest)
+        solution = replace(nowhere, method=method, certify_s=solution.certify_s)
     for field in fields(Solution):
         value = getattr(solution, field.name)
         if isinstance(value, Multipliers):

@@ -26,7 +26,6 @@ def polished(statement: Statement, target: Target, stages: StagePair, inside: Co
         return stages
     began = time.perf_counter()
     smallest, lightest = (_pulled(statement, each, inside) for each in (stages.smallest, stages.lightest))
-    assert smallest.multipliers is not None  # those of rest, at least
     for multipliers in objective_multipliers(statement, smallest.unbalance, smallest.multipliers):
         bound = float(objective_lower_bound(statement, multipliers))
         smallest, lightest = smallest.bounded(bound, multipliers), lightest.bounded(bound, multipliers)

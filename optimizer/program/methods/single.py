@@ -59,9 +59,9 @@ def only(statement: Statement, target: Target, stages: BothStages, method: str =
         np.inf,
         0.0,
         np.inf,
+        stages.multipliers.chosen(0),
         method,
         float(stages.certify_s[0]),
-        stages.multipliers.chosen(0),
     )
     smallest = nothing.moved_to(statement, stages.smallest[0])
     lightest = smallest

@@ -7,7 +7,7 @@ several limits of time and several gaps, and the optimum of any masses put on wh
 import logging
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal, NamedTuple
 
@@ -19,9 +19,10 @@ from optimizer.formulation.counterweights import unbalance
 from optimizer.formulation.goals import cone_program
 from optimizer.formulation.groups import alike_webs
 from optimizer.formulation.simulation import Prepared
+from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import fixed_masses
 from optimizer.mechanics.layout import stacked
-from optimizer.mechanics.shapes import fitted, plates
+from optimizer.mechanics.shapes import closed, plates
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.reference.solver import Solver
@@ -29,10 +30,11 @@ from optimizer.program.statement import Statement
 from optimizer.solve.solution import Infeasible
 from optimizer.solve.solve import solve
 from optimizer.studies.accuracy.ladder import LADDER_S, ROUNDS_S, frontier, median_ms
+from schemas.base.variation import with_fields
 from schemas.machine.choices import KINDS as CHOICES
 from schemas.machine.machine import Machine
 from schemas.request.accuracy import AccuracyRequest, ChoiceRow, Reference
-from schemas.request.requests import Accuracy, OptimizeRequest
+from schemas.request.requests import Accuracy
 
 _LOG = logging.getLogger(__name__)
 #: limits of time up to that of the request, s, and gaps
@@ -95,10 +97,8 @@ class Ladder(NamedTuple):
 
 def at_rest(request: AccuracyRequest, scene: Prepared) -> Statement:
     """The program of any masses; plates are not opened yet, and reach as far as they can."""
-    machine, square = request.machine, np.array([scene.omega_squared])
-    cut = plates(machine)
-    closed = machine if cut is None else fitted(machine, np.zeros(cut.webs.size))
-    return cone_program(closed, request.objective, scene.responses, square).chosen(0)
+    square = np.array([scene.omega_squared])
+    return cone_program(closed(request.machine), request.objective, scene.responses, square).chosen(0)
 
 
 def choices_ladder(request: AccuracyRequest, scene: Prepared, solver: Solver) -> Ladder:
@@ -109,9 +109,9 @@ def choices_ladder(request: AccuracyRequest, scene: Prepared, solver: Solver) ->
     OutOfRange
         where the options of a web cannot be told, or webs of a group are unlike.
     """
-    task = _Task(request, scene, solver)
-    task.warm_up()
-    end, rungs = time.thread_time() + LADDER_S, list(task.rungs())
+    ways = _Ways(request, scene, solver)
+    ways.warm_up()
+    end, rungs = time.thread_time() + LADDER_S, list(ways.rungs())
     enough = dict[Aim, str]()
     for rung in rungs:
         _first(rung, end - time.thread_time(), enough.get(rung.aim))
@@ -124,7 +124,7 @@ def choices_ladder(request: AccuracyRequest, scene: Prepared, solver: Solver) ->
             left_s = end - time.thread_time()
             if rung.made is not None and sum(rung.times_s) < ROUNDS_S and left_s > 0:
                 _timed(rung, left_s)
-    return task.judged(rungs)
+    return ways.judged(rungs)
 
 
 def _first(rung: Rung, left_s: float, enough: str | None) -> None:
@@ -147,7 +147,7 @@ def _timed(rung: Rung, left_s: float) -> Made | Nothing:
 
 
 @dataclass(frozen=True)
-class _Task:
+class _Ways:
     """What is asked, and the ways to it."""
 
     request: AccuracyRequest
@@ -158,20 +158,18 @@ class _Task:
     def program(self) -> Statement:
         return at_rest(self.request, self.scene)
 
-    def asked(self, machine: Machine, accuracy: Accuracy) -> OptimizeRequest:
-        """What is asked of one solve."""
-        request = self.request
-        return OptimizeRequest(
-            machine=machine, objective=request.objective, accuracy=accuracy, fidelity=request.fidelity
-        )
+    @cached_property
+    def task(self) -> Task:
+        return Task.of(self.request)
 
     @cached_property
-    def free(self) -> OptimizeRequest:
+    def free(self) -> Task:
         """Any mass at any angle on every web; plates stay plates."""
-        nothing = {**dict.fromkeys(CHOICES), "min_fitted_mass_kg": None}
-        webs = tuple(web.model_copy(update=nothing) for web in self.request.machine.webs)
-        without = {"webs": webs, "catalogue": None, "max_counterweights": None, "web_groups": ()}
-        return self.asked(self.request.machine.model_copy(update=without), Accuracy())
+        machine, usual = self.request.machine, Accuracy()
+        webs = [("webs", k, field) for k in range(len(machine.webs)) for field in (*CHOICES, "min_fitted_mass_kg")]
+        nothing = dict.fromkeys([*webs, ("catalogue",), ("max_counterweights",)]) | {("web_groups",): ()}
+        free = with_fields(machine, nothing)
+        return replace(self.task, machine=free, relative_gap=usual.relative_gap, time_limit_s=usual.time_limit_s)
 
     def rungs(self) -> Iterator[Rung]:
         machine, longest = self.request.machine, self.request.accuracy.time_limit_s
@@ -190,13 +188,13 @@ class _Task:
 
     def _service(self, gap: float, limit_s: float) -> Callable[[float], Made | Nothing]:
         def run(left_s: float) -> Made | Nothing:
-            accuracy = Accuracy(relative_gap=gap, time_limit_s=min(limit_s, max(left_s, _SHORTEST_S)))
-            return self._optimum(self.asked(self.request.machine, accuracy))
+            limit = min(limit_s, max(left_s, _SHORTEST_S))
+            return self._optimum(replace(self.task, relative_gap=gap, time_limit_s=limit))
 
         return run
 
-    def _optimum(self, request: OptimizeRequest) -> Made | Nothing:
-        found = solve(request, self.scene, self.solver, in_full=False)
+    def _optimum(self, task: Task) -> Made | Nothing:
+        found = solve(task, self.scene, self.solver, in_full=False)
         if isinstance(found, Infeasible):
             return Nothing(_UNREACHABLE if found.status == "infeasible" else found.reason)
         mass, proof = found.mass, found.certificate

@@ -30,7 +30,6 @@ from optimizer.studies.accuracy.peaks import peaks_ladder
 from optimizer.studies.accuracy.rivals.sampled import OverTheTurn, WeightedResponse
 from schemas.base.mappings import or_mapping
 from schemas.base.version import package_version
-from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.accuracy import (
     AccuracyAnswer,
     AccuracyRequest,
@@ -134,9 +133,8 @@ def _proven(statement: Statement, best: Solution, bounds: list[float], objective
     cost, so a bound above the value by no more is lowered to it (docs/mathematics.md, section 5).
     """
     bound, slack = max(bounds), float(statement.rounding(best.unbalance))
-    if best.multipliers is not None:
-        over = np.full(statement.ceilings.size.shape, max(excess, 0.0))
-        slack += float(ceiling_allowance(statement, best.multipliers, over))
+    over = np.full(statement.ceilings.size.shape, max(excess, 0.0))
+    slack += float(ceiling_allowance(statement, best.multipliers, over))
     if bound <= objective + slack:
         return min(bound, objective)
     _LOG.error("a lower bound is above the value of an answer: %.17g above %.17g", bound, objective)
@@ -226,7 +224,7 @@ def _size(request: AccuracyRequest, statement: Statement) -> ProgramSize:
         ceilings=len(statement.ceilings.names),
         sectors=int(np.sum(~statement.limits.free)),
         mass_budget=machine.max_total_mass_kg is not None,
-        rows=sum(len(throw.rows) for throw in machine.throws) if isinstance(machine, ReciprocatingMachine) else 0,
+        rows=sum(len(throw.rows) for throw in machine.throws),
     )
 
 

@@ -14,10 +14,11 @@ import numpy as np
 
 from optimizer.formulation.formulate import responses
 from optimizer.formulation.goals import cone_program
+from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import laden
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import layout, spread
-from optimizer.mechanics.shapes import fitted, plates
+from optimizer.mechanics.shapes import closed, plates
 from optimizer.numerics.arrays import Real
 from optimizer.outputs.registry import prepare
 from optimizer.program.certificate import Multipliers, normalised, objective_lower_bound
@@ -27,10 +28,11 @@ from optimizer.program.statement import Statement
 from optimizer.solve.solution import Solution
 from optimizer.solve.solve import solve
 from optimizer.studies.matching.problem import Minorants, Problem
+from schemas.base.rules import Path
+from schemas.base.variation import with_fields
 from schemas.machine.reciprocating import ReciprocatingMachine
-from schemas.machine.throws import Row
 from schemas.match.request import MatchRequest
-from schemas.request.requests import Accuracy, OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 
 #: asked of every program, in units of its objective without counterweights
 _GAP = 1e-6
@@ -102,10 +104,8 @@ class Chosen:
     @cached_property
     def _of_any_mass(self) -> ReciprocatingMachine:
         """The machine whose counterweights have any mass within their limits; plates reach as far as they can."""
-        machine, cut = self.request.machine, plates(self.request.machine)
-        if cut is None:
-            return machine
-        return machine.model_copy(update={"webs": fitted(machine, np.zeros(cut.webs.size)).webs})
+        machine = self.request.machine
+        return machine.with_webs(closed(machine).webs)
 
     def _programs(self, row_mass: Real) -> Statement:
         machine = with_masses(self._of_any_mass, row_mass)
@@ -124,10 +124,9 @@ class Chosen:
         machine = with_masses(self.request.machine, row_mass)
         gap = np.clip(_OPEN * self.near / at_rest if at_rest > 0 else 1.0, _CLOSEST, 1.0)
         left = max(self.until - time.thread_time(), _SHORTEST_S)
-        accuracy = Accuracy(relative_gap=float(gap), time_limit_s=left)
-        asked = self._posed.model_copy(update={"machine": machine, "accuracy": accuracy})
-        scene = prepare(asked)
-        found = solve(asked, scene, self.solver, in_full=False)
+        task = Task(machine, self.request.objective, self._posed.fidelity, float(gap), left)
+        scene = prepare(self._posed, machine=machine)
+        found = solve(task, scene, self.solver, in_full=False)
         assert isinstance(found, Solution)  # without ceilings nothing is infeasible
         proof = found.certificate
         bound = -np.inf if proof.lower_bound is None else proof.lower_bound / scene.omega_squared
@@ -148,14 +147,9 @@ class Chosen:
 
 def with_masses(machine: ReciprocatingMachine, added: Real) -> ReciprocatingMachine:
     """The machine with more on its rows, kg: numbers (rows,), or columns (N, rows) of many machines."""
-    masses = iter(np.moveaxis(added, -1, 0))
-    throws = tuple(
-        throw.model_copy(update={"rows": tuple(_heavier(row, next(masses)) for row in throw.rows)})
-        for throw in machine.throws
-    )
-    return machine.model_copy(update={"throws": throws})
-
-
-def _heavier(row: Row, added: Real) -> Row:
-    heavier = row.reciprocating_mass_kg + added
-    return row.model_copy(update={"reciprocating_mass_kg": heavier if added.ndim else float(heavier)})
+    places = [(t, r) for t, throw in enumerate(machine.throws) for r in range(len(throw.rows))]
+    values: dict[Path, Real | float] = {}
+    for (t, r), more in zip(places, np.moveaxis(added, -1, 0), strict=True):
+        heavier = machine.throws[t].rows[r].reciprocating_mass_kg + more
+        values["throws", t, "rows", r, "reciprocating_mass_kg"] = heavier if more.ndim else float(heavier)
+    return with_fields(machine, values)

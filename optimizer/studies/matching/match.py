@@ -26,6 +26,7 @@ from optimizer.studies.matching.problem import Problem, stated
 from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer, Timing
 from schemas.answer.first_order import FirstOrder, Residual
 from schemas.base.mappings import or_mapping
+from schemas.base.variation import with_fields
 from schemas.machine.fitted import GivenCounterweight
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.match.answer import Assignment, MatchAnswer, MatchCertificate, Matched, MatchedRow, Spare
@@ -48,9 +49,9 @@ def match(request: MatchRequest) -> MatchAnswer:
     if not request.choose_counterweights:
         refuse(too_heavy(request.machine, request.counterweights, "counterweights"))
         # nor are castings made alike of which nothing is chosen
-        cut = cut.model_copy(update={"web_groups": ()})
-        request = request.model_copy(update={"machine": cut})
-    problem = stated(request.model_copy(update={"machine": cut}), fitted, angle)
+        cut = with_fields(cut, {("web_groups",): ()})
+        request = with_fields(request, {("machine",): cut})
+    problem = stated(request, cut, fitted, angle)
     searching = time.perf_counter()
     choice = request.choose_counterweights and any(web.max_mass_kg != 0 for web in request.machine.webs)
     near = request.accuracy.relative_gap * float(problem.peaks.at(problem.vectors(problem.listed)))

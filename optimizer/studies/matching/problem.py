@@ -15,6 +15,7 @@ from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import Layout, layout, spread, stacked
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.responses.response import Response
+from schemas.machine.machine import Machine
 from schemas.match.request import MatchRequest
 
 
@@ -114,14 +115,15 @@ class Problem:
         return 8 * np.finfo(float).eps * self.listed.size * float(np.max(self.peaks.weight @ most))
 
 
-def stated(request: MatchRequest, fitted: Real, angle_deg: Real) -> Problem:
+def stated(request: MatchRequest, machine: Machine, fitted: Real, angle_deg: Real) -> Problem:
     """The problem of a request.
 
     Parameters
     ----------
+    machine : with the radii of what is cut from its plates.
     fitted, angle_deg : (K,) kg and deg, counterweights that are on the machine.
     """
-    machine, goal = request.machine, request.objective
+    goal = request.objective
     plan = layout(machine)
     u = unbalance(fitted, angle_deg, plan.webs.radius)
     wanted, across = weights(machine, goal), goal.direction_weights

@@ -16,18 +16,19 @@ import numpy as np
 
 from optimizer.formulation.formulate import weighing
 from optimizer.formulation.simulation import Prepared
+from optimizer.formulation.task import Task
 from optimizer.mechanics.scatter import weighted
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.optimize import optimize
+from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.solve.prices import touched_limits
-from schemas.answer.answers import OptimizeAnswer
+from optimizer.solve.solution import Infeasible, Solution
+from optimizer.solve.solve import solve
 from schemas.answer.infeasibility import Infeasibility
 from schemas.base.responses import PAIR
 from schemas.front.pareto import CornerCertificate, Ends, ParetoPoint, ParetoRequest, Reason, Scale
 from schemas.machine.machine import Machine
 from schemas.request.objective import Objective
-from schemas.request.requests import Accuracy, OptimizeRequest
 
 #: share of the time limit that either end has
 _END = 0.2
@@ -55,10 +56,9 @@ class ChosenFront(NamedTuple):
 
 @dataclass(frozen=True)
 class _Optimum:
-    """An answer beside its weighted peaks."""
+    """Counterweights beside their weighted peaks."""
 
-    answer: OptimizeAnswer
-    unbalance: Complex  # (K,) kg m, of what is chosen
+    solution: Solution
     peaks: Real  # (2,) N and N m
     corner: Real  # (2,) no choice is below this in both peaks; nan where nothing is proven
 
@@ -80,21 +80,22 @@ class _Box(NamedTuple):
         return np.array([self.right.peaks[0] - self.left.peaks[0], self.left.peaks[1] - self.right.peaks[1]])
 
 
-def chosen_front(request: ParetoRequest, machine: Machine, scene: Prepared) -> ChosenFront:
+def chosen_front(request: ParetoRequest, machine: Machine, scene: Prepared, solver: Solver) -> ChosenFront:
     """The front of what can be chosen; all its searches together end at the time asked.
 
     Parameters
     ----------
     machine : that of the request under one limit of the total mass.
     """
-    return _Search(request, machine, scene).front()
+    return _Search(request, machine, replace(scene, machine=machine), solver).front()
 
 
 class _Search:
     """What the searches of one front share."""
 
-    def __init__(self, request: ParetoRequest, machine: Machine, scene: Prepared) -> None:
-        self.request, self.machine, self.scene = request, machine, scene
+    def __init__(self, request: ParetoRequest, machine: Machine, scene: Prepared, solver: Solver) -> None:
+        self.request, self.machine, self.scene, self.solver = request, machine, scene, solver
+        self.task = replace(Task.of(request), machine=machine)
         self.gap, self.seconds = request.accuracy.relative_gap, request.accuracy.time_limit_s
         self.until = thread_time() + self.seconds
         self.at_rest = self._peaks(np.zeros(len(machine.webs), complex))
@@ -106,9 +107,10 @@ class _Search:
             self._optimum(_only(1), self.gap, _END * self.seconds),
         )
         force, moment = ends
-        if isinstance(force, OptimizeAnswer) or isinstance(moment, OptimizeAnswer):
-            none = next(each for each in ends if isinstance(each, OptimizeAnswer))
-            return ChosenFront((), None, None, None, none.infeasibility)
+        if isinstance(force, Infeasible):
+            return ChosenFront((), None, None, None, force.infeasibility)
+        if isinstance(moment, Infeasible):
+            return ChosenFront((), None, None, None, moment.infeasibility)
         edges = np.maximum(force.peaks, moment.peaks)
         size = np.where(self.at_rest > OPTIMUM_SHARE * edges, self.at_rest, np.where(edges > 0, edges, 1.0))
         bounds = force.corner[0], moment.corner[1]
@@ -141,7 +143,7 @@ class _Search:
             return end
         under = _only(1 - axis, {field: most})
         corner = self._optimum(under, self.gap, _END * self.seconds)
-        if isinstance(corner, OptimizeAnswer) or corner.peaks[1 - axis] > end.peaks[1 - axis]:
+        if isinstance(corner, Infeasible) or corner.peaks[1 - axis] > end.peaks[1 - axis]:
             return end
         # what exceeds the ceiling by no more than this optimum has no less of the other peak
         proven = np.where(np.arange(2) == axis, max(most, float(corner.peaks[axis])), corner.corner)
@@ -178,29 +180,22 @@ class _Search:
         gap = self.gap * float(np.min(size / edges)) / yardstick
         weights = 1.0 / edges
         inside = self._optimum(_larger(weights), min(max(gap, _LEAST_GAP), 1.0), seconds)
-        return None if isinstance(inside, OptimizeAnswer) else inside
+        return None if isinstance(inside, Infeasible) else inside
 
-    def _optimum(self, of: "_Goal", gap: float, seconds: float) -> _Optimum | OptimizeAnswer:
-        """The best choice for a goal; the answer where none is shown."""
-        request = self.request
-        single = OptimizeRequest(
-            machine=self.machine,
-            objective=of(request.objective),
-            accuracy=Accuracy(relative_gap=gap, time_limit_s=min(max(seconds, _LEAST_TIME), self.seconds)),
-            fidelity=request.fidelity,
-        )
-        answer = optimize(single)
-        if answer.certificate is None:
-            return answer
-        u = np.array([complex(each.x_kg_m, each.y_kg_m) * (not each.fixed) for each in answer.counterweights])
-        bound, goal = answer.certificate.lower_bound, single.objective
+    def _optimum(self, of: "_Goal", gap: float, seconds: float) -> _Optimum | Infeasible:
+        """The best choice for a goal."""
+        goal, limit = of(self.request.objective), min(max(seconds, _LEAST_TIME), self.seconds)
+        task = replace(self.task, objective=goal, relative_gap=gap, time_limit_s=limit)
+        best = solve(task, replace(self.scene, objective=goal), self.solver, in_full=False)
+        if isinstance(best, Infeasible):
+            return best
+        bound, peaks = best.certificate.lower_bound, self._peaks(best.unbalance)
         weights = np.array([goal.force_weight, goal.moment_weight])
-        peaks = self._peaks(u)
         corner = np.full(2, np.nan)
         if bound is not None:
             # a peak that does not count is not below what it comes to here
             corner = np.where(weights > 0, bound / np.where(weights > 0, weights, 1.0), peaks)
-        return _Optimum(answer, u, peaks, corner)
+        return _Optimum(best, peaks, corner)
 
     def _peaks(self, u: Complex) -> Real:
         """Weighted peak force and moment (2,) with unbalances (K,)."""
@@ -209,28 +204,26 @@ class _Search:
         return np.array([float(weighted(each, across.x, across.y).peak) for each in vectors]) * self.scene.omega_squared
 
     def _point(self, optimum: _Optimum, size: Real) -> ParetoPoint:
-        answer, proven = optimum.answer, bool(np.all(np.isfinite(optimum.corner)))
-        assert answer.certificate is not None
-        assert answer.residual.after is not None
-        assert answer.total_mass_kg is not None
+        best, proven = optimum.solution, bool(np.all(np.isfinite(optimum.corner)))
+        shown, plain = best.shown, self.scene.first_order(best.shown.on_crank)
         # of the peak that the optimum leaves room in nothing is claimed
         gap = float(np.max((optimum.peaks - optimum.corner) / size))
         return ParetoPoint(
-            status="optimal" if answer.status == "optimal" else "inaccurate",
-            status_reason=answer.status_reason,
-            force_peak_N=answer.residual.after.force.peak_N,
-            moment_peak_Nm=answer.residual.after.moment.peak_Nm,
+            status="optimal" if best.status == "optimal" else "inaccurate",
+            status_reason=best.reason,
+            force_peak_N=float(plain.force.peak),
+            moment_peak_Nm=float(plain.moment.peak),
             weighted_force_peak_N=float(optimum.peaks[0]),
             weighted_moment_peak_Nm=float(optimum.peaks[1]),
-            total_mass_kg=answer.total_mass_kg,
-            counterweights=answer.counterweights,
+            total_mass_kg=shown.total_mass_kg,
+            counterweights=shown.counterweights,
             # of the request: a search has ceilings of its own
             active_limits=touched_limits(
                 self.machine,
                 self.request.objective,
                 self.scene.responses,
-                np.array([one.mass_kg for one in answer.counterweights]),
-                optimum.unbalance,
+                np.array([one.mass_kg for one in shown.counterweights]),
+                best.unbalance,
                 self.scene.omega_squared,
             ),
             certificate=CornerCertificate(
@@ -243,8 +236,8 @@ class _Search:
                 mass_yardstick_kg=None,
                 mass_force_limit_N=None,
                 mass_moment_limit_Nm=None,
-                implied_max_mass_kg=answer.certificate.implied_max_mass_kg,
-                method=answer.certificate.method,
+                implied_max_mass_kg=best.certificate.implied_max_mass_kg,
+                method=best.certificate.method,
             ),
         )
 

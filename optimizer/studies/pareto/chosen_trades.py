@@ -16,18 +16,18 @@ import numpy as np
 from optimizer.formulation.formulate import weighing
 from optimizer.formulation.formulate import weights as own_weights
 from optimizer.formulation.simulation import Prepared
+from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import fixed_masses
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.optimize import optimize
+from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE
-from optimizer.solve.solution import finite_or_null
+from optimizer.solve.solution import Infeasible, Solution, finite_or_null
+from optimizer.solve.solve import solve
 from optimizer.solve.whole_turn import whole_turn_of
 from optimizer.studies.pareto.measures import Measures, measures, sizes, unit_of
-from schemas.answer.answers import Certificate, OptimizeAnswer
-from schemas.answer.infeasibility import Infeasibility
+from schemas.base.variation import with_fields
 from schemas.front.trade import Traded, TradedCertificate, TradedFront, TradedPoint, TradedResponse
 from schemas.request.objective import Objective
-from schemas.request.requests import Accuracy, OptimizeRequest
 
 #: of the time limit that of the ends
 _ENDS = 0.4
@@ -44,55 +44,47 @@ _INSIDE: Mapping[Traded, str] = {"bearings": "bearing_weight", "bending": "bendi
 class _Chosen:
     """Counterweights, what they come to in every response (D,), and the corner that nothing is below (D,)."""
 
-    answer: OptimizeAnswer
+    solution: Solution
     values: Real
     corner: Real  # nan where nothing is proven
 
 
-@dataclass(frozen=True)
-class _Unkept:
-    """A search without counterweights to show."""
-
-    proven: bool  # that there are none
-    why: Infeasibility | None
-
-
 def chosen_trades(
-    asked: OptimizeRequest, names: tuple[Traded, ...], points: Sequence[Real], scene: Prepared
+    task: Task, names: tuple[Traded, ...], points: Sequence[Real], scene: Prepared, solver: Solver
 ) -> TradedFront:
-    """The front of the responses that are named; all its searches together end at the time asked.
+    """The front of the responses that are named; all its searches together end at the time task.
 
     Parameters
     ----------
-    asked : the request that weighs them all, under one limit of the total mass.
+    task : weighs them all, under one limit of the total mass.
     points : (D,) shares of the ends, for each point that is asked for.
     """
-    search = _Search(asked, names, scene)
+    search = _Search(task, names, scene, solver)
     ends = search.ends()
-    if isinstance(ends, _Unkept):
+    if isinstance(ends, Infeasible):
         return TradedFront(
-            max_total_mass_kg=asked.machine.max_total_mass_kg,
+            max_total_mass_kg=task.machine.max_total_mass_kg,
             status="infeasible",
             responses=(),
             points=(),
-            infeasibility=ends.why,
+            infeasibility=ends.infeasibility,
         )
     at, bound, size = ends
     results = [search.point(share @ at, size, (len(points) - n)) for n, share in enumerate(points)]
-    decided = all(not isinstance(each, _Unkept) or each.proven for each in results)
+    decided = all(isinstance(each, _Chosen) or _none_proven(each) for each in results)
     kept = _best([each for each in results if isinstance(each, _Chosen)])
     told = [search.told(each, size) for each in kept]
-    close = np.all(np.diag(at) - bound <= max(asked.accuracy.relative_gap, OPTIMUM_SHARE) * size)
+    close = np.all(np.diag(at) - bound <= max(task.relative_gap, OPTIMUM_SHARE) * size)
     exact = decided and close and all(point.status == "optimal" for point in told)
     rest = search.values(search.nothing)
     return TradedFront(
-        max_total_mass_kg=asked.machine.max_total_mass_kg,
+        max_total_mass_kg=task.machine.max_total_mass_kg,
         status="optimal" if exact else "inaccurate",
         reason="reached_together" if len(told) == 1 else None,
         responses=tuple(
             TradedResponse(
                 response=name,
-                unit=unit_of(name, asked.objective),
+                unit=unit_of(name, task.objective),
                 without_counterweights=float(rest[i]),
                 smallest=float(at[i, i]),
                 lower_bound=float(bound[i]),
@@ -107,14 +99,14 @@ def chosen_trades(
 class _Search:
     """What the searches of one front share; all figures are in the units of the answer."""
 
-    def __init__(self, asked: OptimizeRequest, names: tuple[Traded, ...], scene: Prepared) -> None:
-        self.asked, self.names = asked, names
-        turn = whole_turn_of(scene, asked.objective) if asked.objective.of_the_revolution else None
-        self.traded: Measures = measures(asked, names, scene, turn)
+    def __init__(self, task: Task, names: tuple[Traded, ...], scene: Prepared, solver: Solver) -> None:
+        self.task, self.names, self.scene, self.solver = task, names, scene, solver
+        turn = whole_turn_of(scene, task.objective) if task.objective.of_the_revolution else None
+        self.traded: Measures = measures(task, names, scene, turn)
         self.square = np.array([1.0 if name == "mass" else scene.omega_squared for name in names])
-        self.fixed = float(np.sum(fixed_masses(asked.machine)))
-        self.nothing = np.zeros(len(asked.machine.webs), complex)
-        self.gap, self.seconds = asked.accuracy.relative_gap, asked.accuracy.time_limit_s
+        self.fixed = float(np.sum(fixed_masses(task.machine)))
+        self.nothing = np.zeros(len(task.machine.webs), complex)
+        self.gap, self.seconds = task.relative_gap, task.time_limit_s
         self.until = thread_time() + self.seconds
 
     def values(self, u: Complex) -> Real:
@@ -122,7 +114,7 @@ class _Search:
         result = self.traded.values(u) * self.square
         return np.where(self._mass, result + self.fixed, result)
 
-    def ends(self) -> tuple[Real, Real, Real] | _Unkept:
+    def ends(self) -> tuple[Real, Real, Real] | Infeasible:
         """Values where each counts first (D, D), what is proven of each by itself (D,), and yardsticks (D,)."""
         at, bound, gross = [], [], np.zeros(len(self.names))
         seconds = _ENDS * self.seconds / len(self.names)
@@ -130,11 +122,11 @@ class _Search:
         for i, name in enumerate(self.names):
             if name == "mass":
                 continue
-            result = self._optimum({name: 1.0}, self.asked.machine.max_total_mass_kg, self.gap, seconds)
-            if isinstance(result, _Unkept):
+            result = self._optimum({name: 1.0}, self.task.machine.max_total_mass_kg, self.gap, seconds)
+            if isinstance(result, Infeasible):
                 return result
             alone[i] = result
-            gross = np.maximum(gross, self.traded.one_by_one(self._unbalance(result.answer)) * self.square)
+            gross = np.maximum(gross, self.traded.one_by_one(result.solution.unbalance) * self.square)
         size = sizes(self.traded.at_rest * self.square, gross)
         for i, name in enumerate(self.names):
             if name == "mass":
@@ -146,14 +138,14 @@ class _Search:
                 bound.append(float(alone[i].corner[i]))
         return np.array(at), np.nan_to_num(np.array(bound), nan=0.0), size
 
-    def point(self, anchor: Real, size: Real, left: int) -> _Chosen | _Unkept:
+    def point(self, anchor: Real, size: Real, left: int) -> _Chosen | Infeasible:
         """The best choice as shares of an anchor (D,), with no more mass than that where it is traded.
 
         Parameters
         ----------
         left : points that are still to be found, which share what is left of the time.
         """
-        budget = self.asked.machine.max_total_mass_kg
+        budget = self.task.machine.max_total_mass_kg
         if np.any(self._mass):
             # what is as heavy to rounding counts
             budget = float(anchor[self._mass][0]) * (1.0 + 1e-12)
@@ -164,30 +156,27 @@ class _Search:
         yardstick = float(np.max((self.values(self.nothing) / anchor)[some])) or 1.0
         gap = self.gap * float(np.min((size / anchor)[some])) / yardstick
         result = self._optimum(weights, budget, gap, max(self.until - thread_time(), 0.0) / left)
-        if isinstance(result, _Unkept):
+        if isinstance(result, Infeasible):
             return result
-        proven = result.answer.certificate
-        lowest = np.nan if proven is None or proven.lower_bound is None else proven.lower_bound
+        bound = result.solution.certificate.lower_bound
+        lowest = np.nan if bound is None else bound
         return replace(result, corner=np.where(self._mass, np.nan if budget is None else budget, lowest * anchor))
 
     def told(self, chosen: _Chosen, size: Real) -> TradedPoint:
         """A point with its proof."""
-        answer, after = chosen.answer, chosen.answer.residual.after
-        proof = answer.certificate
-        assert proof is not None
-        assert after is not None
-        assert answer.total_mass_kg is not None
+        best = chosen.solution
+        proof, after = best.certificate, self.scene.first_order(best.shown.on_crank)
         gap = float(np.max((chosen.values - chosen.corner) / size))
         proven = bool(np.isfinite(gap))
-        exact = proven and answer.status == "optimal" and gap <= self.gap
+        exact = proven and best.status == "optimal" and gap <= self.gap
         return TradedPoint(
             status="optimal" if exact else "inaccurate",
-            status_reason=answer.status_reason,
+            status_reason=best.reason,
             values=tuple(chosen.values.tolist()),
-            force_peak_N=after.force.peak_N,
-            moment_peak_Nm=after.moment.peak_Nm,
-            total_mass_kg=answer.total_mass_kg,
-            counterweights=answer.counterweights,
+            force_peak_N=float(after.force.peak),
+            moment_peak_Nm=float(after.moment.peak),
+            total_mass_kg=best.shown.total_mass_kg,
+            counterweights=best.shown.counterweights,
             certificate=TradedCertificate(
                 corner=tuple(finite_or_null(each) if proven else None for each in chosen.corner),
                 relative_gap=max(gap, 0.0) if proven else None,
@@ -220,7 +209,7 @@ class _Search:
             result = self._optimum({first: 1.0}, middle, 1.0, until - thread_time())
             if isinstance(result, _Chosen):
                 best = result
-            elif result.proven:
+            elif _none_proven(result):
                 least = middle
             else:
                 break
@@ -228,46 +217,36 @@ class _Search:
 
     def _optimum(
         self, weights: Mapping[Traded, float], budget: float | None, gap: float, seconds: float
-    ) -> _Chosen | _Unkept:
+    ) -> _Chosen | Infeasible:
         """The best choice for the largest of the responses times their weights."""
-        machine = self.asked.machine.model_copy(update={"max_total_mass_kg": budget})
-        answer = optimize(
-            # by a copy: a budget below what is fixed is no legal request
-            self.asked.model_copy(
-                update={
-                    "machine": machine,
-                    "objective": self._weighing(weights),
-                    "accuracy": Accuracy(
-                        relative_gap=min(max(gap, _LEAST_GAP), 1.0),
-                        time_limit_s=min(max(seconds, _LEAST_TIME), self.seconds),
-                    ),
-                }
-            )
-        )
-        if not isinstance(answer.certificate, Certificate):
-            return _Unkept(answer.status == "infeasible", answer.infeasibility)
-        values = self.values(self._unbalance(answer))
-        assert answer.total_mass_kg is not None  # only what is infeasible has none
-        values = np.where(self._mass, answer.total_mass_kg, values)
-        bound = answer.certificate.lower_bound
+        # nothing checked: a budget below what is fixed leaves no counterweights
+        machine, goal = with_fields(self.task.machine, {("max_total_mass_kg",): budget}), self._weighing(weights)
+        limit = min(max(seconds, _LEAST_TIME), self.seconds)
+        task = Task(machine, goal, self.task.fidelity, min(max(gap, _LEAST_GAP), 1.0), limit)
+        best = solve(task, replace(self.scene, machine=machine, objective=goal), self.solver, in_full=False)
+        if isinstance(best, Infeasible):
+            return best
+        values = np.where(self._mass, best.shown.total_mass_kg, self.values(best.unbalance))
+        bound = best.certificate.lower_bound
         corner = np.array(
             [np.nan if bound is None else bound / weights[name] if name in weights else 0.0 for name in self.names]
         )
-        return _Chosen(answer, values, corner)
+        return _Chosen(best, values, corner)
 
     def _weighing(self, weights: Mapping[Traded, float]) -> Objective:
         """The largest of the responses times their weights; the objective itself times its own."""
-        objective = self.asked.objective
+        objective = self.task.objective
         if "objective" in weights:
-            own = own_weights(self.asked.machine, objective)
+            own = own_weights(self.task.machine, objective)
             more = {name: float(each) * weights["objective"] for name, each in own.items()}
             return weighing(objective, more)
         inside = {field: weights.get(name, 0.0) for name, field in _INSIDE.items()}
         return weighing(objective, weights, combine="max", **inside)
 
-    def _unbalance(self, answer: OptimizeAnswer) -> Complex:
-        """Of what is chosen (K,), kg m."""
-        return np.array([complex(each.x_kg_m, each.y_kg_m) * (not each.fixed) for each in answer.counterweights])
+
+def _none_proven(none: Infeasible) -> bool:
+    """Whether there is nothing to show, and not only nothing that a search has come upon."""
+    return none.status == "infeasible"
 
 
 def _best(found: Sequence[_Chosen]) -> list[_Chosen]:

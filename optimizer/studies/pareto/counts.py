@@ -1,7 +1,7 @@
 """How many counterweights, or part numbers, against what they come to at least: a search for each number."""
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -9,6 +9,7 @@ from optimizer.choices.catalogue_options import part_numbers, stock
 from optimizer.errors import MissingInput
 from optimizer.formulation.counterweights import counterweights, unbalance
 from optimizer.formulation.simulation import Prepared
+from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import beside, fixed_masses
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Real
@@ -18,11 +19,11 @@ from optimizer.program.verdict import CONTRADICTED
 from optimizer.solve.minimum_mass import minimum_mass
 from optimizer.solve.solution import Infeasible
 from optimizer.solve.solve import solve
+from schemas.base.variation import with_fields
 from schemas.front.counts import PIECES, Counted, CountFront, CountPoint, CountTrade
 from schemas.front.pareto import ParetoRequest
 from schemas.machine.catalogue import Catalogue
 from schemas.machine.machine import Machine
-from schemas.request.requests import Accuracy, OptimizeRequest
 
 #: of a mass, relative: by which sums of masses are rounded
 _ROUNDING = 1e-12
@@ -43,24 +44,19 @@ class _Best:
     method: str
 
 
-def count_front(request: ParetoRequest, machine: Machine, scene: Prepared, solver: Solver) -> CountFront:
+def count_front(
+    request: ParetoRequest, asked: CountTrade, machine: Machine, scene: Prepared, solver: Solver
+) -> CountFront:
     """The front under one limit of the total mass; all its searches together end at the time asked."""
-    asked, half = request.counts, 0.5 * request.accuracy.time_limit_s
-    assert asked is not None  # else it would be another front
-
-    whole = OptimizeRequest(
-        machine=machine, objective=request.objective, accuracy=request.accuracy, fidelity=request.fidelity
-    )
-    lacking = list(missing(whole))
+    whole = replace(Task.of(request), machine=machine)
+    half, scene = 0.5 * whole.time_limit_s, replace(scene, machine=machine)
+    lacking = list(missing(machine, whole.objective))
     if lacking:
         raise MissingInput(lacking)
 
     def point(number: int | None, seconds: float) -> CountPoint:
         within = machine if number is None else at_most(machine, asked.of, number)
-        accuracy = Accuracy(relative_gap=request.accuracy.relative_gap, time_limit_s=max(seconds, 1e-3))
-        # by a copy: fewer counterweights than sizes are no legal request
-        limited = whole.model_copy(update={"machine": within, "accuracy": accuracy})
-        return _point(limited, scene, asked, number, solver)
+        return _point(replace(whole, machine=within, time_limit_s=max(seconds, 1e-3)), scene, asked, number, solver)
 
     # what is limited by no number says how many are of any use; it may take half of the time, and the others the other
     points = [point(None, half)]
@@ -83,9 +79,10 @@ def count_front(request: ParetoRequest, machine: Machine, scene: Prepared, solve
 def at_most(machine: Machine, of: Counted, number: int) -> Machine:
     """The machine with no more counterweights, or part numbers, than a number."""
     if of in PIECES or number == 0:
-        return machine.model_copy(update={"max_counterweights": number})
-    catalogue = machine.catalogue or Catalogue()
-    return machine.model_copy(update={"catalogue": catalogue.model_copy(update={"max_part_numbers": number})})
+        # nothing checked: there may be fewer of them than of sizes
+        return with_fields(machine, {("max_counterweights",): number})
+    catalogue = with_fields(machine.catalogue or Catalogue(), {("max_part_numbers",): number})
+    return with_fields(machine, {("catalogue",): catalogue})
 
 
 def _most(machine: Machine, of: Counted) -> int:
@@ -96,12 +93,10 @@ def _most(machine: Machine, of: Counted) -> int:
     return int(np.max(options.part, initial=-1)) + 1
 
 
-def _point(
-    request: OptimizeRequest, scene: Prepared, asked: CountTrade, number: int | None, solver: Solver
-) -> CountPoint:
-    best = (_smallest if asked.least == "objective" else _lightest)(request, scene, solver)
+def _point(task: Task, scene: Prepared, asked: CountTrade, number: int | None, solver: Solver) -> CountPoint:
+    best = (_smallest if asked.least == "objective" else _lightest)(task, scene, solver)
     result = best.status != "infeasible"
-    machine = request.machine
+    machine = task.machine
     u = unbalance(best.mass_kg, best.angle_deg, stacked([web.radius_m for web in machine.webs]))
     after = scene.first_order(u)
     weights = int(np.sum(best.mass_kg[_chosen(machine)] > 0)) if result else None
@@ -133,11 +128,11 @@ def _chosen(machine: Machine) -> np.ndarray:
     return np.array([web.fixed is None for web in machine.webs], dtype=bool)
 
 
-def _smallest(request: OptimizeRequest, scene: Prepared, solver: Solver) -> _Best:
+def _smallest(task: Task, scene: Prepared, solver: Solver) -> _Best:
     """The smallest objective, as a single answer has it."""
-    best = solve(request, scene, solver, in_full=False)
+    best = solve(task, scene, solver, in_full=False)
     if isinstance(best, Infeasible):
-        nothing = np.zeros(len(request.machine.webs))
+        nothing = np.zeros(len(task.machine.webs))
         return _Best(nothing, nothing, np.nan, np.nan, np.nan, best.status, best.reason, best.nodes, best.method)
     proof, fitted = best.certificate, best.shown.counterweights
     return _Best(
@@ -153,11 +148,11 @@ def _smallest(request: OptimizeRequest, scene: Prepared, solver: Solver) -> _Bes
     )
 
 
-def _lightest(request: OptimizeRequest, scene: Prepared, solver: Solver) -> _Best:
+def _lightest(task: Task, scene: Prepared, solver: Solver) -> _Best:
     """The least total mass of all that keep the ceilings."""
-    best = minimum_mass(request, scene, solver)
-    mass, angle = beside(request.machine, best.mass_kg, best.angle_deg)
-    value, fixed = float(np.sum(mass)), float(np.sum(fixed_masses(request.machine)))
+    best = minimum_mass(task, scene, solver)
+    mass, angle = beside(task.machine, best.mass_kg, best.angle_deg)
+    value, fixed = float(np.sum(mass)), float(np.sum(fixed_masses(task.machine)))
     bound, status, reason = best.lower_bound + fixed, best.status, best.reason
     if np.isfinite(bound) and bound > value * (1.0 + _ROUNDING):
         bound, status, reason = np.nan, "inaccurate", CONTRADICTED

@@ -140,9 +140,6 @@ def _alone(trade: Trade, solver: Solver) -> tuple[Trade, list[Solution]] | Unrea
 def _of_ends(trade: Trade, alone: list[Solution]) -> tuple[Multipliers, Multipliers]:
     """Proofs of the smallest peaks, as of the program of both."""
     force, moment = alone
-    # rest, at least, proves a bound
-    assert force.multipliers is not None
-    assert moment.multipliers is not None
     usable = normalised(trade.alone[0], force.multipliers)[0], normalised(trade.alone[1], moment.multipliers)[0]
     return trade.of_one(0, usable[0]), trade.of_one(1, usable[1])
 
@@ -212,19 +209,20 @@ def _meet(trade: Trade, anchor: Real, unit: Real, least_mass: bool, share: float
     ----------
     share : how much of t the answer may lie above the smallest.
     """
-    best: Solution | None = None
     program = trade.along(anchor, unit)
-    for part in _ALLOWANCES if least_mass else _ALLOWANCES[:1]:
+
+    def within(part: float) -> Solution:
         result = optima(program.alone(), part * share, least_mass, solver).one()
         if isinstance(result, Unreachable):
             raise _Undecided
-        if best is None or _mass_gap(result) < _mass_gap(best):
-            best = result
+        return result
+
+    first, *more = _ALLOWANCES if least_mass else _ALLOWANCES[:1]
+    best = within(first)
+    for part in more:
         if _mass_gap(best) <= MASS_GAP:
             break
-    assert best is not None
-    # rest, at least, proves a bound
-    assert best.multipliers is not None
+        best = min(best, within(part), key=_mass_gap)
     usable, _ = normalised(program, best.multipliers)
     of_mass = best.mass_multipliers if least_mass else None
     return Point(
@@ -238,8 +236,6 @@ def _meet(trade: Trade, anchor: Real, unit: Real, least_mass: bool, share: float
 
 def _bound(statement: Statement, found: Solution) -> float:
     """What is proven of all that counts as keeping the ceilings: one bound is held against many points."""
-    if found.multipliers is None:
-        return found.lower_bound
     tolerance = np.full(statement.ceilings.cap.shape, CEILING_TOLERANCE)
     return found.lower_bound - float(ceiling_allowance(statement, found.multipliers, tolerance))
 

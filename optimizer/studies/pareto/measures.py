@@ -9,6 +9,7 @@ import numpy as np
 from optimizer.formulation.formulate import RESPONSES, weighing
 from optimizer.formulation.goals import Case, formulate
 from optimizer.formulation.simulation import Prepared
+from optimizer.formulation.task import Task
 from optimizer.mechanics.shapes import closed
 from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.numerics.arrays import SMALLEST, Complex, Real
@@ -19,7 +20,6 @@ from optimizer.program.rows import Row, total_mass
 from optimizer.program.solution import OPTIMUM_SHARE
 from schemas.front.trade import Traded
 from schemas.request.objective import Objective
-from schemas.request.requests import OptimizeRequest
 
 #: width of the brackets by which the counterweights of an answer are judged, as a share of what is traded
 _CLOSE = 1e-10
@@ -100,17 +100,17 @@ class Measures:
         return replace(self.program, goals=(Goal("trade", (_largest(rows),), 1.0),))
 
 
-def measures(request: OptimizeRequest, names: tuple[Traded, ...], scene: Prepared, turn: WholeTurn | None) -> Measures:
-    """The responses of a request by their names.
+def measures(task: Task, names: tuple[Traded, ...], scene: Prepared, turn: WholeTurn | None) -> Measures:
+    """The responses of a task by their names.
 
     Parameters
     ----------
     turn : of the machine, where anything is asked of the whole turn.
     """
-    objective = alone(request.objective, names)
-    machine, square = closed(request.machine), scene.omega_squared
+    objective = alone(task.objective, names)
+    machine, square = closed(task.machine), scene.omega_squared
     case = Case(machine, square, (scene.responses,), None if turn is None else (turn, scene.laden))
-    program = formulate(machine, objective, [case], square, request.fidelity).program
+    program = formulate(machine, objective, [case], square, task.fidelity).program
     every = tuple(row for group in program.groups for row in group.rows)
     groups = {"mass": Group((total_mass(program.limits),)), "objective": Group(every)} | {
         name: Group(

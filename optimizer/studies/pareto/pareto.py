@@ -2,15 +2,15 @@
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from optimizer.formulation.counterweights import counterweights, masses_and_angles, unbalance
 from optimizer.formulation.simulation import Prepared
+from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import beside, fixed_masses
 from optimizer.numerics.arrays import Real
-from optimizer.optimize import optimize
 from optimizer.outputs.first_order import first_order, floor
 from optimizer.outputs.registry import prepare
 from optimizer.program.methods.feasibility_phase import Unreachable
@@ -20,7 +20,8 @@ from optimizer.program.verdict import Claim, mass_resolution, verdict
 from optimizer.solve.prices import touched_limits
 from optimizer.solve.process_solver import own_solver
 from optimizer.solve.proof import implied_max_mass, named, physical
-from optimizer.solve.solution import finite_or_null
+from optimizer.solve.solution import Infeasible, finite_or_null
+from optimizer.solve.solve import solve
 from optimizer.studies.pareto.chosen_front import chosen_front
 from optimizer.studies.pareto.counts import count_front
 from optimizer.studies.pareto.front import Front, Point, front
@@ -29,6 +30,7 @@ from optimizer.studies.pareto.trades import needed, traded_front
 from schemas.answer.answers import Timing
 from schemas.answer.proof import EndMultipliers, Multipliers
 from schemas.base.mappings import or_mapping
+from schemas.base.variation import with_fields
 from schemas.front.pareto import (
     CornerCertificate,
     Ends,
@@ -41,7 +43,6 @@ from schemas.front.pareto import (
     Status,
 )
 from schemas.machine.machine import Machine
-from schemas.request.requests import OptimizeRequest
 
 #: a front whose points lie nearer to the straight line between its ends than this share of its range has no knee
 _STRAIGHT = 1e-4
@@ -66,8 +67,9 @@ def pareto(request: ParetoRequest, solver: Solver | None = None) -> ParetoAnswer
     fronts = tuple(one.front for one in made)
     solved, certified = sum(one.solve_s for one in made), sum(one.certify_s for one in made)
     trading = time.perf_counter()
-    trades = tuple(traded_front(request, machine, scene) for machine in machines if request.responses is not None)
-    counts = tuple(count_front(request, machine, scene, solver) for machine in machines if request.counts is not None)
+    names, counted = request.responses, request.counts
+    trades = () if names is None else tuple(traded_front(request, names, each, scene, solver) for each in machines)
+    counts = () if counted is None else tuple(count_front(request, counted, each, scene, solver) for each in machines)
     end = time.perf_counter()
     solved += end - trading
     worst = [*(one.status for one in fronts), *(one.status for one in trades), *(one.status for one in counts)]
@@ -105,26 +107,26 @@ def _machines(request: ParetoRequest) -> tuple[Machine, ...]:
     if request.total_mass_budgets_kg is None:
         return (request.machine,)
     return tuple(
-        request.machine.model_copy(update={"max_total_mass_kg": budget}) for budget in request.total_mass_budgets_kg
+        with_fields(request.machine, {("max_total_mass_kg",): budget}) for budget in request.total_mass_budgets_kg
     )
 
 
 def _front(request: ParetoRequest, machine: Machine, scene: Prepared, solver: Solver) -> _Made:
     start = time.perf_counter()
     if request.chosen:
-        return _Made(_of_choices(request, machine, scene), time.perf_counter() - start, 0.0)
+        return _Made(_of_choices(request, machine, scene, solver), time.perf_counter() - start, 0.0)
     traded = trade(machine, request.objective, scene.responses, scene.omega_squared)
     result = front(traded, request.points, request.accuracy.relative_gap, request.objective.least_mass, solver)
     solve_s = time.perf_counter() - start
     if isinstance(result, Unreachable):
-        return _Made(_infeasible(request, machine, solver), solve_s, result.certify_s)
+        return _Made(_infeasible(request, machine, scene, solver), solve_s, result.certify_s)
     certify_s = sum(point.solution.certify_s for point in result.points)
     return _Made(_certified(request, machine, scene, result), solve_s, certify_s)
 
 
-def _of_choices(request: ParetoRequest, machine: Machine, scene: Prepared) -> ParetoFront:
+def _of_choices(request: ParetoRequest, machine: Machine, scene: Prepared, solver: Solver) -> ParetoFront:
     """The front of counterweights that are chosen, heavy enough, or cut from plates."""
-    made = chosen_front(request, machine, scene)
+    made = chosen_front(request, machine, scene, solver)
     points = made.points
     status: Status = "optimal" if all(point.status == "optimal" for point in points) else "inaccurate"
     return ParetoFront(
@@ -281,13 +283,12 @@ def _reason(request: ParetoRequest, found: Front, kept: Sequence[ParetoPoint]) -
     return "resolution" if len(kept) < request.points else None
 
 
-def _infeasible(request: ParetoRequest, machine: Machine, solver: Solver) -> ParetoFront:
+def _infeasible(request: ParetoRequest, machine: Machine, scene: Prepared, solver: Solver) -> ParetoFront:
     """Which ceilings conflict, and what can be reached, as the optimum of one objective tells it."""
-    objective = request.objective
-    told = optimize(OptimizeRequest(machine=machine, objective=objective, accuracy=request.accuracy), solver)
+    none = solve(replace(Task.of(request), machine=machine), replace(scene, machine=machine), solver, in_full=False)
     return ParetoFront(
         max_total_mass_kg=machine.max_total_mass_kg,
         status="infeasible",
         points=(),
-        infeasibility=told.infeasibility,
+        infeasibility=none.infeasibility if isinstance(none, Infeasible) else None,
     )

@@ -14,22 +14,23 @@ import numpy as np
 from optimizer.errors import MissingInput
 from optimizer.formulation.counterweights import counterweights, masses_and_angles, unbalance
 from optimizer.formulation.simulation import Prepared
+from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import beside, fixed_masses
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.optimize import optimize
 from optimizer.outputs.requirements import missing
 from optimizer.program.certificate import ceiling_allowance
 from optimizer.program.cuts.optimum import METHOD, Found, Unkept, over_turn
+from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.program.verdict import Claim, mass_resolution, verdict
-from optimizer.solve.solution import finite_or_null
+from optimizer.solve.solution import Infeasible, finite_or_null
+from optimizer.solve.solve import solve
 from optimizer.solve.whole_turn import whole_turn_of
 from optimizer.studies.pareto.chosen_trades import chosen_trades
 from optimizer.studies.pareto.measures import Measures, alone, measures, sizes, unit_of
 from schemas.front.pareto import ParetoRequest
-from schemas.front.trade import Traded, TradedCertificate, TradedFront, TradedPoint, TradedResponse
+from schemas.front.trade import Traded, TradedCertificate, TradedFront, TradedNames, TradedPoint, TradedResponse
 from schemas.machine.machine import Machine
-from schemas.request.requests import OptimizeRequest
 
 #: at an end the others may use so much of what counts first, as a share of its yardstick
 _END_SLACK = 1e-6
@@ -37,40 +38,41 @@ _END_SLACK = 1e-6
 _NARROW = 1e-6
 
 
-def needed(request: ParetoRequest, names: Sequence[Traded], machine: Machine) -> OptimizeRequest:
-    """The request of one objective that asks for all that is traded, under one limit of the total mass.
+def needed(request: ParetoRequest, names: Sequence[Traded], machine: Machine) -> Task:
+    """One objective of all that is traded, under one limit of the total mass.
 
     Raises
     ------
     MissingInput
         if the machine lacks what a response needs.
     """
-    objective = alone(request.objective, names)
-    asked = OptimizeRequest(machine=machine, objective=objective, accuracy=request.accuracy, fidelity=request.fidelity)
-    lacking = list(missing(asked))
+    task = replace(Task.of(request), machine=machine, objective=alone(request.objective, names))
+    lacking = list(missing(task.machine, task.objective))
     if lacking:
         raise MissingInput(lacking)
-    return asked
+    return task
 
 
-def traded_front(request: ParetoRequest, machine: Machine, scene: Prepared) -> TradedFront:
-    """The front of the responses that a request names, for one limit of the total mass."""
-    names = request.responses or ()
-    asked = needed(request, names, machine)
+def traded_front(
+    request: ParetoRequest, names: TradedNames, machine: Machine, scene: Prepared, solver: Solver
+) -> TradedFront:
+    """The front of some responses, for one limit of the total mass."""
+    task = needed(request, names, machine)
     # what is traded counts, whatever the objective weighs
-    scene = replace(scene, request=asked)
+    scene = replace(scene, machine=machine, objective=task.objective)
     if request.chosen:
-        return chosen_trades(asked, names, [*_places(len(names), request.points)], scene)
-    turn = whole_turn_of(scene, asked.objective) if asked.objective.of_the_revolution else None
-    traded = measures(asked, names, scene, turn)
+        return chosen_trades(task, names, [*_places(len(names), request.points)], scene, solver)
+    turn = whole_turn_of(scene, task.objective) if task.objective.of_the_revolution else None
+    traded = measures(task, names, scene, turn)
     result = _ends(traded)
     if result is None:
+        none = solve(task, scene, solver, in_full=False)
         return TradedFront(
             max_total_mass_kg=machine.max_total_mass_kg,
             status="infeasible",
             responses=(),
             points=(),
-            infeasibility=optimize(asked).infeasibility,
+            infeasibility=none.infeasibility if isinstance(none, Infeasible) else None,
         )
     ends, smallest, size = result
     front = _Front(request, machine, scene, traded, size)
@@ -92,7 +94,7 @@ def traded_front(request: ParetoRequest, machine: Machine, scene: Prepared) -> T
         responses=tuple(
             TradedResponse(
                 response=name,
-                unit=unit_of(name, asked.objective),
+                unit=unit_of(name, task.objective),
                 without_counterweights=float((traded.at_rest * square + there)[i]),
                 smallest=float(smallest[i, 0] * square[i] + there[i]),
                 lower_bound=float(smallest[i, 1] * square[i] + there[i]),

@@ -2,13 +2,13 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from optimizer.errors import NotComputable
 from optimizer.formulation.counterweights import counterweights, unbalance
-from optimizer.formulation.demand import demand
+from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import beside
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Real
@@ -21,9 +21,11 @@ from optimizer.program.reference.solver import Solver
 from optimizer.solve.process_solver import own_solver
 from optimizer.solve.uncertain_program import Robust
 from optimizer.studies.rounding.neighbours import Sides, nearest, sides
-from schemas.answer.answers import OptimizeAnswer
+from schemas.answer.answers import Certificate, OptimizeAnswer
 from schemas.base.mappings import or_mapping
 from schemas.base.model import FieldProblem
+from schemas.base.rules import Path
+from schemas.base.variation import with_fields
 from schemas.machine.catalogue import Catalogue
 from schemas.machine.machine import Machine
 from schemas.request.requests import OptimizeRequest
@@ -82,8 +84,9 @@ class _Judge:
 
     @classmethod
     def of(cls, request: OptimizeRequest) -> "_Judge":
-        scene = prepare(request, ("residual",), () if request.cases else effects_of_objective(request.objective))
-        program = Robust(request, scene, demand(request)).asked().program
+        effects = effects_of_objective(request.objective)
+        scene, task = prepare(request, ("residual",), () if request.cases else effects), Task.of(request)
+        program = Robust(task, scene, task.demand).asked().program
         return cls(request.machine, program, scene.omega_squared)
 
     def values(self, weights: _Set) -> tuple[float, float]:
@@ -122,7 +125,9 @@ def _rounding(request: RoundRequest, solver: Solver) -> RoundAnswer:
     better = plain.limits_kept and plain.objective < certificate.objective
     if better and len(judge.program.goals) == 1:
         # the time ended the search before it came to what is nearest
-        answer = _of_nearest(optimize(_among(asked, [each.nearest for each in near]), solver), answer)
+        only = optimize(_among(asked, [each.nearest for each in near]), solver)
+        if only.certificate is not None:
+            answer = with_fields(only, _of_search(answer, certificate, only.certificate))
     return _answer(answer, _cost(request, judge, free, answer, plain))
 
 
@@ -135,21 +140,21 @@ def _answer(found: OptimizeAnswer, rounding: Rounding | None) -> RoundAnswer:
 
 def _among(request: OptimizeRequest, every: list[Sides]) -> OptimizeRequest:
     """The request with what is on either side as all that there is."""
-    machine = request.machine
-    webs = tuple(
-        web if web.fixed else web.model_copy(update={"catalogue_masses_kg": masses, "hole_angles_deg": angles})
-        for web, (masses, angles) in zip(machine.webs, every, strict=True)
-    )
-    chosen = machine.model_copy(update={"webs": webs, "catalogue": Catalogue()})
-    accuracy = request.accuracy.model_copy(update={"relative_gap": _EXACT})
-    return request.model_copy(update={"machine": chosen, "accuracy": accuracy})
+    values: dict[Path, Any] = {("machine", "catalogue"): Catalogue(), ("accuracy", "relative_gap"): _EXACT}
+    for k, (web, (masses, angles)) in enumerate(zip(request.machine.webs, every, strict=True)):
+        if not web.fixed:
+            place = ("machine", "webs", k)
+            values |= {(*place, "catalogue_masses_kg"): masses, (*place, "hole_angles_deg"): angles}
+    return with_fields(request, values)
 
 
-def _of_nearest(found: OptimizeAnswer, search: OptimizeAnswer) -> OptimizeAnswer:
-    """An answer of the nearest steps alone, with what a search has proven of all."""
-    own, of_all = found.certificate, search.certificate
-    assert own is not None  # what is nearest keeps the ceilings
-    assert of_all is not None  # so does what was found
+def _of_search(search: OptimizeAnswer, of_all: Certificate, own: Certificate) -> dict[Path, Any]:
+    """What a search has proven of all steps, for an answer of the nearest alone.
+
+    Parameters
+    ----------
+    of_all, own : certificates of the search, and of that answer.
+    """
     bound = of_all.lower_bound
     gap = None if bound is None else own.objective - bound
     proof = {
@@ -159,8 +164,11 @@ def _of_nearest(found: OptimizeAnswer, search: OptimizeAnswer) -> OptimizeAnswer
         "nodes": of_all.nodes,
         "method": of_all.method,
     }
-    told = {"status": search.status, "status_reason": search.status_reason}
-    return found.model_copy(update={**told, "certificate": own.model_copy(update=proof)})
+    return {
+        ("status",): search.status,
+        ("status_reason",): search.status_reason,
+        **{("certificate", name): value for name, value in proof.items()},
+    }
 
 
 def _cost(

@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 
 from optimizer.formulation.counterweights import as_given, unbalance
-from optimizer.formulation.demand import demand
 from optimizer.formulation.formulate import responses, shape_facts
+from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import beside, laden
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import layout as layout_of
@@ -39,7 +39,8 @@ def optimal(request: OptimizeRequest, count: int, solver: Solver, multipliers: b
     baseline = rotating(layout).plus(reciprocating(layout, 1))
     square = np.broadcast_to(layout.omega**2, (count,))
     machine, objective, every = request.machine, request.objective, responses(layout, baseline, request.objective)
-    return columns_of(request, certified(machine, objective, every, square, demand(request), solver), multipliers)
+    best = certified(machine, objective, every, square, Task.of(request).demand, solver)
+    return columns_of(request, best, multipliers)
 
 
 def columns_of(request: OptimizeRequest, best: Certified, multipliers: bool) -> tuple[Columns, Complex]:

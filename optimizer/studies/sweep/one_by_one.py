@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from optimizer.formulation.task import Task
 from optimizer.numerics.arrays import Complex
 from optimizer.outputs.registry import prepare
 from optimizer.program.reference.solver import Solver
@@ -28,7 +29,7 @@ def optimal_one_by_one(
     """
     alone = [prepare(one, outputs=("residual",)) for one in requests]
     # a row has no column for prices and sensitivities
-    found = [solve(one, scene, solver, in_full=False) for one, scene in zip(requests, alone, strict=True)]
+    found = [solve(Task.of(one), scene, solver, in_full=False) for one, scene in zip(requests, alone, strict=True)]
     rows = [_row(one, each, multipliers) for one, each in zip(requests, found, strict=True)]
     columns = {
         name: np.array([row[name] for row in rows], dtype=object if isinstance(first, str | None) else float)

@@ -136,7 +136,7 @@ def _require_inputs(request: SweepRequest) -> None:
     for path, message in missing_inputs(filled.machine, filled.outputs):
         problems.setdefault(path, FieldProblem(("base", *path), message))
     if isinstance(filled, OptimizeRequest):
-        for path, message in missing(filled):
+        for path, message in missing(filled.machine, filled.objective):
             problems.setdefault(path, FieldProblem(("base", *path), message))
     if problems:
         raise MissingInput(problems.values())

@@ -153,7 +153,7 @@ def _fill(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
     designs = _refuse(table, designs, all_rules(group.of(designs)))
     turning = group.over_the_turn(designs)
     for design, alone in turning.items():
-        lacking = next(missing(alone), None)
+        lacking = next(missing(alone.machine, alone.objective), None)
         if lacking is not None:
             table.refuse(np.array([design]), Rule(True, *lacking))
             designs = designs[designs != design]
@@ -186,7 +186,7 @@ def _fill_one_by_one(table: Rows, group: Group, designs: Designs, solver: Solver
         assert isinstance(alone, OptimizeRequest)  # nothing else chooses counterweights
         if not _refuse(table, at, all_rules(alone)).size:
             continue
-        lacking = next(missing(alone), None) if alone.objective.over_the_turn else None
+        lacking = next(missing(alone.machine, alone.objective), None) if alone.objective.over_the_turn else None
         if not _refuse(table, at, [Rule(True, *lacking)] if lacking else []).size:
             continue
         if not _with_inputs(table, group, at, {design} if alone.objective.of_the_shaft else set()).size:

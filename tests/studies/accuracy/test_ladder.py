@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from optimizer.optimize import optimize
+from optimizer.program.certificate import nothing_proven
 from optimizer.program.solution import Solution
 from optimizer.studies.accuracy import ladder, measure
 from optimizer.studies.accuracy.ladder import Clock, frontier, survey, time_rounds
@@ -123,7 +124,7 @@ def test_times_are_for_one_of_the_programs_of_a_run() -> None:
 
     trials = survey(task, [Method("m", "", lambda: run, programs=10)], Clock.of(60.0))
     time_rounds(task, trials, 3, Clock.of(60.0))
-    best = Solution(np.array([-0.5 + 0j]), 2.5, 2.5, 0.5, 0.0, -np.inf)
+    best = Solution(np.array([-0.5 + 0j]), 2.5, 2.5, 0.5, 0.0, -np.inf, nothing_proven(task.statement))
     reference, (row,) = _judged(task, trials, best, 3.0, 1.0)
     assert reference is not None
     assert row.time_ms is not None

@@ -1,0 +1,130 @@
+"""Sets of which some slots change at a time: for a better one, and for a lighter one that is as good as asked."""
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.discrete.halves import exhaust
+from optimizer.choices.discrete.light_sizes import LightSizes
+from optimizer.choices.discrete.lightest import lighter
+from optimizer.choices.discrete.neighbourhoods import light_options, near_options
+from optimizer.choices.discrete.options import Incumbent, Options
+
+#: sums of a half, and pairs of them, that are compared
+SUMS, PAIRS = 20_000, 60_000
+#: options near to what a slot takes and to the optimum, where four slots change; changes in a row that lead nowhere
+CLOSE, _PATIENCE = 30, 40
+#: times that some slots change for less mass
+_LIGHTER = 24
+_SEED = 20_261_123
+
+
+class Nearer(NamedTuple):
+    """Sets that come nearer to what no masses undercut."""
+
+    incumbent: Incumbent
+    clock: Clock
+
+    def found(self, options: Options, which: list[np.ndarray], sums: int) -> bool:
+        """Whether one of some options of every slot (K) does."""
+        before = self.incumbent.least
+        exhaust(options, which, self.incumbent, sums, PAIRS, self.clock)
+        return self.incumbent.least < before - self.incumbent.resolution
+
+
+def improve(
+    incumbent: Incumbent,
+    options: Options,
+    some: Callable[[int, np.ndarray], np.ndarray],
+    enough: Callable[[], bool],
+    clock: Clock,
+) -> None:
+    """Change four slots of the best set at a time, until a while nothing is better.
+
+    Parameters
+    ----------
+    options : without limits that every choice keeps anyway.
+    some : options of a slot that are tried, beside what a set (K,) has.
+    """
+    chance, free = np.random.default_rng(_SEED), np.flatnonzero(np.sum(options.exists, axis=-1) > 1)
+    left = min(math.comb(free.size, 4) + 1, _PATIENCE)
+    while left > 0 and incumbent.chosen is not None and not (enough() or clock.spent()):
+        chosen = incumbent.chosen
+        which = [np.array([option]) for option in chosen]
+        for k in chance.choice(free, min(free.size, 4), replace=False).tolist():
+            which[k] = np.union1d(which[k], some(k, chosen))
+        before = incumbent.least
+        exhaust(options, which, incumbent, SUMS, PAIRS, clock)
+        left = _PATIENCE if incumbent.least < before - incumbent.resolution else left - 1
+
+
+def lightest_near(
+    incumbent: Incumbent, best: np.ndarray, limit: float, clock: Clock, sizes: LightSizes | None
+) -> np.ndarray:
+    """A light set (K,) near to the best one, no worse than a limit: some slots change at a time, and each by itself.
+
+    Parameters
+    ----------
+    best : (K,) the set that is made lighter.
+    limit : of the objective.
+    sizes : of few part numbers, what is tried before.
+    """
+    options, statement = incumbent.options, incumbent.statement
+    chosen, chance = lightened(incumbent, best, limit), np.random.default_rng(_SEED)
+    light = None if sizes is None else sizes.below(chosen, limit, clock)
+    chosen = chosen if light is None else lightened(incumbent, light, limit)
+    free, several = np.flatnonzero(np.sum(options.exists, axis=-1) > 1), 4 if options.limits_parts else 6
+    # slots of which no lighter options are beside this set
+    settled: list[set[int]] = []
+    for _ in range(_LIGHTER if free.size else 0):
+        if clock.spent():
+            break
+        slots = chance.choice(free, min(free.size, several), replace=False).tolist()
+        if any(whole.issuperset(slots) for whole in settled):
+            continue
+        loose, which = options, [np.array([option]) for option in chosen]
+        parts = options.of(options.part, chosen)
+        for k in slots:
+            if options.limits_parts:
+                # of the sizes that there are
+                loose = replace(options, most_parts=None)
+                which[k] = np.flatnonzero(options.exists[k] & np.isin(options.part[k], [-1, *parts[parts >= 0]]))
+            else:
+                near = near_options(options, k, complex(options.unbalance[k, chosen[k]]), CLOSE)
+                which[k] = np.unique(np.concatenate([near, [chosen[k]], light_options(options, k, CLOSE)]))
+        mass = float(np.sum(options.of(options.mass, chosen)))
+        found = lighter(statement, loose, which, limit, mass, clock, int(np.count_nonzero(chosen)), PAIRS)
+        if not found.whole:
+            # where hardly any set is ruled out by the limit, fewer slots at a time
+            several = max(several - 2, 2)
+        if found.chosen is not None:
+            chosen, settled = lightened(incumbent, found.chosen, limit), []
+        elif found.whole:
+            settled.append(set(slots))
+    return chosen
+
+
+def lightened(incumbent: Incumbent, chosen: np.ndarray, limit: float) -> np.ndarray:
+    """A set (K,), and as long as one is there a lighter one that differs on one slot, no worse than a limit."""
+    options, statement = incumbent.options, incumbent.statement
+    while True:
+        lighter = [
+            (float(options.mass[k, option] - options.mass[k, chosen[k]]), k, int(option))
+            for k in range(options.slots)
+            for option in np.flatnonzero(options.exists[k] & (options.mass[k] < options.mass[k, chosen[k]]))
+        ]
+        if not lighter:
+            return chosen
+        lighter.sort()
+        sets = np.repeat(chosen[None], len(lighter), axis=0)
+        sets[np.arange(len(lighter)), [k for _, k, _ in lighter]] = [option for _, _, option in lighter]
+        u = options.carried(sets)
+        kept = options.counts(statement, sets) & (statement.objective(u) <= limit)
+        kept &= np.all(statement.ceilings.excess(u) <= statement.ceilings.tolerance, axis=-1)
+        if not kept.any():
+            return chosen
+        chosen = sets[int(np.argmax(kept))]

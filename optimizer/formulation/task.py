@@ -1,0 +1,99 @@
+"""What an optimisation is to do, read once from a request: whoever solves goes by it, and sees no request."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Literal, NamedTuple
+
+from optimizer.formulation.balance_shafts import DesignSpace, design_space
+from schemas.base.rules import Path
+from schemas.machine.machine import Machine
+from schemas.request.objective import Objective
+from schemas.request.requests import Accuracy, OptimizeRequest
+from schemas.request.scenarios import Tolerances, machine_of
+from schemas.request.scene import Fidelity
+
+
+class Demand(NamedTuple):
+    """How closely an optimum is wanted, and how long a search may take."""
+
+    relative_gap: float  # relative to the yardstick of the objective
+    least_mass: bool  # take the least total mass among the optima
+    time_limit_s: float
+
+
+class ScenarioMachine(NamedTuple):
+    """A machine that the counterweights are to suit in place of the one that is given.
+
+    changes : of the request, where they are stated.
+    """
+
+    name: str
+    machine: Machine
+    weight: float
+    changes: Path
+
+
+@dataclass(frozen=True)
+class Task:
+    """Counterweights that are wanted of a machine.
+
+    machine : as it is given, or with the radii of what is cut from its plates.
+    scenarios : machines that count in its place, if any are stated.
+    tolerances : what may be off; None where nothing is said of it.
+    """
+
+    machine: Machine
+    objective: Objective
+    fidelity: Fidelity
+    relative_gap: float
+    time_limit_s: float
+    scenarios: tuple[ScenarioMachine, ...] = ()
+    tolerances: Tolerances | None = None
+
+    @classmethod
+    def of(cls, request: OptimizeRequest) -> "Task":
+        """What a request asks; its fields may hold columns, as in :func:`optimizer.mechanics.layout.layout`."""
+        accuracy = request.accuracy
+        return cls(
+            request.machine,
+            request.objective,
+            request.fidelity,
+            accuracy.relative_gap,
+            accuracy.time_limit_s,
+            tuple(
+                ScenarioMachine(scenario.name, machine_of(request, scenario), scenario.weight, changes)
+                for scenario, _, changes, _ in request.cases
+            ),
+            request.tolerances,
+        )
+
+    def as_given(self, time_limit_s: float) -> "Task":
+        """The same of the machine as it is given alone, with nothing off."""
+        return replace(self, scenarios=(), tolerances=None, time_limit_s=time_limit_s)
+
+    @property
+    def robust(self) -> bool:
+        """Whether more counts than the machine as it is given."""
+        return bool(self.scenarios) or (self.tolerances is not None and self.tolerances.any)
+
+    @cached_property
+    def choice(self) -> Literal["catalogue", "least masses"] | None:
+        """What counterweights are chosen from: of what there is, or none too light; None is any mass at any angle."""
+        if self.machine.discrete:
+            return "catalogue"
+        return "least masses" if any(web.min_fitted_mass_kg is not None for web in self.machine.webs) else None
+
+    @cached_property
+    def space(self) -> DesignSpace:
+        """All that its program chooses."""
+        return design_space(self.machine, self.objective)
+
+    @property
+    def demand(self) -> Demand:
+        """How closely its optimum is wanted."""
+        return Demand(self.relative_gap, self.objective.least_mass, self.time_limit_s)
+
+    @property
+    def of_any_mass(self) -> Demand:
+        """The same of the optimum of any mass at any angle, that a search of choices begins with."""
+        return Demand(Accuracy().relative_gap, False, self.time_limit_s)
