@@ -101,8 +101,10 @@ class Program:
         rows: Dict[Tuple[Group, str], Number] = {}
         # what is fixed is in the start of every cut
         own = [ZERO if web.fixed else one.product * one.co for one, web in zip(fitted.turning, self.machine.webs)]
-        vectors = [*own, *(one.vector(mass) for one, (_, mass) in zip(self.first.geared, fitted.on_shafts))]
-        sizes = [abs(one) for one in vectors]
+        exact = [*own, *(one.vector(mass) for one, (_, mass) in zip(self.first.geared, fitted.on_shafts))]
+        sizes, wide = [abs(one) for one in exact], self.machine.wide
+        # weights that are large beside what they leave: each is a figure of its own
+        vectors = [one * wide + self.machine.blur * size for one, size in zip(exact, sizes)]
         for one in terms:
             moved = one.start
             for vector, factor in zip(vectors, one.factors):
