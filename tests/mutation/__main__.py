@@ -24,9 +24,9 @@ from tests.mutation.mutants import Mutant
 ROOT = Path(__file__).parents[2]
 _COPIED = ("schemas", "optimizer", "service", "tests", "examples", "docs", "deploy")
 #: seconds of the tests of a room, of those of a mutant, and of the tests that are chosen for it
-_ROOM_S, _MUTANT_S, _CHOSEN_S = 3600.0, 240.0, 20.0
+_ROOM_S, _MUTANT_S, _CHOSEN_S = 3600.0, 240.0, 30.0
 #: tests that are chosen for a mutant at most
-_CHOSEN = 60
+_CHOSEN = 150
 #: loaded once for all mutants
 _HEAVY = ("numpy", "numba", "scipy.sparse", "scipy.special", "clarabel", "pydantic", "fastapi", "hypothesis", "pytest")
 _OWN = ("schemas", "optimizer", "service", "tests")
@@ -41,8 +41,33 @@ class Room(NamedTuple):
 
 
 ROOMS = {
-    "mechanics": Room("optimizer/mechanics/*.py", ("tests/mechanics", "tests/outputs"), 0.9),
-    "program": Room("optimizer/program/**/*.py", ("tests/program", "tests/optimize/test_optimize.py"), 0.9),
+    "mechanics": Room(
+        "optimizer/mechanics/*.py",
+        (
+            *(f"tests/{room}" for room in ("mechanics", "outputs", "analyze", "scroll", "crankshaft")),
+            *(f"tests/optimize/test_{name}.py" for name in ("balance_shafts", "fixed", "roll", "shapes")),
+        ),
+        0.9,
+    ),
+    "program": Room(
+        "optimizer/program/**/*.py",
+        (
+            "tests/program",
+            *(
+                f"tests/optimize/test_{name}.py"
+                for name in (
+                    "optimize",
+                    "few_webs",
+                    "min_fitted",
+                    "misplaced",
+                    "tolerances",
+                    "turn_prices",
+                    "whole_turn",
+                )
+            ),
+        ),
+        0.9,
+    ),
     "formulation": Room("optimizer/formulation/*.py", ("tests/optimize",), 0.9),
     "verify": Room("examples/client/verify*.py", ("tests/verification",), 0.9),
     "guard": Room(
@@ -53,7 +78,11 @@ ROOMS = {
         ),
         0.9,
     ),
-    "leases": Room("service/jobs/coordinator.py", ("tests/jobs/test_coordinator.py", "tests/jobs/test_store.py"), 0.8),
+    "leases": Room(
+        "service/jobs/coordinator.py",
+        tuple(f"tests/jobs/test_{name}.py" for name in ("steps", "coordinator", "store")),
+        0.8,
+    ),
     "report": Room("service/report/**/*.py", ("tests/report_document",), 0.8),
 }
 #: faults that change nothing, `file: fault`, each with the reason
