@@ -2,7 +2,7 @@
 
 The tests of a room run once, and it is noted which lines each of them runs (``tests.mutation.cover``). Each mutant is
 written into a copy of the tree. Then the tests that run its line do so again, the shortest first, until one fails. What
-no test fails for is listed: a test is missing, or the fault changes nothing (then it is said here, in EQUAL, why).
+no test fails for is listed: a test is missing, or the fault changes nothing (then tests.mutation.equal says why).
 """
 
 import argparse
@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from tests.mutation import mutants
+from tests.mutation.equal import EQUAL
 from tests.mutation.mutants import Mutant
 
 ROOT = Path(__file__).parents[2]
@@ -85,11 +86,6 @@ ROOMS = {
     ),
     "report": Room("service/report/**/*.py", ("tests/report_document",), 0.8),
 }
-#: faults that change nothing, `file: fault`, each with the reason
-EQUAL: dict[str, str] = {
-    "service/guard/keys.py: record.expires < time.time() -> record.expires <= time.time()": "no clock stands still",
-    "service/jobs/coordinator.py: 100 -> 101": "how many at a time says how soon, and nothing of what comes out",
-}
 
 
 class Trial(NamedTuple):
@@ -136,7 +132,9 @@ def sample(room: Room, count: int, seed: int) -> list[tuple[Path, Mutant]]:
     places = [(path, number) for path, text in texts.items() for number in range(mutants.count(text))]
     chosen = random.Random(seed).sample(places, min(count, len(places)))
     found = ((path.relative_to(ROOT), mutants.mutant(texts[path], number)) for path, number in chosen)
-    return [(file, one) for file, one in found if f"{file}: {one.fault}" not in EQUAL]
+    return [
+        (file, one) for file, one in found if not {f"{file} {one.of}", f"{file} {one.of}: {one.fault}"} & EQUAL.keys()
+    ]
 
 
 def copied(folder: Path) -> Path:
@@ -165,12 +163,13 @@ def covering(copy: Path, room: Room) -> list[Trial] | None:
 def chosen(tests: list[Trial], file: Path, mutant: Mutant) -> list[str]:
     """Tests that run the lines of a mutant, the shortest first, as long as they last; none where no test does.
 
-    Of a constant of the module they are those that run anything of it.
+    Of a constant of the module they are those that run anything of it; of a module of constants all.
     """
     found, seconds = [], 0.0
+    constants = not any(str(file) in one.lines for one in tests)
     for one in tests:
         lines = one.lines.get(str(file), frozenset())
-        if (lines and not mutant.lines) or not lines.isdisjoint(mutant.lines):
+        if ((lines or constants) and not mutant.lines) or not lines.isdisjoint(mutant.lines):
             seconds += one.seconds
             if found and (seconds > _CHOSEN_S or len(found) == _CHOSEN):
                 break
@@ -229,7 +228,7 @@ def _outcome(copy: Path, file: Path, mutant: Mutant, tests: list[Trial]) -> str:
     if noticed(copy, file, mutant.text, every):
         return "killed"
     why = f"{len(every)} tests run it" if every else "no test runs it"
-    print(f"    survives: {file}:{mutant.line}: {mutant.fault} ({why})", flush=True)
+    print(f"    survives: {file}:{mutant.line} {mutant.of}: {mutant.fault} ({why})", flush=True)
     return "survived"
 
 
