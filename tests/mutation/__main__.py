@@ -75,7 +75,7 @@ ROOMS = {
         "service/guard/*.py",
         tuple(
             f"tests/network/test_{name}.py"
-            for name in ("access", "key_command", "size_limits", "hosts", "users", "accounts")
+            for name in ("caller", "access", "key_command", "size_limits", "hosts", "users", "accounts")
         ),
         0.9,
     ),
@@ -163,13 +163,12 @@ def covering(copy: Path, room: Room) -> list[Trial] | None:
 def chosen(tests: list[Trial], file: Path, mutant: Mutant) -> list[str]:
     """Tests that run the lines of a mutant, the shortest first, as long as they last; none where no test does.
 
-    Of a constant of the module they are those that run anything of it; of a module of constants all.
+    Of what runs while the module is imported, such as a table, they are any of the room: those first that run its file.
     """
     found, seconds = [], 0.0
-    constants = not any(str(file) in one.lines for one in tests)
-    for one in tests:
-        lines = one.lines.get(str(file), frozenset())
-        if ((lines or constants) and not mutant.lines) or not lines.isdisjoint(mutant.lines):
+    every = tests if mutant.lines else sorted(tests, key=lambda one: str(file) not in one.lines)
+    for one in every:
+        if not mutant.lines or not one.lines.get(str(file), frozenset()).isdisjoint(mutant.lines):
             seconds += one.seconds
             if found and (seconds > _CHOSEN_S or len(found) == _CHOSEN):
                 break

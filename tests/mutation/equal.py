@@ -21,6 +21,7 @@ _PROGRAM: dict[str, str] = {
     "cuts/cut.py alike: max -> min": _ALIKE,
     "cuts/optimum.py _nearest: 0.5 * -bound -> 0.5 / -bound": _STEERS,
     "cuts/row_generation.py single_group: max -> min": _SPEED,
+    "cuts/samples.py maxima: np.argmax(around, axis=-1) - 1 -> np.argmax(around, axis=-1) + 1": _STEERS,
     "cuts/samples.py supports: abs(circle.radius - before) > _STEADY * circle.radius"
     " -> abs(circle.radius - before) >= _STEADY * circle.radius": _ALIKE,
     "cuts/stage.py run: 0.0 -> 0.001": _STEERS,

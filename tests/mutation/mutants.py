@@ -125,9 +125,9 @@ class _Fault(NamedTuple):
 
 
 def _computing(node: ast.AST) -> Iterator[ast.AST]:
-    """Nodes below, without annotations, texts, and arguments of decorators."""
+    """Nodes below, without annotations, texts, examples, and arguments of decorators."""
     for name, value in ast.iter_fields(node):
-        if name in ("annotation", "returns", "decorator_list"):
+        if name in ("annotation", "returns", "decorator_list") or getattr(node, "arg", None) == "examples":
             continue
         for child in value if isinstance(value, list) else [value]:
             if isinstance(child, ast.AST) and not isinstance(child, ast.JoinedStr):
