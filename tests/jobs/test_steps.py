@@ -296,3 +296,49 @@ def test_an_engine_that_is_away_is_asked_again_later(house: House, monkeypatch: 
     monkeypatch.setattr(coordinator._wake, "wait", wait)
     coordinator._work()
     assert pauses == [0.2, 0.4, 0.5, 0.5]
+
+
+def test_what_nobody_foresaw_ends_no_thread(
+    house: House, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    step, pauses = Steps(house), list[float]()
+    coordinator = step.coordinator
+
+    def stumbles() -> set[str]:
+        raise RuntimeError("so it is")
+
+    def wait(pause: float) -> bool:
+        pauses.append(round(pause, 9))
+        coordinator._stopping = len(pauses) == 4
+        return True
+
+    monkeypatch.setattr(house.leases, "active", stumbles)
+    monkeypatch.setattr(coordinator._wake, "wait", wait)
+    coordinator._work()
+    assert pauses == [0.2, 0.4, 0.5, 0.5]
+    assert sum("stumbled" in record.getMessage() for record in caplog.records) == 4
+
+
+def test_a_disk_without_room_for_a_lease_fails_what_waits(
+    house: House, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    job, pauses = house.submit(total=4), list[float]()
+    step = Steps(house, window=0)
+    step()
+    coordinator = step.coordinator
+
+    def full() -> set[str]:
+        raise DatabaseUnavailable("no room", full=True)
+
+    def wait(pause: float) -> bool:
+        pauses.append(pause)
+        coordinator._stopping = len(pauses) == 2
+        return True
+
+    monkeypatch.setattr(house.leases, "active", full)
+    monkeypatch.setattr(coordinator._wake, "wait", wait)
+    coordinator._work()
+    # none of its chunks was on its way
+    assert step.running.sent == []
+    found = house.store.get(job)
+    assert (found.state, found.error) == ("failed", "no room")

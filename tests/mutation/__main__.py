@@ -25,9 +25,9 @@ from tests.mutation.mutants import Mutant
 ROOT = Path(__file__).parents[2]
 _COPIED = ("schemas", "optimizer", "service", "tests", "examples", "docs", "deploy")
 #: seconds of the tests of a room, of those of a mutant, and of the tests that are chosen for it
-_ROOM_S, _MUTANT_S, _CHOSEN_S = 3600.0, 240.0, 30.0
+_ROOM_S, _MUTANT_S, _CHOSEN_S = 3600.0, 240.0, 45.0
 #: tests that are chosen for a mutant at most
-_CHOSEN = 150
+_CHOSEN = 400
 #: loaded once for all mutants
 _HEAVY = ("numpy", "numba", "scipy.sparse", "scipy.special", "clarabel", "pydantic", "fastapi", "hypothesis", "pytest")
 _OWN = ("schemas", "optimizer", "service", "tests")

@@ -30,13 +30,21 @@ _PROGRAM: dict[str, str] = {
     "methods/compiled.py plain_discs: 0 -> 1": _SPEED,
     "methods/rounding.py _RUNGS": _STEERS,
 }
+_FORMULATION: dict[str, str] = {"counterweights.py _ABOVE_ENVELOPE": _FINER}
 _SERVICE: dict[str, str] = {
     "guard/keys.py caller: record.expires < time.time() -> record.expires <= time.time()": "no clock stands still",
     "jobs/coordinator.py _AT_A_TIME": _SPEED,
+    "jobs/coordinator.py _collect_rows: len(came) > _AT_A_TIME -> len(came) >= _AT_A_TIME": _SPEED,
+    "jobs/coordinator.py stop: 6 -> 7": _FINER,
 }
 #: `file of: fault`, of the function or name that it stands in; without a fault all that stands there
 EQUAL = {
     f"{folder}/{where}": why
-    for folder, each in (("optimizer/mechanics", _MECHANICS), ("optimizer/program", _PROGRAM), ("service", _SERVICE))
+    for folder, each in (
+        ("optimizer/mechanics", _MECHANICS),
+        ("optimizer/program", _PROGRAM),
+        ("optimizer/formulation", _FORMULATION),
+        ("service", _SERVICE),
+    )
     for where, why in each.items()
 }
