@@ -319,9 +319,7 @@ def test_what_nobody_foresaw_ends_no_thread(
     assert sum("stumbled" in record.getMessage() for record in caplog.records) == 4
 
 
-def test_a_disk_without_room_for_a_lease_fails_what_waits(
-    house: House, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_disk_without_room_for_a_lease_fails_what_waits(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
     job, pauses = house.submit(total=4), list[float]()
     step = Steps(house, window=0)
     step()
