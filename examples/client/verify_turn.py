@@ -7,6 +7,7 @@ and balance shafts are not covered.
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Optional, Tuple
 
 from verify_answer import Fitted, closest
@@ -15,7 +16,8 @@ from verify_cases import scenarios, without_cases
 from verify_claims import EVIDENCE, Claims, covered, near
 from verify_costs import costs
 from verify_cuts import FIELDS, SHAFTS
-from verify_first import near_the_bound, searched, smallest
+from verify_first import near_the_bound, priced_at, searched, smallest
+from verify_first import proven as exactly
 from verify_goals import Program as Asked
 from verify_goals import values
 from verify_machine import ENTRY_FIELDS, NAMES, NOTHING, Machine
@@ -95,8 +97,14 @@ def _as_given(request: Place, machine: Machine, answer: Place, implied: Place) -
     if not price / "nominal_multipliers":
         return
     program, proof = Program(without_cases(request), machine, Place(None)), price / "nominal_multipliers"
+    lowest, first = price / "nominal_lower_bound", program.first
+    if not (first.over_turn or first.geared):
+        # of the first order alone: what webs without limits gain by rounding is taken off exactly
+        priced = partial(priced_at, dict.fromkeys(first.exact.rows, lowest.number()))
+        yield from exactly("nominal_optimum", lowest, first.exact, proof, implied, {}, priced)
+        return
     found = program.bound(proof, program.terms(proof), implied)
-    yield from _proven("nominal_optimum", price / "nominal_lower_bound", found, implied, proof)
+    yield from _proven("nominal_optimum", lowest, found, implied, proof)
 
 
 def unreachable(request: Place, answer: Place, budget: Place, said: Place) -> Claims:
