@@ -1,7 +1,10 @@
 """Answers checked by the files that clients take with them, examples/client/verify*.py: there is no second checker."""
 
+import re
 import sys
+from collections.abc import Iterable
 from functools import cache
+from graphlib import TopologicalSorter
 from importlib.util import module_from_spec, spec_from_file_location
 from types import ModuleType
 
@@ -26,19 +29,19 @@ def verify(asked: VerifyRequest) -> VerifyAnswer:
         raise InvalidRequest([FieldProblem(error.path, error.message)]) from None
 
 
-#: the files, each behind those that it imports
-_PARTS = (
-    "numbers leaves plates machine claims cranks weights shafts form orders quality program cases answer prices"
-    " alternatives first spans harmonics gas pistons pressed curves loads circle bearings shaking dynamics rods parts"
-    " inside outputs cuts costs values misplacement ceilings levels nominal goals turn single many match"
-)
-_FILES = [*(f"verify_{part}" for part in _PARTS.split()), "verify"]
+_IMPORTED = re.compile(r"^from (verify_\w+) import", re.MULTILINE)
 
 
 @cache
 def checker() -> ModuleType:
     """The file for answers of every kind; none of them belongs to a package or imports anything of this one."""
-    return [_loaded(name) for name in _FILES][-1]
+    return {name: _loaded(name) for name in _files()}["verify"]
+
+
+def _files() -> Iterable[str]:
+    """The files, each behind those that it imports."""
+    each = (directory() / "client").glob("verify*.py")
+    return TopologicalSorter({path.stem: _IMPORTED.findall(path.read_text("utf-8")) for path in each}).static_order()
 
 
 def _loaded(name: str) -> ModuleType:

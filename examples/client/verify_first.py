@@ -154,12 +154,17 @@ def light(statement: Statement, proof: Place, sizes: dict[str, Number], mass: Nu
 
 
 def yardstick(statement: Statement, place: Place, rest: Number, implied: Place) -> Claim:
-    """The objective without counterweights, or where it is 0 to rounding at most what they could make it."""
+    """The objective without counterweights, or where it is 0 to rounding at most what they could make it.
+
+    That is by the limits that are given, also where none of what they allow can be of use.
+    """
     if rest.low > 0:
         return near("yardstick", place, rest)
-    most = statement.reachable(implied)
+    most = statement.reachable(Place(None)) or statement.reachable(implied)
     if most is None:
         return "yardstick", place, None, ONE
+    # what rounding leaves of a machine that is balanced may be told as it is
+    most = largest(most, rest)
     return "yardstick", place, most * ABOUT_ONE - place.number(), most
 
 

@@ -272,17 +272,26 @@ def spent(machine: Machine, pulls: dict[str, Number], share: Number, cost: Numbe
     assert machine.left is not None
     worth = {web.name: max((pulls[web.name] * share).middle().real, 0.0) for web in machine.webs}
     levers = {web.name: web.plate.lever(0.0) if web.plate else float(web.radius) for web in machine.webs}
-    low, high, least = 0.0, max((worth[name] * lever for name, lever in levers.items()), default=0.0), float(cost)
-    for _ in range(100):
-        middle, mass = (low + high) / 2, 0.0
+
+    def fits(price: float) -> bool:
+        mass = 0.0
         for web in machine.webs:
             said = implied / web.name
             limit = min(inf if web.limit is None else float(web.limit), said.double(least=0) if said else inf)
             if web.plate is not None:
-                mass += min(web.plate.mass(web.plate.opening(worth[web.name], middle + least)), limit)
-            elif worth[web.name] * levers[web.name] > middle + least:
+                mass += min(web.plate.mass(web.plate.opening(worth[web.name], price + least)), limit)
+            elif worth[web.name] * levers[web.name] > price + least:
                 mass += limit
-        low, high = (middle, high) if mass > float(machine.left) else (low, middle)
+        return mass <= float(machine.left)
+
+    least = float(cost)
+    low, high = 0.0, max((worth[name] * lever for name, lever in levers.items()), default=0.0)
+    if fits(low):
+        # what is not spent has no price: the least one, times a budget beyond all need, would cost more than there is
+        return ZERO
+    for _ in range(100):
+        middle = (low + high) / 2
+        low, high = (low, middle) if fits(middle) else (middle, high)
     return real(high)
 
 

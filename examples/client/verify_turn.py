@@ -7,263 +7,27 @@ and balance shafts are not covered.
 
 from __future__ import annotations
 
-from copy import copy
-from typing import Dict, List, Optional, Sequence, Tuple
+from functools import partial
+from typing import Optional, Tuple
 
 from verify_answer import Fitted, closest
 from verify_cases import FIELDS as CASES
-from verify_cases import cases, goals, scatter, scenarios, without_cases
+from verify_cases import scenarios, without_cases
 from verify_claims import EVIDENCE, Claims, covered, near
 from verify_costs import costs
-from verify_curves import root
-from verify_cuts import FIELDS, SHAFTS, Group, Part, Term
-from verify_first import near_the_bound, searched, smallest
+from verify_cuts import FIELDS, SHAFTS
+from verify_first import near_the_bound, priced_at, searched, smallest
+from verify_first import proven as exactly
 from verify_goals import Program as Asked
 from verify_goals import values
-from verify_machine import ENTRY_FIELDS, NAMES, NOTHING, ON_FRAME, Machine, Web, over
+from verify_machine import ENTRY_FIELDS, NAMES, NOTHING, Machine
 from verify_misplacement import misplacement
-from verify_numbers import (
-    ONE,
-    SPECK,
-    STEP,
-    ZERO,
-    J,
-    NotCovered,
-    Number,
-    Place,
-    largest,
-    real,
-    total,
-)
-from verify_program import CEILINGS, of_plate, support, weighed
+from verify_multipliers import Program
+from verify_numbers import ONE, SPECK, STEP, ZERO, Number, Place, largest, real
+from verify_program import CEILINGS
 
-#: components on the frame, of which the real part alone counts
-ALONG = [name for name in CEILINGS if ":" in name]
 #: ceilings of loads over the turn
 LOADED = ("bearing_ceiling_N", "specific_load_ceiling_Pa", "bending_ceiling_Nm")
-#: products of cuts with rows, masses and webs that are evaluated at a time
-MOST = 30_000
-
-
-class Pulls:
-    """What multipliers prove before counterweights, and what they pull at every web with, and scatter it by."""
-
-    def __init__(self, least: Number, webs: Sequence[Web]) -> None:
-        self.least = least
-        self.slopes, self.spread = [ZERO for _ in webs], [ZERO for _ in webs]
-
-
-class Program:
-    """The objective by its cuts, in every case, and what multipliers prove of it."""
-
-    def __init__(self, request: Place, machine: Machine, answer: Place) -> None:
-        goal = request / "objective"
-        self.machine, self.off, self.named = machine, scatter(request), goals(request)
-        self.scattered = self.off.share.high > 0 or self.off.besides.high > 0
-        weights = {name: weight for name, weight in weighed(goal, machine).items() if weight.high > 0}
-        for kind in ("bearing", "bending", "roll"):
-            weights[kind] = (goal / f"{kind}_weight").number(0.0, least=0)
-        external = {name: weights[name] for name in ON_FRAME if name in weights}
-        together = (goal / "combine").text("sum", "max", default="sum") == "sum"
-        self.rows = {"sum": external} if together else {name: {name: weight} for name, weight in external.items()}
-        every = cases(request, machine, answer / "reference_plane_m")
-        self.parts = {case.name: Part(case, weights, self.named) for case in every}
-        self.first = next(iter(self.parts.values()))
-        self.webs = [*machine.webs, *(one.web for one in self.first.geared)]
-        #: of the last bound: what it rises by per kg m on each web
-        self.slopes: List[Number] = []
-        listed = answer / "certificate" / "goals"
-        self.levels = [(one / "limit").number() for one in listed if (one / "goal").text() in self.named[:-1]]
-        if answer and len(self.levels) != len(self.named) - 1:
-            raise NotCovered(answer / "certificate" / "goals")
-
-    def up_to(self, goal: int) -> Program:
-        """The same with the goals up to one."""
-        found = copy(self)
-        found.named, found.levels = self.named[: goal + 1], self.levels[:goal]
-        return found
-
-    def _part(self, one: Place) -> Part:
-        name = (one / "scenario").text() if one / "scenario" else None
-        if name not in self.parts:
-            raise NotCovered(one)
-        return self.parts[name]
-
-    def terms(self, proof: Place) -> List[Term]:
-        """Terms of the objective with their multipliers."""
-        found, size = list(proof / "terms"), self.first
-        if len(found) * (len(size.turn.rows) + len(self.machine.masses) + len(self.webs)) > MOST:
-            raise NotCovered(proof / "terms")
-        return [self._part(one).term(one) for one in found]
-
-    def reached(self, terms: List[Term], fitted: Fitted) -> Number:
-        """What counterweights come to of the last goal, at the angles of the cuts."""
-        rows: Dict[Tuple[Group, str], Number] = {}
-        # what is fixed is in the start of every cut
-        own = [ZERO if web.fixed else one.product * one.co for one, web in zip(fitted.turning, self.machine.webs)]
-        vectors = [*own, *(one.vector(mass) for one, (_, mass) in zip(self.first.geared, fitted.on_shafts))]
-        sizes = [abs(one) for one in vectors]
-        for one in terms:
-            moved = one.start
-            for vector, factor in zip(vectors, one.factors):
-                moved = moved + vector * factor
-            moved = moved.parts()[0] if one.scalar else moved
-            before = rows.get((one.group, one.row), one.floor)
-            length = abs(moved) + self.off.of(one.factors, sizes)
-            rows[one.group, one.row] = before + (abs(length + J * one.still) if one.mean else length)
-        groups = {group for group, _ in rows if group[1] == len(self.named) - 1}
-        most = {group: largest(*(value for (of, _), value in rows.items() if of == group)) for group in groups}
-        every = {group[0] for group in groups}
-        return largest(ZERO, *(total(value for group, value in most.items() if group[0] == case) for case in every))
-
-    def bound(
-        self, proof: Place, terms: List[Term], implied: Place, cost: Number = ZERO, most: Number = ZERO
-    ) -> Tuple[Optional[Number], bool]:
-        """Of the last goal, or of the mass with goals up to ``most``, and whether implied limits are believed."""
-        rows = {(one / "name").text(): (one / "value").number(least=0) for one in proof / "rows"}
-        group_of = {one.row: one.group for one in terms}
-        if any(group_of[one.row] != one.group for one in terms):
-            raise NotCovered(proof / "terms")
-        rows = {name: value for name, value in rows.items() if value.low > 0 and name in group_of}
-        rows, terms = _means(rows, terms)
-        group_of = {one.row: one.group for one in terms}
-        sums = {group: total(value for name, value in rows.items() if group_of[name] == group)
-                for group in {group_of[name] for name in rows}}  # fmt: skip
-        if cost is ZERO and not sums:
-            return None, False
-        share, charge = self._shares(sums, cost, most, proof)
-        floors = {one.row: one.floor for one in terms}
-        pulls = Pulls(total(value * share[group_of[name]] * floors[name] for name, value in rows.items()), self.webs)
-        pulls.least = pulls.least - charge
-        for one in terms:
-            if one.row in rows:
-                self._add(pulls, one, rows[one.row], share[one.group])
-        self._add_ceilings(pulls, proof)
-        self.slopes = pulls.slopes
-        return self._within_limits(pulls, proof, implied, cost)
-
-    def conflict(self, proof: Place, implied: Place) -> Tuple[Optional[Number], bool]:
-        """What the ceilings are exceeded by at least, each by its price, and whether implied limits are believed."""
-        pulls = Pulls(ZERO, self.webs)
-        self._add_ceilings(pulls, proof)
-        lengths: Dict[str, Number] = {}
-        for one in proof / "ceilings":
-            named = (one / "response").text() + (f" in {(one / 'scenario').text()}" if one / "scenario" else "")
-            if not one / "angle_deg":
-                lengths[named] = lengths.get(named, ZERO) + abs((one / "x").number() + J * (one / "y").number())
-        for row in proof / "rows":
-            name, _, case = (row / "name").text().partition(" in ")
-            part = self.parts.get(case or None)
-            cap = part.exact.caps.get(name) if part else None
-            if part is None or cap is None:
-                continue
-            factors = part.of_ceiling(name)
-            cap = cap - self.off.besides * total(map(abs, factors))
-            if cap.high < 0:
-                # below what turns against the shaft, or what is off: the more is paid for it the more is proven
-                more = (row / "value").number(least=0) - lengths.get((row / "name").text(), ZERO)
-                more = largest(more, ZERO)
-                pulls.least = pulls.least - more * cap
-                grown = more * self.off.share
-                pulls.spread = [old + grown * abs(factor) for old, factor in zip(pulls.spread, factors)]
-        return self._within_limits(pulls, proof, implied, ZERO)
-
-    def _add(self, pulls: Pulls, one: Term, allowed: Number, share: Number) -> None:
-        """A term with its multiplier; |y| <= lambda holds by shortening."""
-        y = one.y.parts()[0] if one.scalar else one.y
-        size = abs(y)
-        if self.scattered:
-            grown = (size if one.mean else allowed) * share
-            pulls.spread = [
-                old + grown * self.off.share * abs(factor) for old, factor in zip(pulls.spread, one.factors)
-            ]
-            pulls.least = pulls.least + grown * self.off.besides * total(map(abs, one.factors))
-        if size.low > 0:
-            shorter = share * (allowed / size if size.high > allowed.low else ONE)
-            shorter = Number(min(shorter.low, share.low), min(shorter.low, share.low))
-            pulls.least = pulls.least + y.along(one.start) * shorter
-            pulls.slopes = [
-                slope + factor.conjugate() * y * shorter for slope, factor in zip(pulls.slopes, one.factors)
-            ]
-
-    def _add_ceilings(self, pulls: Pulls, proof: Place) -> None:
-        for limit in proof / "ceilings":
-            p = (limit / "x").number() + J * (limit / "y").number()
-            if abs(p).high <= 0:
-                continue
-            part = self._part(limit)
-            start, factors, cap = part.capped(limit)
-            if limit / "angle_deg" and (limit / "response").text() in ALONG:
-                p = p.parts()[0]
-            pulls.least = pulls.least + p.along(start) - abs(p) * cap
-            if self.scattered:
-                # what is off by itself has to keep the ceiling too
-                grown = abs(p) * self.off.share
-                pulls.spread = [old + grown * abs(factor) for old, factor in zip(pulls.spread, factors)]
-                pulls.least = pulls.least + abs(p) * self.off.besides * total(map(abs, factors))
-            pulls.slopes = [slope + factor.conjugate() * p for slope, factor in zip(pulls.slopes, factors)]
-
-    def _within_limits(self, pulls: Pulls, proof: Place, implied: Place, cost: Number) -> Tuple[Optional[Number], bool]:
-        """Less what counterweights take off at most."""
-        machine, least, believed = self.machine, pulls.least, False
-        beta = (proof / "budget").number(0.0, least=0) if machine.left is not None else ZERO
-        for web, pull, wide in zip(self.webs, machine.together([-one for one in pulls.slopes]), pulls.spread):
-            if web.plate is not None:
-                least = least - of_plate(web, web.plate, support(pull, web.sector) - wide, cost + beta)
-                continue
-            gain = web.radius * (support(pull, web.sector) - wide) - cost - beta
-            if gain.high <= 0:
-                continue
-            carries = self.first.exact.reach(web, Place(None))
-            if carries is None or implied / web.name:
-                believed, carries = True, self.first.exact.reach(web, implied)
-            if carries is None:
-                return None, True
-            least = least - Number(max(gain.low, 0), gain.high) * carries
-        return least - (beta * machine.left if machine.left else ZERO), believed
-
-    def _shares(
-        self, sums: Dict[Group, Number], cost: Number, most: Number, proof: Place
-    ) -> Tuple[Dict[Group, Number], Number]:
-        """What the rows of every group are multiplied by, and what the levels of goals are charged with.
-
-        The largest of several cases is no less than their mean with prices that sum to 1, and a goal that is kept below
-        a level takes the price times the level off. A price is the largest sum of the groups of a case.
-        """
-        prices: Dict[Tuple[Optional[str], int], Number] = {}
-        for (case, goal, _), each in sums.items():
-            prices[case, goal] = largest(prices.get((case, goal), ZERO), each)
-        last = len(self.named) - 1
-        if len(prices) == 1 and last == 0:
-            (price,) = prices.values()
-            price = ONE if cost is ZERO else price
-            return {group: over(price, each, proof) for group, each in sums.items()}, price * most
-        whole = total(price for (_, goal), price in prices.items() if goal == last)
-        share = ONE if cost is not ZERO else over(ONE, whole, proof)
-        share = Number(share.low, share.low)
-        levels = [*self.levels, most]
-        charge = total(price * levels[goal] for (_, goal), price in prices.items() if goal < last or cost is not ZERO)
-        return dict.fromkeys(sums, share), charge * share
-
-
-def _means(rows: Dict[str, Number], terms: List[Term]) -> Tuple[Dict[str, Number], List[Term]]:
-    """All rows of a root mean square as one, hypot(length, what stays), with y of the length and z of what stays.
-
-    y^2 + z^2 is no more than the square of the row: z is what y leaves of it.
-    """
-    together: Dict[Tuple[str, Group], List[Term]] = {}
-    for one in terms:
-        if one.mean and one.row in rows:
-            together.setdefault((one.mean, one.group), []).append(one)
-    kept = [one for one in terms if not one.mean]
-    rows = dict(rows)
-    for (name, group), each in together.items():
-        allowed, y = total(rows.pop(one.row) for one in each), total(one.y for one in each)
-        left = root(largest(allowed * allowed - abs(y) * abs(y), ZERO))
-        of = f"{name} of {group}"
-        rows[of] = allowed
-        kept.append(each[0]._replace(row=of, y=y, floor=left / allowed * each[0].still))
-    return rows, kept
 
 
 def looks_at_the_turn(request: Place) -> bool:
@@ -333,8 +97,14 @@ def _as_given(request: Place, machine: Machine, answer: Place, implied: Place) -
     if not price / "nominal_multipliers":
         return
     program, proof = Program(without_cases(request), machine, Place(None)), price / "nominal_multipliers"
+    lowest, first = price / "nominal_lower_bound", program.first
+    if not (first.over_turn or first.geared):
+        # of the first order alone: what webs without limits gain by rounding is taken off exactly
+        priced = partial(priced_at, dict.fromkeys(first.exact.rows, lowest.number()))
+        yield from exactly("nominal_optimum", lowest, first.exact, proof, implied, {}, priced)
+        return
     found = program.bound(proof, program.terms(proof), implied)
-    yield from _proven("nominal_optimum", price / "nominal_lower_bound", found, implied, proof)
+    yield from _proven("nominal_optimum", lowest, found, implied, proof)
 
 
 def unreachable(request: Place, answer: Place, budget: Place, said: Place) -> Claims:

@@ -199,6 +199,17 @@ def test_too_much_clearance_never_delivers() -> None:
     assert never == [[True, False]] * 3
 
 
+@pytest.mark.parametrize("travel", [1e-4, 1e-7])
+def test_a_chamber_that_delivers_at_the_very_end_delivers(travel: float) -> None:
+    """Analytic: what is compressed to so much travel has the discharge pressure there."""
+    plan, (clear, exponent) = one_row(), (0.02, 1.35)
+    taken = (0.2 - travel) / (0.2 + clear)
+    ratio = (1.0 - taken) ** -exponent
+    one = one_cylinder(discharge=(1e5 * ratio, 3e5), clearance=(clear / 0.2, 0.12), expansion_exponent=(9.0, 1.25))
+    _, discharge = switching_travels(one, plan)
+    assert discharge[0, 0] == pytest.approx(travel, rel=1e-6)
+
+
 def test_sense_of_rotation_and_crank_side_are_mirror_images() -> None:
     phi = np.linspace(0.0, 2.0 * np.pi, 60, endpoint=False)
     alike = one_cylinder(

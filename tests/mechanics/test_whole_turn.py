@@ -150,6 +150,16 @@ def test_designs_together_are_as_designs_alone(reading: Reading) -> None:
             assert np.array_equal(part, np.concatenate(each))
 
 
+def test_every_design_has_its_own_means() -> None:
+    """Analytic: the mean of a tangential force is that of its design, however many axes the designs come in."""
+    turn, _, _ = _driven(1, STYLES[0])
+    count = turn.rows.crank_radius.shape[-1]
+    means = np.arange(6.0 * count).reshape(2, 3, count)
+    rows = replace(turn.rows, designs=6, inertia=np.repeat(turn.rows.inertia, 6, axis=0))
+    found = whole_turn(rows, np.zeros((2, 3, 1)), means).means
+    assert np.array_equal(found, means.reshape(6, count))
+
+
 def _peaks(turn: WholeTurn, reading: Reading) -> Bracket:
     count, designs = turn.rows.crank_radius.shape[-1], len(turn.centre)
     pieces = turn.curves(reading, np.broadcast_to(np.eye(count), (designs, count, count))).pieces

@@ -10,34 +10,44 @@ import os
 import sys
 import threading
 import time
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterator
 from pathlib import Path
-from types import FrameType
+from types import CodeType, FrameType
 from typing import Any
 
 import pytest
 
+#: calls of a function in one test that are followed line by line: arithmetic is called a million times
+_FOLLOWED = 200
+
 
 class Lines:
-    """Lines of some files that have run since the last reading."""
+    """Lines of some files that have run since the last reading, of a function those of its first calls."""
 
     def __init__(self, files: set[str]) -> None:
         self._files = files
         self._found: dict[str, set[int]] = defaultdict(set)
+        self._calls = Counter[CodeType]()
+
+    def called(self, frame: FrameType, event: str, argument: Any) -> Any:
+        """What the interpreter calls at every call."""
+        code = frame.f_code
+        if code.co_filename not in self._files or self._calls[code] >= _FOLLOWED:
+            return None
+        self._calls[code] += 1
+        return self.traced(frame, event, argument)
 
     def traced(self, frame: FrameType, event: str, argument: Any) -> Any:
-        """What the interpreter calls at every call, and line by line where a file counts."""
-        name = frame.f_code.co_filename
-        if name not in self._files:
-            return None
-        self._found[name].add(frame.f_lineno)
+        """What the interpreter calls at every line of what is followed."""
+        self._found[frame.f_code.co_filename].add(frame.f_lineno)
         return self.traced
 
     def read(self) -> dict[str, list[int]]:
         """Lines by file."""
         found = {name: sorted(lines) for name, lines in self._found.items()}
         self._found.clear()
+        self._calls.clear()
         return found
 
 
@@ -50,8 +60,8 @@ _TESTS: dict[str, tuple[float, dict[str, list[int]]]] = {}
 def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
     """A test with its fixtures."""
     before, begun = sys.gettrace(), time.process_time()
-    threading.settrace(_LINES.traced)
-    sys.settrace(_LINES.traced)
+    threading.settrace(_LINES.called)
+    sys.settrace(_LINES.called)
     try:
         yield
     finally:

@@ -45,15 +45,17 @@ _TAKEN_FOR = {
 
 
 class Mutant(NamedTuple):
-    """A file with one fault: where, what was done, the text, and the lines of the statement.
+    """A file with one fault: where, what was done, the text, the lines of the statement, and what it belongs to.
 
-    None of what runs while the module is imported: no test runs that.
+    No lines of what runs while the module is imported: no test runs that. It belongs to a function, or to a name of the
+    module.
     """
 
     line: int
     fault: str
     text: str
     lines: frozenset[int]
+    of: str = ""
 
 
 def count(source: str) -> int:
@@ -65,22 +67,25 @@ def mutant(source: str, number: int) -> Mutant:
     """One mutant; what is annotated, documented or said to a reader is no arithmetic and stays."""
     tree = ast.parse(source)
     fault = next(islice(_faults(tree), number, None))
-    line, lines = getattr(fault.node, "lineno", 0), _statement(tree, fault.node)
-    return Mutant(line, fault(), ast.unparse(ast.fix_missing_locations(tree)), lines)
+    line = getattr(fault.node, "lineno", 0)
+    lines, of = _statement(tree, line)
+    return Mutant(line, fault(), ast.unparse(ast.fix_missing_locations(tree)), lines, of)
 
 
-def _statement(tree: ast.Module, node: ast.AST) -> frozenset[int]:
-    """Lines of the innermost statement around a node; of one with a body, its head."""
-    line = getattr(node, "lineno", 0)
-    around = [
-        one for one in ast.walk(tree) if isinstance(one, ast.stmt) and one.lineno <= line <= (one.end_lineno or 0)
-    ]
-    if not any(isinstance(one, ast.FunctionDef | ast.AsyncFunctionDef) for one in around):
-        return frozenset()
-    inner = max(around, key=lambda one: one.lineno)
+def _statement(tree: ast.Module, line: int) -> tuple[frozenset[int], str]:
+    """Lines of the innermost statement around a line, of one with a body its head; and what it belongs to."""
+    around = sorted(
+        (one for one in ast.walk(tree) if isinstance(one, ast.stmt) and one.lineno <= line <= (one.end_lineno or 0)),
+        key=lambda one: one.lineno,
+    )
+    functions = [one.name for one in around if isinstance(one, ast.FunctionDef | ast.AsyncFunctionDef)]
+    inner = around[-1]
+    if not functions:
+        of = next((one.id for one in ast.walk(inner) if isinstance(one, ast.Name)), "")
+        return frozenset(), of
     body = getattr(inner, "body", None)
     end = body[0].lineno - 1 if body else inner.end_lineno or line
-    return frozenset(range(inner.lineno, max(end, line) + 1))
+    return frozenset(range(inner.lineno, max(end, line) + 1)), functions[-1]
 
 
 def _faults(tree: ast.Module) -> Iterator["_Fault"]:
@@ -120,9 +125,9 @@ class _Fault(NamedTuple):
 
 
 def _computing(node: ast.AST) -> Iterator[ast.AST]:
-    """Nodes below, without annotations, texts, and arguments of decorators."""
+    """Nodes below, without annotations, texts, examples, and arguments of decorators."""
     for name, value in ast.iter_fields(node):
-        if name in ("annotation", "returns", "decorator_list"):
+        if name in ("annotation", "returns", "decorator_list") or getattr(node, "arg", None) == "examples":
             continue
         for child in value if isinstance(value, list) else [value]:
             if isinstance(child, ast.AST) and not isinstance(child, ast.JoinedStr):

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from tests.mutation.__main__ import ROOMS, ROOT, Room, Trial, chosen, covering, noticed, sample
+from tests.mutation.equal import EQUAL
 from tests.mutation.mutants import Mutant, count, mutant
 
 SOURCE = """
@@ -64,3 +65,13 @@ def test_what_is_noticed(tmp_path: Path) -> None:
     assert [(one.name, one.lines) for one in found] == [(test, {"coded.py": frozenset({1, 2})})]
     (tmp_path / file).write_text("def limit():\n    return 4\n")
     assert covering(tmp_path, Room("coded.py", ("test_coded.py",), 0.9)) is None
+
+
+def test_what_changes_nothing_stands_in_a_file_and_a_function_that_there_are() -> None:
+    for key in EQUAL:
+        file, _, rest = key.partition(" ")
+        of = rest.partition(":")[0]
+        assert any(
+            line.lstrip().startswith((f"def {of}(", f"{of} = ", f"{of}, ")) or f" {of} = " in line
+            for line in (ROOT / file).read_text().splitlines()
+        ), key

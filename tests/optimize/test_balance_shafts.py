@@ -7,8 +7,10 @@ import pytest
 from pydantic import ValidationError
 
 from optimizer.analyze import analyze
+from optimizer.formulation.balance_shafts import fitted
 from schemas.answer.answers import OptimizeAnswer
 from schemas.front.pareto import ParetoRequest
+from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.accuracy import AccuracyRequest
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep.request import SweepRequest
@@ -47,6 +49,24 @@ def test_a_shaft_answers_its_own_phasor_alone(ratio: int, left: float) -> None:
     assert found.residual.after.force.peak_N == pytest.approx(left * WHOLE, rel=2e-6)
     assert found.balance_shafts_mass_kg == pytest.approx(5.0 if abs(ratio) == 1 else 0.0, rel=1e-5)
     assert found.floor.force_N == pytest.approx(0.0 if ratio == -1 else 0.5 * WHOLE)
+
+
+@pytest.mark.parametrize(
+    ("ratio", "words"),
+    [
+        (1, "Turns with the crankshaft at its speed"),
+        (-1, "Turns against the crankshaft at its speed"),
+        (2, "Turns with the crankshaft at twice its speed"),
+        (-2, "Turns against the crankshaft at twice its speed"),
+    ],
+)
+def test_how_a_shaft_is_geared_and_stands_is_said(ratio: int, words: str) -> None:
+    # analytic: what is fitted is named by its angle, however light, and nothing where nothing is
+    said = ReciprocatingMachine.model_validate(single([shaft("one", ratio)], webs=2))
+    there = fitted(said, np.array([1.0, 1.0, 0.25]), np.array([0.0, 0.0, 30.0])).balance_shafts[0]
+    assert there.gearing == f"{words}; at shaft angle 0 one web at 30.00 deg."
+    nothing = fitted(said, np.array([1.0, 1.0, 0.0]), np.zeros(3)).balance_shafts[0]
+    assert nothing.gearing == f"{words}; at shaft angle 0 it carries nothing."
 
 
 def test_limits_of_a_shaft_are_kept_and_priced() -> None:

@@ -72,6 +72,12 @@ def test_nothing_else_is_chosen_than_with_an_unbalance_of_the_shaft(objective: d
     assert (one.mass_lower_bound_kg or 0.0) == pytest.approx((other.mass_lower_bound_kg or -KG) + KG, rel=1e-4)
 
 
+@pytest.mark.parametrize(("given", "told"), [(-30.0, 330.0), (390.0, 30.0), (360.0, 0.0)])
+def test_its_angle_is_told_within_one_turn(given: float, told: float) -> None:
+    found = {one.web: one for one in optimized(with_fixed(angle_deg=given)).counterweights}
+    assert found["old"].angle_deg == pytest.approx(told, abs=1e-9)
+
+
 def test_its_mass_counts_in_the_budget() -> None:
     body, other = with_fixed(), as_unbalance()
     body["machine"]["max_total_mass_kg"], other["machine"]["max_total_mass_kg"] = 8.0, 8.0 - KG

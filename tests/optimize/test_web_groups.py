@@ -8,6 +8,7 @@ from pydantic import ValidationError
 from scipy.optimize import minimize
 
 from optimizer.errors import OutOfRange
+from optimizer.formulation.groups import _same_options
 from schemas.answer.answers import OptimizeAnswer
 from schemas.request.requests import OptimizeRequest
 from tests.verification.checking import broken, optimized
@@ -199,3 +200,17 @@ def test_unlike_webs_are_refused(change: dict[str, Any], words: str) -> None:
         optimized(asked)
     assert found.value.problems[0].path == ("machine", "web_groups", 0, "webs", 1)
     assert words in found.value.problems[0].message
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_holes_that_leave_the_mass_open_are_alike_by_their_angles(mirrored: bool) -> None:
+    # analytic: 10 and 50 degrees ahead of a crank at 0, and of one at 90; or behind it
+    side = -1.0 if mirrored else 1.0
+    first = [(None, 10.0), (None, 50.0)]
+    assert _same_options(first, 0.0, [(None, 90.0 + side * 50.0), (None, 90.0 + side * 10.0)], 90.0, mirrored)
+    assert not _same_options(first, 0.0, [(None, 90.0 + side * 50.0), (None, 91.0 + side * 10.0)], 90.0, mirrored)
+
+
+def test_masses_that_leave_the_angle_open_are_alike_in_any_order() -> None:
+    assert _same_options([(1.0, None), (2.0, None)], 0.0, [(2.0, None), (1.0, None)], 90.0, False)
+    assert not _same_options([(1.0, None), (2.0, None)], 0.0, [(2.0, None), (1.5, None)], 90.0, False)

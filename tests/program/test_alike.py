@@ -107,3 +107,14 @@ def test_some_of_the_webs_and_pieces_of_them() -> None:
     parts = webs.pieces(np.array([0, 0, 1, 2, 2, 3, 4, 5]))
     assert parts.leader == (0, 1, 2, 0, 1, 2, 6, 7)
     assert parts.mirrored == (False, False, False, True, True, False, False, False)
+
+
+@given(ANY, SEED, st.integers(0, WEBS - 1), st.floats(-3.0, 3.0))
+def test_what_one_web_carries_in_a_direction_tells_those_of_all(
+    group: tuple[tuple[int, ...], tuple[bool, ...]], seed: int, web: int, angle: float
+) -> None:
+    """Analytic: they are the directions of what is carried where that web carries something there."""
+    webs = alike(*group, seed)
+    told = np.exp(1j * webs.angles(web, angle))
+    assert np.allclose(told[web], np.exp(1j * angle), rtol=0, atol=1e-12)
+    assert np.allclose(webs.nearest(told), told, rtol=0, atol=1e-12)

@@ -15,6 +15,7 @@ from optimizer.program.certificate import (
     best_proof,
     mass_lower_bound,
     objective_lower_bound,
+    spread,
 )
 from optimizer.program.points import points_at
 from tests.program.cases import COMBINATIONS, random_limits, random_point, random_statement, stacked
@@ -113,3 +114,38 @@ def test_multipliers_of_zero_prove_nothing() -> None:
     zero = Multipliers(np.zeros(2, complex), np.zeros(1), np.zeros(0, complex))
     assert objective_lower_bound(problem, zero) == -np.inf
     assert mass_lower_bound(problem, zero, np.asarray(1.0)) == 0.0
+
+
+@pytest.mark.parametrize(("term", "ceiling"), [(0.1, 0.0), (0.0, 0.2), (0.1, 0.2), (0.0, 0.0)])
+def test_what_is_off_raises_a_bound_by_its_share_of_every_multiplier(term: float, ceiling: float) -> None:
+    """Analytic: rows by their share of what a kilogram metre changes in their terms, ceilings by their multipliers."""
+    problem = random_statement(2, "max", (1.0, 1.0), False, False, True, webs=3)
+    norms = replace(problem.norms, scatter=term)
+    limited = replace(problem.ceilings, norms=replace(problem.ceilings.norms, scatter=ceiling))
+    multipliers = _random_multipliers(np.random.default_rng(1), problem)
+    multipliers = replace(multipliers, row=np.abs(multipliers.row))
+    rows = multipliers.row[problem.row][:, None] * np.abs(norms.influence)
+    priced = np.abs(multipliers.ceiling)[:, None] * np.abs(limited.norms.influence)
+    expected = term * rows.sum(axis=0) + ceiling * priced.sum(axis=0)
+    found = np.asarray(spread(replace(problem, norms=norms, ceilings=limited), multipliers))
+    assert np.all(found <= expected)
+    np.testing.assert_allclose(np.broadcast_to(found, 3), expected, rtol=1e-13)
+
+
+@pytest.mark.parametrize("factor", [2.0**-40, 2.0**40])
+def test_a_bound_has_the_unit_of_its_objective(factor: float) -> None:
+    """Property, to the last bit: also of webs that can hardly be told apart, whose limits are far away."""
+    problem = random_statement(3, "sum", (1.0, 1.0), False, False, False, webs=2)
+    near = problem.norms.influence[:, :1] * np.array([1.0, 1.0 + 1e-9])
+    limits = replace(problem.limits, max_mass=np.array([1e12, 1e12]))
+    problem = replace(problem, norms=replace(problem.norms, influence=near), limits=limits)
+    # those with which neither web gains anything but by rounding
+    term = np.conj(np.array([near[1, 0], -near[0, 0]])) if near.shape[0] == 2 else np.zeros(near.shape[0], complex)
+    term = term / np.max(np.abs(term))
+    multipliers = Multipliers(term, np.ones(problem.floor.size), np.zeros(0, complex))
+    bigger = replace(
+        problem,
+        norms=replace(problem.norms, constant=problem.norms.constant * factor, influence=near * factor),
+        floor=problem.floor * factor,
+    )
+    assert objective_lower_bound(bigger, multipliers) == factor * objective_lower_bound(problem, multipliers)

@@ -92,6 +92,18 @@ def test_points_and_bounds_agree_with_clarabel(seed: int, case: tuple) -> None:
     np.testing.assert_allclose(limits.into(u), u, rtol=1e-12, atol=1e-15)
 
 
+@pytest.mark.parametrize("case", [case for case in COMBINATIONS if case[0] == "max" and case[3] == case[4]])
+def test_units_by_powers_of_two_change_no_step(case: tuple) -> None:
+    """Property, to the last bit: also of what no unbalance changes, such as what turns against the shaft."""
+    problem, factor = random_statement(3, *case, webs=WEBS), 2.0**30
+    norms = replace(problem.norms, constant=problem.norms.constant * factor, influence=problem.norms.influence * factor)
+    found, other = run(problem), run(replace(problem, norms=norms, floor=problem.floor * factor))
+    assert np.array_equal(found.smallest, other.smallest)
+    assert np.array_equal(found.unbalance, other.unbalance)
+    assert np.array_equal(found.certified, other.certified)
+    assert np.array_equal(found.lower_bound * factor, other.lower_bound)
+
+
 def test_random_programs_need_no_help() -> None:
     """Regression: most are certified to a hundredth of what optima may differ, nearly all to that itself."""
     sharp, usable, ceilings = [], [], []

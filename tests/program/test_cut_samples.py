@@ -65,7 +65,7 @@ def test_the_highest_that_is_told_is_the_peak_but_for_little(gas: bool) -> None:
         samples = Samples(every)
         told = np.array([each[0].lower for each in samples.highest(u, EXACT, none(len(every)))])
         assert np.all(told <= bracket.upper)
-        np.testing.assert_allclose(told, bracket.lower, rtol=1e-6)
+        np.testing.assert_allclose(told, bracket.lower, rtol=1e-9)
         np.testing.assert_allclose(samples.sizes(u, EXACT), bracket.lower, rtol=1e-2)
 
 

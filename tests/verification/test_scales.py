@@ -1,0 +1,38 @@
+"""Genuine answers of machines of extreme scales: rounding of what cancels breaks no claim."""
+
+import json
+
+import pytest
+
+from optimizer.optimize import optimize
+from schemas.request.requests import OptimizeRequest
+from service.verification import checker
+from tests.hard.bodies import drawn
+
+
+@pytest.mark.parametrize(
+    ("mode", "number", "seed", "claim"),
+    [
+        # weights of 8e19 N that leave 2e14 N, and of 1e-6 N that leave 5e-9 N
+        ("balance shafts", 191, 77, "cuts"),
+        ("balance shafts", 261, 77, "cuts"),
+        # a minimum of 9e-44 kg beside a budget of 35 t, whose least price of 1e-30 would cost 3e-26 kg
+        ("plates", 267, 77, "mass_lower_bound"),
+        # webs of 1e15 kg and more in a scenario, which the machine as it is given has no use for
+        ("scenarios", 88, 78, "nominal_optimum"),
+        ("tolerances", 404, 78, "nominal_optimum"),
+        # nothing without counterweights, and no use for a budget of a gram; and 6e-14 N m of rounding beside no budget
+        ("axis ceilings", 451, 78, "yardstick"),
+        ("axis ceilings", 444, 78, "yardstick"),
+    ],
+)
+def test_what_cancels_is_judged_by_its_parts(mode: str, number: int, seed: int, claim: str) -> None:
+    sent = drawn(number, seed, mode)
+    assert sent is not None
+    answer = optimize(OptimizeRequest.model_validate(sent))
+    found = {
+        one["claim"]: one["verdict"]
+        for one in checker().verify(json.loads(json.dumps(sent)), json.loads(answer.model_dump_json()))["claims"]
+    }
+    assert found[claim] == "held"
+    assert "broken" not in found.values()
