@@ -1,53 +1,34 @@
 """Load and compile before the first request, which would otherwise wait for seconds."""
 
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from schemas.request.requests import OptimizeRequest
-
-#: of the objective, what the reference solver is to reach in its first attempt
-_GAP = 1e-6
-
 
 def warm_up() -> None:
-    """Solve a small machine by the compiled methods, both stages, and by the reference solver; follow it over the turn.
+    """Solve a small machine by the methods that most questions need: compiled, both stages, and by cuts over the turn;
+    follow it over the turn. The modelling layer is loaded by the first program that no other method solves.
 
     Raises
     ------
     RuntimeError
-        if either leaves it open: who cannot solve this solves nothing.
+        if one of them leaves it open: who cannot solve this solves nothing.
     """
-    from optimizer.formulation.goals import cone_program
-    from optimizer.outputs.registry import prepare
-    from optimizer.program.reference.solver import Solver
-    from optimizer.program.solution import CONE_PROGRAM
-
-    _solved(1.0)
-    request = plain_discs()
+    _solve(1.0)
+    plain_discs()
     follow_a_turn()
-    # seldom asked: what the compiled method leaves open
-    scene = prepare(request, ("residual",))
-    statement = cone_program(request.machine, request.objective, scene.responses, scene.omega_squared)
-    # no gap is small enough, so that an attempt is made
-    found = Solver().smallest_objective(statement, -1.0, stop=lambda best: best.method == CONE_PROGRAM)
-    if found.method != CONE_PROGRAM or found.gap > _GAP * found.objective:
-        raise RuntimeError(f"the reference solver left a gap of {found.gap:g}")
+    _solve(1.0, orders="all")
 
 
-def plain_discs() -> "OptimizeRequest":
+def plain_discs() -> None:
     """Solve a machine whose webs have neither sector nor budget, by the method for such."""
-    return _solved(None)
+    _solve(None)
 
 
-def _solved(budget: float | None) -> "OptimizeRequest":
+def _solve(budget: float | None, **objective: object) -> None:
     from optimizer.optimize import optimize
     from schemas.request.requests import OptimizeRequest
 
-    request = OptimizeRequest.model_validate({"machine": {**_machine(), "max_total_mass_kg": budget}})
-    answer = optimize(request)
+    body = {"machine": {**_machine(), "max_total_mass_kg": budget}, "objective": objective}
+    answer = optimize(OptimizeRequest.model_validate(body))
     if answer.status != "optimal":
         raise RuntimeError(f"the warm-up was answered {answer.status}")
-    return request
 
 
 def follow_a_turn() -> None:

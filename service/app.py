@@ -2,7 +2,6 @@
 
 import gc
 from collections.abc import AsyncIterator, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import asynccontextmanager
 from functools import partial
 from typing import Any
@@ -151,13 +150,7 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: JobSer
     traces = tracing(chosen)
 
     def warm_up() -> None:
-        with ThreadPoolExecutor(1) as beside:
-            # seconds of work, for which the first who asks would wait
-            document = beside.submit(lambda: app.document(chosen.root_path).compressed)
-            page = beside.submit(portal.prepare)
-            pool.open()
-            document.result()
-            page.result()
+        pool.open()
         # what is loaded by now stays; each full collection of garbage, of which there are some a second where many ask,
         # would stop everything for a tenth of a second to look through all of it again
         gc.collect()

@@ -2,6 +2,7 @@
 
 import logging
 import os
+import sys
 import tempfile
 from collections import Counter
 from collections.abc import Iterator
@@ -37,6 +38,10 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))
 # else the numbers that stand in whatever modules are loaded are tried too: other ones after other tests, see
 # tests/test_examples.py
 providers.is_local_module_file = lambda _: False
+
+# jsonschema compiles forty grammars of addresses with it when it is imported, nearly a second of every process; no test
+# asks for that format
+sys.modules["rfc3987_syntax"] = None  # type: ignore[assignment]
 
 # a certificate that its own answer refutes fails the test that asked for it, whatever that looks at
 check_answers()

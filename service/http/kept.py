@@ -2,13 +2,18 @@
 
 import gzip
 import hashlib
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
+from threading import Lock
+from typing import Generic, TypeVar
 
 from starlette.requests import Request
 from starlette.responses import Response
 
 from service.common.coding import SMALL_BYTES
+from service.fairness.quotas import holding
+from service.fairness.threads import threads_of
 from service.http.accept import preferred
 
 #: kept by who has it, who asks each time whether it is still the same
@@ -49,3 +54,36 @@ class Kept:
         """Whether a client has it; of two tags only the text counts (RFC 9110, 13.1.2)."""
         given = [each.strip().removeprefix("W/") for each in request.headers.get("if-none-match", "").split(",")]
         return "*" in given or self.tag.removeprefix("W/") in given
+
+
+Name = TypeVar("Name", bound=Hashable)
+
+
+class Shelf(Generic[Name]):
+    """Documents that take a tenth of a second or more to make: made when they are first asked for, in a thread.
+
+    Parameters
+    ----------
+    make : the document of a name.
+    """
+
+    def __init__(self, make: Callable[[Name], Kept]) -> None:
+        self._make = make
+        self._making = Lock()
+        self._there: dict[Name, Kept] = {}
+
+    async def take(self, request: Request, name: Name) -> Kept:
+        """A document, for the answer to a request; the event loop does not wait until it is made."""
+        there = self._there.get(name)
+        return there or await threads_of(request).run(holding(request).who, partial(self.made, name))
+
+    def made(self, name: Name) -> Kept:
+        """A document with all that is sent of it; who asks while it is made waits for the same."""
+        with self._making:
+            if name not in self._there:
+                found = self._make(name)
+                # most ask for it compressed
+                if len(found.content) > SMALL_BYTES:
+                    found.compressed  # noqa: B018
+                self._there[name] = found
+        return self._there[name]

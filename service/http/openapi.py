@@ -18,7 +18,7 @@ from schemas.base.model import Model
 from schemas.sweep.request import SweepRequest
 from service.computations import COMPUTATIONS
 from service.guard.keys import PUBLIC, PUBLIC_FOLDERS
-from service.http.kept import Kept
+from service.http.kept import Kept, Shelf
 from service.http.operations import HEADERS, MODEL_REF, PARAMETERS, Described, headers, problems
 
 #: groups of operations, in the order in which they are shown
@@ -50,7 +50,7 @@ class Documented(FastAPI):
 
     def __init__(self, *, keyed: bool, **given: Any) -> None:
         self._keyed = keyed
-        self._written: dict[str, Kept] = {}
+        self._written = Shelf(self._document)
         described = [{"name": name, "description": what} for name, what in _TAGS.items()]
         super().__init__(**given, openapi_tags=described)
 
@@ -83,18 +83,19 @@ class Documented(FastAPI):
         for response in operation["responses"].values():
             response["headers"] = {**response.get("headers", {}), **headers(*common)}
 
-    def document(self, prefix: str) -> Kept:
-        """The document as it is written for a prefix, once: it is hundreds of kilobytes."""
-        if prefix not in self._written:
-            servers = {"servers": [{"url": prefix}]} if prefix else {}
-            content = json.dumps({**self.openapi(), **servers}, ensure_ascii=False).encode()
-            self._written[prefix] = Kept(content, "application/json")
-        return self._written[prefix]
+    def _document(self, prefix: str) -> Kept:
+        """The document as it is written for a prefix: hundreds of kilobytes, and most of a second of work."""
+        servers = {"servers": [{"url": prefix}]} if prefix else {}
+        content = json.dumps({**self.openapi(), **servers}, ensure_ascii=False).encode()
+        # else it would be held twice
+        self.openapi_schema = None
+        return Kept(content, "application/json")
 
     def setup(self) -> None:
         """Answer with the document."""
 
         async def answer(request: Request) -> Response:
-            return self.document(request.scope.get("root_path", "")).answer(request)
+            found = await self._written.take(request, request.scope.get("root_path", ""))
+            return found.answer(request)
 
         self.add_route("/openapi.json", answer, include_in_schema=False)

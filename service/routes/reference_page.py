@@ -1,7 +1,6 @@
 """The documentation page, from assets of an installed package: it works without a network."""
 
 from collections.abc import Mapping
-from functools import cache
 from importlib.resources import files
 
 from fastapi import FastAPI
@@ -10,7 +9,7 @@ from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, Response
 
-from service.http.kept import Kept
+from service.http.kept import Kept, Shelf
 
 # the browser enforces that nothing is loaded from elsewhere
 _POLICY = "default-src 'self' 'unsafe-inline'; img-src 'self' data:"
@@ -21,10 +20,8 @@ _MEDIA_TYPES: Mapping[str, str] = {
 }
 
 
-@cache
-def _asset(name: str) -> Kept:
-    """A file, read once: no thread waits for a disk while it is answered."""
-    return Kept((files("fastapi_offline") / "static" / name).read_bytes(), _MEDIA_TYPES[name])
+#: each file is read and compressed once: nobody waits for a disk while it is answered
+_ASSETS = Shelf[str](lambda name: Kept((files("fastapi_offline") / "static" / name).read_bytes(), _MEDIA_TYPES[name]))
 
 
 def install(app: FastAPI) -> None:
@@ -34,7 +31,8 @@ def install(app: FastAPI) -> None:
     async def asset(request: Request, name: str) -> Response:
         if name not in _MEDIA_TYPES:
             raise HTTPException(404)
-        return _asset(name).answer(request)
+        found = await _ASSETS.take(request, name)
+        return found.answer(request)
 
     @app.get("/docs", include_in_schema=False)
     async def docs() -> HTMLResponse:

@@ -1,4 +1,8 @@
-"""Imported by the process that workers are forked from: loads the optimiser, compiles it and solves a machine once."""
+"""Imported by the process that workers are forked from: loads what most answers need, and solves a machine once.
+
+What few questions need is loaded by the worker that is asked: the modelling layer, workbooks, pages and studies take
+longer than all else together, and a service would be ready so much later.
+"""
 
 import os
 import signal
@@ -14,18 +18,19 @@ signal.signal(signal.SIGINT, signal.SIG_IGN)
 #: what went wrong, if anything did
 failure: str | None = None
 try:
+    from importlib.util import find_spec
     from pkgutil import resolve_name
-
-    # what is loaded when it is first needed, once for all workers
-    import scipy.spatial  # noqa: F401
 
     from optimizer.warm_up import warm_up
     from service.computations import COMPUTATIONS
     from service.workers import worker  # noqa: F401
 
     for _one in COMPUTATIONS.values():
-        for _needed in (_one.request, _one.compute, *(form.write for form in _one.forms)):
-            resolve_name(_needed)
+        resolve_name(_one.request)
+    for _needed in ("optimize", "analyze"):
+        resolve_name(COMPUTATIONS[_needed].compute)
+    if find_spec("cvxpy") is None:
+        raise ModuleNotFoundError("what few programs need is not installed: cvxpy")
     warm_up()
 except Exception:
     import traceback
