@@ -11,6 +11,7 @@ Shapes: J curves of P pieces each. A vector across the shaft is complex, x + jy;
 Source: R. T. Farouki, The Bernstein polynomial basis: a centennial retrospective, CAGD 29 (2012).
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
     from optimizer.responses.kernel.parts import Asked, Best, Known, Parts
 
 Index = NDArray[np.intp]
+#: of pieces, what is asked and the best so far, which it improves: the curves (peaks,) there
+Search = Callable[["Known", "Asked", "Best"], Complex]
 #: real for scalars, complex across the shaft
 Vector = NDArray[Any]
 
@@ -131,16 +134,7 @@ def _bracketed(
     ----------
     offset, of_member, group, tolerance, signs : (m,) of every member: its curve, and the peak to which it belongs.
     """
-    from optimizer.responses.kernel.parts import (
-        MOST_CUTS,
-        MOST_PARTS,
-        Asked,
-        Best,
-        Parts,
-        first_open,
-        narrowed,
-        still_open,
-    )
+    from optimizer.responses.kernel.parts import Asked, Best
 
     if not group.size:
         return Bracket(*(np.full(count, np.nan) for _ in range(4)))
@@ -152,18 +146,27 @@ def _bracketed(
     asked = Asked(curve, peak, np.require(offset, complex, ("C", "W")), share, ROUNDING * scale, sign)
     nowhere = np.zeros(count, np.int64)
     best = Best(np.full(count, np.nan), np.full(count, -np.inf), np.zeros(count), nowhere, nowhere.copy())
+    # a source that is compiled searches by itself
+    search: Search | None = getattr(pieces.source, "search", None)
+    value = _searched(pieces, asked, best) if search is None else search(pieces.known, asked, best)
+    there = value + asked.offset[best.member]
+    lower = np.where(sign == 0.0, np.abs(there), sign * there.real)
+    some = np.zeros(count, dtype=bool)
+    some[group] = True
+    return Bracket(best.angle, value, lower, best.upper + asked.rounding).where(some)
+
+
+def _searched(pieces: Pieces, asked: "Asked", best: "Best") -> Vector:
+    """The same of any other source."""
+    from optimizer.responses.kernel.parts import MOST_CUTS, MOST_PARTS, Parts, first_open, narrowed, still_open
+
     parts, cuts = first_open(pieces.known, asked, best), 0
     while parts.member.size:
         fine, coarse, cuts = narrowed(parts, asked, best, cuts)
         every = [fine, _expanded(pieces, asked, best, coarse)] if coarse.member.size else [fine]
         parts = Parts(*map(np.concatenate, zip(*every, strict=True)))
         parts = still_open(parts, asked, best, MOST_PARTS if cuts < MOST_CUTS else 0)
-    value = pieces.source.values(curve[best.member], best.piece, best.angle)
-    there = value + asked.offset[best.member]
-    lower = np.where(sign == 0.0, np.abs(there), sign * there.real)
-    some = np.zeros(count, dtype=bool)
-    some[group] = True
-    return Bracket(best.angle, value, lower, best.upper + asked.rounding).where(some)
+    return pieces.source.values(asked.curve[best.member], best.piece, best.angle)
 
 
 def _expanded(pieces: Pieces, asked: "Asked", best: "Best", parts: "Parts") -> "Parts":
