@@ -9,7 +9,7 @@ import numpy as np
 
 from optimizer.mechanics.row_data import RowData, compact
 from optimizer.mechanics.row_series import Reading
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, in_order
 from optimizer.responses.piecewise_cubics import Index
 
 if TYPE_CHECKING:
@@ -57,7 +57,7 @@ class CurveSeries:
 
         number = np.empty(len(self.weights), np.int64)
         number[:] = [READINGS.index(reading) for reading in self.readings]
-        return Sums(number, *(np.require(each, complex, ("C", "W")) for each in (self.weights, self.constant)))
+        return Sums(number, *(in_order(np.asarray(each, complex)) for each in (self.weights, self.constant)))
 
     def search(self, known: "Known", asked: "Asked", best: "Best") -> Complex:
         """Peaks of the curves, from their pieces, and the curves there; nothing of it leaves what is compiled."""
@@ -83,7 +83,4 @@ class CurveSeries:
 
 def _integers(values: Index) -> Index:
     """Numbers as what is compiled takes them: of any other layout it would be compiled once more."""
-    flags = values.flags
-    if values.dtype == np.int64 and flags.c_contiguous and flags.writeable:
-        return values
-    return np.require(values, np.int64, ("C", "W"))
+    return in_order(np.asarray(values, np.int64))

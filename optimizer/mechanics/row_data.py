@@ -11,7 +11,7 @@ from optimizer.mechanics.gas import Chambers
 from optimizer.mechanics.indicated import Trace
 from optimizer.mechanics.kinematics import own_angle
 from optimizer.mechanics.layout import Layout
-from optimizer.numerics.arrays import Real, spread
+from optimizer.numerics.arrays import Real, in_order, spread
 
 if TYPE_CHECKING:
     from optimizer.mechanics.kernel.rows import Rows, Tables
@@ -140,10 +140,7 @@ def _tables(traces: Sequence[Trace]) -> "Tables":
 
 def compact(values: Real) -> Real:
     """Values as what is compiled takes them: of any other layout it would be compiled once more."""
-    flags = values.flags
-    if values.dtype == float and flags.c_contiguous and flags.writeable:
-        return values
-    return np.require(values, float, ("C", "W"))
+    return in_order(np.asarray(values, float))
 
 
 def _together(values: Sequence[Real], shape: tuple[int, ...]) -> Real:

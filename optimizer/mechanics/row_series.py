@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 
 from optimizer.mechanics.row_data import RowData, compact
-from optimizer.numerics.arrays import Complex, Real, spread
+from optimizer.numerics.arrays import Complex, Real, in_order, spread
 from optimizer.responses.piecewise_cubics import Index
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ class RowSeries:
     def design(self) -> Index:
         """The design of each row of angles, (N,)."""
         given = np.arange(self.data.designs) if self.of_design is None else self.of_design
-        return np.require(given, np.int64, ("C", "W"))
+        return in_order(np.asarray(given, np.int64))
 
     def of(self, reading: Reading) -> Taylor:
         """Series of a force, N.

@@ -22,7 +22,7 @@ from optimizer.mechanics.row_data import RowData, compact, shared
 from optimizer.mechanics.row_parts import RowParts
 from optimizer.mechanics.row_series import Reading, RowSeries, Taylor
 from optimizer.mechanics.turn import Turn, panels
-from optimizer.numerics.arrays import Complex, Real, spread
+from optimizer.numerics.arrays import Complex, Real, in_order, spread
 from optimizer.responses.piecewise_cubics import Index, Pieces
 
 if TYPE_CHECKING:
@@ -193,7 +193,7 @@ class TurnCurves:
 
         whole = self.whole
         (points, _), bounds = whole.points.parts(self.reading), whole.bounds.parts(self.reading)
-        weights, constant = (np.require(each, complex, ("C", "W")) for each in (self.weights, self.constant))
+        weights, constant = (in_order(np.asarray(each, complex)) for each in (self.weights, self.constant))
         cubic, rest, size = sums_of_rows(weights, constant, points, *bounds, compact(whole.half))
         centre, half = (np.repeat(each, self.weights.shape[1], axis=0) for each in (whole.centre, whole.half))
         return Pieces(centre, half, cubic, rest, size, source=self)

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from optimizer.numerics.arrays import Complex, Real, Reals
+from optimizer.numerics.arrays import Complex, Real, Reals, in_order
 
 if TYPE_CHECKING:
     from optimizer.responses.kernel.parts import Asked, Best, Known, Parts
@@ -90,8 +90,8 @@ class Pieces:
         """What is compiled takes them as."""
         from optimizer.responses.kernel.parts import Known
 
-        centre, half, rest = (np.require(each, float, ("C", "W")) for each in (self.centre, self.half, self.rest))
-        return Known(centre, half, np.require(self.cubic, complex, ("C", "W")), rest)
+        centre, half, rest = (in_order(np.asarray(each, float)) for each in (self.centre, self.half, self.rest))
+        return Known(centre, half, in_order(np.asarray(self.cubic, complex)), rest)
 
     def peaks(
         self,
@@ -142,8 +142,8 @@ def _bracketed(
     np.maximum.at(scale, group, pieces.size[of_member] + np.abs(offset))
     np.maximum.at(share, group, tolerance)
     sign[group] = signs
-    curve, peak = (np.require(each, np.int64, ("C", "W")) for each in (of_member, group))
-    asked = Asked(curve, peak, np.require(offset, complex, ("C", "W")), share, ROUNDING * scale, sign)
+    curve, peak = (in_order(np.asarray(each, np.int64)) for each in (of_member, group))
+    asked = Asked(curve, peak, in_order(np.asarray(offset, complex)), share, ROUNDING * scale, sign)
     nowhere = np.zeros(count, np.int64)
     best = Best(np.full(count, np.nan), np.full(count, -np.inf), np.zeros(count), nowhere, nowhere.copy())
     # a source that is compiled searches by itself
