@@ -188,7 +188,9 @@ def _row_work(context: Context) -> RowWork | None:
     if context.fidelity.kinematics != "exact" or (gas is not None and gas.traces):
         return None
     friction = context.results["friction"].magnitude if "friction" in context.results else None
-    return RowWork(context.layout, friction, None if gas is None else gas.chambers)
+    if gas is None:
+        return RowWork(context.layout, friction)
+    return RowWork(context.layout, friction, gas.chambers, gas.work)
 
 
 def _torque_integrals(context: Context) -> TorqueIntegrals:

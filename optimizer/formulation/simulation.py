@@ -59,7 +59,7 @@ class Prepared:
         """Results of the effects that ran, by name."""
         return self.simulated.results
 
-    @property
+    @cached_property
     def angles(self) -> tuple[float, ...]:
         """Sampled shaft angles as an answer holds them."""
         return tuple(self.angle_deg.tolist())

@@ -5,6 +5,7 @@ Whatever is asked for at an angle, the rows are expanded about it once, and each
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,6 +13,9 @@ from optimizer.mechanics.curve_series import CurveSeries
 from optimizer.mechanics.whole_turn import TurnCurves
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.responses.piecewise_cubics import Index, Pieces
+
+if TYPE_CHECKING:
+    from optimizer.responses.kernel.parts import Asked, Best, Known
 
 
 @dataclass(frozen=True)
@@ -45,6 +49,10 @@ class CurveBatch:
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
         """The curves at angles (m,) within pieces, ends included."""
         return self._series.values(curve, piece, angle)
+
+    def search(self, known: "Known", asked: "Asked", best: "Best") -> Complex:
+        """Peaks of the curves, compiled."""
+        return self._series.search(known, asked, best)
 
     @cached_property
     def _series(self) -> CurveSeries:

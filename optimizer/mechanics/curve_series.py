@@ -3,22 +3,21 @@ ask for it."""
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optimizer.mechanics.row_data import RowData, compact
-from optimizer.mechanics.row_series import AT_ONCE, Reading, pressures
-from optimizer.numerics.arrays import Complex, Real, spread
+from optimizer.mechanics.row_series import Reading
+from optimizer.numerics.arrays import Complex, Real, in_order
 from optimizer.responses.piecewise_cubics import Index
 
 if TYPE_CHECKING:
     from optimizer.mechanics.kernel.curves import Sums
-    from optimizer.mechanics.kernel.rows import Places
+    from optimizer.responses.kernel.parts import Asked, Best, Known
 
-#: so many rows at places cost less than to look which places are alike
-_FEW = 64
+#: of what is expanded at points
+_NO_WIDTHS = np.zeros(0)
 
 
 @dataclass(frozen=True)
@@ -58,64 +57,30 @@ class CurveSeries:
 
         number = np.empty(len(self.weights), np.int64)
         number[:] = [READINGS.index(reading) for reading in self.readings]
-        return Sums(number, *(np.require(each, complex, ("C", "W")) for each in (self.weights, self.constant)))
+        return Sums(number, *(in_order(np.asarray(each, complex)) for each in (self.weights, self.constant)))
+
+    def search(self, known: "Known", asked: "Asked", best: "Best") -> Complex:
+        """Peaks of the curves, from their pieces, and the curves there; nothing of it leaves what is compiled."""
+        from optimizer.mechanics.kernel.search import search
+
+        found: Complex = search(known, asked, best, self.rows.packed, self.sums, self._within)
+        return found
 
     def _about(self, curve: Index, piece: Index, angle: Real, half: Real | None, order: int) -> tuple[Complex, Real]:
         """Coefficients (m, order + 1) at angles (m,) rad; over half widths that of the last (m, 1) and its radius."""
         from optimizer.mechanics.kernel.curves import series_of_curves
 
-        curve, (curves, rows), designs = _integers(curve), self.weights.shape, len(self.middle)
-        design: Index = curve // max(curves // designs, 1)
-        places: tuple[NDArray[Any], ...] = (piece, angle) if half is None else (piece, angle, half)
-        number: Index = np.arange(curve.size)
-        if curve.size * rows > _FEW:
-            first, number = alike(places if designs == 1 else (*places, design))
-            design, places = design[first], tuple(place[first] for place in places)
-        piece, angle, *widths = places
-        within, step = self.middle[design, piece], max(1, AT_ONCE // max(rows, 1))
-        if within.size <= step:
-            there = self._places(design, angle, within, *widths)
-            return series_of_curves(self.rows.packed, self.sums, curve, number, there, order)
-        middle, radius = np.empty((curve.size, 1 if widths else order + 1), complex), np.empty(curve.size)
-        for start in range(0, within.size, step):
-            part, some = slice(start, start + step), np.flatnonzero(number // step == start // step)
-            there = self._places(design[part], angle[part], within[part], *(each[part] for each in widths))
-            found = series_of_curves(self.rows.packed, self.sums, curve[some], number[some] - start, there, order)
-            middle[some] = found[0]
-            if widths:
-                radius[some] = found[1]
-        return middle, radius
+        where, wide = (_integers(curve), _integers(piece), compact(angle)), _NO_WIDTHS if half is None else half
+        found: tuple[Complex, Real] = series_of_curves(
+            self.rows.packed, self.sums, self._within, *where, compact(wide), order
+        )
+        return found
 
-    def _places(self, design: Index, angle: Real, within: Real, half: Real | None = None) -> "Places":
-        """What is compiled takes places (q,) as."""
-        from optimizer.mechanics.kernel.rows import Places
-
-        numbers = (angle, np.zeros(0) if half is None else half, within, *self._pressures(design, angle, within))
-        return Places(_integers(design), *map(compact, numbers))
-
-    def _pressures(self, design: Index, angle: Real, within: Real) -> tuple[Real, Real]:
-        """Pressures and slopes of the traces at places, (T, q)."""
-        count, size = len(self.rows.traces), angle.size
-        if not count:
-            return np.zeros((0, size)), np.zeros((0, size))
-        pressure, slope = pressures(self.rows, design, angle[:, None], within[:, None])
-        shape = (count, size, 1)
-        return spread(pressure, shape).reshape(count, size), spread(slope, shape).reshape(count, size)
-
-
-def alike(places: tuple[NDArray[Any], ...]) -> tuple[Index, Index]:
-    """Which of places (m,) are the first of those that are alike, and which of these each is."""
-    order = np.lexsort(places)
-    other = np.ones(order.size, dtype=bool)
-    other[1:] = np.logical_or.reduce([each[order[1:]] != each[order[:-1]] for each in places])
-    number = np.empty_like(order)
-    number[order] = np.cumsum(other) - 1
-    return order[other], number
+    @cached_property
+    def _within(self) -> Real:
+        return compact(self.middle)
 
 
 def _integers(values: Index) -> Index:
     """Numbers as what is compiled takes them: of any other layout it would be compiled once more."""
-    flags = values.flags
-    if values.dtype == np.int64 and flags.c_contiguous and flags.writeable:
-        return values
-    return np.require(values, np.int64, ("C", "W"))
+    return in_order(np.asarray(values, np.int64))

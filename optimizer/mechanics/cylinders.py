@@ -10,7 +10,8 @@ from optimizer.mechanics.gas import Chambers, switching_travels
 from optimizer.mechanics.indicated import SLIVER, TURN, Trace, entries
 from optimizer.mechanics.kinematics import own_angle
 from optimizer.mechanics.layout import Layout, stacked
-from optimizer.numerics.arrays import Real
+from optimizer.numerics.arrays import Real, mapped, spread
+from optimizer.numerics.memoization import remembered
 from schemas.base.model import FieldProblem
 from schemas.base.rules import Path, Rule
 from schemas.machine.cylinder import Cylinder
@@ -43,13 +44,19 @@ def chambers(machine: ReciprocatingMachine, leading: tuple[int, ...] = ()) -> Ch
     ----------
     leading : axes that every array is to have, whatever depends on columns.
     """
+    own = _chambers(machine)
+    axes = np.broadcast_shapes(leading, own.area.shape[:-2])
+    return own if axes == own.area.shape[:-2] else mapped(own, lambda part: spread(part, (*axes, *part.shape[-2:])))
+
+
+@remembered
+def _chambers(machine: ReciprocatingMachine) -> Chambers:
+    """The same with the axes of the columns alone."""
     given = [[cylinder for _, cylinder in row_cylinders(row)] for throw in machine.throws for row in throw.rows]
     count = 2 * max((len(row) for row in given), default=1) or 2
     rows = [([side for one in row for side in _row(one)] + [_NONE] * count)[:count] for row in given]
-
     values = stacked([chamber[number] for number in range(7) for row in rows for chamber in row])
-    axes = np.broadcast_shapes(leading, values.shape[:-1])
-    table = np.broadcast_to(values, (*axes, values.shape[-1])).reshape(*axes, 7, len(rows), count)
+    table = values.reshape(*values.shape[:-1], 7, len(rows), count)
     area, low, high, clearance, expansion, compression, closed = np.moveaxis(table, -3, 0)
     return Chambers(area, low, high, clearance, expansion, compression, closed.astype(bool))
 

@@ -29,22 +29,19 @@ def internal_moment(layout: Layout, unbalance: Complex | None = None) -> Real:
     leading = np.broadcast_shapes(*(part.co.shape[:-1] for part in forces), *(part.shape[:-1] for part in places))
     place: Real = _joined(places, leading) - np.asarray(layout.centre_plane)[..., None]
     order = np.argsort(place, axis=-1)
-    arm = np.take_along_axis(place, order, axis=-1)
-    peaks = []
-    for side in (1, -1):
-        result = np.zeros(arm.shape)
-        for part in ("co", "counter"):
-            force = np.take_along_axis(_joined([getattr(one, part) for one in forces], leading), order, axis=-1)
-            couple = _of_side(arm[..., ::side], force[..., ::side])
-            result = result + np.abs(couple)
-        peaks.append(np.max(result, axis=-1, initial=0.0))
+    arm = np.take_along_axis(place, order, axis=-1)[..., None, :]
+    # both phasors beside each other
+    both = np.stack([_joined([getattr(one, part) for one in forces], leading) for part in ("co", "counter")], axis=-2)
+    force = np.take_along_axis(both, order[..., None, :], axis=-1)
+    peaks = [_largest_of_side(arm[..., ::side], force[..., ::side]) for side in (1, -1)]
     return np.maximum(*peaks)
 
 
-def _of_side(arm: Real, force: Complex) -> Complex:
-    """Couple of all forces (..., n) up to each, about the place of it."""
+def _largest_of_side(arm: Real, force: Complex) -> Real:
+    """Largest couple (...) of all forces (..., 2, n) up to each, about the place of it (..., 1, n)."""
     couple = arm * np.cumsum(force, axis=-1) - np.cumsum(arm * force, axis=-1)
-    return np.asarray(couple, dtype=complex)
+    result: Real = np.max(np.add.reduce(np.abs(couple), axis=-2), axis=-1, initial=0.0)
+    return result
 
 
 def _joined(parts: Sequence[Any], leading: tuple[int, ...]) -> Any:

@@ -13,6 +13,7 @@ import numpy as np
 
 from optimizer.mechanics.angles import direction
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.memoization import remembered
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.machine.rotor import Rotor
 from schemas.machine.scroll_machine import ScrollMachine
@@ -86,6 +87,7 @@ class Layout:
         return self.reference_plane is self.centre_plane
 
 
+@remembered
 def layout(machine: ReciprocatingMachine | ScrollMachine) -> Layout:
     """Arrays of one machine, or of many; rods are shared between crosshead and pin here.
 

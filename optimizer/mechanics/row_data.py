@@ -11,10 +11,10 @@ from optimizer.mechanics.gas import Chambers
 from optimizer.mechanics.indicated import Trace
 from optimizer.mechanics.kinematics import own_angle
 from optimizer.mechanics.layout import Layout
-from optimizer.numerics.arrays import Real, spread
+from optimizer.numerics.arrays import Real, in_order, spread
 
 if TYPE_CHECKING:
-    from optimizer.mechanics.kernel.rows import Rows
+    from optimizer.mechanics.kernel.rows import Rows, Tables
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,7 @@ class RowData:
             given[trace.row, trace.side] = number
         designs = max(len(motion), len(gas))
         motion, gas = (compact(spread(each, (designs, *each.shape[1:]))) for each in (motion, gas))
-        return Rows(motion, scale, compact(area), gas, given, self.exact)
+        return Rows(motion, scale, compact(area), gas, given, self.exact, _tables(self.traces))
 
     @property
     def _state(self) -> list[Real]:
@@ -120,12 +120,27 @@ def _opened(state: Sequence[Real], closed: Real) -> tuple[Real, Real]:
     return 2.0 * clearance * np.exp(log / expansion), 2.0 * (1.0 + clearance) * np.exp(-log / compression)
 
 
+def _tables(traces: Sequence[Trace]) -> "Tables":
+    """The pressures that traces give, as what is compiled takes them."""
+    from optimizer.mechanics.kernel.rows import Tables
+
+    number, designs = len(traces), max((len(each) for one in traces for each in (one.table, one.lead)), default=1)
+    sizes = [one.angle.shape for one in traces]
+    shape = (number, *(max(each) for each in zip(*sizes, strict=True))) if sizes else (0, 1, 1)
+    parts, lead, table = np.zeros((3, *shape)), np.empty((number, designs)), np.empty((number, designs), np.int64)
+    for k, (one, (tables, count)) in enumerate(zip(traces, sizes, strict=True)):
+        step = np.diff(one.angle, axis=-1)
+        parts[0, k, :tables, :count], parts[1, k, :tables, :count] = one.angle, one.pressure
+        parts[2, k, :tables, : count - 1] = np.diff(one.pressure, axis=-1) / np.where(step > 0.0, step, np.inf)
+        table[k], lead[k] = one.table, one.lead
+    counts, cycles = np.array([count for _, count in sizes], np.int64), np.array([one.cycle for one in traces])
+    angle, pressure, slope = parts
+    return Tables(angle, pressure, slope, counts, cycles, table, lead)
+
+
 def compact(values: Real) -> Real:
     """Values as what is compiled takes them: of any other layout it would be compiled once more."""
-    flags = values.flags
-    if values.dtype == float and flags.c_contiguous and flags.writeable:
-        return values
-    return np.require(values, float, ("C", "W"))
+    return in_order(np.asarray(values, float))
 
 
 def _together(values: Sequence[Real], shape: tuple[int, ...]) -> Real:

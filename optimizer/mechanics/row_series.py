@@ -6,16 +6,15 @@ Shapes: N designs or places, R rows, P angles.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optimizer.mechanics.row_data import RowData, compact
-from optimizer.numerics.arrays import Complex, Real, spread
+from optimizer.numerics.arrays import Complex, Real, in_order, spread
 from optimizer.responses.piecewise_cubics import Index
 
 if TYPE_CHECKING:
@@ -62,7 +61,7 @@ class RowSeries:
     def design(self) -> Index:
         """The design of each row of angles, (N,)."""
         given = np.arange(self.data.designs) if self.of_design is None else self.of_design
-        return np.require(given, np.int64, ("C", "W"))
+        return in_order(np.asarray(given, np.int64))
 
     def of(self, reading: Reading) -> Taylor:
         """Series of a force, N.
@@ -86,31 +85,31 @@ class RowSeries:
     def _made(self, reading: Reading) -> tuple[Real, Real]:
         from optimizer.mechanics.kernel.readings import READINGS, WITHOUT_GAS, row_series
 
-        rows, number = self.data.packed, READINGS.index(reading)
-        made = self._functions(reading not in WITHOUT_GAS)
-        found = [row_series(rows, functions, self.design, angles, number) for functions, angles in made]
+        rows, number, pressed = self.data.packed, READINGS.index(reading), reading not in WITHOUT_GAS
+        if known := self._known(pressed):
+            return row_series(rows, known, self.design, self.centre.shape[1], number)
+        found = [row_series(rows, made, self.design, angles, number) for made, angles in self._functions(pressed)]
         if len(found) == 1:
             return found[0]
         parts, radius = (np.concatenate(each, axis=-1) for each in zip(*found, strict=True))
         return parts, radius
+
+    def _known(self, pressed: bool) -> "Functions | None":
+        """What forces are made of, where that is kept: with gas it serves both."""
+        return self._functions_by_pressure.get(True) or self._functions_by_pressure.get(pressed)
 
     def _functions(self, pressed: bool) -> "Iterator[tuple[Functions, int]]":
         """What forces are made of, with gas where it is pressed, and of how many angles of a design: part by part, and
         kept where one part is all."""
         from optimizer.mechanics.kernel.rows import Places, row_functions
 
-        if known := self._functions_by_pressure.get(True, self._functions_by_pressure.get(pressed)):
-            yield known, self.centre.shape[1]
-            return
-        pressure, slope = pressures(self.data, self.design, self.centre, self.within)
         rows, angles = self.data.packed, self.centre.shape[1]
         # the pressures may differ between designs that have all else in common
-        once = len(rows.motion) == len(self.centre) == 1 and pressure.shape[1] <= 1
+        once = len(rows.motion) == len(self.centre) == 1 and rows.traces.table.shape[1] == 1
         design = self.design[:1] if once else self.design
         shape = (design.size, angles)
         centre, within = (spread(each, shape) for each in (self.centre, self.within))
         half = None if self.half is None else spread(self.half, shape)
-        traces = [spread(each, (len(pressure), *shape)) for each in (pressure, slope)]
         parts = max(1, min(-(-design.size * rows.motion.shape[1] * angles // AT_ONCE), angles))
         ends = [angles * part // parts for part in range(parts + 1)]
         for first, last in pairwise(ends):
@@ -120,7 +119,6 @@ class RowSeries:
                 _flat(centre[:, place]),
                 np.zeros(0) if half is None else _flat(half[:, place]),
                 _flat(within[:, place]),
-                *(compact(each[..., place]).reshape(len(pressure), design.size * (last - first)) for each in traces),
             )
             functions = row_functions(rows, places, self.order, pressed)
             if parts == 1:
@@ -130,30 +128,6 @@ class RowSeries:
     @cached_property
     def _functions_by_pressure(self) -> "dict[bool, Functions]":
         return {}
-
-
-def pressures(data: RowData, design: Index, centre: Real, within: Real) -> tuple[Real, Real]:
-    """Pressures [Pa] and their slopes [Pa/rad] of the traces (T, N or 1, P) at angles (N or 1, P) rad.
-
-    Parameters
-    ----------
-    design : (N,) which design each row of angles is of.
-    within : angles that say which process counts.
-    """
-    if not data.traces:
-        return np.zeros((0, 1, 1)), np.zeros((0, 1, 1))
-
-    def of_design(values: NDArray[Any]) -> NDArray[Any]:
-        """Values (N or 1, ...) of each row of angles; once where all designs have the same."""
-        return values[design] if len(values) > 1 else values
-
-    found = []
-    for trace in data.traces:
-        ahead = of_design(data.ahead[:, trace.row, None])
-        one = replace(trace, table=of_design(trace.table), lead=of_design(trace.lead))
-        found.append(one.at(centre + ahead, within + ahead))
-    pressure, slope = (np.stack(np.broadcast_arrays(*each)) for each in zip(*found, strict=True))
-    return pressure, np.broadcast_to(slope, pressure.shape)
 
 
 def _flat(values: Real) -> Real:

@@ -38,11 +38,13 @@ class RowWork:
 
     friction : (..., rows) N; None where there is none.
     chambers : of the rows, none of them with a table of pressures; None where there is no gas.
+    indicated : work put into the gas of every chamber in one turn (..., rows, C) J, where it is known already.
     """
 
     layout: Layout
     friction: Real | None
-    chambers: Chambers | None
+    chambers: Chambers | None = None
+    indicated: Real | None = None
 
     @cached_property
     def of_a_turn(self) -> Real:
@@ -95,7 +97,9 @@ class RowWork:
     @cached_property
     def _indicated(self) -> Real | None:
         """Work put into the gas of every chamber in one turn (..., rows, C) J."""
-        return None if self.chambers is None else indicated_work(self.chambers, self.layout)
+        if self.chambers is None or self.indicated is not None:
+            return self.indicated
+        return indicated_work(self.chambers, self.layout)
 
     @cached_property
     def _switching(self) -> tuple[Real, Real]:

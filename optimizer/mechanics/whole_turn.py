@@ -9,6 +9,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
@@ -21,8 +22,12 @@ from optimizer.mechanics.row_data import RowData, compact, shared
 from optimizer.mechanics.row_parts import RowParts
 from optimizer.mechanics.row_series import Reading, RowSeries, Taylor
 from optimizer.mechanics.turn import Turn, panels
-from optimizer.numerics.arrays import Complex, Real, spread
+from optimizer.numerics.arrays import Complex, Real, in_order, spread
 from optimizer.responses.piecewise_cubics import Index, Pieces
+
+if TYPE_CHECKING:
+    from optimizer.responses.kernel.parts import Asked, Best, Known
+
 
 #: rad, width of pieces that no break shortens
 _WIDEST = np.deg2rad(5.0)
@@ -188,7 +193,7 @@ class TurnCurves:
 
         whole = self.whole
         (points, _), bounds = whole.points.parts(self.reading), whole.bounds.parts(self.reading)
-        weights, constant = (np.require(each, complex, ("C", "W")) for each in (self.weights, self.constant))
+        weights, constant = (in_order(np.asarray(each, complex)) for each in (self.weights, self.constant))
         cubic, rest, size = sums_of_rows(weights, constant, points, *bounds, compact(whole.half))
         centre, half = (np.repeat(each, self.weights.shape[1], axis=0) for each in (whole.centre, whole.half))
         return Pieces(centre, half, cubic, rest, size, source=self)
@@ -280,6 +285,10 @@ class TurnCurves:
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
         """The curves at angles (m,) within pieces, ends included."""
         return self._series.values(curve, piece, angle)
+
+    def search(self, known: "Known", asked: "Asked", best: "Best") -> Complex:
+        """Peaks of the curves, compiled."""
+        return self._series.search(known, asked, best)
 
     @cached_property
     def _series(self) -> CurveSeries:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, in_order
 
 
 class Circle(NamedTuple):
@@ -31,4 +31,4 @@ def smallest_circle(points: Complex) -> Circle:
     """
     from optimizer.numerics.kernel.circle import smallest
 
-    return Circle(*smallest(np.require(points, complex, ("C", "W"))))
+    return Circle(*smallest(in_order(np.asarray(points, complex))))

@@ -9,6 +9,7 @@ from optimizer.mechanics.balance_rate import balance_rates, customary
 from optimizer.mechanics.crank_of_web import shares
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.memoization import remembered
 from optimizer.outputs.output import Columns, Output
 from schemas.answer.answers import BalanceRate
 from schemas.answer.outputs import labels
@@ -32,6 +33,7 @@ class Cranks(NamedTuple):
         return customary(self.rotating, self.shares)
 
 
+@remembered
 def cranks(machine: ReciprocatingMachine) -> Cranks:
     """Throws of a machine and their webs; its fields may hold columns (n,)."""
     masses = [throw.rotating_mass_kg + sum(row.rotating_kg for row in throw.rows) for throw in machine.throws]

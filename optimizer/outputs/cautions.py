@@ -230,10 +230,9 @@ def _not_closed(told: Told) -> Iterator[Caution]:
     for output, field in told.fields.items():
         if not isinstance(field, Model) or not any(_bracketed(field.__class__)):
             continue
-        brackets = list(_brackets(field))
+        brackets = [(name, found) for name, found in _brackets(field) if _is_wide(*found)]
         for unit, size in (("N", force), ("Nm", moment)):
-            of_unit = [found for name, found in brackets if _of(name, unit)]
-            wide = [found for found in of_unit if _width(found) > _ALIKE * max(abs(found[0]), abs(found[1]))]
+            wide = [found for name, found in brackets if _of(name, unit)]
             if not wide:
                 continue
             values = _values(field)
@@ -257,19 +256,22 @@ def _width(bracket: Sequence[float]) -> float:
     return bracket[1] - bracket[0]
 
 
-def _brackets(field: Any) -> Iterator[tuple[str, tuple[float, float]]]:
+def _is_wide(low: float, high: float) -> bool:
+    return high - low > _ALIKE * max(abs(low), abs(high))
+
+
+def _brackets(field: Any) -> list[tuple[str, tuple[float, float]]]:
     """Names and contents of all brackets in the models of an answer."""
-    if isinstance(field, Model):
-        own, others = _bracketed(field.__class__)
-        for name in own:
-            content = getattr(field, name)
-            if content is not None:
-                yield name, content
-        for name in others:
-            yield from _brackets(getattr(field, name))
-    elif isinstance(field, tuple):
-        for item in field:
-            yield from _brackets(item)
+    if isinstance(field, tuple):
+        return [found for item in field for found in _brackets(item)]
+    if not isinstance(field, Model):
+        return []
+    own, others = _bracketed(field.__class__)
+    every = [(name, getattr(field, name)) for name in own]
+    found = [(name, content) for name, content in every if content is not None]
+    for name in others:
+        found += _brackets(getattr(field, name))
+    return found
 
 
 @cache

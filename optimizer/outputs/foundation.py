@@ -1,5 +1,6 @@
 """Loads on the foundation by order: without counterweights, with them, and as built."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -28,7 +29,6 @@ _UNITS = {"force_x": "N", "force_y": "N", "couple_of_x_forces": "Nm", "couple_of
 
 def foundation_loads(scene: Prepared, unbalance: Complex | None) -> tuple[OrderOfFoundation, ...]:
     """Loads of the orders of a request, one machine."""
-    bare = np.zeros(len(scene.machine.webs), complex)
     sets: dict[str, tuple[Prepared, Complex | None]] = {"before": (scene, None)}
     if unbalance is not None:
         sets["after"] = (scene, unbalance)
@@ -36,13 +36,10 @@ def foundation_loads(scene: Prepared, unbalance: Complex | None) -> tuple[OrderO
     if built is not None:
         sets["as_built"] = built
     reference = dead_centre_deg(scene.machine)
-    told = {
-        name: _loads(scene_of_set, vectors, bare if vectors is None else vectors, reference)
-        for name, (scene_of_set, vectors) in sets.items()
-    }
+    of_sets = dict(zip(sets, _loads(scene, list(sets.values()), reference), strict=True))
     return tuple(
         OrderOfFoundation.model_validate(
-            {"order": order, "dead_centre_deg": reference, **{name: loads[order] for name, loads in told.items()}}
+            {"order": order, "dead_centre_deg": reference, **{name: loads[order] for name, loads in of_sets.items()}}
         )
         for order in scene.request.foundation_orders
     )
@@ -68,17 +65,25 @@ def _as_built(scene: Prepared) -> tuple[Prepared, Complex] | None:
     return replace(scene, shafts=built.on_shafts), built.on_crank
 
 
-def _loads(scene: Prepared, vectors: Complex | None, weights: Complex, reference: float) -> dict[int, dict[str, Any]]:
-    wrenches, orders = by_order(scene, vectors), scene.request.foundation_orders
-    sense, negligible = scene.layout.sense, rounding(scene.layout, weights)
+def _loads(
+    scene: Prepared, sets: Sequence[tuple[Prepared, Complex | None]], reference: float
+) -> list[dict[int, dict[str, Any]]]:
+    """Fields of the loads of all orders with sets of counterweights, all sets at once."""
+    orders, bare = scene.request.foundation_orders, np.zeros(len(scene.machine.webs), complex)
+    wrenches = [by_order(fitted_scene, vectors) for fitted_scene, vectors in sets]
     # odd orders above the first vanish for a slider-crank
-    phasors = vectors_of([wrenches.get(order, _NOTHING) for order in orders])
-    pairs = (Phasors(phasors[:, k, 0], phasors[:, k, 1]) for k in range(2))
-    loads = foundation_load(Wrench(*pairs), np.array(orders), sense, np.asarray(reference), negligible)
-    found: dict[int, dict[str, Any]] = {order: {} for order in orders}
+    every = [[vectors_of(of_set.get(order, _NOTHING)) for order in orders] for of_set in wrenches]
+    phasors = np.array(every).transpose(2, 3, 0, 1)
+    weights = np.array([bare if vectors is None else vectors for _, vectors in sets])
+    force, couple = (least[:, None] for least in rounding(scene.layout, weights))
+    wrench = Wrench(*(Phasors(*pair) for pair in phasors))
+    loads = foundation_load(wrench, np.array(orders), scene.layout.sense, np.asarray(reference), (force, couple))
+    found: list[dict[int, dict[str, Any]]] = [{order: {} for order in orders} for _ in sets]
     for name, load in loads._asdict().items():
-        for order, amplitude, phase in zip(orders, load.amplitude.tolist(), load.phase_deg.tolist(), strict=True):
-            found[order][name] = {f"amplitude_{_UNITS[name]}": amplitude, "phase_deg": phase}
+        unit = _UNITS[name]
+        for of_set, amplitudes, phases in zip(found, load.amplitude.tolist(), load.phase_deg.tolist(), strict=True):
+            for order, amplitude, phase in zip(orders, amplitudes, phases, strict=True):
+                of_set[order][name] = {f"amplitude_{unit}": amplitude, "phase_deg": phase}
     return found
 
 

@@ -56,8 +56,13 @@ class Search(NamedTuple):
     sign: Real | float = 0.0  # (m,) as in :meth:`Pieces.peaks`
     group: Index | None = None  # (m,) from 0, where only the largest of each group is shown
 
+    @property
+    def peaks(self) -> Bracket:
+        """What is found of it alone."""
+        return self.curves.pieces.peaks(self.offset, TOLERANCE, self.number, self.group, self.sign)
 
-def searched(searches: Iterable[Search]) -> dict[tuple[Hashable, ...], Bracket]:
+
+def searched(scene: Prepared, searches: Iterable[Search]) -> dict[tuple[Hashable, ...], Bracket]:
     """Brackets (m,), or (groups,), of all searches of one machine, each as if it were alone."""
     every = list({each.name: each for each in searches}.values())
     if not every:
@@ -72,7 +77,7 @@ def searched(searches: Iterable[Search]) -> dict[tuple[Hashable, ...], Bracket]:
     groups = [np.arange(each.number.size) if each.group is None else each.group for each in every]
     ends = np.cumsum([0, *(int(np.max(group, initial=-1)) + 1 for group in groups)]).tolist()
     group = np.concatenate([one + end for one, end in zip(groups, ends, strict=False)])
-    found = batch.pieces.peaks(offset, TOLERANCE, number, group, sign)
+    found = _reshaped(scene, batch.pieces.peaks(offset, TOLERANCE, number, group, sign))
     return {
         each.name: Bracket._make(part[slice(*own)] for part in found)
         for each, own in zip(every, pairwise(ends), strict=True)
@@ -82,9 +87,7 @@ def searched(searches: Iterable[Search]) -> dict[tuple[Hashable, ...], Bracket]:
 def peaks_of(scene: Prepared, search: Search) -> Bracket:
     """What has been searched together with all else, or else is searched now."""
     known = scene.brackets.get(search.name)
-    if known is not None:
-        return known
-    return search.curves.pieces.peaks(search.offset, TOLERANCE, search.number, search.group, search.sign)
+    return _reshaped(scene, search.peaks) if known is None else known
 
 
 def rows_search(scene: Prepared, reading: Reading) -> Search:
@@ -104,10 +107,10 @@ def _rows_name(reading: Reading) -> tuple[Hashable, ...]:
 
 def of_rows(scene: Prepared, reading: Reading) -> Extremes:
     """Of a force of every row, (..., rows)."""
-    found = scene.brackets.get(_rows_name(reading))
-    if found is None:
-        found = peaks_of(scene, rows_search(scene, reading))
-    return Extremes(*(_reshaped(scene, part) for part in _parts(found, 2)))
+    known = scene.brackets.get(_rows_name(reading))
+    if known is not None:
+        return Extremes(*_parts(known, 2))
+    return Extremes(*(_reshaped(scene, part) for part in _parts(rows_search(scene, reading).peaks, 2)))
 
 
 def largest_of_rows(scene: Prepared, reading: Reading) -> Bracket:
@@ -131,7 +134,7 @@ def torque_search(scene: Prepared, constant: Real | float = 0.0) -> Search:
 
 def of_torque(scene: Prepared, constant: Real | float = 0.0) -> Bracket:
     """The same: (...)."""
-    return _one(_reshaped(scene, peaks_of(scene, torque_search(scene, constant))))
+    return _one(peaks_of(scene, torque_search(scene, constant)))
 
 
 def of_shaft(scene: Prepared, found: ShaftCurves, unbalance: Complex | None, group: Index | None = None) -> Bracket:
@@ -145,7 +148,7 @@ def of_shaft(scene: Prepared, found: ShaftCurves, unbalance: Complex | None, gro
     if group is not None:
         designs = np.arange(len(pieces.half) // group.size)
         group = (designs[:, None] * (np.max(group) + 1) + group).reshape(-1)
-    return _times_square(scene, pieces.peaks(found.offsets(unbalance), TOLERANCE, None, group))
+    return _times_square(scene, _reshaped(scene, pieces.peaks(found.offsets(unbalance), TOLERANCE, None, group)))
 
 
 def shaft_search(found: ShaftCurves, unbalances: Sequence[Complex | None]) -> Search:
@@ -186,8 +189,8 @@ def one_by_one(alone: int, together: int) -> Index:
 
 
 def _times_square(scene: Prepared, found: Bracket) -> Bracket:
-    """Times omega^2, with the leading axes of the scene."""
-    angle, value, lower, upper = _reshaped(scene, found)
+    """Times omega^2."""
+    angle, value, lower, upper = found
     square = scene.layout.omega[..., None] ** 2
     return Bracket(angle, value * square, lower * square, upper * square)
 

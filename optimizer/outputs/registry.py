@@ -100,12 +100,13 @@ def fields(
     outputs = dict.fromkeys((*always, *scene.request.outputs))
     scene = replace(scene, brackets={})
     searches = (search for name in outputs for search in OUTPUTS[name].searches(scene, unbalance))
-    scene.brackets.update(searched(searches))
+    scene.brackets.update(searched(scene, searches))
     results = {name: OUTPUTS[name].figure(scene, unbalance) for name in outputs}
     if all(effect in scene.results for effect in FIRST_ORDER_EFFECTS):
         results["balance_quality"] = balance_quality(scene, unbalance)
         results["floor"] = floor(scene.layout, scene.first_order())
-    results["balance_rate"] = balance_rate(scene.machine, unbalance)
+    if BALANCE_RATE.name not in results:
+        results[BALANCE_RATE.name] = balance_rate(scene.machine, unbalance)
     results["warnings"] = cautions(scene, unbalance, results, proven)
     return results
 

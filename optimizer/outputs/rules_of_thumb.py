@@ -6,11 +6,10 @@ co-rotating phasor with 2 k |co|. For a single row |co| = |counter| = F0/2, so k
 altogether, which leaves a circle that turns against the shaft.
 """
 
+import math
 from typing import NamedTuple
 
-import numpy as np
-
-from optimizer.responses.response import Phasors
+from optimizer.outputs.ellipses import Ellipse
 from schemas.answer.outputs import RuleOfThumb
 
 #: the smaller phasor over the larger one below which the ellipse is a circle, or above 1 minus which it is a line
@@ -32,7 +31,7 @@ _SOURCE = "lecture slides on balancing (Уравновешивание)"
 _HALF_SUM = Rule("half the sum of the extremes", f"{_SOURCE}, V type", 0.5)
 
 
-def force_rules(first: Phasors, square: float) -> tuple[RuleOfThumb, ...]:
+def force_rules(first: Ellipse, square: float) -> tuple[RuleOfThumb, ...]:
     """Rules for first-order reciprocating forces, stage III.
 
     In-line forces, which keep to one direction: 20 % and 30 % where that is nearer the vertical (y), 30 %
@@ -53,7 +52,7 @@ def force_rules(first: Phasors, square: float) -> tuple[RuleOfThumb, ...]:
     return tuple(_figures(rule, first, square, 1.0) for rule in rules)
 
 
-def moment_rules(first: Phasors, square: float, span_m: float) -> tuple[RuleOfThumb, ...]:
+def moment_rules(first: Ellipse, square: float, span_m: float) -> tuple[RuleOfThumb, ...]:
     """Rules for their moments, stage IV: 15 % and 50 % where nearer the vertical, 50 % where nearer the horizontal.
 
     Two counterweights on opposite sides of the shaft in planes ``span_m`` apart make the couple
@@ -72,19 +71,18 @@ def moment_rules(first: Phasors, square: float, span_m: float) -> tuple[RuleOfTh
     return tuple(_figures(rule, first, square, 2.0 / span_m) for rule in rules)
 
 
-def _figures(rule: Rule, first: Phasors, square: float, iron: float) -> RuleOfThumb:
+def _figures(rule: Rule, first: Ellipse, square: float, iron: float) -> RuleOfThumb:
     """What a rule leaves; ``iron`` is the total mass-radius product for one unit of the response over omega^2."""
-    co, counter = float(abs(first.co)), float(abs(first.counter))
-    left = (1.0 - 2.0 * rule.share) * co
+    left = (1.0 - 2.0 * rule.share) * first.co
     return RuleOfThumb(
         name=rule.name,
         source=rule.source,
         transferred_share=rule.share,
-        total_mass_radius_kg_m=2.0 * rule.share * co * iron,
-        peak=(abs(left) + counter) * square,
+        total_mass_radius_kg_m=2.0 * rule.share * first.co * iron,
+        peak=(abs(left) + first.counter) * square,
         # the major axis is where both phasors point the same way, the minor axis where they are opposed
-        peak_along=abs(left + counter) * square,
-        peak_across=abs(left - counter) * square,
+        peak_along=abs(left + first.counter) * square,
+        peak_across=abs(left - first.counter) * square,
     )
 
 
@@ -94,16 +92,15 @@ def _transfer(what: str, share: float, vertical: bool) -> Rule:
     return Rule(f"transfer {100 * share:.0f} % of the first-order {what}", f"{_SOURCE}, {layout}, {orientation}", share)
 
 
-def _is_circle(pair: Phasors) -> bool:
-    magnitudes = abs(pair.co), abs(pair.counter)
-    return bool(min(magnitudes) <= SHAPE_TOLERANCE * max(magnitudes))
+def _is_circle(pair: Ellipse) -> bool:
+    return min(pair.co, pair.counter) <= SHAPE_TOLERANCE * max(pair.co, pair.counter)
 
 
-def _is_line(pair: Phasors) -> bool:
-    return bool(pair.peak > 0 and pair.minor <= SHAPE_TOLERANCE * pair.peak)
+def _is_line(pair: Ellipse) -> bool:
+    return pair.peak > 0.0 and pair.minor <= SHAPE_TOLERANCE * pair.peak
 
 
-def _is_vertical(pair: Phasors) -> bool:
+def _is_vertical(pair: Ellipse) -> bool:
     """Whether the major axis lies nearer y than x; at 45 degrees it is called horizontal."""
-    axis = np.deg2rad(pair.major_axis_deg)
-    return bool(abs(np.sin(axis)) > abs(np.cos(axis)) * (1.0 + SHAPE_TOLERANCE))
+    axis = math.radians(pair.axis_deg)
+    return abs(math.sin(axis)) > abs(math.cos(axis)) * (1.0 + SHAPE_TOLERANCE)

@@ -11,12 +11,11 @@ from typing import Literal
 
 import numpy as np
 
-from optimizer.mechanics.angles import angle_deg
 from optimizer.mechanics.inertia import Wrench, reciprocating, rotating
 from optimizer.mechanics.layout import Layout
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex
+from optimizer.outputs.ellipses import Ellipse
 from optimizer.outputs.rules_of_thumb import ONE_PLANE_M
-from optimizer.responses.response import Phasors
 from schemas.answer.stages import Acting, StageIron
 
 #: the smaller phasor over the larger one below which it counts as none: an optimum leaves what the asked gap allows
@@ -24,49 +23,40 @@ _SHAPE = 1e-6
 Motion = Literal["none", "with_shaft", "against_shaft", "fixed", "ellipse"]
 
 
-def actings(parts: Sequence[tuple[Wrench, int]], speed: float, noise: tuple[float, float]) -> tuple[Acting, ...]:
-    """Force and moment of each of some wrenches of an order.
+def actings(parts: Sequence[tuple[Ellipse, int]], speed: float, noise: tuple[float, float]) -> tuple[Acting, ...]:
+    """Force and moment, in turn, of some wrenches, each with its order.
 
     Parameters
     ----------
     speed : rad/s.
     noise : force and moment that are none where they are no larger than this.
     """
-    pairs = [pair for wrench, _ in parts for pair in wrench]
-    every = Phasors(np.array([pair.co for pair in pairs]), np.array([pair.counter for pair in pairs]))
-    motions = _motions(every, np.tile(noise, len(parts)))
-    sizes = zip(every.peak.tolist(), every.minor.tolist(), strict=True)
-    orders = [(order, moment) for _, order in parts for moment in (False, True)]
-    return tuple(
-        Acting(
-            quantity="moment" if moment else "force",
-            order=order,
-            frequency_Hz=order * speed / (2.0 * np.pi),
-            unit="N m" if moment else "N",
-            peak=0.0 if motion == "none" else peak,
-            minor=0.0 if motion == "none" else minor,
-            motion=motion,
-            direction_deg=direction,
-        )
-        for (order, moment), (motion, direction), (peak, minor) in zip(orders, motions, sizes, strict=True)
+    return tuple(_acting(*part, k % 2 == 1, speed, noise[k % 2]) for k, part in enumerate(parts))
+
+
+def _acting(pair: Ellipse, order: int, moment: bool, speed: float, noise: float) -> Acting:
+    motion, direction = _motion(pair, noise)
+    return Acting(
+        quantity="moment" if moment else "force",
+        order=order,
+        frequency_Hz=order * speed / (2.0 * np.pi),
+        unit="N m" if moment else "N",
+        peak=0.0 if motion == "none" else pair.peak,
+        minor=0.0 if motion == "none" else pair.minor,
+        motion=motion,
+        direction_deg=direction,
     )
 
 
-def _motions(pairs: Phasors, noise: Real) -> list[tuple[Motion, float | None]]:
-    """How pairs (n,) move, and in which direction."""
-    co, counter, peak = np.abs(pairs.co), np.abs(pairs.counter), pairs.peak
-    with_shaft, against = counter <= _SHAPE * co, co <= _SHAPE * counter
-    fixed, axis = pairs.minor <= _SHAPE * peak, np.mod(pairs.major_axis_deg, 180.0)
-    turning = np.mod(angle_deg(np.where(with_shaft, pairs.co, pairs.counter)), 360.0)
-    found: list[tuple[Motion, float | None]] = []
-    for k, some in enumerate((peak > noise).tolist()):
-        if not some:
-            found.append(("none", None))
-        elif with_shaft[k] or against[k]:
-            found.append(("with_shaft" if with_shaft[k] else "against_shaft", float(turning[k])))
-        else:
-            found.append(("fixed" if fixed[k] else "ellipse", float(axis[k])))
-    return found
+def _motion(pair: Ellipse, noise: float) -> tuple[Motion, float | None]:
+    """How a pair moves, and in which direction."""
+    if not pair.peak > noise:
+        return "none", None
+    if pair.counter <= _SHAPE * pair.co:
+        return "with_shaft", pair.co_deg
+    if pair.co <= _SHAPE * pair.counter:
+        return "against_shaft", pair.counter_deg
+    return "fixed" if pair.minor <= _SHAPE * pair.peak else "ellipse", pair.axis_deg
 
 
 def about_centre(layout: Layout, turning: Wrench, first: Wrench) -> tuple[Layout, Wrench, Wrench]:

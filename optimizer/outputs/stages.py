@@ -12,15 +12,16 @@ counterweights every ``remaining`` equals its ``value``. Where there are webs in
 this way exists.
 """
 
+from collections.abc import Sequence
 from typing import Literal, NamedTuple
 
 import numpy as np
 
 from optimizer.formulation.simulation import Prepared
-from optimizer.mechanics.angles import angle_deg
 from optimizer.mechanics.inertia import Wrench, counterweights
 from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.outputs.ellipses import Ellipse, ellipses
 from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.rules_of_thumb import ONE_PLANE_M, SHAPE_TOLERANCE, force_rules, moment_rules
 from optimizer.outputs.stage_parts import about_centre, actings, iron
@@ -95,6 +96,10 @@ _VIII = _Heading(
     "|R + A1| + |B1| + |A2| + |B2|",
     "N",
 )
+_HEADINGS = (_I, _II, _III, _IV, _V, _VI, _VII, _VIII)
+#: of forces and moments of the stages I to VI, and of what stage VIII sums up
+_ORDERS, _OF_BOTH = (1, 1, 1, 1, 2, 2), (1, 1, 2, 2)
+_NAMES = ("first-order force", "first-order moment", "second-order force", "second-order moment")
 
 
 def stages(
@@ -110,51 +115,47 @@ def stages(
     unbalance : (webs,) mass-radius products m R e^{ja} of the counterweights, kg m; None where there are
         none to show (infeasible), which leaves ``remaining`` null.
     """
-    square, speed = layout.omega**2, float(layout.omega)
-    value = amounts(layout, turning, first, second, None)
-    remaining = None if unbalance is None else amounts(layout, turning, first, second, unbalance)
-    planes = layout.webs.position
+    square, speed, planes = layout.omega**2, float(layout.omega), layout.webs.position
     span = float(np.ptp(planes)) if planes.size else 0.0
-    in_planes = iron(layout, turning, first)
-    rules = {_III: force_rules(first.force, float(square)), _IV: moment_rules(first.moment, float(square), span)}
+    in_planes, missing = iron(layout, turning, first), _Missing(*about_centre(layout, turning, first))
+    over_square = tuple(first)
     turning, first, second = (part.times(square) for part in (turning, first, second))
-    fitted = None if unbalance is None else counterweights(layout, unbalance).times(square)
+    both = turning.plus(first)
+    left, whole = [turning, first, second], both
+    if unbalance is not None:
+        fitted = counterweights(layout, unbalance).times(square)
+        left, whole = [*_superpose(turning, first, fitted), second], both.plus(fitted)
+    shown = [pair for part in (turning, first, second, *left, both, second, whole, second) for pair in part]
+    *found, of_force, of_moment = ellipses([*shown, *over_square])
+    was, now, of_all, all_left = found[:6], found[6:12], found[12:16], found[16:]
     scale = _scale(layout)
     noise = (_ROUNDING * scale[0], _ROUNDING * scale[1])
-    own = ((turning, 1), (first, 1), (second, 2))
-    kept = None if fitted is None else _superpose(turning, first, fitted)
-    left = () if kept is None else ((kept[0], 1), (kept[1], 1), (second, 2))
-    whole = turning.plus(first) if fitted is None else turning.plus(first).plus(fitted)
-    both = ((turning.plus(first), 1), (second, 2), (whole, 1), (second, 2))
-    shown = actings((*own, *left, *both), speed, noise)
-    before, after, of_all, all_left = shown[:6], None if kept is None else shown[6:-8], shown[-8:-4], shown[-4:]
-
-    def shape(heading: _Heading, order: int, wrench: Wrench) -> _Shape:
-        pair = wrench.force if heading.unit == "N" else wrench.moment
-        return _Shape(_plane(pair), _frequency(order, speed), _balanceable(pair, order))
-
-    shapes = {
-        _I: shape(_I, 1, turning),
-        _II: shape(_II, 1, turning),
-        _III: shape(_III, 1, first),
-        _IV: shape(_IV, 1, first),
-        _V: shape(_V, 2, second),
-        _VI: shape(_VI, 2, second),
-        _VII: _Shape(_planes_of_iron(planes), _frequency(1, speed), "fully"),
-        _VIII: _summary(layout, turning.plus(first), second, fitted),
-    }
+    before, after, summed, what_is_left = (
+        actings(list(zip(pairs, orders, strict=True)), speed, noise)
+        for pairs, orders in ((was, _ORDERS), (now, _ORDERS), (of_all, _OF_BOTH), (all_left, _OF_BOTH))
+    )
+    value = [*(pair.peak for pair in was), float(missing.of(None)), of_all[0].peak + of_all[2].peak]
+    remaining: list[float | None] = [None] * len(value)
+    if unbalance is not None:
+        remaining = [*(pair.peak for pair in now), float(missing.of(unbalance)), all_left[0].peak + all_left[2].peak]
+    shapes = [
+        _Shape(_plane(pair), _frequency(n, speed), _balanceable(pair, n)) for pair, n in zip(was, _ORDERS, strict=True)
+    ]
+    shapes.append(_Shape(_planes_of_iron(planes), _frequency(1, speed), "fully"))
+    shapes.append(_summary(of_all, all_left, scale, speed))
+    rules = {_III: force_rules(of_force, float(square)), _IV: moment_rules(of_moment, float(square), span)}
     return tuple(
         Stage(
             **heading._asdict(),
-            **result._asdict(),
-            value=float(value[k]),
-            remaining=None if remaining is None else float(remaining[k]),
-            acting=of_all if heading is _VIII else before[k : k + 1],
-            left=None if after is None else all_left if heading is _VIII else after[k : k + 1],
+            **shape._asdict(),
+            value=value[k],
+            remaining=remaining[k],
+            acting=summed if heading is _VIII else before[k : k + 1],
+            left=None if unbalance is None else what_is_left if heading is _VIII else after[k : k + 1],
             iron=in_planes if heading is _VII else (),
             rules_of_thumb=rules.get(heading, ()),
         )
-        for k, (heading, result) in enumerate(shapes.items())
+        for k, (heading, shape) in enumerate(zip(_HEADINGS, shapes, strict=True))
     )
 
 
@@ -167,7 +168,7 @@ def amounts(layout: Layout, turning: Wrench, first: Wrench, second: Wrench, unba
     turning, first, second : as for :func:`stages`.
     """
     square = layout.omega**2
-    missing = _missing(*about_centre(layout, turning, first), unbalance)
+    missing = _Missing(*about_centre(layout, turning, first)).of(unbalance)
     turning, first, second = (part.times(square) for part in (turning, first, second))
     both = turning.plus(first)
     if unbalance is not None:
@@ -197,19 +198,25 @@ def _split(turning: Phasors, first: Phasors, fitted: Phasors) -> tuple[Phasors, 
     )
 
 
-def _missing(centred: Layout, turning: Wrench, first: Wrench, unbalance: Complex | None) -> Real:
+class _Missing:
     """Stage VII: |u1| + |u2| of two planes that cancel all that turns with the shaft, (...) kg m."""
-    wrench = turning.plus(first)
-    if unbalance is not None:
-        wrench = wrench.plus(counterweights(centred, unbalance))
-    force, couple = wrench.force.co, wrench.moment.co
-    planes, centre = centred.webs.position, centred.centre_plane
-    if planes.shape[-1] == 0:
-        return np.abs(force)
-    low, high = np.min(planes, axis=-1), np.max(planes, axis=-1)
-    apart = high - low > ONE_PLANE_M
-    ends = np.abs(couple - (high - centre) * force) + np.abs(couple - (low - centre) * force)
-    return np.where(apart, ends / np.where(apart, high - low, 1.0), np.abs(force))
+
+    def __init__(self, centred: Layout, turning: Wrench, first: Wrench) -> None:
+        self._centred, self._wrench = centred, turning.plus(first)
+
+    def of(self, unbalance: Complex | None) -> Real:
+        """With counterweights (..., webs) kg m, or without."""
+        centred, wrench = self._centred, self._wrench
+        if unbalance is not None:
+            wrench = wrench.plus(counterweights(centred, unbalance))
+        force, couple = wrench.force.co, wrench.moment.co
+        planes, centre = centred.webs.position, centred.centre_plane
+        if planes.shape[-1] == 0:
+            return np.abs(force)
+        low, high = np.min(planes, axis=-1), np.max(planes, axis=-1)
+        apart = high - low > ONE_PLANE_M
+        ends = np.abs(couple - (high - centre) * force) + np.abs(couple - (low - centre) * force)
+        return np.where(apart, ends / np.where(apart, high - low, 1.0), np.abs(force))
 
 
 def _planes_of_iron(planes: Real) -> str:
@@ -222,21 +229,25 @@ def _planes_of_iron(planes: Real) -> str:
     return f"plane z = {low:.6g} m, force only"
 
 
-def _summary(layout: Layout, first: Wrench, second: Wrench, fitted: Wrench | None) -> _Shape:
-    """Stage VIII: every force and moment of orders 1 and 2 together."""
-    after = first if fitted is None else first.plus(fitted)
-    names = ("first-order force", "first-order moment", "second-order force", "second-order moment")
-    parts = list(zip(names, (1, 1, 2, 2), (*first, *second), (*after, *second), strict=True))
-    force, moment = _scale(layout)
-    sizes = (force, moment, force, moment)
-    left = [part for part, size in zip(parts, sizes, strict=True) if part[3].peak > _NEGLIGIBLE * size]
-    words = [f"{name} {pair.peak:.5g} {'N' if 'force' in name else 'N m'}, {_plane(pair)}" for name, _, _, pair in left]
-    orders = sorted({order for _, order, _, _ in left})
-    verdicts = {_balanceable(was, order) for _, order, was, _ in parts if was.peak > 0} or {"fully"}
+def _summary(was: Sequence[Ellipse], left: Sequence[Ellipse], scale: tuple[float, float], speed: float) -> _Shape:
+    """Stage VIII: every force and moment of orders 1 and 2 together.
+
+    Parameters
+    ----------
+    was, left : force and moment of the first order, then of the second, without and with counterweights.
+    scale : of the machine, N and N m.
+    """
+    orders, words, verdicts = set[int](), [], set[Balanceable]()
+    for k, (name, order, before, after) in enumerate(zip(_NAMES, _OF_BOTH, was, left, strict=True)):
+        if after.peak > _NEGLIGIBLE * scale[k % 2]:
+            orders.add(order)
+            words.append(f"{name} {after.peak:.5g} {('N', 'N m')[k % 2]}, {_plane(after)}")
+        if before.peak > 0:
+            verdicts.add(_balanceable(before, order))
     return _Shape(
         plane="; ".join(words) or "none",
-        frequency=", ".join(_frequency(order, float(layout.omega)) for order in orders) or "none",
-        balanceable=verdicts.pop() if len(verdicts) == 1 else "partly",
+        frequency=", ".join(_frequency(order, speed) for order in sorted(orders)) or "none",
+        balanceable="partly" if len(verdicts) > 1 else next(iter(verdicts), "fully"),
     )
 
 
@@ -249,31 +260,29 @@ def _scale(layout: Layout) -> tuple[float, float]:
     return force, force * float(np.ptp(planes))
 
 
-def _balanceable(pair: Phasors, order: int) -> Balanceable:
+def _balanceable(pair: Ellipse, order: int) -> Balanceable:
     """Whether counterweights on the shaft can balance a pair: only the co-rotating phasor of the first order."""
-    co, counter = np.abs(pair.co), np.abs(pair.counter)
-    if pair.peak == 0 or (order == 1 and counter <= SHAPE_TOLERANCE * co):
+    if pair.peak == 0 or (order == 1 and pair.counter <= SHAPE_TOLERANCE * pair.co):
         return "fully"
-    return "no" if order > 1 or co <= SHAPE_TOLERANCE * counter else "partly"
+    return "no" if order > 1 or pair.co <= SHAPE_TOLERANCE * pair.counter else "partly"
 
 
-def _plane(pair: Phasors) -> str:
+def _plane(pair: Ellipse) -> str:
     """Direction of a force, or the direction that spans the plane of a couple together with the shaft."""
-    co, counter = np.abs(pair.co), np.abs(pair.counter)
     if pair.peak == 0:
         return "none"
-    if counter <= SHAPE_TOLERANCE * co:
-        return f"rotates with the shaft, at {_degrees(angle_deg(pair.co), 360)} deg at shaft angle 0"
-    if co <= SHAPE_TOLERANCE * counter:
-        return f"rotates against the shaft, at {_degrees(angle_deg(pair.counter), 360)} deg at shaft angle 0"
-    axis = _degrees(pair.major_axis_deg, 180)
+    if pair.counter <= SHAPE_TOLERANCE * pair.co:
+        return f"rotates with the shaft, at {_degrees(pair.co_deg, 360)} deg at shaft angle 0"
+    if pair.co <= SHAPE_TOLERANCE * pair.counter:
+        return f"rotates against the shaft, at {_degrees(pair.counter_deg, 360)} deg at shaft angle 0"
+    axis = _degrees(pair.axis_deg, 180)
     if pair.minor <= SHAPE_TOLERANCE * pair.peak:
         return f"along {axis} deg (fixed direction)"
     return f"ellipse, major axis {axis} deg"
 
 
-def _degrees(angle: Real, period: int) -> str:
-    return f"{round(float(angle), 1) % period:.1f}"
+def _degrees(angle: float, period: int) -> str:
+    return f"{round(angle, 1) % period:.1f}"
 
 
 def _frequency(order: int, speed: float) -> str:

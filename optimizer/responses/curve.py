@@ -16,7 +16,7 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, Reals
+from optimizer.numerics.arrays import Complex, Real, Reals, in_order
 from optimizer.numerics.enclosing_circle import Circle, smallest_circle
 from optimizer.responses.added_harmonics import Harmonics, moved
 from optimizer.responses.piecewise_cubics import Bracket, Index, Pieces
@@ -232,7 +232,7 @@ def floors(
         of = open_[which]
         there = (number[of], piece)
         middle, half = pieces.centre[there], pieces.half[there]
-        step = nearer(np.require(pieces.source.cubics(*there, near, half), complex, ("C", "W")), centre[of])
+        step = nearer(in_order(np.asarray(pieces.source.cubics(*there, near, half), complex)), centre[of])
         near = np.clip(near + half * step, middle - half, middle + half)
         points.add(of, near, pieces.source.values(*there, near))
         for k in open_.tolist():

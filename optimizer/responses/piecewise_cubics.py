@@ -11,6 +11,7 @@ Shapes: J curves of P pieces each. A vector across the shaft is complex, x + jy;
 Source: R. T. Farouki, The Bernstein polynomial basis: a centennial retrospective, CAGD 29 (2012).
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
@@ -18,12 +19,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from optimizer.numerics.arrays import Complex, Real, Reals
+from optimizer.numerics.arrays import Complex, Real, Reals, in_order
 
 if TYPE_CHECKING:
     from optimizer.responses.kernel.parts import Asked, Best, Known, Parts
 
 Index = NDArray[np.intp]
+#: of pieces, what is asked and the best so far, which it improves: the curves (peaks,) there
+Search = Callable[["Known", "Asked", "Best"], Complex]
 #: real for scalars, complex across the shaft
 Vector = NDArray[Any]
 
@@ -87,8 +90,8 @@ class Pieces:
         """What is compiled takes them as."""
         from optimizer.responses.kernel.parts import Known
 
-        centre, half, rest = (np.require(each, float, ("C", "W")) for each in (self.centre, self.half, self.rest))
-        return Known(centre, half, np.require(self.cubic, complex, ("C", "W")), rest)
+        centre, half, rest = (in_order(np.asarray(each, float)) for each in (self.centre, self.half, self.rest))
+        return Known(centre, half, in_order(np.asarray(self.cubic, complex)), rest)
 
     def peaks(
         self,
@@ -109,61 +112,64 @@ class Pieces:
         sign : (m,) or one for all, the same in a group: 0 for magnitudes; of scalars 1 for the largest value of
             d + offset, -1 for the smallest, negated.
         """
-        of_member = np.arange(offset.size) if curve is None else curve
-        sought = np.arange(offset.size) if group is None else group
-        known = np.isfinite(offset)
-        count = int(np.max(sought, initial=-1)) + 1
-        asked, signs = (np.broadcast_to(each, offset.shape) for each in (tolerance, sign))
-        if not np.all(known):
-            offset, of_member, sought = offset[known], of_member[known], sought[known]
-            asked, signs = asked[known], signs[known]
-        return _bracketed(self, offset, of_member, sought, count, asked, signs)
+        every = np.arange(offset.size)
+        of_member, known = every if curve is None else curve, np.isfinite(offset)
+        if group is None and known.all():
+            scale, share, signs = self.size[of_member] + np.abs(offset), np.empty(every.size), np.empty(every.size)
+            share[:], signs[:] = tolerance, sign
+            return _bracketed(self, offset, of_member, every, scale, share, signs)
+        sought = every if group is None else group
+        scale, share, signs = np.zeros((3, int(np.max(sought, initial=-1)) + 1))
+        offset, of_member, sought = offset[known], of_member[known], sought[known]
+        tolerances, sign = (np.broadcast_to(each, known.shape)[known] for each in (tolerance, sign))
+        np.maximum.at(scale, sought, self.size[of_member] + np.abs(offset))
+        np.maximum.at(share, sought, tolerances)
+        signs[sought] = sign
+        some = np.zeros(scale.size, dtype=bool)
+        some[sought] = True
+        return _bracketed(self, offset, of_member, sought, scale, share, signs).where(some)
 
 
 def _bracketed(
-    pieces: Pieces, offset: Vector, of_member: Index, group: Index, count: int, tolerance: Real, signs: Real
+    pieces: Pieces, offset: Vector, of_member: Index, group: Index, scale: Real, share: Real, sign: Real
 ) -> Bracket:
-    """Brackets (count,), nan where a peak has no member.
+    """Brackets (count,), of no meaning where a peak has no member.
 
     What is below the best found by less than the tolerance is let go, the rest looked at closer.
 
     Parameters
     ----------
-    offset, of_member, group, tolerance, signs : (m,) of every member: its curve, and the peak to which it belongs.
+    offset, of_member, group : (m,) of every member, its curve, and the peak to which it belongs.
+    scale, share, sign : (count,) size of what is added up, tolerance and sign of each peak.
     """
-    from optimizer.responses.kernel.parts import (
-        MOST_CUTS,
-        MOST_PARTS,
-        Asked,
-        Best,
-        Parts,
-        first_open,
-        narrowed,
-        still_open,
-    )
+    from optimizer.responses.kernel.parts import Asked, Best
 
+    count = scale.size
     if not group.size:
         return Bracket(*(np.full(count, np.nan) for _ in range(4)))
-    scale, share, sign = np.zeros((3, count))
-    np.maximum.at(scale, group, pieces.size[of_member] + np.abs(offset))
-    np.maximum.at(share, group, tolerance)
-    sign[group] = signs
-    curve, peak = (np.require(each, np.int64, ("C", "W")) for each in (of_member, group))
-    asked = Asked(curve, peak, np.require(offset, complex, ("C", "W")), share, ROUNDING * scale, sign)
+    curve, peak = (in_order(np.asarray(each, np.int64)) for each in (of_member, group))
+    asked = Asked(curve, peak, in_order(np.asarray(offset, complex)), share, ROUNDING * scale, sign)
     nowhere = np.zeros(count, np.int64)
     best = Best(np.full(count, np.nan), np.full(count, -np.inf), np.zeros(count), nowhere, nowhere.copy())
+    # a source that is compiled searches by itself
+    search: Search | None = getattr(pieces.source, "search", None)
+    value = _searched(pieces, asked, best) if search is None else search(pieces.known, asked, best)
+    there = value + asked.offset[best.member]
+    lower = np.where(sign == 0.0, np.abs(there), sign * there.real)
+    return Bracket(best.angle, value, lower, best.upper + asked.rounding)
+
+
+def _searched(pieces: Pieces, asked: "Asked", best: "Best") -> Vector:
+    """The same of any other source."""
+    from optimizer.responses.kernel.parts import MOST_CUTS, MOST_PARTS, Parts, first_open, narrowed, still_open
+
     parts, cuts = first_open(pieces.known, asked, best), 0
     while parts.member.size:
         fine, coarse, cuts = narrowed(parts, asked, best, cuts)
         every = [fine, _expanded(pieces, asked, best, coarse)] if coarse.member.size else [fine]
         parts = Parts(*map(np.concatenate, zip(*every, strict=True)))
         parts = still_open(parts, asked, best, MOST_PARTS if cuts < MOST_CUTS else 0)
-    value = pieces.source.values(curve[best.member], best.piece, best.angle)
-    there = value + asked.offset[best.member]
-    lower = np.where(sign == 0.0, np.abs(there), sign * there.real)
-    some = np.zeros(count, dtype=bool)
-    some[group] = True
-    return Bracket(best.angle, value, lower, best.upper + asked.rounding).where(some)
+    return pieces.source.values(asked.curve[best.member], best.piece, best.angle)
 
 
 def _expanded(pieces: Pieces, asked: "Asked", best: "Best", parts: "Parts") -> "Parts":

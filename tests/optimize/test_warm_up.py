@@ -10,7 +10,7 @@ import pytest
 from optimizer.choices.discrete.kernel import near_sums
 from optimizer.compile_kernels import any_limits, budgets
 from optimizer.compile_kernels import near_sums as sums
-from optimizer.mechanics.kernel import crossings, curves, readings, rows
+from optimizer.mechanics.kernel import crossings, curves, readings, rows, search
 from optimizer.numerics.kernel import circle, knapsack
 from optimizer.program.kernel import bounds, cancelling, discs, interior_point, outlines, settling, symmetries, values
 from optimizer.responses.kernel import outlines as of_curves
@@ -61,6 +61,7 @@ def test_what_is_compiled_is_what_answers_need() -> None:
         readings: ("row_series",),
         crossings: ("crossings",),
         curves: ("series_of_curves", "sums_of_rows"),
+        search: ("search",),
         knapsack: ("filled",),
         circle: ("smallest",),
         of_curves: ("farthest", "nearer", "outlines"),

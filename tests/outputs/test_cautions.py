@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from optimizer.analyze import analyze
+from optimizer.mechanics.curve_batch import CurveBatch
+from optimizer.mechanics.whole_turn import TurnCurves
 from optimizer.optimize import optimize
 from optimizer.responses.kernel import parts
 from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer
@@ -127,6 +129,9 @@ def test_peaks_that_are_left_open_are_told_and_those_that_are_closed_are_not(mon
     def nothing_closer(known: parts.Known, looked: parts.Asked, best: parts.Best) -> parts.Parts:
         return parts.still_open(opened(known, looked, best), looked, best, 0)
 
+    # in steps, the first of which may be another
+    for source in (CurveBatch, TurnCurves):
+        monkeypatch.setattr(source, "search", None)
     monkeypatch.setattr(parts, "first_open", nothing_closer)
     answer = analyze(asked)
     told = [caution.message for caution in answer.warnings if caution.code == "peak_not_closed"]

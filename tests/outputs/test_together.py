@@ -46,7 +46,7 @@ def test_a_peak_does_not_depend_on_what_is_searched_beside_it(name: str) -> None
     scene = prepare(request)
     unbalance = np.full(len(machine["webs"]), 0.3 - 0.2j)
     searches = list(chain.from_iterable(OUTPUTS[each].searches(scene, unbalance) for each in shown))
-    together = searched(searches)
+    together = searched(scene, searches)
     for search in searches:
         alone = peaks_of(replace(scene, brackets={}), search)
         for part, other in zip(together[search.name], alone, strict=True):
@@ -70,4 +70,5 @@ def test_outputs_without_floors_need_one_search(monkeypatch: pytest.MonkeyPatch)
 
 
 def test_nothing_is_searched_where_no_output_shows_a_peak() -> None:
-    assert searched(()) == {}
+    scene = prepare(AnalyzeRequest.model_validate({"machine": _example("2d12")}))
+    assert searched(scene, ()) == {}

@@ -1,6 +1,6 @@
 """Curves over the turn as sums over the rows, piece by piece; compiled.
 
-Shapes: N designs of C curves, R rows, P pieces; m curves at Q places, angles within pieces.
+Shapes: N designs of C curves, J in all, R rows, P pieces; m curves at angles within pieces.
 """
 
 from typing import NamedTuple
@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.mechanics.kernel.readings import READINGS, WITHOUT_GAS, row_series
-from optimizer.mechanics.kernel.rows import row_functions
+from optimizer.mechanics.kernel.rows import Places, row_functions
 from optimizer.numerics.arrays import Complex
 from optimizer.numerics.compiling import inner, inner_with_arrays, kernel
 
@@ -16,6 +16,10 @@ from optimizer.numerics.compiling import inner, inner_with_arrays, kernel
 _WITHOUT_GAS = np.array([reading in WITHOUT_GAS for reading in READINGS])
 #: angles of each place, as numpy's integer like all else that is handed on
 _ONE = np.int64(1)
+#: so many rows at places cost less than to look which places are alike
+_FEW = 64
+#: rows times places that are expanded at once, which bounds the memory
+_AT_ONCE = 50_000
 
 
 class Sums(NamedTuple):
@@ -95,33 +99,70 @@ def _length(along, across):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def series_of_curves(rows, sums, curve, place, places, order):  # type: ignore[no-untyped-def]
-    """Coefficients (m, order + 1) of curves (m,) about places, each of one of them (m,), and nothing (0,).
+def series_of_curves(rows, sums, middle, curve, piece, angle, half, order):  # type: ignore[no-untyped-def]
+    """Coefficients (m, order + 1) of curves (m,) at angles (m,) rad within pieces, and nothing (0,).
 
-    Over half widths the middle of the last alone, (m, 1), and its radius (m,).
+    Over half widths (m,) the middle of the last alone, (m, 1), and its radius (m,). All rows are expanded about an
+    angle once, whatever curves ask for it.
+
+    Parameters
+    ----------
+    middle : (N, P) rad, an angle within each piece, which says what process counts; J / N curves of each design.
+    half : (0,) for coefficients at points.
     """
-    bounded, count = places.half.size > 0, curve.size
-    terms = 1 if bounded else order + 1
+    bounded, count, terms = half.size > 0, curve.size, 1 if half.size > 0 else order + 1
     found, off = np.zeros((count, terms), np.complex128), np.zeros(count if bounded else 0)
+    of_design = max(sums.weights.shape[0] // middle.shape[0], 1)
+    number, first = _alike(sums.weights.shape[1], curve // of_design, piece, angle, half)
     wanted, pressed = _wanted(sums, curve)
-    functions = row_functions(rows, places, order, pressed)
-    for reading in range(wanted.size):
-        if not wanted[reading]:
-            continue
-        middle, radius = row_series(rows, functions, places.design, _ONE, reading)
-        for n in range(count):
-            if sums.reading[curve[n]] != reading:
+    step = max(1, _AT_ONCE // max(sums.weights.shape[1], 1))
+    for start in range(0, first.size, step):
+        stop = min(start + step, first.size)
+        design, centre, within = np.empty(stop - start, np.int64), np.empty(stop - start), np.empty(stop - start)
+        wide = np.empty(stop - start if bounded else 0)
+        for q in range(stop - start):
+            one = first[start + q]
+            design[q], centre[q] = curve[one] // of_design, angle[one]
+            within[q] = middle[design[q], piece[one]]
+            if bounded:
+                wide[q] = half[one]
+        functions = row_functions(rows, Places(design, centre, wide, within), order, pressed)
+        for reading in range(wanted.size):
+            if not wanted[reading]:
                 continue
-            for r in range(sums.weights.shape[1]):
-                weight = sums.weights[curve[n], r]
-                for k in range(terms):
-                    found[n, k] += weight * _vector(middle, k, place[n], r)
-                if bounded:
-                    off[n] += abs(weight) * radius[place[n], r, 0]
+            series, radius = row_series(rows, functions, design, _ONE, reading)
+            for n in range(count):
+                q = number[n] - start
+                if sums.reading[curve[n]] != reading or q < 0 or q >= stop - start:
+                    continue
+                for r in range(sums.weights.shape[1]):
+                    weight = sums.weights[curve[n], r]
+                    for k in range(terms):
+                        found[n, k] += weight * _vector(series, k, q, r)
+                    if bounded:
+                        off[n] += abs(weight) * radius[q, r, 0]
     if not bounded:
         for n in range(count):
             found[n, 0] += sums.constant[curve[n]]
     return found, off
+
+
+@inner_with_arrays
+def _alike(rows, design, piece, angle, half):  # type: ignore[no-untyped-def]
+    """Of places (m,) the number of each among those that differ, and which is the first of these."""
+    count = angle.size
+    number, first = np.arange(count), np.arange(count)
+    if count * rows <= _FEW:
+        return number, first
+    order, different, last = np.argsort(angle), 0, 0
+    for k in range(count):
+        one = order[k]
+        other = k == 0 or angle[one] != angle[last] or piece[one] != piece[last] or design[one] != design[last]
+        if other or (half.size > 0 and half[one] != half[last]):
+            first[different] = one
+            different += 1
+        number[one], last = different - 1, one
+    return number, first[:different].copy()
 
 
 @inner_with_arrays

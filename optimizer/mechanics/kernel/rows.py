@@ -42,10 +42,29 @@ _SINE, _COSINE, _RISE, _FALL = np.arange(4)
 _COS_AT, _SIN_AT, _COS_OFF, _SIN_OFF, _COS_FIRST, _SIN_FIRST, _COS_LAST, _SIN_LAST = np.arange(8)
 #: numbers of every lane
 _RATIO, _SHORT, _SQUARE, _ZERO, _ONE, _ROOT, _OVER_ROOT, _OVER_CUBE, _OVER, _F, _G, _H = np.arange(12)
-_NUMBERS = 12
+_OWN, _WITHIN = np.arange(12, 14)
+_NUMBERS = 14
 #: of the process in which a chamber is: first pressure [Pa], exponent, clearance and first volume over crank radius
 #: times area
 _START, _EXPONENT, _CLEAR, _FULL = np.arange(4)
+
+
+class Tables(NamedTuple):
+    """Pressures that T traces give, in D tables of at most K entries, of S designs or of all.
+
+    angle, pressure, slope : (T, D, K) rad, Pa, and Pa/rad from each entry on.
+    entries : (T,) of a table, the rest of which means nothing.
+    cycle : (T,) rad, after which a trace repeats.
+    table, lead : (T, S) which table a design has, and the own crank angle [rad] at which it begins.
+    """
+
+    angle: Real
+    pressure: Real
+    slope: Real
+    entries: np.ndarray
+    cycle: Real
+    table: np.ndarray
+    lead: Real
 
 
 class Rows(NamedTuple):
@@ -58,6 +77,7 @@ class Rows(NamedTuple):
         volumes over crank radius times area at which suction and discharge open, whether it is closed.
     given : (R, C) which of the traces gives the pressure of a chamber, or -1.
     exact : kinematics, or cut off after the second order.
+    traces : the pressures that are given.
     """
 
     motion: Real
@@ -66,6 +86,7 @@ class Rows(NamedTuple):
     gas: Real
     given: np.ndarray
     exact: bool
+    traces: Tables
 
 
 class Places(NamedTuple):
@@ -74,15 +95,12 @@ class Places(NamedTuple):
     design : which design each is of.
     half : half widths of intervals, below pi/8; (0,) at points.
     within : angles that say which process counts.
-    pressure, slope : (T, Q) of the traces, Pa and Pa/rad.
     """
 
     design: np.ndarray
     centre: Real
     half: Real
     within: Real
-    pressure: Real
-    slope: Real
 
 
 class Functions(NamedTuple):
@@ -122,6 +140,7 @@ def row_functions(rows, places, order, pressed):  # type: ignore[no-untyped-def]
                 motion = rows.motion[places.design[q] if designs > 1 else 0, r]
                 angle, within = places.centre[q] + motion[0], places.within[q] + motion[0]
                 lane[_RATIO, p], lane[_SHORT, p] = motion[1], motion[2] * (1.0 + motion[1])
+                lane[_OWN, p], lane[_WITHIN, p] = angle, within
                 if p > 0 and places.within[q] == places.within[q - 1] and designs == 1:
                     # many places of one piece stand side by side
                     for f in range(4):
@@ -147,7 +166,7 @@ def row_functions(rows, places, order, pressed):  # type: ignore[no-untyped-def]
                         _decide(rows.gas[one, r, c], lane, rows.exact, c % 2, cranks[_INSIDE], process, p)
                     _cycle(series, lane, rows.exact, process, c % 2, cranks, out, lanes)
                 else:
-                    _given(series, places, trace, first, lane, out, lanes)
+                    _given(series, rows.traces, places, trace, first, lane, out, lanes)
             for f in range(KEPT + chambers):
                 made = f if f < KEPT else f - KEPT + _PRESSURES
                 for k in range(order + 1):
@@ -264,15 +283,29 @@ def _accelerate(series, lane, exact, lanes):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _given(series, places, trace, first, lane, out, lanes):  # type: ignore[no-untyped-def]
-    """A pressure as a trace has it, Pa."""
-    constant(series, places.pressure[trace, first:], out, lanes)
+def _given(series, traces, places, trace, first, lane, out, lanes):  # type: ignore[no-untyped-def]
+    """A pressure as a trace has it, Pa: linear from the entry of its table before the angle that says which counts."""
+    pressure, slope = lane[_F], lane[_G]
     for p in range(lanes):
-        slope = places.slope[trace, first + p]
+        design = places.design[first + p] if traces.table.shape[1] > 1 else 0
+        table, inside = traces.table[trace, design], lane[_WITHIN, p]
+        place = (inside - traces.lead[trace, design]) % traces.cycle[trace]
+        entry, beyond = 0, traces.entries[trace] - 1
+        while beyond - entry > 1:
+            middle = (entry + beyond) // 2
+            if traces.angle[trace, table, middle] <= place:
+                entry = middle
+            else:
+                beyond = middle
+        slope[p] = traces.slope[trace, table, entry]
+        since = place - traces.angle[trace, table, entry] + (lane[_OWN, p] - inside)
+        pressure[p] = traces.pressure[trace, table, entry] + slope[p] * since
+    constant(series, pressure, out, lanes)
+    for p in range(lanes):
         if series.middle.shape[1] > 1:
-            series.middle[out, 1, p] = slope
+            series.middle[out, 1, p] = slope[p]
         if series.bounded:
-            series.radius[out, 0, p] = abs(slope) * places.half[first + p]
+            series.radius[out, 0, p] = abs(slope[p]) * places.half[first + p]
 
 
 @inner

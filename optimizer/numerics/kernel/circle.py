@@ -18,14 +18,16 @@ def smallest(points):  # type: ignore[no-untyped-def]
         high = complex(max(high.real, point.real), max(high.imag, point.imag))
     # about their own middle, so that a common offset costs no digits
     middle = 0.5 * (low + high)
-    first = _farthest(points, middle, 0j)
+    # squares of shares of the extent neither overflow nor vanish
+    per_extent = 1.0 / max(high.real - low.real, high.imag - low.imag, SMALLEST)
+    first = _farthest(points, middle, 0j, per_extent)
     slack = _ON * abs(points[first] - middle)
     support, weights, count = np.zeros(3, np.int64), np.ones(3), 1
     support[0] = first
     centre, radius = points[first] - middle, 0.0
     trial, held, of_held, few = np.zeros(4, np.int64), np.zeros(3, np.int64), np.ones(3), np.zeros(4, np.complex128)
     while True:
-        farthest = _farthest(points, middle, centre)
+        farthest = _farthest(points, middle, centre, per_extent)
         if abs(points[farthest] - middle - centre) <= radius + slack:
             break
         trial[count] = farthest
@@ -47,19 +49,25 @@ def smallest(points):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _farthest(points, middle, centre):  # type: ignore[no-untyped-def]
-    """Which point is farthest from a centre, both about the middle; of several the first."""
+def _farthest(points, middle, centre, per_extent):  # type: ignore[no-untyped-def]
+    """Which point is farthest from a centre about the middle; of several the first."""
     most, found = -1.0, 0
     for k in range(points.size):
         place = points[k] - middle - centre
-        along, across = abs(place.real), abs(place.imag)
-        # neither overflows nor vanishes, and costs less than a hypotenuse
-        long, short = max(along, across), min(along, across)
-        share = short / max(long, SMALLEST)
-        distance = long * np.sqrt(1.0 + share * share)
-        if distance > most:
-            most, found = distance, k
+        along, across = place.real * per_extent, place.imag * per_extent
+        square = along * along + across * across
+        if square > most:
+            most, found = square, k
     return found
+
+
+@inner
+def length(vector):  # type: ignore[no-untyped-def]
+    """Magnitude, which neither overflows nor vanishes, and costs less than a hypotenuse."""
+    along, across = abs(vector.real), abs(vector.imag)
+    long, short = max(along, across), min(along, across)
+    share = short / max(long, SMALLEST)
+    return long * np.sqrt(1.0 + share * share)
 
 
 @inner

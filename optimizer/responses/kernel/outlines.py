@@ -9,7 +9,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.compiling import inner, kernel
-from optimizer.numerics.kernel.circle import smallest
+from optimizer.numerics.kernel.circle import length, smallest
 
 #: at which the cubic of every piece is looked at
 PLACES = np.linspace(-1.0, 1.0, 17)
@@ -69,7 +69,7 @@ def outlines(known, number, held):  # type: ignore[no-untyped-def]
         for p in range(held.size):
             farthest = 0.0
             for s in range(share):
-                farthest = max(farthest, abs(values[j, p * share + s] - centre[j]))
+                farthest = max(farthest, length(values[j, p * share + s] - centre[j]))
             cubic = known.cubic[number[j], held[p]]
             bend = 2.0 * abs(cubic[2]) + 6.0 * abs(cubic[3])
             rest = max(rest, known.rest[number[j], held[p]])
@@ -88,7 +88,7 @@ def farthest(known, number, outline, chosen, centre):  # type: ignore[no-untyped
     for n in range(chosen.size):
         largest = 0.0
         for k in range(most):
-            distance[k] = abs(outline.values[chosen[n], k] - centre[n])
+            distance[k] = length(outline.values[chosen[n], k] - centre[n])
             largest = max(largest, distance[k])
         for k in range(most):
             beside = max(distance[k - 1 if k > 0 else most - 1], distance[k + 1 if k + 1 < most else 0])

@@ -40,6 +40,5 @@ def assert_alike(request: SweepRequest, monkeypatch: pytest.MonkeyPatch) -> None
     alone = [table(request, k, k + 1) for k in range(request.total)]
     assert pa.concat_tables(alone).equals(together)
     # places in many parts, of which what forces are made of is not kept
-    for module in ("row_series", "curve_series"):
-        monkeypatch.setattr(f"optimizer.mechanics.{module}.AT_ONCE", 100)
+    monkeypatch.setattr("optimizer.mechanics.row_series.AT_ONCE", 100)
     assert table(request).equals(together)
