@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
@@ -13,6 +14,7 @@ from optimizer.choices.discrete.light_sizes import LightSizes
 from optimizer.choices.discrete.lightest import lighter
 from optimizer.choices.discrete.neighbourhoods import light_options, near_options
 from optimizer.choices.discrete.options import Incumbent, Options
+from optimizer.program.methods.compiled import suits_kernel, unproven
 
 #: sums of a half, and pairs of them, that are compared
 SUMS, PAIRS = 20_000, 60_000
@@ -20,6 +22,8 @@ SUMS, PAIRS = 20_000, 60_000
 CLOSE, _PATIENCE = 30, 40
 #: times that some slots change for less mass
 _LIGHTER = 24
+#: of what an objective may be above its bound, spent on any masses, so that options near to them keep the rest
+_PARTS = (0.3, 0.7)
 _SEED = 20_261_123
 
 
@@ -63,20 +67,21 @@ def improve(
 
 
 def lightest_near(
-    incumbent: Incumbent, best: np.ndarray, limit: float, clock: Clock, sizes: LightSizes | None
+    incumbent: Incumbent, best: np.ndarray, levels: tuple[float, float], clock: Clock, sizes: LightSizes | None
 ) -> np.ndarray:
     """A light set (K,) near to the best one, no worse than a limit: some slots change at a time, and each by itself.
 
     Parameters
     ----------
     best : (K,) the set that is made lighter.
-    limit : of the objective.
+    levels : of the objective, a lower bound and a limit.
     sizes : of few part numbers, what is tried before.
     """
-    options, statement = incumbent.options, incumbent.statement
+    options, statement, limit = incumbent.options, incumbent.statement, levels[1]
     chosen, chance = lightened(incumbent, best, limit), np.random.default_rng(_SEED)
     light = None if sizes is None else sizes.below(chosen, limit, clock)
     chosen = chosen if light is None else lightened(incumbent, light, limit)
+    chosen = _near_masses(incumbent, chosen, levels, clock)
     free, several = np.flatnonzero(np.sum(options.exists, axis=-1) > 1), 4 if options.limits_parts else 6
     # slots of which no lighter options are beside this set
     settled: list[set[int]] = []
@@ -105,6 +110,38 @@ def lightest_near(
             chosen, settled = lightened(incumbent, found.chosen, limit), []
         elif found.whole:
             settled.append(set(slots))
+    return chosen
+
+
+def _near_masses(incumbent: Incumbent, chosen: np.ndarray, levels: tuple[float, float], clock: Clock) -> np.ndarray:
+    """A set (K,), or a lighter one from the least of any masses that spend a part of what is between two levels.
+
+    These are rounded, and two slots change at a time until the set keeps the upper level.
+    """
+    options, statement, (least, limit) = incumbent.options, incumbent.statement, levels
+    if options.limits_parts or not suits_kernel(statement):
+        return chosen
+
+    def mass(some: np.ndarray) -> float:
+        return float(np.sum(options.of(options.mass, some)))
+
+    for part in _PARTS:
+        if clock.spent():
+            break
+        (about,), _ = unproven(statement.alone(), np.array([part * (limit - least)]), True)
+        other = Incumbent(statement, options, incumbent.resolution)
+        other.offer(options.nearest(about)[None])
+        for slots in combinations(range(options.slots), 2):
+            if other.chosen is None or other.least <= limit or clock.spent():
+                break
+            which = [np.array([option]) for option in other.chosen]
+            for k in slots:
+                which[k] = np.flatnonzero(options.exists[k])
+            exhaust(options, which, other, SUMS, PAIRS, clock)
+        if other.chosen is not None and other.least <= limit:
+            light = lightened(incumbent, other.chosen, limit)
+            if mass(light) < mass(chosen):
+                chosen = light
     return chosen
 
 

@@ -124,7 +124,7 @@ def search(
         # all within the asked gap are as good, and what is light is cheap
         share = _LIGHTER_OF_PARTS if options.limits_parts else _LIGHTER
         light = Clock(min(clock.left_s, share * time_limit_s))
-        return replace(found, chosen=lightest_near(incumbent, found.chosen, bound + gap, light, sizes))
+        return replace(found, chosen=lightest_near(incumbent, found.chosen, (bound, bound + gap), light, sizes))
     return found
 
 
