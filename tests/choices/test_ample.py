@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optimizer.choices.discrete import few_slots
+from optimizer.choices.discrete import few_slots, sums
 from optimizer.choices.discrete.lightest import Lighter, lighter
 from schemas.answer.answers import OptimizeAnswer
 from tests.benchmarks.discrete import choice
@@ -113,6 +113,23 @@ def test_no_slots_are_searched_twice_for_what_is_lighter_than_a_set(monkeypatch:
     assert optimized(choice(webs=4, holes=12, masses=16)).status == "optimal"
     assert searched
     assert len({*searched}) == len(searched)
+
+
+def test_no_sums_are_listed_that_are_given_up_in_the_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of two webs with 2,251 options there are five millions: a limit of 30 s is no reason to make them."""
+    listed: list[int] = []
+    merged = sums._merged
+
+    def counted(several: sums.Sums) -> sums.Sums:
+        listed.append(several.code.size)
+        return merged(several)
+
+    monkeypatch.setattr(sums, "_merged", counted)
+    catalogue = {"mass_step_kg": 0.5, "angle_step_deg": 5}
+    request = {"machine": machine() | {"catalogue": catalogue}, "objective": {"moment_weight": WEIGHT}}
+    short, long = (optimized({**request, "accuracy": {"time_limit_s": limit_s}}) for limit_s in (5, 30))
+    assert short.counterweights == long.counterweights
+    assert max(listed) < 1_000_000
 
 
 def test_what_a_foundry_would_cast() -> None:

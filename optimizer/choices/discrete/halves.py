@@ -8,7 +8,7 @@ import numpy as np
 from optimizer.choices.discrete.clock import Clock, Pace
 from optimizer.choices.discrete.options import Incumbent, Options
 from optimizer.choices.discrete.pairs import Pairs
-from optimizer.choices.discrete.sums import Half, sums_of
+from optimizer.choices.discrete.sums import SHORTER, Half, sums_of
 from optimizer.numerics.arrays import Complex, Real
 
 #: slots of the outer and of the inner sums of a half
@@ -71,7 +71,13 @@ def halves(
     single[many] = False
     rest = np.sum(options.of(effect, fixed)[single], axis=0)
     pace, found, sides = Pace(clock), list[Half](), list[Sides]()
-    for side in (many[::2], many[1::2]):
+    split_sides = many[::2], many[1::2]
+    if not np.isfinite(most_kg):
+        # what is given up in the end is not begun: lists are shorter by equal sums, but not by more
+        lists = 1 if listed else 2
+        if any(np.prod([float(len(which[k])) for k in side]) > SHORTER**lists * most_sums for side in split_sides):
+            return None
+    for side in split_sides:
         # those of a half are not listed where there is nothing to be left out
         apart = not listed and len(side) > 1
         split: Sides = (side[::2], side[1::2]) if apart else (side, [])

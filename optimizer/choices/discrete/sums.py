@@ -13,6 +13,8 @@ from optimizer.numerics.arrays import Complex, Real
 _SAME = 1e-12
 #: powers of an odd number, multiplied by keys modulo 2^64, are unlike for unlike keys but for chance
 _ODD = np.uint64(0x9E3779B97F4A7C15)
+#: a list without the mass as a limit is this many times shorter, at most, for equal sums that are one
+SHORTER = 4.0
 #: how many times more sums than wanted are made on the way, most of them too heavy
 _WIDEST = 40
 
@@ -77,7 +79,7 @@ def sums_of(
     ----------
     most_kg : mass of a sum, kg, beyond which it is left out.
     """
-    if not np.isfinite(most_kg) and np.prod([float(len(which[k])) for k in side]) > 4.0 * most:
+    if not np.isfinite(most_kg) and np.prod([float(len(which[k])) for k in side]) > SHORTER * most:
         return None
     sums = Sums(np.zeros((1, effect.shape[-1]), complex), *np.zeros((2, 1)), *np.zeros((3, 1), np.int64))
     for k in side:
