@@ -56,7 +56,7 @@ def best_choice(task: Task, scene: Prepared, solver: Solver, in_full: bool = Tru
     MissingInput
         if a machine lacks what the objective needs.
     """
-    if task.choice == "least masses":
+    if task.choice == "semicontinuous":
         free = best_of_any_mass(task, scene, solver, in_full)
         if isinstance(free, Infeasible) or _heavy_enough(task, free.mass):
             return free
@@ -224,7 +224,7 @@ def _limits(task: Task, program: Problem, best: Found, before: Sequence[Reached]
     before : the goals before it.
     known : a choice that keeps these and the ceilings, if there is one.
     """
-    if task.choice == "catalogue":
+    if task.choice == "discrete":
         # what is chosen from a catalogue is what it holds
         return best.limits
     if known is not None:
