@@ -26,7 +26,8 @@ from optimizer.program.limits import Limits
 from optimizer.program.optimum import optimum
 from optimizer.program.reference.solver import Solver
 from optimizer.solve.answer_fields import Candidate, told
-from optimizer.solve.costs import NO_CAPS, Caps, Costs, cost
+from optimizer.solve.caps import NO_CAPS, Caps, cost
+from optimizer.solve.costs import Costs
 from optimizer.solve.cutting_plane_rounds import Ended, Start, in_rounds
 from optimizer.solve.infeasibility import out_of_reach, unreachable
 from optimizer.solve.solution import Infeasible, Solution, finite_or_null
