@@ -254,5 +254,10 @@ class AnalyzeRequest(Scene, Ruled):
         examples=[[{"web": "1a", "mass_kg": 24.5, "angle_deg": 180}]],
     )
 
+    @property
+    def with_usual_gap(self) -> Self:
+        """The same: it asks for no gap."""
+        return self
+
     def rules(self) -> Iterator[Rule]:
         yield from fitted_rules(self.machine, self.counterweights)
