@@ -23,7 +23,7 @@ def feasible_set(task: Task, limits: Limits, solver: Solver) -> FeasibleSet:
         where the options of a web cannot be told, or webs of a group are unlike.
     """
     machine = task.machine
-    if task.choice == "catalogue":
+    if task.choice == "discrete":
         return Catalogue(stock(machine), limits.radius)
     least = stacked([web.min_fitted_mass_kg or 0.0 for web in machine.webs])
     return MinimumMasses(machine, least, limits, task.objective.least_mass, solver)

@@ -2,11 +2,12 @@
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 from optimizer.formulation.balance_shafts import DesignSpace, design_space
 from schemas.base.rules import Path
 from schemas.machine.machine import Machine
+from schemas.machine.rotor import Choice
 from schemas.request.objective import Objective
 from schemas.request.requests import Accuracy, OptimizeRequest
 from schemas.request.scenarios import Tolerances, machine_of
@@ -77,11 +78,9 @@ class Task:
         return bool(self.scenarios) or (self.tolerances is not None and self.tolerances.any)
 
     @cached_property
-    def choice(self) -> Literal["catalogue", "least masses"] | None:
-        """What counterweights are chosen from: of what there is, or none too light; None is any mass at any angle."""
-        if self.machine.discrete:
-            return "catalogue"
-        return "least masses" if any(web.min_fitted_mass_kg is not None for web in self.machine.webs) else None
+    def choice(self) -> Choice | None:
+        """What counterweights are chosen from; None is any mass at any angle."""
+        return self.machine.choice
 
     @cached_property
     def space(self) -> DesignSpace:

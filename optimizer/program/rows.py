@@ -107,8 +107,8 @@ def statement(groups: Sequence[Sequence[Row]], ceilings: Sequence[tuple[Response
 
 
 def total_mass(limits: Limits) -> Row:
-    """The total mass of the counterweights [kg], a term for each web."""
+    """The total mass of the counterweights [kg], a term for each web; without webs one that is 0."""
     radius = limits.radius
-    of_web = np.eye(radius.size) / np.where(radius > 0, radius, 1.0)
+    of_web = np.eye(max(radius.size, 1), radius.size) / np.where(radius > 0, radius, 1.0)
     nothing = np.zeros(1, dtype=complex)
     return Row("mass", tuple(WeightedPeak("mass", np.zeros(()), Norms(nothing, each[None])) for each in of_web))

@@ -22,7 +22,8 @@ from optimizer.numerics.arrays import Complex
 from optimizer.program.cuts.optimum import Found, over_turn
 from optimizer.program.limits import Limits
 from optimizer.program.reference.solver import Solver
-from optimizer.solve.costs import COMPARED, Costs, cost
+from optimizer.solve.caps import cost
+from optimizer.solve.costs import COMPARED, Costs
 from optimizer.solve.uncertain_program import MOST_ROUNDS, Robust
 from schemas.answer.alternatives import Alternative, Cheaper
 from schemas.machine.machine import Machine

@@ -26,7 +26,8 @@ from optimizer.program.limits import Limits
 from optimizer.program.optimum import optimum
 from optimizer.program.reference.solver import Solver
 from optimizer.solve.answer_fields import Candidate, told
-from optimizer.solve.costs import NO_CAPS, Caps, Costs, cost
+from optimizer.solve.caps import NO_CAPS, Caps, cost
+from optimizer.solve.costs import Costs
 from optimizer.solve.cutting_plane_rounds import Ended, Start, in_rounds
 from optimizer.solve.infeasibility import out_of_reach, unreachable
 from optimizer.solve.solution import Infeasible, Solution, finite_or_null
@@ -56,7 +57,7 @@ def best_choice(task: Task, scene: Prepared, solver: Solver, in_full: bool = Tru
     MissingInput
         if a machine lacks what the objective needs.
     """
-    if task.choice == "least masses":
+    if task.choice == "semicontinuous":
         free = best_of_any_mass(task, scene, solver, in_full)
         if isinstance(free, Infeasible) or _heavy_enough(task, free.mass):
             return free
@@ -224,7 +225,7 @@ def _limits(task: Task, program: Problem, best: Found, before: Sequence[Reached]
     before : the goals before it.
     known : a choice that keeps these and the ceilings, if there is one.
     """
-    if task.choice == "catalogue":
+    if task.choice == "discrete":
         # what is chosen from a catalogue is what it holds
         return best.limits
     if known is not None:

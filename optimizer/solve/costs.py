@@ -14,7 +14,6 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.choices.catalogue import Catalogue
-from optimizer.choices.catalogue_options import part_numbers
 from optimizer.choices.discrete.ample import light_sizes, offer_light_sets
 from optimizer.choices.discrete.clock import Clock
 from optimizer.choices.discrete.exchange import start
@@ -32,6 +31,7 @@ from optimizer.program.limits import Limits
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import total_mass
 from optimizer.program.statement import Statement
+from optimizer.solve.caps import NO_CAPS, Caps, cost
 from optimizer.solve.cutting_plane_rounds import Ended, Start, in_rounds
 from optimizer.solve.few_webs import UNKNOWN, FewWebs, compare_on_few_webs, few_webs, lightened
 from schemas.request.objective import Cost
@@ -47,55 +47,8 @@ _FIRST = 0.6
 _COUNTS = ((40, 120), (80, 300))
 #: share of the time in which the fewest castings are made lighter
 _LIGHTER = 0.1
-#: by which sums of masses are rounded, relative
-_ROUNDING = 1e-12
 #: where a set was found that was compared with others; what that proves is told beside it
 COMPARED = Ended(True, -np.inf, 0, EXHAUSTED, False, None, 0, 0)
-
-
-class Caps(NamedTuple):
-    """The most that goals before leave."""
-
-    mass: float = np.inf  # kg
-    pieces: float = np.inf
-    sizes: float = np.inf
-
-    def lower(self, kind: Cost, most: float) -> "Caps":
-        """With a smaller one of a kind."""
-        return self._replace(**{kind: min(getattr(self, kind), most)})
-
-    def of(self, choices: FeasibleSet) -> FeasibleSet:
-        """The choices that are so few and of so few sizes."""
-        if self.pieces == self.sizes == np.inf and self.mass > 0.0:
-            return choices
-        assert isinstance(choices, Catalogue)  # nothing else is counted
-        options = choices.stock.options
-        fitted, parts = _least(options.most_fitted, self.pieces), _least(options.most_parts, self.sizes)
-        if parts == 0 or self.mass == 0.0:
-            # no size, or no mass, is nothing at all
-            fitted, parts = 0, options.most_parts
-        capped = replace(options, most_fitted=fitted, most_parts=parts)
-        return replace(choices, stock=choices.stock._replace(options=capped))
-
-    def within(self, limits: Limits) -> Limits:
-        """The same of the total mass."""
-        if self.mass in (0.0, np.inf):
-            return limits
-        return replace(limits, max_total_mass=np.minimum(limits.max_total_mass, self.mass * (1.0 + _ROUNDING)))
-
-
-NO_CAPS = Caps()
-
-
-def _least(known: int | None, cap: float) -> int | None:
-    return known if cap == np.inf else int(cap) if known is None else min(known, int(cap))
-
-
-def cost(choice: Choice, kind: Cost) -> float:
-    """What a choice costs: kg, or a number."""
-    if kind == "mass":
-        return float(np.sum(choice.mass))
-    return float(np.sum(choice.mass > 0) if kind == "pieces" else part_numbers(choice.mass))
 
 
 def _of_parts(options: Options, chosen: np.ndarray) -> Options:

@@ -73,7 +73,7 @@ class ParetoRequest(OptimizeRequest):
     def chosen(self) -> bool:
         """Whether counterweights are chosen, heavy enough where they are fitted, or cut from plates."""
         machine = self.machine
-        return machine.discrete or machine.semicontinuous or any(web.envelope is not None for web in machine.webs)
+        return machine.choice is not None or any(web.envelope is not None for web in machine.webs)
 
     def rules(self) -> Iterator[Rule]:
         yield from super().rules()

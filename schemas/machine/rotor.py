@@ -17,6 +17,8 @@ from schemas.machine.webs import Web, WebGroup
 
 MAX_WEBS = 500
 MAX_UNBALANCES = 500
+#: counterweights from what there is, or of any mass that is 0 or no less than a least one
+Choice = Literal["discrete", "semicontinuous"]
 
 
 class ShaftUnbalance(Model):
@@ -122,14 +124,21 @@ class Rotor(Ruled):
                 yield ("webs", k, name)
 
     @property
+    def choice(self) -> Choice | None:
+        """What counterweights are chosen from; None is any mass at any angle."""
+        if any(True for _ in self.choice_fields()):
+            return "discrete"
+        return "semicontinuous" if any(web.min_fitted_mass_kg is not None for web in self.webs) else None
+
+    @property
     def discrete(self) -> bool:
         """Whether counterweights are chosen from what there is."""
-        return any(True for _ in self.choice_fields())
+        return self.choice == "discrete"
 
     @property
     def semicontinuous(self) -> bool:
         """Whether counterweights of any mass are at least so heavy, or not there."""
-        return not self.discrete and any(web.min_fitted_mass_kg is not None for web in self.webs)
+        return self.choice == "semicontinuous"
 
     def rules(self) -> Iterator[Rule]:
         yield from unique_names(("webs",), [web.name for web in self.webs])

@@ -27,7 +27,7 @@ class AccuracyRequest(OptimizeRequest):
         """Whether counterweights are as a workshop makes them: chosen, at least so heavy, alike, or cut from plates."""
         machine = self.machine
         cut = any(web.envelope is not None for web in machine.webs)
-        return machine.discrete or machine.semicontinuous or bool(machine.web_groups) or cut
+        return machine.choice is not None or bool(machine.web_groups) or cut
 
     def rules(self) -> Iterator[Rule]:
         yield from super().rules()

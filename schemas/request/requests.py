@@ -22,7 +22,7 @@ from schemas.base.units import Unit
 from schemas.machine.catalogue import DISCRETE_GAP
 from schemas.machine.fitted import FittedCounterweight, GivenCounterweight, fitted_rules
 from schemas.machine.reciprocating import no_balance_shafts
-from schemas.machine.rotor import MAX_WEBS
+from schemas.machine.rotor import MAX_WEBS, Choice
 from schemas.request.cases import Case, case_rules, cases, stated
 from schemas.request.objective import Objective
 from schemas.request.scenarios import MAX_SCENARIOS, Scenario, Tolerances
@@ -132,10 +132,13 @@ class OptimizeRequest(Scene, Ruled):
         for broken, (_, *rest), message in fitted_rules(self.machine, self.fitted):
             yield Rule(broken, ("fitted", *rest), message)
         yield from self._shaft_rules()
-        yield from self._alternative_rules()
-        yield from self._catalogue_rules()
-        yield from self._cost_rules()
-        yield from self._fitted_rules()
+        choice = self.machine.choice
+        yield from self._alternative_rules(choice)
+        yield from self._cost_rules(choice)
+        if choice == "discrete":
+            yield from self._catalogue_rules()
+        if choice == "semicontinuous":
+            yield from self._fitted_rules()
         if self.tolerances is not None and self.objective.over_the_turn:
             squares = self.objective.bearing_weight > 0 and self.objective.bearing_measure == "rms"
             scatters = squares and self.tolerances.reciprocating_mass_relative > 0
@@ -154,11 +157,11 @@ class OptimizeRequest(Scene, Ruled):
         yield Rule(self.tolerances is not None, ("tolerances",), message)
         yield Rule(bool(self.alternatives), ("alternatives",), message)
 
-    def _alternative_rules(self) -> Iterator[Rule]:
+    def _alternative_rules(self, choice: Choice | None) -> Iterator[Rule]:
         """What cheaper choices are listed of."""
         listed, path = bool(self.alternatives), ("alternatives",)
         yield Rule(
-            listed and not self.machine.discrete,
+            listed and choice != "discrete",
             path,
             "give a catalogue too: cheaper choices are listed for counterweights from a catalogue only",
         )
@@ -168,8 +171,6 @@ class OptimizeRequest(Scene, Ruled):
     def _catalogue_rules(self) -> Iterator[Rule]:
         """What does not go with discrete choices."""
         machine = self.machine
-        if not machine.discrete:
-            return
         yield from self._choice_rules("a catalogue")
         yield from no_balance_shafts(machine, ("machine",), "a choice from a catalogue")
         for broken, path, message in machine.no_envelopes(
@@ -189,10 +190,10 @@ class OptimizeRequest(Scene, Ruled):
             message = f"not with {what} and {also}: {_FIX_THE_CHOICE}"
             yield Rule(beyond, ("tolerances", name), message)
 
-    def _cost_rules(self) -> Iterator[Rule]:
+    def _cost_rules(self, choice: Choice | None) -> Iterator[Rule]:
         """What counts castings needs some to choose from."""
         order = self.objective.priorities
-        for i, priority in enumerate(() if self.machine.discrete else order):
+        for i, priority in enumerate(() if choice == "discrete" else order):
             path = ("objective", "priorities", i, "goal")
             message = (
                 "give a catalogue too: of any masses at any angles a counterweight may be next to nothing, and their"
@@ -205,8 +206,6 @@ class OptimizeRequest(Scene, Ruled):
     def _fitted_rules(self) -> Iterator[Rule]:
         """What does not go with a least mass of what is fitted."""
         machine = self.machine
-        if not machine.semicontinuous:
-            return
         yield from self._choice_rules("min_fitted_mass_kg")
         yield from no_balance_shafts(machine, ("machine",), "a machine with min_fitted_mass_kg")
         for broken, path, message in machine.no_envelopes(
@@ -221,8 +220,7 @@ class OptimizeRequest(Scene, Ruled):
     @property
     def with_usual_gap(self) -> Self:
         """The same with the gap that its machine is usually asked for, where none is said."""
-        machine = self.machine
-        return self.model_copy(update={"accuracy": self.accuracy.usual(machine.discrete or machine.semicontinuous)})
+        return self.model_copy(update={"accuracy": self.accuracy.usual(self.machine.choice is not None)})
 
     @model_validator(mode="after")
     def _usual_gap(self) -> Self:
@@ -255,6 +253,11 @@ class AnalyzeRequest(Scene, Ruled):
         description="counterweights on the machine, at most one for each web, and others in planes of their own",
         examples=[[{"web": "1a", "mass_kg": 24.5, "angle_deg": 180}]],
     )
+
+    @property
+    def with_usual_gap(self) -> Self:
+        """The same: it asks for no gap."""
+        return self
 
     def rules(self) -> Iterator[Rule]:
         yield from fitted_rules(self.machine, self.counterweights)

@@ -18,7 +18,7 @@ def searched(base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target]) 
     """Whether counterweights are searched among discrete choices."""
     machine = base.machine
     varied = any(target.path[-1] in _ASKED_BY_AXES for target in targets)
-    return isinstance(base, OptimizeRequest) and (machine.discrete or machine.semicontinuous or varied)
+    return isinstance(base, OptimizeRequest) and (machine.choice is not None or varied)
 
 
 def one_by_one(base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target]) -> bool:

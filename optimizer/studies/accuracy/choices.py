@@ -175,7 +175,7 @@ class _Ways:
         machine, longest = self.request.machine, self.request.accuracy.time_limit_s
         for gap in GAPS:
             yield Rung("service", f"relative gap {gap:.0e}", "gap", self._service(gap, longest))
-        if machine.discrete or machine.semicontinuous:
+        if machine.choice is not None:
             # groups and plates alone are no search
             for limit in (*(each for each in LIMITS_S if each < longest), longest):
                 yield Rung("service", f"{limit:g} s", "time", self._service(_CLOSEST, limit))

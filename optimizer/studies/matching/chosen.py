@@ -72,7 +72,7 @@ class Chosen:
     def as_made(self) -> bool:
         """Whether every assignment is certified by itself: chosen, at least so heavy, or cut from plates."""
         machine = self.request.machine
-        return machine.discrete or machine.semicontinuous or plates(machine) is not None
+        return machine.choice is not None or plates(machine) is not None
 
     def at(self, mass: Real, best: float) -> Solved:
         """Assignments (N, T), and what they prove of all.

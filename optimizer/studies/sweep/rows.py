@@ -1,8 +1,9 @@
 """From numbers of designs to columns of the result: axes, validity, mechanics, program, outputs."""
 
 import logging
-from collections.abc import Iterable, Iterator, Sequence
-from typing import Any
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +26,7 @@ from schemas.sweep.request import SweepRequest
 
 _LOG = logging.getLogger(__name__)
 Designs = NDArray[np.int64]
+Base = TypeVar("Base", OptimizeRequest, AnalyzeRequest)
 #: rows times angles that are worked on at once, which bounds the memory
 _AT_ONCE = 400_000
 
@@ -88,23 +90,28 @@ def rows(request: SweepRequest, start: int, stop: int, solver: Solver) -> dict[s
     ranges = (rule for target, column in zip(request.targets, values, strict=True) for rule in target.rules(column))
     inside = _refuse(table, np.arange(stop - start), ranges)
     for designs in _same_nulls(values, inside):
-        _fill_or_fail(table, Group(request, values), designs, solver)
+        _fill_or_fail(table, _fill(request, values, table, solver), designs)
     table.tell_faults()
     return table.columns
 
 
-class Group:
-    """The varied requests of a range of designs."""
+class Group(Generic[Base]):
+    """The varied requests of a range of designs.
 
-    def __init__(self, request: SweepRequest, values: Sequence[Real]) -> None:
-        self._base, self._targets, self._values = request.base, request.targets, values
-        self.multipliers, self.always, self.one_by_one = request.multipliers, request.always, request.one_by_one
+    base : of the sweep, which every design starts from.
+    """
+
+    def __init__(self, request: SweepRequest, base: Base, values: Sequence[Real]) -> None:
+        self._base: Base = base
+        self._targets, self._values = request.targets, values
+        self.multipliers, self.always = request.multipliers, request.always
         self.wanted = request.wanted
         #: designs without the outputs that all hold: they do not ask for them, and their machines lack what these need
         self.bare = set[int]()
-        self._over_the_turn = bool(request.over_the_turn)
+        #: whether the objective of some design may look at the whole turn
+        self.turns = bool(request.over_the_turn)
 
-    def of(self, designs: Designs) -> OptimizeRequest | AnalyzeRequest:
+    def of(self, designs: Designs) -> Base:
         """Some designs, with the same fields null in all, as one request of columns."""
         contents: dict[Path, Any] = {}
         for target, column in zip(self._targets, self._values, strict=True):
@@ -112,30 +119,32 @@ class Group:
             contents[target.path] = None if np.isnan(chosen[0]) else chosen
         return with_fields(self._base, contents)
 
-    def one(self, design: int) -> OptimizeRequest | AnalyzeRequest:
+    def one(self, design: int) -> Base:
         """One design as a request of numbers."""
         contents: dict[Path, Any] = {}
         for target, column in zip(self._targets, self._values, strict=True):
             number = float(column[design])
             contents[target.path] = None if np.isnan(number) else int(number) if target.integer else number
-        alone = with_fields(self._base, contents)
         # an axis may ask for a search, of which another gap is usual
-        return alone.with_usual_gap if isinstance(alone, OptimizeRequest) else alone
-
-    def over_the_turn(self, designs: Designs) -> dict[int, OptimizeRequest]:
-        """Those designs whose objective looks at the whole turn, each by itself."""
-        if not self._over_the_turn:
-            return {}
-        alone = ((int(design), self.one(int(design))) for design in designs)
-        return {
-            design: one for design, one in alone if isinstance(one, OptimizeRequest) and one.objective.over_the_turn
-        }
+        return with_fields(self._base, contents).with_usual_gap
 
 
-def _fill_or_fail(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
+AnyGroup = Group[OptimizeRequest] | Group[AnalyzeRequest]
+
+
+def _fill(request: SweepRequest, values: Sequence[Real], table: Rows, solver: Solver) -> Callable[[Designs], None]:
+    """Fills rows of some designs that have the same fields null."""
+    base = request.base
+    if isinstance(base, AnalyzeRequest):
+        return partial(_fill_given, table, Group(request, base, values))
+    fill = _fill_one_by_one if request.one_by_one else _fill_optima
+    return partial(fill, table, solver, Group(request, base, values))
+
+
+def _fill_or_fail(table: Rows, fill: Callable[[Designs], None], designs: Designs) -> None:
     """Rows of some designs; where computing breaks down, of halves of them, until the designs at fault are alone."""
     try:
-        _fill(table, group, designs, solver)
+        fill(designs)
     except MemoryError:
         raise
     except Exception as error:
@@ -143,15 +152,29 @@ def _fill_or_fail(table: Rows, group: Group, designs: Designs, solver: Solver) -
             table.fail(int(designs[0]), error)
             return
         for half in np.array_split(designs, 2):
-            _fill_or_fail(table, group, half, solver)
+            _fill_or_fail(table, fill, half)
 
 
-def _fill(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
-    if group.one_by_one:
-        _fill_one_by_one(table, group, designs, solver)
-        return
+def _fill_given(table: Rows, group: Group[AnalyzeRequest], designs: Designs) -> None:
+    """Rows of designs whose counterweights are given."""
     designs = _refuse(table, designs, all_rules(group.of(designs)))
-    turning = group.over_the_turn(designs)
+    designs = _with_inputs(table, group, designs, set())
+    if designs.size:
+        found, unbalance = given(on_webs(group.of(designs)), designs.size)
+        table.put(designs, found)
+        _fill_outputs(table, group, designs, unbalance)
+
+
+def _over_the_turn(group: Group[OptimizeRequest], designs: Designs) -> dict[int, OptimizeRequest]:
+    """Those designs whose objective looks at the whole turn, each by itself."""
+    alone = ((design, group.one(design)) for design in (designs.tolist() if group.turns else ()))
+    return {design: one for design, one in alone if one.objective.over_the_turn}
+
+
+def _fill_optima(table: Rows, solver: Solver, group: Group[OptimizeRequest], designs: Designs) -> None:
+    """Rows of designs of which those of the first order are many programs of one shape."""
+    designs = _refuse(table, designs, all_rules(group.of(designs)))
+    turning = _over_the_turn(group, designs)
     for design, alone in turning.items():
         lacking = next(missing(alone.machine, alone.objective), None)
         if lacking is not None:
@@ -161,12 +184,6 @@ def _fill(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
     designs = _with_inputs(table, group, designs, of_shaft)
     if not designs.size:
         return
-    request = group.of(designs)
-    if isinstance(request, AnalyzeRequest):
-        found, unbalance = given(on_webs(request), designs.size)
-        table.put(designs, found)
-        _fill_outputs(table, group, designs, unbalance)
-        return
     cut = np.isin(designs, list(turning))
     if np.any(cut):
         found, unbalance = optimal_one_by_one(
@@ -175,15 +192,14 @@ def _fill(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
         table.put(designs[cut], found)
         _fill_outputs(table, group, designs[cut], unbalance)
     if not np.all(cut):
-        _fill_first_order(table, group, designs[~cut], solver)
+        _fill_first_order(table, solver, group, designs[~cut])
 
 
-def _fill_one_by_one(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
+def _fill_one_by_one(table: Rows, solver: Solver, group: Group[OptimizeRequest], designs: Designs) -> None:
     """Rows of designs that are searched, cut from plates or alike: as single answers are."""
     found: dict[int, Complex] = {}
     for design in designs.tolist():
         alone, at = group.one(design), np.array([design])
-        assert isinstance(alone, OptimizeRequest)  # nothing else chooses counterweights
         if not _refuse(table, at, all_rules(alone)).size:
             continue
         lacking = next(missing(alone.machine, alone.objective), None) if alone.objective.over_the_turn else None
@@ -202,21 +218,17 @@ def _fill_one_by_one(table: Rows, group: Group, designs: Designs, solver: Solver
         _fill_outputs(table, group, np.array(list(found)), np.array(list(found.values())))
 
 
-def _fill_first_order(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
+def _fill_first_order(table: Rows, solver: Solver, group: Group[OptimizeRequest], designs: Designs) -> None:
     """Rows of designs whose objective is about the first order, those of one shape of program together."""
-    request = group.of(designs)
-    assert isinstance(request, OptimizeRequest)  # nothing else has an objective
-    keys = shape_keys(request, designs.size)
+    keys = shape_keys(group.of(designs), designs.size)
     for key in np.unique(keys):
         alike = designs[keys == key]
-        part = group.of(alike)
-        assert isinstance(part, OptimizeRequest)
-        found, unbalance = optimal(part, alike.size, solver, group.multipliers)
+        found, unbalance = optimal(group.of(alike), alike.size, solver, group.multipliers)
         table.put(alike, found)
         _fill_outputs(table, group, alike, unbalance)
 
 
-def _with_inputs(table: Rows, group: Group, designs: Designs, of_shaft: set[int]) -> Designs:
+def _with_inputs(table: Rows, group: AnyGroup, designs: Designs, of_shaft: set[int]) -> Designs:
     """The designs whose machines give what their outputs need; the others say what is missing.
 
     Parameters
@@ -235,7 +247,7 @@ def _with_inputs(table: Rows, group: Group, designs: Designs, of_shaft: set[int]
     return np.sort(np.concatenate([designs[bare], _refuse(table, designs, rules, ~bare)]))
 
 
-def _fill_outputs(table: Rows, group: Group, designs: Designs, unbalance: Complex) -> None:
+def _fill_outputs(table: Rows, group: AnyGroup, designs: Designs, unbalance: Complex) -> None:
     """Columns of the outputs."""
     bare = np.isin(designs, list(group.bare))
     for some, always in ((bare, ()), (~bare, group.always)):
@@ -243,7 +255,7 @@ def _fill_outputs(table: Rows, group: Group, designs: Designs, unbalance: Comple
             _fill_columns(table, group, designs[some], unbalance[some], always)
 
 
-def _fill_columns(table: Rows, group: Group, designs: Designs, unbalance: Complex, always: tuple[str, ...]) -> None:
+def _fill_columns(table: Rows, group: AnyGroup, designs: Designs, unbalance: Complex, always: tuple[str, ...]) -> None:
     """The same of some designs, in blocks that fit into memory."""
     # without counterweights there is nothing with them
     none = table.columns["status"][designs] == "infeasible"

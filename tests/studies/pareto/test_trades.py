@@ -56,6 +56,19 @@ def test_a_rotating_mass_is_traded_for_iron_along_a_line(response: str) -> None:
     assert [point.beaten_by for point in found.points] == [None] * 4
 
 
+@pytest.mark.parametrize("responses", [["force", "mass"], ["objective", "mass"], ["force", "moment", "mass"]])
+@pytest.mark.parametrize("catalogue", [False, True])
+def test_without_webs_the_mass_is_nothing(responses: list[str], catalogue: bool) -> None:
+    # regression: an internal fault, as a sum of no terms held no anchor
+    machine = {**ROTOR, "webs": [], "catalogue": {"mass_step_kg": 1.0} if catalogue else None}
+    found = front({"machine": machine}, responses=responses, points=3)
+    # analytic: omega = 100 rad/s and 1 kg m in the plane of moments, which is that of the throw
+    there = {"force": 1e4, "objective": 1e4, "moment": 0.0, "mass": 0.0}
+    for point in found.points:
+        assert point.values == pytest.approx([there[name] for name in responses], abs=1e-6)
+    assert found.reason == "reached_together"
+
+
 def test_ends_are_the_single_optima() -> None:
     # independent: the optimum of one objective
     body = opposed()

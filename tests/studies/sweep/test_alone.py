@@ -115,7 +115,7 @@ def test_a_row_is_asked_for_the_gap_of_its_own_machine(of_base: int | None, said
     request = sweep(base, {"path": "/machine/webs/0/min_fitted_mass_kg", "values": [None, 1]})
     # as a worker gets it
     request = SweepRequest.model_validate_json(request.model_dump_json())
-    group = Group(request, [np.array([np.nan, 1.0])])
+    group = Group(request, request.base, [np.array([np.nan, 1.0])])
     rows = [group.one(design) for design in (0, 1)]
     # read again, as by a client who asks for the design alone
     again = [OptimizeRequest.model_validate(json.loads(row.model_dump_json())) for row in rows]
