@@ -84,7 +84,11 @@ ROOMS = {
         tuple(f"tests/jobs/test_{name}.py" for name in ("steps", "coordinator", "store")),
         0.8,
     ),
-    "report": Room("service/report/**/*.py", ("tests/report_document",), 0.8),
+    "report": Room(
+        "service/report/**/*.py",
+        ("tests/report_document", "tests/studies/accuracy/test_document.py", "tests/optimize/test_alternatives.py"),
+        0.8,
+    ),
 }
 
 

@@ -30,7 +30,11 @@ _PROGRAM: dict[str, str] = {
     "methods/compiled.py plain_discs: 0 -> 1": _SPEED,
     "methods/rounding.py _RUNGS": _STEERS,
 }
-_FORMULATION: dict[str, str] = {"counterweights.py _ABOVE_ENVELOPE": _FINER}
+_FORMULATION: dict[str, str] = {
+    "counterweights.py _ABOVE_ENVELOPE": _FINER,
+    "groups.py _masses: mass is not None and angle is None -> mass is not None or angle is None": "angles are"
+    " compared with their masses beside",
+}
 _SERVICE: dict[str, str] = {
     "guard/keys.py caller: record.expires < time.time() -> record.expires <= time.time()": "no clock stands still",
     "jobs/coordinator.py _AT_A_TIME": _SPEED,

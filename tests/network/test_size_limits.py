@@ -53,6 +53,9 @@ MACHINE = {"/machine/throws", "/machine/webs"}
         ("/v1/pareto", SCENE, MACHINE),
         ("/v1/accuracy", SCENE, MACHINE),
         ("/v1/report", SCENE, MACHINE),
+        ("/v1/report", {**SCENE, "versions": [{"name": "as built", "machine": BODY["machine"]}]}, {
+            *MACHINE, "/versions/0/machine/throws", "/versions/0/machine/webs",
+        }),
         ("/v1/scroll/pin-loads", {
             "pin_count": 3, "pin_circle_radius_m": 0.05, "rotation_torque_Nm": 12.5, "angles": {"step_deg": 0.5},
         }, {"/angles/step_deg"}),
