@@ -74,8 +74,9 @@ class Shelf(Generic[Name]):
 
     async def take(self, request: Request, name: Name) -> Kept:
         """A document, for the answer to a request; the event loop does not wait until it is made."""
-        there = self._there.get(name)
-        return there or await threads_of(request).run(holding(request).who, partial(self.made, name))
+        if name in self._there:
+            return self._there[name]
+        return await threads_of(request).run(holding(request).who, partial(self.made, name))
 
     def made(self, name: Name) -> Kept:
         """A document with all that is sent of it; who asks while it is made waits for the same."""
