@@ -3,20 +3,18 @@
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, Literal
-
-import pyarrow as pa
-import pyarrow.compute as pc
-import pyarrow.csv as pa_csv
-import pyarrow.parquet as pq
+from typing import TYPE_CHECKING, Any, Literal
 
 from service.common.plain import FORMULA, SECOND_CELL, TEXT_CELL
 from service.computations import XLSX
 from service.jobs.outbox import Outbox
 from service.jobs.worksheet import worksheet
 
+if TYPE_CHECKING:
+    import pyarrow as pa
+
 Name = Literal["ndjson", "csv", "parquet", "arrow", "xlsx"]
-Batches = Iterable[pa.RecordBatch]
+Batches = Iterable["pa.RecordBatch"]
 
 #: of rows that are written together, before they are compressed: at least so many, or a share of those before, which
 #: keeps what is said of the groups small, and at most so many, as they are held in memory
@@ -28,12 +26,15 @@ class Format:
     """How rows are written; ``encode`` takes a schema and batches of it."""
 
     media_type: str
-    encode: Callable[[pa.Schema, Batches], Iterator[bytes]]
+    encode: Callable[["pa.Schema", Batches], Iterator[bytes]]
     #: whether the metadata of the schema is in the file
     describes_itself: bool
 
 
-def _parquet(schema: pa.Schema, batches: Batches) -> Iterator[bytes]:
+def _parquet(schema: "pa.Schema", batches: Batches) -> Iterator[bytes]:
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
     out = Outbox()
     with pq.ParquetWriter(out, schema, compression="zstd") as writer:
         for group in _groups(batches):
@@ -42,7 +43,7 @@ def _parquet(schema: pa.Schema, batches: Batches) -> Iterator[bytes]:
     yield out.take()
 
 
-def _groups(batches: Batches) -> Iterator[list[pa.RecordBatch]]:
+def _groups(batches: Batches) -> "Iterator[list[pa.RecordBatch]]":
     """Batches that are written together: what is said of each group of rows takes room in a file, and in memory until
     its end."""
     group: list[pa.RecordBatch] = []
@@ -58,15 +59,19 @@ def _groups(batches: Batches) -> Iterator[list[pa.RecordBatch]]:
         yield group
 
 
-def _arrow_stream(schema: pa.Schema, batches: Batches) -> Iterator[bytes]:
+def _arrow_stream(schema: "pa.Schema", batches: Batches) -> Iterator[bytes]:
+    import pyarrow as pa
+
     return _arrow(pa.ipc.new_stream, schema, batches)
 
 
-def _arrow_file(schema: pa.Schema, batches: Batches) -> Iterator[bytes]:
+def _arrow_file(schema: "pa.Schema", batches: Batches) -> Iterator[bytes]:
+    import pyarrow as pa
+
     return _arrow(pa.ipc.new_file, schema, batches)
 
 
-def _arrow(new: Callable[..., Any], schema: pa.Schema, batches: Batches) -> Iterator[bytes]:
+def _arrow(new: Callable[..., Any], schema: "pa.Schema", batches: Batches) -> Iterator[bytes]:
     out = Outbox()
     with new(out, schema) as writer:
         for batch in batches:
@@ -75,7 +80,10 @@ def _arrow(new: Callable[..., Any], schema: pa.Schema, batches: Batches) -> Iter
     yield out.take()
 
 
-def _csv(schema: pa.Schema, batches: Batches) -> Iterator[bytes]:
+def _csv(schema: "pa.Schema", batches: Batches) -> Iterator[bytes]:
+    import pyarrow as pa
+    import pyarrow.csv as pa_csv
+
     out = Outbox()
     names = [_harmless(pa.array([name]))[0].as_py() for name in schema.names]
     plain = pa.schema([pa.field(name, _plain(field.type)) for name, field in zip(names, schema, strict=True)])
@@ -87,22 +95,31 @@ def _csv(schema: pa.Schema, batches: Batches) -> Iterator[bytes]:
     yield out.take()
 
 
-def _plain(kind: pa.DataType) -> pa.DataType:
+def _plain(kind: "pa.DataType") -> "pa.DataType":
+    import pyarrow as pa
+
     return kind.value_type if pa.types.is_dictionary(kind) else kind
 
 
-def _cells(column: pa.Array) -> pa.Array:
+def _cells(column: "pa.Array") -> "pa.Array":
+    import pyarrow as pa
+
     plain = column.cast(_plain(column.type))
     # numbers stay numbers: a minus sign is harmless there
     return _harmless(plain) if pa.types.is_string(plain.type) else plain
 
 
-def _harmless(texts: pa.Array) -> pa.Array:
+def _harmless(texts: "pa.Array") -> "pa.Array":
+    import pyarrow.compute as pc
+
     quoted = pc.replace_substring_regex(texts, SECOND_CELL, TEXT_CELL)
     return pc.if_else(pc.match_substring_regex(texts, FORMULA), pc.binary_join_element_wise("'", quoted, ""), quoted)
 
 
-def _ndjson(schema: pa.Schema, batches: Batches) -> Iterator[bytes]:
+def _ndjson(schema: "pa.Schema", batches: Batches) -> Iterator[bytes]:
+    import pyarrow as pa
+    import pyarrow.compute as pc
+
     names = [json.dumps(name, ensure_ascii=False) for name in schema.names]
     for batch in batches:
         # a row is joined from its cells by arrow, as objects of Python would take minutes for a million rows
@@ -113,8 +130,11 @@ def _ndjson(schema: pa.Schema, batches: Batches) -> Iterator[bytes]:
         yield "".join(lines.to_pylist()).encode()
 
 
-def _literals(column: pa.Array) -> pa.Array:
+def _literals(column: "pa.Array") -> "pa.Array":
     """JSON of each value."""
+    import pyarrow as pa
+    import pyarrow.compute as pc
+
     if pa.types.is_floating(column.type):
         # JSON knows no NaN and no infinity
         column = pc.if_else(pc.is_finite(column), column, None)

@@ -6,12 +6,8 @@ from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from functools import partial
 from threading import Event
-from typing import BinaryIO
+from typing import TYPE_CHECKING, BinaryIO
 
-import pyarrow as pa
-
-from optimizer.studies.sweep.plan import plan
-from optimizer.studies.sweep.table import REQUEST
 from schemas.sweep.answers import SweepLinks, SweepState
 from schemas.sweep.request import SweepRequest
 from service.computations import given_bytes
@@ -26,6 +22,10 @@ from service.jobs.rate import rows_per_second
 from service.jobs.retention import Retention
 from service.jobs.rows import UnknownJob
 from service.jobs.store import Store
+
+# a service without sweeps needs neither Arrow nor the optimiser, and is ready sooner
+if TYPE_CHECKING:
+    import pyarrow as pa
 
 #: the rate is that of the last so many chunks
 _LAST_CHUNKS = 100
@@ -64,7 +64,7 @@ class Rows:
     complete : whether these are all that there ever will be.
     """
 
-    batches: Iterator[pa.RecordBatch]
+    batches: "Iterator[pa.RecordBatch]"
     count: int
     complete: bool
 
@@ -102,6 +102,9 @@ class OwnerJobs:
         ------
         MissingInput, KeyReused, TooManyJobs, QuotaExceeded, DatabaseUnavailable
         """
+        from optimizer.studies.sweep.plan import plan
+        from optimizer.studies.sweep.table import REQUEST
+
         found = plan(asked)
         request = asked.model_dump_json().encode()
         # the request is kept once
@@ -250,12 +253,16 @@ class OwnerJobs:
             raise NotFinished("The answer is computed again.", retry=True)
         return partial(self._opener(job), pieces[0])
 
-    def schema(self, job: Job) -> pa.Schema:
+    def schema(self, job: Job) -> "pa.Schema":
         """Columns of a sweep, with its request, versions and seed as metadata."""
+        import pyarrow as pa
+
+        from optimizer.studies.sweep.table import REQUEST
+
         found = pa.ipc.read_schema(pa.py_buffer(self._parts.store.columns(job.id)))
         return found.with_metadata({REQUEST: self._parts.store.request(job.id), **(found.metadata or {})})
 
-    def rows(self, job: Job, schema: pa.Schema, first: int = 0, last: int | None = None) -> Rows:
+    def rows(self, job: Job, schema: "pa.Schema", first: int = 0, last: int | None = None) -> Rows:
         """The rows with first <= index < last that are finished, in order.
 
         Raises
@@ -275,7 +282,7 @@ class OwnerJobs:
         complete = job.state == "done" and sum(piece.rows for piece in pieces) == job.total
         return Rows(results.batches(wanted, self._opener(job), schema, first, last), job.total, complete)
 
-    def kept(self, job: Job, schema: pa.Schema, first: int = 0, last: int | None = None) -> Rows:
+    def kept(self, job: Job, schema: "pa.Schema", first: int = 0, last: int | None = None) -> Rows:
         """The rows that ``top`` or ``pareto`` of the request keep, of those that were there when they were selected.
 
         Raises

@@ -3,13 +3,13 @@
 import json
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
-from typing import Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
-import pyarrow as pa
-import pyarrow.parquet as pq
-
-from optimizer.studies.sweep.table import REQUEST, SEED, VERSIONS
 from service.jobs.job import Record
+
+# a service without sweeps needs no Arrow, and is ready sooner
+if TYPE_CHECKING:
+    import pyarrow as pa
 
 #: of a batch as text, of a number in it, and of a text, roughly [bytes]
 _BATCH_BYTES = 1_000_000
@@ -20,7 +20,7 @@ class UnknownColumn(ValueError):
     """The result has no column of this name."""
 
 
-def chosen(schema: pa.Schema, asked: Sequence[str]) -> pa.Schema:
+def chosen(schema: "pa.Schema", asked: Sequence[str]) -> "pa.Schema":
     """The schema of some columns, in the order of the result; all of them if none is asked for.
 
     Each of ``asked`` is a name, or several with commas between them.
@@ -29,6 +29,8 @@ def chosen(schema: pa.Schema, asked: Sequence[str]) -> pa.Schema:
     ------
     UnknownColumn
     """
+    import pyarrow as pa
+
     names = [name for part in asked for name in ([part] if part in schema.names else part.split(","))]
     for name in names:
         if name not in schema.names:
@@ -41,10 +43,10 @@ def chosen(schema: pa.Schema, asked: Sequence[str]) -> pa.Schema:
 def batches(
     pieces: Iterable[Record],
     opened: Callable[[Record], BinaryIO],
-    schema: pa.Schema,
+    schema: "pa.Schema",
     first: int = 0,
     last: int | None = None,
-) -> Iterator[pa.RecordBatch]:
+) -> "Iterator[pa.RecordBatch]":
     """Rows with first <= index < last of the pieces that are there, as ``schema`` says.
 
     Parameters
@@ -62,16 +64,20 @@ def within(pieces: Iterable[Record], first: int, last: int | None) -> list[Recor
     return [piece for piece in pieces if piece.stop > first and (last is None or piece.start < last)]
 
 
-def batch_rows(schema: pa.Schema) -> int:
+def batch_rows(schema: "pa.Schema") -> int:
     """How many rows are read at a time: what is held of a stream is bounded, however many columns it has."""
+    import pyarrow as pa
+
     sizes = (_TEXT_BYTES if pa.types.is_string(field.type) else _NUMBER_BYTES for field in schema)
     return max(1, _BATCH_BYTES // sum(len(field.name) + size for field, size in zip(schema, sizes, strict=True)))
 
 
 def rows_of(
-    opened: Callable[[], BinaryIO], schema: pa.Schema, first: int = 0, last: int | None = None
-) -> Iterator[pa.RecordBatch]:
+    opened: Callable[[], BinaryIO], schema: "pa.Schema", first: int = 0, last: int | None = None
+) -> "Iterator[pa.RecordBatch]":
     """Rows first <= position < last of a file, as ``schema`` says; it is opened for the first, and closed after all."""
+    import pyarrow.parquet as pq
+
     position = 0
     with opened() as file, pq.ParquetFile(file) as found:
         # without threads: one of Arrow's that lets go of Python's bytes while the interpreter ends aborts the process
@@ -83,13 +89,17 @@ def rows_of(
                 yield fitted(batch.slice(begin, end - begin), schema)
 
 
-def fitted(batch: pa.RecordBatch, schema: pa.Schema) -> pa.RecordBatch:
+def fitted(batch: "pa.RecordBatch", schema: "pa.Schema") -> "pa.RecordBatch":
     """A batch with the columns and the metadata of a schema."""
+    import pyarrow as pa
+
     return pa.RecordBatch.from_arrays([batch.column(name) for name in schema.names], schema=schema)
 
 
-def description(schema: pa.Schema) -> dict[str, Any]:
+def description(schema: "pa.Schema") -> dict[str, Any]:
     """What a file of Parquet or Arrow says about itself, for the formats that cannot."""
+    from optimizer.studies.sweep.table import REQUEST, SEED, VERSIONS
+
     columns = [
         {
             "name": field.name,

@@ -5,14 +5,15 @@ part 1, 18.3.1), and memory holds one batch however many there are.
 """
 
 from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
 from xml.sax.saxutils import escape
 from zipfile import ZIP_DEFLATED, ZipFile
 
-import pyarrow as pa
-import pyarrow.compute as pc
-
 from service.common.plain import plain
 from service.jobs.outbox import Outbox
+
+if TYPE_CHECKING:
+    import pyarrow as pa
 
 #: of a worksheet, without the line of names
 MOST_ROWS = 2**20 - 1
@@ -78,7 +79,7 @@ def require_fits(rows: int, columns: int) -> None:
         )
 
 
-def worksheet(schema: pa.Schema, batches: Iterable[pa.RecordBatch]) -> Iterator[bytes]:
+def worksheet(schema: "pa.Schema", batches: "Iterable[pa.RecordBatch]") -> Iterator[bytes]:
     """The rows on a sheet, and on a second one the unit and the meaning of their columns.
 
     Raises
@@ -104,7 +105,7 @@ def worksheet(schema: pa.Schema, batches: Iterable[pa.RecordBatch]) -> Iterator[
     yield out.take()
 
 
-def _about(field: pa.Field) -> list[str]:
+def _about(field: "pa.Field") -> list[str]:
     known = field.metadata or {}
     return [known.get(key, b"").decode() for key in (b"unit", b"meaning")]
 
@@ -118,12 +119,17 @@ def _text(text: str) -> str:
     return f'<c t="inlineStr"><is><t xml:space="preserve">{content}</t></is></c>'
 
 
-def _rows(batch: pa.RecordBatch) -> str:
+def _rows(batch: "pa.RecordBatch") -> str:
+    import pyarrow.compute as pc
+
     cells = ["<row>", *map(_cells, batch.columns), "</row>"]
     return "".join(pc.binary_join_element_wise(*cells, "").to_pylist())
 
 
-def _cells(column: pa.Array) -> pa.Array:
+def _cells(column: "pa.Array") -> "pa.Array":
+    import pyarrow as pa
+    import pyarrow.compute as pc
+
     if pa.types.is_floating(column.type) or pa.types.is_integer(column.type):
         if pa.types.is_floating(column.type):
             # a cell holds no NaN and no infinity

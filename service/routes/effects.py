@@ -1,14 +1,11 @@
 """What can be asked for, and what it takes."""
 
-from functools import cache
-
 from fastapi import APIRouter
 from starlette.requests import Request
 from starlette.responses import Response
 
-from optimizer.outputs.descriptions import catalogue
 from schemas.answer.effects import EffectCatalogue
-from service.http.kept import Kept
+from service.http.kept import Kept, Shelf
 from service.http.operations import parameters, problems, unchanged
 
 router = APIRouter(tags=["counterweights"])
@@ -24,9 +21,15 @@ router = APIRouter(tags=["counterweights"])
 )
 async def list_effects(request: Request) -> Response:
     """Only the effects that the outputs of a request need are simulated, and only their inputs are asked for."""
-    return _listed().answer(request)
+    found = await _LISTS.take(request, "effects")
+    return found.answer(request)
 
 
-@cache
-def _listed() -> Kept:
+def _listed(_: str) -> Kept:
+    # the optimiser, which the process of the service needs for nothing else: it would be ready later
+    from optimizer.outputs.descriptions import catalogue
+
     return Kept(catalogue().model_dump_json().encode(), "application/json")
+
+
+_LISTS = Shelf(_listed)

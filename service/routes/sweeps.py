@@ -9,7 +9,6 @@ from fastapi import APIRouter, Depends, Query
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response, StreamingResponse
 
-from optimizer.studies.sweep.plan import plan
 from schemas.sweep.answers import SweepEstimate, SweepState
 from schemas.sweep.request import SweepRequest
 from service.fairness.quotas import holding
@@ -87,6 +86,8 @@ async def post_sweep(request: Request, computing: Computes, desk: Jobs) -> Respo
     def work() -> Response:
         asked = computing.checked(SweepRequest, body)
         if asked.dry_run:
+            from optimizer.studies.sweep.plan import plan
+
             return Response(plan(asked).estimate_for(workers).model_dump_json(), 200, _NO_STORE, "application/json")
         return accepted(request, *desk.sweep(asked, key, body))
 

@@ -4,6 +4,7 @@ import gc
 import os
 import signal
 import subprocess
+import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -165,3 +166,10 @@ def test_a_shutdown_does_not_wait_for_the_warm_up(monkeypatch: pytest.MonkeyPatc
     assert not ended.is_set()
     go.set()
     assert ended.wait(180)
+
+
+def test_the_service_is_loaded_without_the_optimiser() -> None:
+    """Its workers have it; a quarter of the time until the service listens. In a process of its own."""
+    code = "import sys; import service.app; print(*sys.modules)"
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300, check=True)
+    assert {"sqlalchemy", "numpy", "pyarrow", "optimizer.optimize"} & set(ran.stdout.split()) == {"sqlalchemy"}
