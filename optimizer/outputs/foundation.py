@@ -72,7 +72,7 @@ def _loads(
     orders, bare = scene.request.foundation_orders, np.zeros(len(scene.machine.webs), complex)
     wrenches = [by_order(fitted_scene, vectors) for fitted_scene, vectors in sets]
     # odd orders above the first vanish for a slider-crank
-    every = [[vectors_of(of_set.get(order, _NOTHING)) for order in orders] for of_set in wrenches]
+    every = [vectors_of([of_set.get(order, _NOTHING) for order in orders]) for of_set in wrenches]
     phasors = np.array(every).transpose(2, 3, 0, 1)
     weights = np.array([bare if vectors is None else vectors for _, vectors in sets])
     force, couple = (least[:, None] for least in rounding(scene.layout, weights))

@@ -7,7 +7,7 @@ from optimizer.mechanics.inertia import Wrench
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.first_order import FIRST_ORDER_EFFECTS
 from optimizer.outputs.output import Columns, Output
-from optimizer.outputs.phasors import order_of, vectors_of
+from optimizer.outputs.phasors import orders_of, vectors_of
 from schemas.answer.outputs import OrdersComparison
 
 
@@ -24,7 +24,8 @@ def orders(scene: Prepared, unbalance: Complex | None) -> OrdersComparison:
     """Orders 1, 2, 4 and 6 of one machine."""
 
     def found(fitted: Complex | None) -> list[dict[str, Any]]:
-        return [order_of(order, vectors_of(wrench)) for order, wrench in by_order(scene, fitted).items()]
+        wrenches = by_order(scene, fitted)
+        return orders_of([*wrenches], vectors_of([*wrenches.values()]))
 
     return OrdersComparison.model_validate(
         {"before": tuple(found(None)), "after": None if unbalance is None else tuple(found(unbalance))}

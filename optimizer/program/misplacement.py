@@ -21,7 +21,12 @@ def worst_by_mass(norms: Norms, u: Complex, share: float) -> Real:
 
 def farthest_by_mass(middle: Complex, vectors: Complex, share: float) -> Real:
     """Largest |middle + sum_k e_k v_k| (...) of vectors (..., K), |e_k| up to a share."""
-    return np.maximum.reduce(np.abs(middle[..., None] + share * mass_corners(vectors)), axis=-1)
+    # the compiler is loaded when it is first needed
+    from optimizer.program.kernel.outlines import worst_scaled
+
+    rows = plain(vectors).reshape(middle.size, vectors.shape[-1])
+    found: Real = worst_scaled(rows, plain(middle).reshape(-1), share).reshape(middle.shape)
+    return found
 
 
 def mass_corners(vectors: Complex) -> Complex:

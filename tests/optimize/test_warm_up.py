@@ -55,7 +55,7 @@ def test_what_is_compiled_is_what_answers_need() -> None:
         values: ("values",),
         settling: ("bring", "settle"),
         symmetries: ("means",),
-        outlines: ("worst_turned",),
+        outlines: ("worst_scaled", "worst_turned"),
         cancelling: ("least_changes",),
         rows: ("row_functions",),
         readings: ("row_series",),

@@ -1,4 +1,7 @@
-"""What a sum of vectors comes to at worst where all are turned, compiled: :mod:`optimizer.program.misplacement`."""
+"""What sums of vectors come to at worst where all are turned, or all are longer or shorter; compiled.
+
+What for: :mod:`optimizer.program.misplacement`.
+"""
 
 import numpy as np
 
@@ -56,4 +59,36 @@ def worst_turned(vectors, fixed, angle):  # type: ignore[no-untyped-def]
                 vector += turned[order[at]]
                 flat += level[order[at]]
             begin = end
+    return worst
+
+
+@kernel
+def worst_scaled(vectors, middle, share):  # type: ignore[no-untyped-def]
+    """Largest |middle + sum_k e_k v_k|, |e_k| <= share (M,): at a corner of all such sums.
+
+    Around half of their outline the vectors, all of which point ahead, change sign one after the other.
+
+    Parameters
+    ----------
+    vectors, middle : (M, K) and (M,) complex.
+    """
+    number, webs = vectors.shape
+    worst = np.empty(number)
+    ahead, towards, order = np.empty(webs, np.complex128), np.empty(webs), np.empty(webs, np.int64)
+    for m in range(number):
+        corner = 0j
+        for k in range(webs):
+            v = vectors[m, k]
+            ahead[k] = -v if v.imag < 0.0 or (v.imag == 0.0 and v.real < 0.0) else v
+            towards[k] = np.arctan2(ahead[k].imag, ahead[k].real)
+            corner += ahead[k]
+            at = k
+            while at > 0 and towards[order[at - 1]] > towards[k]:
+                order[at] = order[at - 1]
+                at -= 1
+            order[at] = k
+        worst[m] = max(abs(middle[m] + share * corner), abs(middle[m] - share * corner))
+        for at in range(webs):
+            corner -= 2.0 * ahead[order[at]]
+            worst[m] = max(worst[m], abs(middle[m] + share * corner), abs(middle[m] - share * corner))
     return worst
