@@ -114,7 +114,7 @@ def matched_beside(request: MatchRequest, repeats: int, time_limit_s: float) -> 
     size = proof.yardstick / (request.machine.speed_rpm * np.pi / 30.0) ** 2
     none = np.zeros(len(request.machine.webs))
     began = time.process_time()
-    theirs = scip_matched(stated(request, none, none), _GAP, size, time_limit_s)
+    theirs = scip_matched(stated(request, request.machine, none, none), _GAP, size, time_limit_s)
     theirs_s = time.process_time() - began
     return Beside(
         median_s(lambda: match(request), repeats),

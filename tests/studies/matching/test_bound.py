@@ -16,7 +16,8 @@ def test_it_is_that_of_all_mixtures(rows: int, classes: int) -> None:
     """Independent: the relaxation as a cone program; ours proves all of it but a thousandth of what is open."""
     cranks = [float(73 * k % 360) for k in range(rows)]
     body = {"machine": machine(cranks, [45.0, 120.0] * (rows // 2)), "parts": parts(rows, *[rows] * classes)}
-    problem = stated(MatchRequest.model_validate(body), np.zeros(0), np.zeros(0))
+    request = MatchRequest.model_validate(body)
+    problem = stated(request, request.machine, np.zeros(0), np.zeros(0))
     shares = [cp.Variable((rows, rows), nonneg=True) for _ in range(classes)]
     once = [cp.sum(one, axis=axis) == 1 for one in shares for axis in (0, 1)]
     masses = cp.hstack([one @ each.mass for one, each in zip(shares, problem.classes, strict=True)])

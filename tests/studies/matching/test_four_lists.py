@@ -31,7 +31,7 @@ def test_two_classes_of_four_rows_come_to_the_best_there_is() -> None:
     """Independent: all assignments; four lists of two places each are dealt anew until nothing is better."""
     given, classes = machine(mirrored(4), [90.0] * 4), parts(3, 4, 4)
     request = MatchRequest.model_validate({"machine": given, "parts": classes})
-    problem = stated(request, np.zeros(0), np.zeros(0))
+    problem = stated(request, request.machine, np.zeros(0), np.zeros(0))
     found = near_to_nothing(problem, problem.listed, 0.0, never)
     assert all(sorted(found[part]) == sorted(problem.listed[part]) for part in problem.slices)
     best = np.min(objective(given, every(classes, 4), 1.0))
@@ -40,7 +40,7 @@ def test_two_classes_of_four_rows_come_to_the_best_there_is() -> None:
 
 def test_one_class_of_few_rows_is_left_as_it_is_where_nothing_is_better() -> None:
     request = MatchRequest.model_validate({"machine": machine([0.0, 180.0], [90.0] * 2), "parts": parts(3, 2)})
-    problem = stated(request, np.zeros(0), np.zeros(0))
+    problem = stated(request, request.machine, np.zeros(0), np.zeros(0))
     assert sorted(near_to_nothing(problem, problem.listed, 0.0, never)) == sorted(problem.listed)
 
 
@@ -51,7 +51,8 @@ def test_a_class_of_one_row_ends_nothing() -> None:
     classes[0]["rows"], classes[1]["rows"] = rows[:1], rows[1:]
     given = machine([360.0 * k / 17 for k in range(17)], [90.0] * 17)
     body = {"machine": given, "parts": classes, "objective": {"moment_weight": 0}}
-    problem = stated(MatchRequest.model_validate(body), np.zeros(0), np.zeros(0))
+    request = MatchRequest.model_validate(body)
+    problem = stated(request, request.machine, np.zeros(0), np.zeros(0))
     found = near_to_nothing(problem, problem.listed, 0.0, never)
     before, after = (float(problem.peaks.at(problem.vectors(mass))) for mass in (problem.listed, found))
     assert after < 1e-2 * before

@@ -224,7 +224,8 @@ def test_a_heavy_nut_that_cancels_along_one_axis_is_rounded_as_what_it_is() -> N
         "balance_nuts_kg": [nut],
         "objective": {"combine": "sum", "direction_weights": {"x": 0.0, "y": 1.0}},
     }
-    problem = stated(MatchRequest.model_validate(body), np.zeros(0), np.zeros(0))
+    request = MatchRequest.model_validate(body)
+    problem = stated(request, request.machine, np.zeros(0), np.zeros(0))
     # analytic: of half a nut on either side
     assert problem.rounding > np.finfo(float).eps * nut * RADIUS
     answer = matched(body)

@@ -31,7 +31,7 @@ def asked(cranks: list[float], axes: list[float], goal: dict[str, Any], seed: in
 
 
 def problem_of(request: MatchRequest) -> Problem:
-    return stated(request, np.zeros(0), np.zeros(0))
+    return stated(request, request.machine, np.zeros(0), np.zeros(0))
 
 
 def never() -> bool:
