@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 from rich.console import Console
 from rich.table import Table
 
+from optimizer.formulation.task import Task
 from optimizer.optimize import optimize
 from optimizer.outputs.registry import prepare
 from optimizer.solve.process_solver import own_solver
@@ -96,7 +97,7 @@ def times(machine: dict[str, Any], least_mass: bool, repeats: int) -> Times:
         whole.append((time.process_time() - began) * 1e3)
         scene = prepare(request, ("main_bearings",))
         began = time.process_time()
-        best_of_any_mass(request, scene, own_solver())
+        best_of_any_mass(Task.of(request), scene, own_solver())
         solving.append((time.process_time() - began) * 1e3)
     proof = answer.certificate
     assert proof is not None
