@@ -119,8 +119,8 @@ class LightSizes:
         """Main sizes of slots of the optimum, in one heap fewer than there may be sizes, or in as many."""
         most, found = self.options.most_parts or 0, set()
         for number in (most - 1, most):
-            # that few slots are as many heaps helps nothing: all others would be trimmed by a main size
-            if number >= 1 and (number < most or most == 1 or self.own.size > most):
+            # of fewer slots than sizes a heap is left for trims; as many may keep the limit without any
+            if number >= 1 and (number < most or self.own.size >= most):
                 found.add(tuple(sorted({self._nearest(float(np.mean(heap))) for heap in _heaps(self.own, number)})))
         return found
 
