@@ -141,7 +141,8 @@ def test_a_bound_has_the_unit_of_its_objective(factor: float) -> None:
     problem = replace(problem, norms=replace(problem.norms, influence=near), limits=limits)
     # those with which neither web gains anything but by rounding
     term = np.conj(np.array([near[1, 0], -near[0, 0]])) if near.shape[0] == 2 else np.zeros(near.shape[0], complex)
-    term = term / np.max(np.abs(term))
+    # complex, as all are: of real ones the loop would be compiled and kept once more
+    term = (term / np.max(np.abs(term))).astype(complex)
     multipliers = Multipliers(term, np.ones(problem.floor.size), np.zeros(0, complex))
     bigger = replace(
         problem,
