@@ -52,7 +52,7 @@ PROBES = Share("connections that ask for health alone", 4, 32, answer="the oldes
 #: for what takes time though it computes nothing; more would do no more, as they compute one at a time
 THREADS = Share("threads that read and write jobs", 2, 24)
 #: the event loop waits for each of them. What is kept of them is for clients who look now and then
-LOOKS = Share("threads that look at jobs for all who wait", 1, 2, 1, 1)
+LOOKS = Share("threads that look at jobs for all who wait", 1, 1, 1, 1)
 #: of what each client waits for once at most
 ANY = Share("places to wait", inf, inf)
 
