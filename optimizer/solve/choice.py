@@ -4,6 +4,7 @@ they are fitted.
 The searches of one machine take the statement with finitely many cuts, and begin with what is proven of any masses.
 """
 
+import logging
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
@@ -37,6 +38,7 @@ from optimizer.solve.worst_case import best_of_any_mass, with_worst_case
 from schemas.answer.answers import GoalReached
 from schemas.request.objective import COSTS, Cost
 
+_LOG = logging.getLogger(__name__)
 #: width of the brackets by which choices are told apart, as a share of goals
 _CLOSE = 1e-10
 #: by which products of shares are rounded, relative
@@ -177,14 +179,21 @@ class _Course:
         most = max(value, found.lower_bound + goal.allowance * size) + EQUAL * size if later else value
         self._reached.append(Reached(goal.name, value, best.proof, most))
         if self.task.objective.priorities and found.kept:
-            self._told(goal.name, value, found.lower_bound, most)
+            square = self.robust.scene.omega_squared
+            least = finite_or_null(self._bound(found.lower_bound, value, EQUAL * size) * square)
+            self.levels.append(
+                GoalReached(goal=goal.name, value=value * square, lower_bound=least, limit=most * square)
+            )
         self.known = picked
         return found.kept
 
-    def _told(self, name: str, value: float, bound: float, most: float) -> None:
-        square = self.robust.scene.omega_squared
-        least = finite_or_null(min(bound, value) * square)
-        self.levels.append(GoalReached(goal=name, value=value * square, lower_bound=least, limit=most * square))
+    def _bound(self, bound: float, value: float, rounding: float) -> float:
+        """A bound as it is shown beside a value; one above it by more than rounding proves nothing, and is shown so."""
+        if bound <= value + rounding:
+            return min(bound, value)
+        _LOG.error("a lower bound of %g is above the value of %g", bound, value)
+        self.closed = False
+        return bound
 
     def cheapest(self, kind: Cost, allowance: float, kept_back: float) -> None:
         """Make a cost small."""
@@ -205,7 +214,11 @@ class _Course:
         self.closed &= value - bound <= gap
         self.caps, self.known = self.caps.lower(kind, most), choice
         fixed = float(np.sum(fixed_masses(self.task.machine))) if kind == "mass" else 0.0
-        limits = {"value": value + fixed, "lower_bound": min(bound, value) + fixed, "limit": most + fixed}
+        limits = {
+            "value": value + fixed,
+            "lower_bound": self._bound(bound, value, _ROUNDING * value) + fixed,
+            "limit": most + fixed,
+        }
         self.levels.append(GoalReached(goal=kind, **limits))
 
     def _so_far(self, count: int) -> Problem:

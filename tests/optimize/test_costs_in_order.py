@@ -6,6 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from optimizer.choices.feasible_set import Choice
+from optimizer.optimize import optimize
+from optimizer.solve.costs import Costs
 from schemas.answer.answers import OptimizeAnswer
 from schemas.base.target import pointer
 from schemas.request.requests import OptimizeRequest
@@ -16,6 +19,7 @@ from tests.optimize.machines import web
 from tests.optimize.test_catalogue import every_set as every_set_analysed
 from tests.optimize.test_catalogue import twin
 from tests.verification.checking import optimized, verdict
+from tests.verification.every import unchecked
 
 Sets = list[tuple[float, dict[str, float]]]
 WEIGHTS = {"force_weight": 1.0, "moment_weight": 2.0}
@@ -260,3 +264,26 @@ def refused(machine: dict[str, Any], goals: list[dict[str, Any]], field: str, wo
     said = {pointer(each.path): each.message for each in error.value.problems}
     assert field in said
     assert words in said[field]
+
+
+def test_a_bound_above_its_value_is_said_and_proves_nothing(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    least = Costs.least
+
+    def contradicted(costs: Costs, *wanted: Any) -> tuple[Choice | None, float]:
+        choice, bound = least(costs, *wanted)
+        return choice, 2.0 * bound
+
+    monkeypatch.setattr(Costs, "least", contradicted)
+    body = small()
+    order = order_of(("external", 0.05), ("mass", 0.0))
+    answer = unchecked(optimize)(
+        OptimizeRequest.model_validate({"machine": body, "objective": {**WEIGHTS, "priorities": order}})
+    )
+    assert answer.status == "inaccurate"
+    assert answer.certificate is not None
+    level = answer.certificate.goals[-1]
+    assert level.lower_bound is not None
+    assert level.lower_bound == pytest.approx(2.0 * level.value)
+    assert "is above the value of" in caplog.text
