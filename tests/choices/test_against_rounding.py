@@ -23,9 +23,9 @@ def test_two_sizes_are_no_worse_and_no_heavier(seed: int) -> None:
 
 
 @pytest.mark.nightly
-@pytest.mark.parametrize("seed", [116, 123, 125])
+@pytest.mark.parametrize("seed", [37, 116, 123, 125])
 def test_steps_are_no_heavier(seed: int) -> None:
-    """Independent: 169.5 kg were chosen where 142 kg are as good, 141.5 where 137, 76.5 where 75."""
+    """Independent: 258 kg were chosen where 151 kg are as good, 169.5 where 142, 141.5 where 137, 76.5 where 75."""
     (one,) = compared(seed, 5.0, ["steps"])
     assert not one.worse
     assert not one.heavier

@@ -24,6 +24,8 @@ CLOSE, _PATIENCE = 30, 40
 _LIGHTER = 24
 #: of what an objective may be above its bound, spent on any masses, so that options near to them keep the rest
 _PARTS = (0.3, 0.7)
+#: times that every two slots change until a limit is kept
+_SWEEPS = 4
 _SEED = 20_261_123
 
 
@@ -131,7 +133,7 @@ def _near_masses(incumbent: Incumbent, chosen: np.ndarray, levels: tuple[float, 
         (about,), _ = unproven(statement.alone(), np.array([part * (limit - least)]), True)
         other = Incumbent(statement, options, incumbent.resolution)
         other.offer(options.nearest(about)[None])
-        for slots in combinations(range(options.slots), 2):
+        for slots in list(combinations(range(options.slots), 2)) * _SWEEPS:
             if other.chosen is None or other.least <= limit or clock.spent():
                 break
             which = [np.array([option]) for option in other.chosen]
