@@ -11,14 +11,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from optimizer.choices.catalogue_options import part_numbers, stock
-from optimizer.formulation.task import Task
-from optimizer.outputs.registry import prepare
-from optimizer.solve.certify import certified
-from optimizer.solve.process_solver import own_solver
 from optimizer.studies.accuracy.measure import accuracy
 from schemas.request.accuracy import AccuracyAnswer, AccuracyRequest
 from service.report.chapters.accuracy import method_name
 from tests.benchmarks.discrete import choice
+from tests.choices.any_mass import of_any_mass
 from tests.choices.highs import highs
 from tests.choices.scip import Chosen, scip
 
@@ -82,28 +79,24 @@ def ours(answer: AccuracyAnswer) -> Iterator[Row]:
 
 def theirs(request: AccuracyRequest) -> Iterator[Row]:
     """What others find in the time, on the same options."""
-    scene = prepare(request.model_copy(update={"outputs": ("residual",)}))
-    square = np.array([scene.omega_squared])
-    relaxed = certified(
-        request.machine, request.objective, scene.responses, square, Task.of(request).of_any_mass, own_solver()
-    )
+    relaxed, size = of_any_mass(request)
+    square = float(relaxed.certificate["yardstick"][0]) / size
     program, held = relaxed.program.chosen(0), stock(request.machine)
-    size = float(relaxed.certificate["yardstick"][0] / square[0])
     for name, rival in _RIVALS.items():
         for limit in RIVAL_LIMITS_S:
             found, seconds = _timed(
                 lambda wall, each=rival: each(program, held.options, _GAP, size, wall), limit, _GAP * size
             )
-            bound = found.lower_bound * float(square[0]) if np.isfinite(found.lower_bound) else None
+            bound = found.lower_bound * square if np.isfinite(found.lower_bound) else None
             if found.chosen is None:
                 yield Row(name, f"{limit:g} s", seconds, None, bound, None, None)
                 continue
             mass, _ = held.fitted(found.chosen)
             pieces = int(np.sum(mass > 0.0))
             assert part_numbers(mass) <= pieces
-            value = float(program.objective(held.options.carried(found.chosen))) * float(square[0])
+            value = float(program.objective(held.options.carried(found.chosen))) * square
             yield Row(name, f"{limit:g} s", seconds, value, bound, float(np.sum(mass)), pieces)
-            if bound is not None and value - bound <= _GAP * size * float(square[0]):
+            if bound is not None and value - bound <= _GAP * size * square:
                 break
 
 

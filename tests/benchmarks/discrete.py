@@ -13,11 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from optimizer.choices.catalogue_options import stock
-from optimizer.formulation.task import Task
 from optimizer.optimize import optimize
-from optimizer.outputs.registry import prepare
-from optimizer.solve.certify import certified
-from optimizer.solve.process_solver import own_solver
 from optimizer.studies.matching.match import match
 from optimizer.studies.matching.problem import stated
 from optimizer.studies.sweep.whole import sweep_table
@@ -25,6 +21,7 @@ from schemas.match.request import MatchRequest
 from schemas.request.requests import OptimizeRequest
 from schemas.sweep.request import SweepRequest
 from tests.benchmarks.cases import EXAMPLES
+from tests.choices.any_mass import of_any_mass
 from tests.choices.scip import scip, scip_matched
 from tests.studies.matching.cases import machine, mirrored, parts
 
@@ -87,12 +84,7 @@ def beside(body: dict[str, Any], repeats: int, time_limit_s: float) -> Beside:
     assert proof is not None
     assert proof.relative_gap is not None
     assert proof.nodes is not None
-    scene = prepare(request, ("residual",))
-    square = np.array([scene.omega_squared])
-    relaxed = certified(
-        request.machine, request.objective, scene.responses, square, Task.of(request).of_any_mass, own_solver()
-    )
-    size = float(relaxed.certificate["yardstick"][0] / square[0])
+    relaxed, size = of_any_mass(request)
     began = time.process_time()
     theirs = scip(relaxed.program.chosen(0), stock(request.machine).options, _GAP, size, time_limit_s)
     theirs_s = time.process_time() - began

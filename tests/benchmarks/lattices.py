@@ -16,14 +16,11 @@ from scipy.sparse import lil_matrix
 
 from optimizer.choices.catalogue_options import stock
 from optimizer.choices.discrete.options import Options
-from optimizer.formulation.task import Task
 from optimizer.optimize import optimize
-from optimizer.outputs.registry import prepare
 from optimizer.program.statement import Statement
-from optimizer.solve.certify import certified
-from optimizer.solve.process_solver import own_solver
 from schemas.request.requests import OptimizeRequest
 from tests.benchmarks.discrete import choice
+from tests.choices.any_mass import of_any_mass
 from tests.choices.scip import Chosen, scip
 from tests.choices.test_ample import machine
 
@@ -122,12 +119,7 @@ def main(limit_s: float) -> None:
     for name, body in CASES.items():
         print(name)
         request = OptimizeRequest.model_validate(body)
-        scene = prepare(request, ("residual",))
-        square = np.array([scene.omega_squared])
-        free = certified(
-            request.machine, request.objective, scene.responses, square, Task.of(request).of_any_mass, own_solver()
-        )
-        size = float(free.certificate["yardstick"][0] / square[0])
+        free, size = of_any_mass(request)
         program, options = free.program.chosen(0), stock(request.machine).options
         ours(body, GAPS[0], limit_s)
         for gap in GAPS:

@@ -10,12 +10,9 @@ from optimizer.choices.discrete.clock import Clock
 from optimizer.choices.discrete.exchange import neighbourhoods, start
 from optimizer.choices.discrete.options import EQUAL, Incumbent
 from optimizer.choices.discrete.quarters import quarters
-from optimizer.formulation.task import Task
-from optimizer.outputs.registry import prepare
-from optimizer.solve.certify import certified
-from optimizer.solve.process_solver import own_solver
 from schemas.request.requests import OptimizeRequest
 from tests.benchmarks.discrete import choice
+from tests.choices.any_mass import of_any_mass
 from tests.verification.checking import optimized
 
 
@@ -40,15 +37,7 @@ def test_it_keeps_the_limits_and_is_never_worse(limits: dict[str, float]) -> Non
     body = choice(32, None, 5)
     body["machine"] |= limits
     request = OptimizeRequest.model_validate(body)
-    scene = prepare(request, ("residual",))
-    best = certified(
-        request.machine,
-        request.objective,
-        scene.responses,
-        np.array([scene.omega_squared]),
-        Task.of(request).of_any_mass,
-        own_solver(),
-    )
+    best, _ = of_any_mass(request)
     problem, options = best.program.chosen(0), stock(request.machine).options
 
     def found() -> tuple[float, Incumbent]:

@@ -79,20 +79,33 @@ class Steps:
         self.coordinator._step()
         return [(start, stop) for start, stop, _ in self.running.sent[before:]]
 
+    def pauses(self, monkeypatch: pytest.MonkeyPatch, count: int) -> list[float]:
+        """So many pauses of its thread, one after each step, s; then it ends."""
+        pauses: list[float] = []
+
+        def wait(pause: float) -> bool:
+            pauses.append(round(pause, 9))
+            self.coordinator._stopping = len(pauses) == count
+            return True
+
+        monkeypatch.setattr(self.coordinator._wake, "wait", wait)
+        self.coordinator._work()
+        return pauses
+
 
 @pytest.fixture
 def renewed(house: House, monkeypatch: pytest.MonkeyPatch) -> list[list[int]]:
     """The chunks of every renewal."""
-    found: list[list[int]] = []
+    renewals: list[list[int]] = []
     renew = house.leases.renew
 
-    def told(owner: str, held: Sequence[Chunk], lease_s: float) -> None:
+    def recorded(owner: str, held: Sequence[Chunk], lease_s: float) -> None:
         assert lease_s == PACE.lease_s
-        found.append([chunk.start for chunk in held])
+        renewals.append([chunk.start for chunk in held])
         renew(owner, held, lease_s)
 
-    monkeypatch.setattr(house.leases, "renew", told)
-    return found
+    monkeypatch.setattr(house.leases, "renew", recorded)
+    return renewals
 
 
 def test_leases_are_renewed_when_a_third_of_them_is_over(house: House, renewed: list[list[int]]) -> None:
@@ -281,61 +294,38 @@ def test_pauses_grow_while_the_database_is_away(
 
 def test_an_engine_that_is_away_is_asked_again_later(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
     house.submit(total=4, chunk_rows=2)
-    step, pauses = Steps(house), list[float]()
-    coordinator = step.coordinator
+    step = Steps(house)
 
     def window() -> int:
         raise EngineUnavailable("nobody there")
 
-    def wait(pause: float) -> bool:
-        pauses.append(round(pause, 9))
-        coordinator._stopping = len(pauses) == 4
-        return True
-
     monkeypatch.setattr(step.running, "window", window)
-    monkeypatch.setattr(coordinator._wake, "wait", wait)
-    coordinator._work()
-    assert pauses == [0.2, 0.4, 0.5, 0.5]
+    assert step.pauses(monkeypatch, 4) == [0.2, 0.4, 0.5, 0.5]
 
 
 def test_what_nobody_foresaw_ends_no_thread(
     house: House, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    step, pauses = Steps(house), list[float]()
-    coordinator = step.coordinator
+    step = Steps(house)
 
     def stumbles() -> set[str]:
         raise RuntimeError("so it is")
 
-    def wait(pause: float) -> bool:
-        pauses.append(round(pause, 9))
-        coordinator._stopping = len(pauses) == 4
-        return True
-
     monkeypatch.setattr(house.leases, "active", stumbles)
-    monkeypatch.setattr(coordinator._wake, "wait", wait)
-    coordinator._work()
-    assert pauses == [0.2, 0.4, 0.5, 0.5]
+    assert step.pauses(monkeypatch, 4) == [0.2, 0.4, 0.5, 0.5]
     assert sum("stumbled" in record.getMessage() for record in caplog.records) == 4
 
 
 def test_a_disk_without_room_for_a_lease_fails_what_waits(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
-    job, pauses = house.submit(total=4), list[float]()
+    job = house.submit(total=4)
     step = Steps(house, window=0)
     step()
-    coordinator = step.coordinator
 
     def full() -> set[str]:
         raise DatabaseUnavailable("no room", full=True)
 
-    def wait(pause: float) -> bool:
-        pauses.append(pause)
-        coordinator._stopping = len(pauses) == 2
-        return True
-
     monkeypatch.setattr(house.leases, "active", full)
-    monkeypatch.setattr(coordinator._wake, "wait", wait)
-    coordinator._work()
+    step.pauses(monkeypatch, 2)
     # none of its chunks was on its way
     assert step.running.sent == []
     found = house.store.get(job)

@@ -35,7 +35,7 @@ class Nearer(NamedTuple):
     incumbent: Incumbent
     clock: Clock
 
-    def found(self, options: Options, which: list[np.ndarray], sums: int) -> bool:
+    def improves(self, options: Options, which: list[np.ndarray], sums: int) -> bool:
         """Whether one of some options of every slot (K) does."""
         before = self.incumbent.least
         exhaust(options, which, self.incumbent, sums, PAIRS, self.clock)
@@ -104,13 +104,13 @@ def lightest_near(
                 near = near_options(options, k, complex(options.unbalance[k, chosen[k]]), CLOSE)
                 which[k] = np.unique(np.concatenate([near, [chosen[k]], light_options(options, k, CLOSE)]))
         mass = float(np.sum(options.of(options.mass, chosen)))
-        found = lighter(statement, loose, which, limit, mass, clock, int(np.count_nonzero(chosen)), PAIRS)
-        if not found.whole:
+        light_set = lighter(statement, loose, which, limit, mass, clock, int(np.count_nonzero(chosen)), PAIRS)
+        if not light_set.whole:
             # where hardly any set is ruled out by the limit, fewer slots at a time
             several = max(several - 2, 2)
-        if found.chosen is not None:
-            chosen, settled = lightened(incumbent, found.chosen, limit), []
-        elif found.whole:
+        if light_set.chosen is not None:
+            chosen, settled = lightened(incumbent, light_set.chosen, limit), []
+        elif light_set.whole:
             settled.append(set(slots))
     return chosen
 

@@ -110,7 +110,7 @@ class PartSizes:
 
     def _better(self, main: Sizes, small: int, most_trims: int = _TRIMS, sums: int = _TRIED) -> bool:
         """Whether slots of the optimum with the main sizes, and others with the small one, make a better set."""
-        found = False
+        better = False
         for trims in self.trims:
             which = [np.array([0]) for _ in range(self.incumbent.options.slots)]
             for k in self.used:
@@ -122,11 +122,11 @@ class PartSizes:
                 if _half_of(which) * np.sqrt(some.size) <= sums:
                     which[k] = some
             if not self._over():
-                found |= self.better.found(self.loose, which, max(SUMS, sums))
+                better |= self.better.improves(self.loose, which, max(SUMS, sums))
         best = self.better.incumbent.chosen
-        if found and best is not None:
+        if better and best is not None:
             self.incumbent.offer(best[None])
-        return found
+        return better
 
     def _closest(self, slot: int, some: np.ndarray) -> np.ndarray:
         """Of some options of a slot the one nearest to the optimum."""
