@@ -4,7 +4,7 @@ from collections.abc import Callable, Collection, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
-from functools import partial
+from functools import cached_property, partial
 from threading import Event
 from typing import TYPE_CHECKING, BinaryIO
 
@@ -18,7 +18,7 @@ from service.jobs.files import Damaged, FilesUnavailable, JobFiles
 from service.jobs.fingerprints import fingerprint
 from service.jobs.job import Job, Order, Record
 from service.jobs.leases import Leases
-from service.jobs.rate import rows_per_second
+from service.jobs.rate import Rate, rate_by_version
 from service.jobs.retention import Retention
 from service.jobs.rows import UnknownJob
 from service.jobs.store import Store
@@ -26,9 +26,6 @@ from service.jobs.store import Store
 # a service without sweeps needs neither Arrow nor the optimiser, and is ready sooner
 if TYPE_CHECKING:
     import pyarrow as pa
-
-#: the rate is that of the last so many chunks
-_LAST_CHUNKS = 100
 
 
 class NotFinished(Exception):
@@ -54,6 +51,11 @@ class Parts:
     coordinator: Coordinator
     #: streams of events end themselves then
     closing: Event
+
+    @cached_property
+    def rate(self) -> Rate:
+        """Rows per second of a job."""
+        return rate_by_version(self.store.last_finished)
 
 
 @dataclass(frozen=True)
@@ -233,8 +235,7 @@ class OwnerJobs:
     def _seconds_left(self, job: Job) -> float | None:
         if not job.active or job.started is None:
             return None
-        finished = self._parts.store.last_finished(job.id, _LAST_CHUNKS)
-        rate = rows_per_second(finished, job.started if len(finished) < _LAST_CHUNKS else None)
+        rate = self._parts.rate(job.id, job.version, job.started)
         return (job.total - job.done) / rate if rate else None
 
     # ---- results

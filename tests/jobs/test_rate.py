@@ -2,7 +2,8 @@
 
 import pytest
 
-from service.jobs.rate import rows_per_second
+from service.jobs.database import DatabaseUnavailable
+from service.jobs.rate import LAST_CHUNKS, rate_by_version, rows_per_second
 
 
 def finished(*moments: float, rows: int = 100) -> list[tuple[float, int]]:
@@ -35,3 +36,43 @@ def finished(*moments: float, rows: int = 100) -> list[tuple[float, int]]:
 )
 def test_rates(chunks: list[tuple[float, int]], started: float | None, rate: float | None) -> None:
     assert rows_per_second(chunks, started) == (None if rate is None else pytest.approx(rate))
+
+
+def test_a_version_is_read_once() -> None:
+    """However many look at a job between two chunks, its chunks are read once; a later version is read again."""
+    chunks = finished(2, 4)
+    asked: list[tuple[str, int]] = []
+
+    def last_finished(job: str, most: int) -> list[tuple[float, int]]:
+        asked.append((job, most))
+        return chunks
+
+    rate = rate_by_version(last_finished)
+    assert [rate("a", 1, 0.0) for _ in range(3)] == [pytest.approx(50.0)] * 3
+    assert asked == [("a", LAST_CHUNKS)]
+    chunks = finished(1, 2)
+    assert (rate("b", 1, 0.0), rate("a", 2, 0.0), rate("a", 1, 0.0)) == pytest.approx((100.0, 100.0, 50.0))
+    assert [job for job, _ in asked] == ["a", "b", "a"]
+
+
+def test_of_many_chunks_the_begin_is_unknown() -> None:
+    """Where there may be earlier chunks than those that are read, the start of the job says nothing."""
+    few, many = finished(2, 4), finished(*range(1000, 1000 + LAST_CHUNKS))
+    assert rate_by_version(lambda _, most: few[:most])("a", 1, 0.0) == pytest.approx(50.0)
+    assert rate_by_version(lambda _, most: many[:most])("a", 1, 0.0) == pytest.approx(100.0)
+
+
+def test_a_failure_is_not_kept() -> None:
+    """The next look reads again what could not be read."""
+    answers: list[Exception | list[tuple[float, int]]] = [DatabaseUnavailable("away"), finished(2, 4)]
+
+    def last_finished(_: str, __: int) -> list[tuple[float, int]]:
+        answer = answers.pop(0)
+        if isinstance(answer, Exception):
+            raise answer
+        return answer
+
+    rate = rate_by_version(last_finished)
+    with pytest.raises(DatabaseUnavailable):
+        rate("a", 1, 0.0)
+    assert rate("a", 1, 0.0) == pytest.approx(50.0)
