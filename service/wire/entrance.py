@@ -167,7 +167,9 @@ class _Refused:
         self._protocol: Connection | None = None
         self._told = False
         self._timer = entrance.loop.call_later(self._patience_s, self._give_up)
-        entrance.loop.add_reader(connection, self._look)
+        # by its number: the selector quotes a socket that it does not know, which takes three calls of the system
+        self._number = connection.fileno()
+        entrance.loop.add_reader(self._number, self._look)
         entrance.refused.add(self)
         self._begin()
 
@@ -235,8 +237,10 @@ class _Refused:
 
     def _leave(self) -> None:
         self._timer.cancel()
-        self._entrance.loop.remove_reader(self._connection)
-        self._entrance.refused.discard(self)
+        # once: the number of a socket that was closed may be another's
+        if self in self._entrance.refused:
+            self._entrance.refused.remove(self)
+            self._entrance.loop.remove_reader(self._number)
 
     def _forget(self) -> None:
         self._entrance.doors.probed(self._address, self._give_up)
