@@ -4,6 +4,7 @@ import ctypes
 import gc
 import os
 import resource
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -15,8 +16,11 @@ _MMAP_THRESHOLD, _ARENA_MAX = -3, -8
 _LARGE_BYTES = 131_072
 #: heaps that threads share, so that what one of them has freed is there for the others
 _HEAPS = 2
-#: between two times [s]: the longer, the less there was to give back [bytes]. Each stops the service for a moment
+#: between two times [s]: the longer, the less there was to give back [bytes]
 _SHORT_S, _LONG_S = 10.0, 30.0
+#: each stops the service for a tenth of a second, and so waits for a time [s] in which it computes for a share at most;
+#: but no longer than that [s]
+_LOOK_S, _CALM, _PATIENCE_S = 1.0, 0.2, 300.0
 _MUCH_BYTES = 4_000_000
 _PAGE_BYTES = resource.getpagesize()
 
@@ -40,9 +44,20 @@ async def give_back() -> None:
     pause, own = _SHORT_S, CapacityLimiter(1)
     while trim is not None:
         await sleep(pause)
+        await _calm()
         before = _resident()
         await to_thread.run_sync(_give_back, trim, limiter=own)
         pause = _SHORT_S if before - _resident() > _MUCH_BYTES else min(2 * pause, _LONG_S)
+
+
+async def _calm() -> None:
+    """Wait until little is computed here."""
+    end = time.monotonic() + _PATIENCE_S
+    while time.monotonic() < end:
+        computed, at = time.process_time(), time.monotonic()
+        await sleep(_LOOK_S)
+        if time.process_time() - computed < _CALM * (time.monotonic() - at):
+            return
 
 
 def _give_back(trim: Callable[[int], int]) -> None:

@@ -4,9 +4,11 @@ import asyncio
 import json
 from contextlib import AsyncExitStack
 
+import anyio
 import pytest
 
 from service.documents.examples import load
+from service.watch import memory
 from tests.network.bystander import connected
 from tests.network.serving import Service, request, service
 
@@ -55,3 +57,35 @@ def test_memory_of_stopped_readers_is_given_back(times: int) -> None:
         for _ in range(times):
             asyncio.run(_stopped_readers(target, path, rest_mb + _ABOVE_MB))
             asyncio.run(_given_back(target, rest_mb))
+
+
+class _Clock:
+    """Time that passes in sleeps alone, of which a share is computed."""
+
+    def __init__(self, shares: list[float]) -> None:
+        self._shares, self._now, self._computed = shares, 0.0, 0.0
+
+    def monotonic(self) -> float:
+        return self._now
+
+    def process_time(self) -> float:
+        return self._computed
+
+    async def sleep(self, seconds: float) -> None:
+        self._now += seconds
+        self._computed += seconds * (self._shares.pop(0) if len(self._shares) > 1 else self._shares[0])
+
+
+@pytest.mark.parametrize(
+    ("shares", "seconds"),
+    [([0.0], 1.0), ([0.9, 0.5, 0.3, 0.1], 4.0), ([0.9], 300.0)],
+    ids=["calm", "calm after a while", "never calm"],
+)
+def test_it_waits_for_a_calm_moment_but_not_for_ever(
+    shares: list[float], seconds: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    clock = _Clock(shares)
+    monkeypatch.setattr(memory, "time", clock)
+    monkeypatch.setattr(memory, "sleep", clock.sleep)
+    anyio.run(memory._calm)
+    assert clock.monotonic() == seconds
