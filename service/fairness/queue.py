@@ -27,6 +27,7 @@ class Turn:
     begun_at : on the clock of the turns [s].
     computed_s : what a core has computed in it [s]; if not known, as long as it lasted.
     above : it is one above the size.
+    seldom : its owner had little when it began: whoever asks without end gives way to it.
     """
 
     turns: "FairQueue"
@@ -38,6 +39,7 @@ class Turn:
     computed_s: float | None = None
     ended: bool = False
     above: bool = False
+    seldom: bool = False
 
     async def granted(self) -> None:
         """Wait until it begins; who has stopped waiting may wait again.
@@ -185,6 +187,7 @@ class FairQueue:
 
     def _begin(self, turn: Turn) -> None:
         turn.begun, turn.begun_at, turn.above = True, self._clock(), not self._is_free()
+        turn.seldom = self._had_little(turn.owner)
         self._above += turn.above
         self._running[turn.owner] += 1
         self._accounts.take(turn.owner, 1)

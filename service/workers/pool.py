@@ -1,7 +1,7 @@
 """Workers lent to requests: started when needed, ended when a client is gone or its time over, replaced when dead."""
 
 import logging
-from asyncio import FIRST_COMPLETED, ensure_future, gather, timeout, wait
+from asyncio import FIRST_COMPLETED, Future, ensure_future, gather, timeout, wait
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass, field, replace
@@ -86,10 +86,14 @@ class Pool:
         self._kept = int(short.altogether + short.kept + long.altogether)
         self._threads = CapacityLimiter(2 * self._kept)
         self._idle: list[Worker] = []
-        self._busy: set[Worker] = set()
+        # and the turns of the short ones in which they compute, or did
+        self._busy: dict[Worker, Turn] = {}
         # of recent computations, short and long, for Retry-After [s]
         self._typical_s = {False: 0.1, True: length.BRIEF_S}
         self._closed = False
+        # workers that there always are, and their starts
+        self._least = 0
+        self._starts: Future[None] | None = None
 
     @property
     def running(self) -> int:
@@ -107,12 +111,15 @@ class Pool:
     def open(self) -> None:
         """Load the optimiser and start every worker; this takes seconds. Without it they start when needed.
 
+        From then on a worker that ends is replaced before anybody needs it.
+
         Raises
         ------
         WorkersFailed
         """
         while len(self._idle) < self._kept and not self._closed:
             self._idle.append(self._start())
+        self._least = self._kept
 
     def close(self) -> None:
         """End every worker; what is computed or waits comes to :class:`WorkersFailed`."""
@@ -139,7 +146,7 @@ class Pool:
                     if not task.long:
                         await short.granted()
                         computing = True
-                        outcome = await self._computed(task, self._priority(owner), short, long)
+                        outcome = await self._computed(task, self._priority(short), short, long)
                         if not isinstance(outcome, Long):
                             return outcome
                         computing = False
@@ -158,14 +165,23 @@ class Pool:
             self.counts.ended_late += 1
             raise TooSlow(self.timeout_s, computing) from None
 
-    def _priority(self, owner: str) -> Priority:
-        return Priority.FURTHER if self._short.more(owner) else Priority.FIRST
+    def _priority(self, turn: Turn) -> Priority:
+        """That of a turn which has just begun; who asks without end gives way to who asks now and then."""
+        if self._short.more(turn.owner):
+            return Priority.FURTHER
+        others = {worker: other for worker, other in self._busy.items() if other.begun and not other.ended}
+        if not turn.seldom:
+            return Priority.FURTHER if any(other.seldom for other in others.values()) else Priority.FIRST
+        for worker, other in others.items():
+            if not other.seldom:
+                worker.lower(Priority.FURTHER)
+        return Priority.FIRST
 
     async def _computed(self, task: Task, priority: Priority, short: Turn, long: Turn) -> Outcome | Long:
         # the second one is new: the first may have died long before, and the next idle one with it
         for take in (self._free, self._fresh):
             worker = await take()
-            self._busy.add(worker)
+            self._busy[worker] = short
             try:
                 outcome = await self._outcome(worker, task, priority, short, long)
             except Dead:
@@ -182,7 +198,7 @@ class Pool:
                 await self._keep(worker, outcome, task.long)
                 return outcome
             finally:
-                self._busy.discard(worker)
+                del self._busy[worker]
         raise WorkerDied("The process that computed this died; try again later.")
 
     async def _outcome(self, worker: Worker, task: Task, priority: Priority, short: Turn, long: Turn) -> Outcome | Long:
@@ -232,6 +248,7 @@ class Pool:
             return
         self.counts.ended_gone += 1
         await self._in_thread(worker.end)
+        self._replace()
 
     async def _free(self) -> Worker:
         while self._idle:
@@ -250,6 +267,17 @@ class Pool:
         except get_cancelled_exc_class():
             start.leave()
             raise
+
+    def _replace(self) -> None:
+        """Have workers started for those that have ended."""
+        if self._starts is None or self._starts.done():
+            self._starts = ensure_future(self._start_all())
+
+    async def _start_all(self) -> None:
+        # why none can be started is told to whoever needs one
+        with suppress(WorkersFailed):
+            while len(self._idle) + len(self._busy) < self._least and not self._closed:
+                self._spare(await self._fresh())
 
     def _start(self) -> Worker:
         if not self._closed:
@@ -272,6 +300,7 @@ class Pool:
         if spent or getattr(outcome, "resident", 0) > self.memory_mb * _MB / 2 or len(self._idle) >= self._kept:
             # fresh ones hold no more than they need, and there are no more of them than needed
             await self._in_thread(worker.end)
+            self._replace()
         else:
             self._idle.append(worker)
         typical = self._typical_s[long]

@@ -54,6 +54,7 @@ class Worker:
         #: for how long cores have computed the last task [s], once its outcome was heard
         self.computed_s: float | None = None
         self._before_s = 0.0
+        self._priority = Priority.FIRST
         context = multiprocessing.get_context("forkserver")
         self._connection, theirs = socket.socketpair()
         self._says = Listener(self._connection)
@@ -81,7 +82,7 @@ class Worker:
 
     def send(self, task: Task, priority: Priority) -> None:
         """Have a task computed."""
-        self.computed_s = None
+        self.computed_s, self._priority = None, priority
         try:
             self._connection.sendall(task.said(priority))
         except OSError as error:
@@ -105,13 +106,16 @@ class Worker:
             return 0.0
         return (int(fields[11]) + int(fields[12])) / _TICKS - self._before_s
 
-    def lower(self) -> None:
-        """Have its task go on behind all others, as long ones do; not the next."""
+    def lower(self, priority: Priority = Priority.LONG) -> None:
+        """Have its task go on behind others, as those of a priority do, if it is not yet; not the next."""
+        if priority <= self._priority:
+            return
+        self._priority = priority
         # priorities are those of threads, and the first thread starts those of other tasks
         with suppress(OSError):
             for thread in os.listdir(f"/proc/{self.pid}/task"):
                 if int(thread) != self.pid:
-                    os.setpriority(os.PRIO_PROCESS, int(thread), niceness(Priority.LONG, self.pid))
+                    os.setpriority(os.PRIO_PROCESS, int(thread), niceness(priority, self.pid))
 
     def kill(self) -> None:
         """Kill it; who waits for its answer is told that it is dead."""

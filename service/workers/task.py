@@ -18,7 +18,10 @@ _KEPT = 256
 
 
 class Priority(IntEnum):
-    """Before whom a task is computed: one of a client who has no other, further ones of a client, long ones."""
+    """Before whom a task is computed.
+
+    Of a client who has no other; further ones of a client, and those that give way to who asks now and then; long ones.
+    """
 
     FIRST = 0
     FURTHER = 1

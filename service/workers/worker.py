@@ -15,7 +15,7 @@ from collections.abc import Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import AbstractContextManager, nullcontext, suppress
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from tempfile import TemporaryFile
 from typing import BinaryIO
@@ -145,12 +145,15 @@ def serve(connection: socket.socket, memory_bytes: int, folder: Path | None) -> 
     preload = sys.modules.get("service.workers.preload")
     try:
         connection.sendall(pickle.dumps(getattr(preload, "failure", None)))
-        with connection.makefile("rb") as asked:
-            task, priority = Task.heard(asked)
+        with connection.makefile("rb") as tasks:
+            task, priority = Task.heard(tasks)
             while True:
                 # it begins as nice as this one is, which only waits for it
                 with ThreadPoolExecutor(1) as thread:
-                    task, priority = thread.submit(_answer, asked, connection, folder, task, priority).result()
+                    answer = partial(_answer, tasks, connection, folder)
+                    while (following := thread.submit(answer, task, priority).result()) is None:
+                        task, priority = Task.heard(tasks)
+                    task, priority = following
     except (EOFError, BrokenPipeError, ConnectionResetError):
         return
 
@@ -161,13 +164,14 @@ def niceness(priority: Priority, pid: int) -> int:
 
 
 def _answer(
-    asked: BinaryIO, connection: socket.socket, folder: Path | None, task: Task, priority: Priority
-) -> tuple[Task, Priority]:
+    tasks: BinaryIO, connection: socket.socket, folder: Path | None, task: Task, priority: Priority
+) -> tuple[Task, Priority] | None:
     """Answer tasks, one that was read before and those that come; until one comes for which this thread is too nice.
 
     Returns
     -------
-    that one: a thread that was nice once may not go back.
+    that one: a thread that was nice once may not go back. Or None once this thread is behind others: for a task that is
+    not, it would wake late.
     """
     while _takes(priority):
         before_s = time.process_time()
@@ -175,7 +179,9 @@ def _answer(
         now_s = time.process_time()
         _send(connection, Reply(outcome, now_s - before_s, now_s), folder)
         del task, outcome
-        task, priority = Task.heard(asked)
+        if os.getpriority(os.PRIO_PROCESS, 0) > niceness(Priority.FIRST, os.getpid()):
+            return None
+        task, priority = Task.heard(tasks)
     return task, priority
 
 

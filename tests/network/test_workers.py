@@ -3,9 +3,11 @@
 import json
 import os
 import signal
+import socket
 import stat
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -13,12 +15,14 @@ from tempfile import TemporaryDirectory
 import anyio
 import pytest
 
+from schemas.answer.problem import Problem
 from service.fairness.faults import Busy
 from service.fairness.table import shares
 from service.settings import Settings
 from service.workers.pool import Pool, TooSlow, WorkerDied
 from service.workers.process import WorkersFailed
-from service.workers.worker import Answer, Crashed, NoRoom, Outcome, OutOfMemory, Refused
+from service.workers.task import Priority, Task
+from service.workers.worker import Answer, Crashed, NoRoom, Outcome, OutOfMemory, Refused, _answer
 from tests.network import tasks
 from tests.network.tasks import task
 from tests.network.test_length import SAMPLED
@@ -81,6 +85,46 @@ def test_who_asks_for_more_is_computed_behind_the_others(pool: Pool) -> None:
     assert {process for _, process in many} == {first}
     # and whoever is alone again is not behind anybody
     assert said(*run(pool, task(tasks.niceness))) == [[first, first]]
+
+
+def test_who_asks_without_end_gives_way_to_who_asks_now_and_then(pool: Pool) -> None:
+    here = os.getpriority(os.PRIO_PROCESS, 0)
+    first, behind = (min(19, here + nicer) for nicer in (2, 10))
+    # a second of work, on end
+    assert isinstance(run(pool, task(tasks.slow))[0], Answer)
+    titles: dict[str, list[int]] = {}
+
+    async def niceness(name: str, computation: Callable[..., Problem], owner: str) -> None:
+        answer = await pool.run(task(computation), owner)
+        assert isinstance(answer, Answer)
+        titles[name] = [int(number) for number in json.loads(answer.content)["title"].split()]
+
+    async def two_owners() -> None:
+        async with anyio.create_task_group() as group:
+            # it computes until its niceness changes, which it does after 0.1 s if nobody else comes
+            group.start_soon(niceness, "before", tasks.lowered, "one")
+            await anyio.wait_all_tasks_blocked()
+            group.start_soon(niceness, "now and then", tasks.niceness, "another")
+        async with anyio.create_task_group() as group:
+            group.start_soon(niceness, "again", tasks.niceness, "another")
+            await anyio.wait_all_tasks_blocked()
+            group.start_soon(niceness, "beside", tasks.niceness, "one")
+
+    anyio.run(two_owners)
+    assert titles["now and then"] == titles["again"] == [first, first]
+    # what had begun before goes on behind, and what begins meanwhile is behind from the first
+    assert titles["before"] == [first, behind]
+    assert titles["beside"] == [behind, first]
+
+
+def test_a_thread_that_is_behind_others_reads_no_task() -> None:
+    """It would wake late for one that is not, as everything else comes before it."""
+    ours, theirs = socket.socketpair()
+    with ours, theirs, theirs.makefile("rb") as stream, ThreadPoolExecutor(1) as thread:
+        ours.sendall(task(tasks.quick).said(Priority.FIRST))
+        order = _answer, stream, theirs, None, task(tasks.quick), Priority.FURTHER
+        assert thread.submit(*order).result(60) is None
+        assert Task.heard(stream)[1] is Priority.FIRST
 
 
 def test_long_tasks_are_computed_behind_all_others(pool: Pool) -> None:
@@ -272,6 +316,21 @@ def test_who_has_no_turn_finds_a_worker_that_has_been_started(pool: Pool) -> Non
             group.cancel_scope.cancel()
 
     anyio.run(another_beside_all)
+
+
+def test_a_worker_that_was_ended_is_replaced_before_anybody_needs_it(pool: Pool) -> None:
+    pool.open()
+    begun = pool.counts.started
+
+    async def leave() -> None:
+        with anyio.move_on_after(0.3):
+            await pool.run(task(tasks.endless), "one")
+        with anyio.fail_after(60):
+            while len(pool.pids) < begun:
+                await anyio.sleep(0.01)
+
+    anyio.run(leave)
+    assert (pool.running, pool.counts.ended_gone, pool.counts.started) == (0, 1, begun + 1)
 
 
 def test_a_task_that_takes_too_much_memory_is_refused_alone(pool: Pool) -> None:
