@@ -151,7 +151,7 @@ def _crossings(torque: TurnCurves, mean: Real) -> tuple[Real, Real]:
     from optimizer.mechanics.kernel.crossings import crossings
 
     pieces = torque.pieces
-    where, place, between, (jumped, at) = crossings(pieces.known.cubic, pieces.known.half, compact(mean))
+    where, place, between, (jumped, at) = crossings(pieces.cubics.cubic, pieces.cubics.half, compact(mean))
     angle, off = _polished(torque, mean, where, place, between)
     error = np.zeros(len(pieces.half))
     np.maximum.at(error, where[0], off)

@@ -208,7 +208,7 @@ def floors(
     """
     from optimizer.responses.kernel.outlines import PLACES, farthest, nearer, outlines
 
-    pieces, every = curves.pieces, curves.pieces.known
+    pieces, every = curves.pieces, curves.pieces.cubics
     number: Index = np.arange(len(pieces.half)) if numbers is None else np.array(numbers, dtype=np.intp)
     if not number.size:
         return []
