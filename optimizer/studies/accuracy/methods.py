@@ -111,7 +111,7 @@ def _service(relative_gap: float) -> Run:
     solver = Solver()
 
     def run(task: Task, position: float, time_limit_s: float) -> Found | str:
-        outcome = optima(task.statement.alone(), relative_gap, False, solver).one()
+        outcome = optima(task.statement.alone(), relative_gap, False, solver).single()
         if isinstance(outcome, Unreachable):
             return "no counterweights keep the ceilings"
         bound = outcome.lower_bound

@@ -8,7 +8,7 @@ import numpy as np
 
 from optimizer.analyze import analyze
 from optimizer.errors import refuse
-from optimizer.formulation.counterweights import as_given, too_heavy, unbalance
+from optimizer.formulation.counterweights import mass_and_angle, too_heavy, unbalance
 from optimizer.formulation.formulate import responses
 from optimizer.formulation.goals import cone_program
 from optimizer.mechanics.fixed_weights import beside
@@ -43,7 +43,7 @@ _LEFT = (
 def match(request: MatchRequest) -> MatchAnswer:
     """The rows that weighed parts go on, each once, so that the weighted peaks are small; with a certified bound."""
     start = time.perf_counter()
-    fitted, angle = as_given(request.machine, request.counterweights)
+    fitted, angle = mass_and_angle(request.machine, request.counterweights)
     # what is cut from a plate has the radius that its mass gives it
     cut = fitted_masses(request.machine, fitted)
     if not request.choose_counterweights:

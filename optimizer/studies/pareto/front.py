@@ -130,7 +130,7 @@ def _smallest(trade: Trade, solver: Solver) -> tuple[Trade, list[Solution]] | Un
 def _alone(trade: Trade, solver: Solver) -> tuple[Trade, list[Solution]] | Unreachable:
     results: list[Solution] = []
     for program in trade.alone:
-        one = optima(program.alone(), _SHARPNESS, True, solver).one()
+        one = optima(program.alone(), _SHARPNESS, True, solver).single()
         if isinstance(one, Unreachable):
             return one
         results.append(one)
@@ -212,7 +212,7 @@ def _meet(trade: Trade, anchor: Real, unit: Real, least_mass: bool, share: float
     program = trade.along(anchor, unit)
 
     def within(part: float) -> Solution:
-        result = optima(program.alone(), part * share, least_mass, solver).one()
+        result = optima(program.alone(), part * share, least_mass, solver).single()
         if isinstance(result, Unreachable):
             raise _Undecided
         return result

@@ -19,7 +19,7 @@ from optimizer.mechanics.fixed_weights import beside, fixed_masses
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.requirements import missing
 from optimizer.program.certificate import ceiling_allowance
-from optimizer.program.cuts.optimum import METHOD, Found, Unkept, over_turn
+from optimizer.program.cuts.optimum import METHOD, CertifiedOptimum, Unkept, over_turn
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.program.verdict import Claim, mass_resolution, verdict
@@ -157,7 +157,7 @@ class _Front:
         asked = self.request.accuracy.relative_gap
         share = min(1.0, float(np.min(self.size / unit)))
         result = over_turn(self.traded.along(anchor, unit), share * asked, least)
-        assert isinstance(result, Found)  # the ends have kept the ceilings
+        assert isinstance(result, CertifiedOptimum)  # the ends have kept the ceilings
         masses, angles = masses_and_angles(self.machine, result.point.unbalance, result.limits)
         u = unbalance(masses, angles, result.limits.radius)
         values, excess = self.traded.values(u), self.traded.excess(u)
@@ -199,7 +199,7 @@ class _Front:
             ),
         )
 
-    def _bound(self, found: Found, u: Complex, excess: float) -> tuple[float, float]:
+    def _bound(self, found: CertifiedOptimum, u: Complex, excess: float) -> tuple[float, float]:
         """What is proven of t for all that exceed no ceiling by more than u does, and the rounding of its value."""
         proof = found.proof
         over = np.full(proof.statement.ceilings.size.shape, max(excess, 0.0))

@@ -86,7 +86,7 @@ class _Judge:
     def of(cls, request: OptimizeRequest) -> "_Judge":
         effects = effects_of_objective(request.objective)
         scene, task = prepare(request, ("residual",), () if request.cases else effects), Task.of(request)
-        program = Robust(task, scene, task.demand).asked().program
+        program = Robust(task, scene, task.demand).goals().program
         return cls(request.machine, program, scene.omega_squared)
 
     def values(self, weights: _Set) -> tuple[float, float]:

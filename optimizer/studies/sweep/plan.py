@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import pyarrow as pa
 
 from optimizer.errors import MissingInput
-from optimizer.formulation.formulate import given_ceilings
+from optimizer.formulation.formulate import objective_ceilings
 from optimizer.outputs.registry import missing_inputs
 from optimizer.outputs.requirements import missing
 from optimizer.studies.sweep.table import result_schema
@@ -186,4 +186,4 @@ def _plain_discs(request: OptimizeRequest) -> bool:
     limits them further."""
     machine, objective = request.machine, request.objective
     free = machine.max_total_mass_kg is None and all(web.sector is None for web in machine.webs)
-    return free and objective.combine == "sum" and not given_ceilings(objective)
+    return free and objective.combine == "sum" and not objective_ceilings(objective)

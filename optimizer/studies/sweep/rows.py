@@ -119,7 +119,7 @@ class Group(Generic[Base]):
             contents[target.path] = None if np.isnan(chosen[0]) else chosen
         return with_fields(self._base, contents)
 
-    def one(self, design: int) -> Base:
+    def single(self, design: int) -> Base:
         """One design as a request of numbers."""
         contents: dict[Path, Any] = {}
         for target, column in zip(self._targets, self._values, strict=True):
@@ -167,7 +167,7 @@ def _fill_given(table: Rows, group: Group[AnalyzeRequest], designs: Designs) -> 
 
 def _over_the_turn(group: Group[OptimizeRequest], designs: Designs) -> dict[int, OptimizeRequest]:
     """Those designs whose objective looks at the whole turn, each by itself."""
-    alone = ((design, group.one(design)) for design in (designs.tolist() if group.turns else ()))
+    alone = ((design, group.single(design)) for design in (designs.tolist() if group.turns else ()))
     return {design: one for design, one in alone if one.objective.over_the_turn}
 
 
@@ -199,7 +199,7 @@ def _fill_one_by_one(table: Rows, solver: Solver, group: Group[OptimizeRequest],
     """Rows of designs that are searched, cut from plates or alike: as single answers are."""
     found: dict[int, Complex] = {}
     for design in designs.tolist():
-        alone, at = group.one(design), np.array([design])
+        alone, at = group.single(design), np.array([design])
         if not _refuse(table, at, all_rules(alone)).size:
             continue
         lacking = next(missing(alone.machine, alone.objective), None) if alone.objective.over_the_turn else None

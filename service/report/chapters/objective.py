@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 
-from optimizer.formulation.formulate import given_ceilings, weights
+from optimizer.formulation.formulate import objective_ceilings, weights
 from schemas.base.responses import ResponseFields, counted
 from schemas.base.titles import field_title
 from schemas.request.objective import Objective, Priority
@@ -65,7 +65,7 @@ def objective(request: OptimizeRequest) -> Table:
             *((f"ceiling of the peak {each.label}, {each.unit}", most) for each, most in _ceilings(goal, count)),
             *(
                 (f"ceiling of the {each.label}, {each.unit}", allowed)
-                for each, allowed in given_ceilings(goal)
+                for each, allowed in objective_ceilings(goal)
                 if each.axis is not None
             ),
             *(
