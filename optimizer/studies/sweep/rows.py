@@ -16,7 +16,7 @@ from optimizer.outputs.requirements import missing
 from optimizer.program.reference.solver import Solver
 from optimizer.studies.sweep.counterweights import given, optimal, shape_keys
 from optimizer.studies.sweep.designs import axis_values
-from optimizer.studies.sweep.one_by_one import optimal_one_by_one
+from optimizer.studies.sweep.singles import optimal_one_by_one
 from optimizer.studies.sweep.work import work_per_design
 from schemas.base.rules import Path, Rule, all_rules
 from schemas.base.target import pointer
