@@ -63,7 +63,7 @@ def columns_of(request: OptimizeRequest, best: Certified, multipliers: bool) -> 
     return columns, unbalance(mass, angle, stacked([web.radius_m for web in request.machine.webs]))
 
 
-def given(request: AnalyzeRequest, count: int) -> tuple[Columns, Complex]:
+def fixed_columns(request: AnalyzeRequest, count: int) -> tuple[Columns, Complex]:
     """Total mass, and the unbalance of the counterweights (count, webs) kg m."""
     mass, angle = mass_and_angle(request.machine, request.counterweights)
     radius = stacked([web.radius_m for web in request.machine.webs])

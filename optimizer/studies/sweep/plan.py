@@ -131,7 +131,7 @@ def plan(request: SweepRequest) -> Plan:
 
 def _require_inputs(request: SweepRequest) -> None:
     """Refuse what no design can give: a field that is null in the base and that no axis fills."""
-    filled = with_fields(request.base, {target.path: 1.0 for target in request.targets} | dict(_nothing_asked(request)))
+    filled = with_fields(request.base, {target.path: 1.0 for target in request.targets} | dict(_idle_values(request)))
     problems: dict[Path, FieldProblem] = {}
     for path, message in missing_inputs(filled.machine, filled.outputs):
         problems.setdefault(path, FieldProblem(("base", *path), message))
@@ -142,7 +142,7 @@ def _require_inputs(request: SweepRequest) -> None:
         raise MissingInput(problems.values())
 
 
-def _nothing_asked(request: SweepRequest) -> Iterator[tuple[Path, float | None]]:
+def _idle_values(request: SweepRequest) -> Iterator[tuple[Path, float | None]]:
     """Fields that look at the whole turn, where an axis holds the value by which they ask for nothing."""
     # crank orders have targets without axes, and vary no objective
     for axis, target in zip(request.axes, request.targets, strict=False):
