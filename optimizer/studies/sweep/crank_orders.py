@@ -17,11 +17,11 @@ def orders(request: CrankOrders) -> Real:
     if request.alike:
         # the first of them begins with the first angle
         rest = arrangements(
-            times - np.eye(times.size, dtype=np.int64)[0], int(np.sum(times)) - 1, request.looked_through
+            times - np.eye(times.size, dtype=np.int64)[0], int(np.sum(times)) - 1, request.sequence_count
         )
         result = None if rest is None else np.concatenate([np.zeros((len(rest), 1), dtype=np.int64), rest], axis=1)
     else:
-        result = arrangements(times, int(np.sum(times)), request.looked_through)
+        result = arrangements(times, int(np.sum(times)), request.sequence_count)
     assert result is not None  # there are no more than are looked through
     own = _code(result, times.size)
     for symmetry in request.symmetries:

@@ -174,7 +174,7 @@ def _seconds_per_design(request: SweepRequest) -> float:
         seconds += _TURN_S + _CUTS_S * curves_over_turn(request)
     elif request.searched and isinstance(request.base, OptimizeRequest):
         seconds += min(_SEARCH_S, request.base.accuracy.time_limit_s)
-    elif request.one_by_one:
+    elif request.separate:
         seconds += _ALONE_S
     elif isinstance(request.base, OptimizeRequest):
         seconds += (_DISC_S if _plain_discs(request.base) else _PROGRAM_S) * max(len(request.base.machine.webs), 1)

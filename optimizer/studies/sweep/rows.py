@@ -137,7 +137,7 @@ def _fill(request: SweepRequest, values: Sequence[Real], table: Rows, solver: So
     base = request.base
     if isinstance(base, AnalyzeRequest):
         return partial(_fill_analyzed, table, Group(request, base, values))
-    fill = _fill_singles if request.one_by_one else _fill_optima
+    fill = _fill_singles if request.separate else _fill_optima
     return partial(fill, table, solver, Group(request, base, values))
 
 

@@ -58,7 +58,7 @@ def _computed(request: ReportRequest, place: int) -> Column:
             given = analyze(AnalyzeRequest(machine=machine, counterweights=version.counterweights))
             left = given.residual.after if given.residual is not None else None
             return Column(version.name, "given", left, given.total_mass_kg, given.counterweights)
-        result = optimize(request.asked_of(version))
+        result = optimize(request.request_for(version))
     except MissingInput as error:
         raise MissingInput(FieldProblem(("versions", place, *path), said) for path, said in error.problems) from None
     return Column(version.name, result.status, shown(result)[1], result.total_mass_kg, result.counterweights)
