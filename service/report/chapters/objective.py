@@ -23,8 +23,8 @@ _OVER_THE_TURN = {
 }
 
 
-def _told(value: float | str | tuple[Priority, ...]) -> float | str:
-    return ", ".join(each.goal for each in value) if isinstance(value, tuple) else value
+def _text(value: float | str | tuple[Priority, ...]) -> float | str:
+    return ", ".join(priority.goal for priority in value) if isinstance(value, tuple) else value
 
 
 def _per(unit: str) -> str:
@@ -69,7 +69,7 @@ def objective(request: OptimizeRequest) -> Table:
                 if each.axis is not None
             ),
             *(
-                (_OVER_THE_TURN[name], _told(getattr(goal, name)))
+                (_OVER_THE_TURN[name], _text(getattr(goal, name)))
                 for name in (*goal.over_the_turn, *(("bearing_measure",) if goal.bearing_weight else ()))
             ),
             ("among all optima", "the lightest" if goal.least_mass else "any"),
