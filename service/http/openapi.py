@@ -18,7 +18,7 @@ from schemas.base.model import Model
 from schemas.sweep.request import SweepRequest
 from service.computations import COMPUTATIONS
 from service.guard.keys import PUBLIC, PUBLIC_FOLDERS
-from service.http.kept import Kept, Shelf
+from service.http.cached_document import Kept, Shelf
 from service.http.operations import HEADERS, MODEL_REF, PARAMETERS, Described, headers, problems
 
 #: groups of operations, in the order in which they are shown

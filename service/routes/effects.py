@@ -5,7 +5,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from schemas.answer.effects import EffectCatalogue
-from service.http.kept import Kept, Shelf
+from service.http.cached_document import Kept, Shelf
 from service.http.operations import parameters, problems, unchanged
 
 router = APIRouter(tags=["counterweights"])

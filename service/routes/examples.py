@@ -12,7 +12,7 @@ from service.computations import XLSX
 from service.documents.examples import Examples, catalogue, load
 from service.documents.template import template
 from service.fairness.threads import in_threads
-from service.http.kept import Kept
+from service.http.cached_document import Kept
 from service.http.operations import BINARY, parameters, problems, ref, unchanged
 
 router = APIRouter(tags=["examples"])

@@ -5,7 +5,7 @@ from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import Response
 
-from service.http.kept import ASKS_AGAIN, FOR_EVER, Kept, Shelf
+from service.http.cached_document import ASKS_AGAIN, FOR_EVER, Kept, Shelf
 from service.portal.assets import asset, names, page, release
 
 router = APIRouter(include_in_schema=False)

@@ -9,7 +9,7 @@ from starlette.responses import Response
 
 from service.documents.problem_kinds import ProblemKind, kind_of
 from service.http.accept import liked
-from service.http.kept import Kept
+from service.http.cached_document import Kept
 from service.http.operations import TEXT, accept, parameters, problems, unchanged
 
 router = APIRouter(tags=["problems"])

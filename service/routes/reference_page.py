@@ -9,7 +9,7 @@ from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, Response
 
-from service.http.kept import Kept, Shelf
+from service.http.cached_document import Kept, Shelf
 
 # the browser enforces that nothing is loaded from elsewhere
 _POLICY = "default-src 'self' 'unsafe-inline'; img-src 'self' data:"

@@ -12,7 +12,7 @@ from starlette.testclient import TestClient
 from service.common.coding import Coding, coded
 from service.computations import COMPUTATIONS, Computation
 from service.guard.sizes import SizeLimits
-from service.http.kept import Kept
+from service.http.cached_document import Kept
 from service.settings import Settings
 from service.workers.task import Task
 from service.workers.worker import Answer, perform

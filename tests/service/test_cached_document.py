@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from service.fairness.threads import Threads
-from service.http.kept import Kept, Shelf
+from service.http.cached_document import Kept, Shelf
 
 _LONG = b"a document " * 1000
 
