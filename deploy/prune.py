@@ -104,6 +104,6 @@ if __name__ == "__main__":
     site = Path(sysconfig.get_path("purelib"))
     freed = prune(site, list(unused))
     freed["symbols"] = sum(strip(path) for path in site.rglob("*.so*") if path.is_file() and not path.is_symlink())
-    for name, size in sorted(freed.items(), key=lambda one: -one[1]):
+    for name, size in sorted(freed.items(), key=lambda pair: -pair[1]):
         sys.stdout.write(f"{size / 1e6:7.1f} MB  {name}\n")
     sys.stdout.write(f"{sum(freed.values()) / 1e6:7.1f} MB  removed\n")

@@ -103,7 +103,7 @@ def put(text: str, mark: str, block: str) -> str:
         if the document has no such marks.
     """
     pattern = re.compile(rf"(<!-- {mark} -->\n).*?(\n<!-- end -->)", re.DOTALL)
-    text, count = pattern.subn(lambda found: found[1] + block + found[2], text)
+    text, count = pattern.subn(lambda match: match[1] + block + match[2], text)
     if count != 1:
         raise LookupError(f"{DOCUMENT.name} has no mark for {mark}")
     return text

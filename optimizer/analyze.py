@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from optimizer.errors import refuse
 from optimizer.formulation.balance_shafts import fitted
-from optimizer.formulation.counterweights import as_given, too_heavy
+from optimizer.formulation.counterweights import mass_and_angle, too_heavy
 from optimizer.formulation.placement import on_webs
 from optimizer.mechanics.shapes import fitted_masses
 from optimizer.outputs.registry import fields, prepare
@@ -27,7 +27,7 @@ def analyze(request: AnalyzeRequest) -> AnalyzeAnswer:
     """
     start = time.perf_counter()
     request = on_webs(request)
-    mass, angle = as_given(request.machine, request.counterweights)
+    mass, angle = mass_and_angle(request.machine, request.counterweights)
     refuse(too_heavy(request.machine, request.counterweights, "counterweights"))
     # what is cut from a plate has the radius that its mass gives it
     machine = fitted_masses(request.machine, mass)

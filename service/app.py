@@ -242,8 +242,8 @@ def _behind_proxies(chosen: Settings) -> Sequence[Middleware]:
 class Application(Documented):
     """With something around everything, also around what answers the exceptions that nobody else does."""
 
-    def __init__(self, outer: Sequence[Middleware], **given: Any) -> None:
-        super().__init__(**given)
+    def __init__(self, outer: Sequence[Middleware], **settings_of: Any) -> None:
+        super().__init__(**settings_of)
         self._outer = outer
 
     def build_middleware_stack(self) -> ASGIApp:

@@ -33,12 +33,12 @@ class Form:
     suffix: str
     headers: tuple[tuple[str, str], ...] = ()
     compressed: bool = False
-    asked: bool = False
+    needs_request: bool = False
 
-    def content(self, asked: Any, found: Any) -> bytes:
+    def content(self, request: Any, answer: Any) -> bytes:
         """The answer to a request in this form."""
         write = resolve_name(self.write)
-        made: bytes = write(asked, found) if self.asked else write(found)
+        made: bytes = write(request, answer) if self.needs_request else write(answer)
         return made
 
 
@@ -47,19 +47,19 @@ JSON = Form("application/json", "service.computations:json_bytes", ".json")
 XLSX = "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet"
 
 
-def json_bytes(found: "Model") -> bytes:
+def json_bytes(answer: "Model") -> bytes:
     """An answer as JSON."""
-    return found.model_dump_json().encode()
+    return answer.model_dump_json().encode()
 
 
-def given_bytes(asked: "Model") -> bytes:
+def request_bytes(request: "Model") -> bytes:
     """A request as JSON: what was given, without defaults."""
-    return asked.model_dump_json(exclude_unset=True).encode()
+    return request.model_dump_json(exclude_unset=True).encode()
 
 
-def itself(asked: "Model") -> "Model":
+def echo_request(request: "Model") -> "Model":
     """The request, where nothing is asked but that it is read and checked."""
-    return asked
+    return request
 
 
 @dataclass(frozen=True)
@@ -174,7 +174,7 @@ def _table(name: str, what: str) -> Computation:
 def _workbook(write: Reference, name: str) -> Form:
     """Request and answer as a workbook."""
     headers = (("Content-Disposition", f'attachment; filename="{name}"'),)
-    return Form(XLSX, write, ".xlsx", headers, compressed=True, asked=True)
+    return Form(XLSX, write, ".xlsx", headers, compressed=True, needs_request=True)
 
 
 #: what a browser may take from a document as it stands
@@ -304,14 +304,14 @@ COMPUTATIONS: dict[str, Computation] = {
             path="/v1/convert",
             request="schemas.request.requests:OptimizeRequest",
             answer=None,
-            compute="service.computations:itself",
+            compute="service.computations:echo_request",
             summary="A request itself, checked: a workbook as JSON, or JSON as a workbook",
             remark="The header `Accept` chooses. Quantities come in the units of their fields, what was not given stays"
             " away, nothing is solved. What is wrong with a workbook is said with its cell.",
             tag="examples",
             workbook="service.workbook.answers:requested",
             forms=(
-                Form("application/json", "service.computations:given_bytes", ".json"),
+                Form("application/json", "service.computations:request_bytes", ".json"),
                 _workbook("service.workbook.answers:requested", "machine.xlsx"),
             ),
         ),

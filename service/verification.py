@@ -14,7 +14,7 @@ from service.common.examples import directory
 from service.common.validation import InvalidRequest
 
 
-def verify(asked: VerifyRequest) -> VerifyAnswer:
+def verify(request: VerifyRequest) -> VerifyAnswer:
     """What becomes of the claims of an answer.
 
     Raises
@@ -22,10 +22,10 @@ def verify(asked: VerifyRequest) -> VerifyAnswer:
     InvalidRequest
         naming the field of request or answer that cannot be read, or that holds more than is checked at a time.
     """
-    found = checker()
+    tools = checker()
     try:
-        return VerifyAnswer.model_validate(found.verify(asked.request, asked.answer, found.PLACES))
-    except found.Unreadable as error:
+        return VerifyAnswer.model_validate(tools.verify(request.request, request.answer, tools.PLACES))
+    except tools.Unreadable as error:
         raise InvalidRequest([FieldProblem(error.path, error.message)]) from None
 
 

@@ -46,12 +46,12 @@ def alternatives(request: Place, answer: Place, machine: Machine, statement: Sta
             yield "alternatives", lowest, None, ONE
 
 
-def costs(asked: Place, place: Place, mass: Number) -> Dict[str, Number]:
+def costs(design: Place, place: Place, mass: Number) -> Dict[str, Number]:
     """Total mass, and the numbers of counterweights and of different masses that are chosen."""
     masses: List[float] = sorted(
-        (one / "mass_kg").double()
-        for web, one in zip(asked / "webs", place)
-        if not web / "fixed" and (one / "mass_kg").double() > 0
+        (weight / "mass_kg").double()
+        for web, weight in zip(design / "webs", place)
+        if not web / "fixed" and (weight / "mass_kg").double() > 0
     )
-    sizes = sum(n == 0 or each - masses[n - 1] > SAME * each for n, each in enumerate(masses))
+    sizes = sum(n == 0 or mass_kg - masses[n - 1] > SAME * mass_kg for n, mass_kg in enumerate(masses))
     return {"mass": mass, "pieces": real(len(masses)), "sizes": real(sizes)}

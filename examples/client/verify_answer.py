@@ -44,7 +44,7 @@ def fitted(request: Place, machine: Machine, place: Place, on_shafts: Place, who
 def before(request: Place, machine: Machine, answer: Place) -> Claims:
     """The machine as it is: its plane, its first two orders, and what is left of it whatever is fitted."""
     if answer / "reference_plane_m":
-        yield near("reference_plane", answer / "reference_plane_m", machine.asked_plane * ABOUT_ONE)
+        yield near("reference_plane", answer / "reference_plane_m", machine.own_plane * ABOUT_ONE)
     shown = answer / "residual"
     yield from first_order("before", shown / "before", machine.before)
     yield from beside("before", shown / "responses", "before", machine.before)
@@ -86,21 +86,21 @@ def after(request: Place, machine: Machine, answer: Place, there: Fitted) -> Cla
             yield from listed("active_limits", answer / "active_limits", rooms)
 
 
-def rates(asked: Place, machine: Machine, place: Place, said: Place, there: Fitted) -> Claims:
+def rates(design: Place, machine: Machine, place: Place, entries: Place, there: Fitted) -> Claims:
     """The balance rate of every throw."""
     unbalances = {
-        (one / "web").text(): mass.product * (mass.co + machine.blur) for one, mass in zip(place, there.turning)
+        (entry / "web").text(): mass.product * (mass.co + machine.blur) for entry, mass in zip(place, there.turning)
     }
-    exact, told = balance_rates(asked, machine, unbalances), list(said)
-    yield "balance_rate", said, ONE if len(exact) == len(told) else -ONE, ONE
-    for one, rate in zip(told, exact):
-        yield same("balance_rate", one / "throw", rate.throw)
-        yield same("balance_rate", one / "name", rate.name)
+    exact, printed = balance_rates(design, machine, unbalances), list(entries)
+    yield "balance_rate", entries, ONE if len(exact) == len(printed) else -ONE, ONE
+    for entry, rate in zip(printed, exact):
+        yield same("balance_rate", entry / "throw", rate.throw)
+        yield same("balance_rate", entry / "name", rate.name)
         for field, figure in (("rate", rate.rate), ("sideways", rate.sideways)):
-            if figure is None or not one / field:
-                yield "balance_rate", one, ONE if figure is None and not one / field else -ONE, ONE
+            if figure is None or not entry / field:
+                yield "balance_rate", entry, ONE if figure is None and not entry / field else -ONE, ONE
             else:
-                yield near("balance_rate", one / field, figure, ONE)
+                yield near("balance_rate", entry / field, figure, ONE)
 
 
 def touched(request: Place, machine: Machine, left: Responses, mass: Number) -> Optional[Dict[str, float]]:

@@ -41,19 +41,19 @@ def limited(value: Value) -> Iterator[Limited]:
         yield Limited("bending_ceiling", bending.double(least=0), f"bending:{plane!r}")
 
 
-def kept(place: Place, there: Sequence[Value], rest: Sequence[Value], optimal: bool) -> Claims:
+def margins(place: Place, there: Sequence[Value], rest: Sequence[Value], optimal: bool) -> Claims:
     """That an optimal answer keeps the ceilings; returns which share of each is left at least."""
     rooms: Dict[str, float] = {}
     for value, nothing in zip(there, rest):
         for limit, most, response in limited(value):
-            found = value.under(response)
+            peak = value.under(response)
             # broken is what exceeds the ceiling for certain, as in the first order
-            room = most - found.low
+            room = most - peak.low
             if room < 0:
                 room += CEILING * max(most, nothing.under(response).high)
-            yield "ceilings", place, real(room) if optimal or room >= 0 else None, real(max(most, found.high))
+            yield "ceilings", place, real(room) if optimal or room >= 0 else None, real(max(most, peak.high))
             # a ceiling that the rounding of what cancels comes near to may be listed or not
-            unsure = found.high - found.low > UNSURE * most
-            share = nan if unsure else 1 - found.high / most if most > 0 else 0.0
+            unsure = peak.high - peak.low > UNSURE * most
+            share = nan if unsure else 1 - peak.high / most if most > 0 else 0.0
             rooms[limit] = min(rooms.get(limit, share), share)
     return rooms

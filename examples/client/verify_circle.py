@@ -34,16 +34,18 @@ def smallest(curve: Periodic, enough: float = 0.0) -> Optional[Circle]:
             return None
         if peak.high <= max(low * (1 + WIDE), enough) + 1e-12 * size:
             return Circle(low, peak.high, middle)
-        farthest = max(curve.sides(peak.angle), key=lambda one: abs(one - middle))
+        farthest = max(curve.sides(peak.angle), key=lambda point: abs(point - middle))
         low, middle, support = around([*support, farthest])
     return None
 
 
 def around(points: Sequence[complex]) -> Tuple[float, complex, List[complex]]:
     """Radius and middle of the smallest circle around two to four points, and those that hold it."""
-    found = (0.0, points[0], [points[0]])
-    for one, other in combinations(points, 2):
-        found = max(found, (abs(one - other) / 2, (one + other) / 2, [one, other]), key=lambda each: each[0])
+    circle = (0.0, points[0], [points[0]])
+    for first, second in combinations(points, 2):
+        circle = max(
+            circle, (abs(first - second) / 2, (first + second) / 2, [first, second]), key=lambda candidate: candidate[0]
+        )
     for a, b, c in combinations(points, 3):
         # of a triangle without an obtuse angle, as seen from its first corner
         p, q = b - a, c - a
@@ -51,5 +53,5 @@ def around(points: Sequence[complex]) -> Tuple[float, complex, List[complex]]:
         acute = min((p.conjugate() * q).real, (-p.conjugate() * (c - b)).real, (q.conjugate() * (c - b)).real)
         if area and acute > 0:
             centre = a + 1j * (abs(q) ** 2 * p - abs(p) ** 2 * q) / (2 * area)
-            found = max(found, (abs(centre - a), centre, [a, b, c]), key=lambda each: each[0])
-    return found
+            circle = max(circle, (abs(centre - a), centre, [a, b, c]), key=lambda candidate: candidate[0])
+    return circle

@@ -34,7 +34,7 @@ def near(claim: str, place: Place, figure: Number, size: Optional[Number] = None
     """A figure lies where it has to; of a size, if not its own."""
     if not place:
         return claim, place, None, ONE
-    off = min(place.number() - figure, figure - place.number(), key=lambda one: one.high)
+    off = min(place.number() - figure, figure - place.number(), key=lambda difference: difference.high)
     return claim, place, off + real(NOTHING), abs(figure) if size is None else size
 
 
@@ -53,7 +53,7 @@ def judged(claims: Iterable[Claim], answer: Place) -> Dict[str, Any]:
         where a leaf of the answer is no finite number.
     """
     found: Dict[str, Tuple[int, float, Dict[str, Any]]] = {}
-    looked_at, evidence = set(), set()
+    visits, evidence = set(), set()
     for claim, place, room, size in claims:
         if claim == EVIDENCE:
             evidence.add(place.path)
@@ -61,7 +61,7 @@ def judged(claims: Iterable[Claim], answer: Place) -> Dict[str, Any]:
         share = None if room is None else _share(room, size)
         rank = 1 if room is None else 0 if room.high >= 0 else 2
         if rank != 1:
-            looked_at.add(place.path)
+            visits.add(place.path)
         elif not place and place.path[:1] == ("answer",):
             # nothing is claimed
             continue
@@ -69,7 +69,7 @@ def judged(claims: Iterable[Claim], answer: Place) -> Dict[str, Any]:
         if claim not in found or worse > found[claim][:2]:
             told = {"claim": claim, "verdict": VERDICTS[rank], "margin": share, "where": pointer(place.path)}
             found[claim] = *worse, told
-    leaves = account(answer, looked_at, evidence)
+    leaves = account(answer, visits, evidence)
     worst = max([rank for rank, _, _ in found.values()], default=1)
     rank = max(worst, 1 if leaves["not_covered"] else 0)
     return {"claims": [told for _, _, told in found.values()], **leaves, "verdict": VERDICTS[rank]}

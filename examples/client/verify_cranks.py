@@ -18,29 +18,29 @@ class Crank(NamedTuple):
     degrees: float
 
 
-def shares(asked: Place) -> Dict[str, Dict[int, Number]]:
+def shares(design: Place) -> Dict[str, Dict[int, Number]]:
     """Of every web, the throws that it belongs to: the one that it names, or the nearest, equally near ones alike."""
-    places = [(one / "position_m").double() for one in asked / "throws"]
-    webs = [((web / "name").text(), (web / "position_m").double(), web / "throw") for web in asked / "webs"]
+    places = [(throw / "position_m").double() for throw in design / "throws"]
+    webs = [((web / "name").text(), (web / "position_m").double(), web / "throw") for web in design / "webs"]
     far = max((abs(at - place) for _, at, _ in webs for place in places), default=0.0)
     extent = max(map(abs, places), default=0.0) + far
-    found: Dict[str, Dict[int, Number]] = {}
+    throws: Dict[str, Dict[int, Number]] = {}
     for name, at, named in webs if places else ():
         away = [abs(at - place) for place in places]
-        near = [t for t, one in enumerate(away) if one <= min(away) + TIE * extent]
+        near = [t for t, distance in enumerate(away) if distance <= min(away) + TIE * extent]
         if named:
             near = [int(named.double(least=0))]
             if near[0] >= len(places):
                 raise NotCovered(named)
-        found[name] = {t: real(1 / len(near)) for t in near}
-    return found
+        throws[name] = {t: real(1 / len(near)) for t in near}
+    return throws
 
 
-def own_cranks(asked: Place) -> Dict[str, Optional[Crank]]:
+def own_cranks(design: Place) -> Dict[str, Optional[Crank]]:
     """Of every web the crank that it belongs to; none where two are equally near, and on a scroll."""
-    angles = [(one / "crank_angle_deg").double() for one in asked / "throws"]
-    of_webs = {name: [*each] for name, each in shares(asked).items()}
-    names = [(web / "name").text() for web in asked / "webs"]
+    angles = [(throw / "crank_angle_deg").double() for throw in design / "throws"]
+    of_webs = {name: [*near] for name, near in shares(design).items()}
+    names = [(web / "name").text() for web in design / "webs"]
     alone = {name: near[0] for name, near in of_webs.items() if len(near) == 1}
     return {name: Crank(alone[name], angles[alone[name]]) if name in alone else None for name in names}
 
@@ -54,19 +54,19 @@ class Rate(NamedTuple):
     sideways: Optional[Number]
 
 
-def balance_rates(asked: Place, machine: Machine, unbalances: Dict[str, Number]) -> List[Rate]:
+def balance_rates(design: Place, machine: Machine, unbalances: Dict[str, Number]) -> List[Rate]:
     """Of every throw, with unbalances of its webs [kg m]."""
-    of_webs, found = shares(asked), []
-    for t, throw in enumerate(asked / "throws"):
+    of_webs, results = shares(design), []
+    for t, throw in enumerate(design / "throws"):
         crank = direction((throw / "crank_angle_deg").double()) + machine.blur
         turning = [(throw / "rotating_mass_kg").number(0.0), *(row_masses(row)[1] for row in throw / "rows")]
         size = total(turning) * (throw / "crank_radius_m").number() * machine.wide
         against: Sequence[Number] = [u * of_webs[web][t] for web, u in unbalances.items() if t in of_webs.get(web, {})]
         name = (throw / "name").text() if throw / "name" else None
         if size.low <= real(NEXT_TO_NOTHING).high:
-            found.append(Rate(t, name, None, None))
+            results.append(Rate(t, name, None, None))
             continue
-        rate = -(total(against) + BLUR * total(abs(one) for one in against)) * crank.conjugate()
+        rate = -(total(against) + BLUR * total(abs(part) for part in against)) * crank.conjugate()
         along, across = (part * ABOUT_ONE / size if part is not ZERO else ZERO for part in rate.parts())
-        found.append(Rate(t, name, along, across))
-    return found
+        results.append(Rate(t, name, along, across))
+    return results

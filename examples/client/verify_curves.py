@@ -16,25 +16,27 @@ class Turn:
     """What a machine does at a shaft angle, in the units of the answer."""
 
     def __init__(self, request: Place, machine: Machine, loads: bool) -> None:
-        asked = request / "machine"
-        self.machine, self.sense = machine, ONE if (asked / "rotation").text(default="ccw") == "ccw" else -ONE
+        design = request / "machine"
+        self.machine, self.sense = machine, ONE if (design / "rotation").text(default="ccw") == "ccw" else -ONE
         fidelity = request / "fidelity"
         if (fidelity / "kinematics").text(default="exact") != "exact":
             raise NotCovered(fidelity / "kinematics")
         continuous = (fidelity / "shaft").text("simple_spans", "continuous", default="simple_spans") == "continuous"
-        self.rows = list(rows_of(asked))
+        self.rows = list(rows_of(design))
         gas = any(row.place / "cylinder" or list(row.place / "cylinders") for row in self.rows)
         #: what acts on the pistons beside inertia, where loads count
-        self.pistons = Pistons(asked, machine, self.rows) if loads and (gas or asked / "friction") else None
+        self.pistons = Pistons(design, machine, self.rows) if loads and (gas or design / "friction") else None
         self.turning = [mass for mass in machine.masses if mass.counter is ZERO]
-        self.place = asked / "bearings"
-        bearings = sorted((Fraction((one / "position_m").double()), (one / "name").text()) for one in self.place)
+        self.place = design / "bearings"
+        bearings = sorted(
+            (Fraction((bearing / "position_m").double()), (bearing / "name").text()) for bearing in self.place
+        )
         #: names of the bearings, and what they carry, in rising places
         self.bearings = {name: n for n, (_, name) in enumerate(bearings)}
         self.places = [float(place) for place, _ in bearings]
         apart = all(one < other for (one, _), (other, _) in zip(bearings, bearings[1:]))
         self.spans = Spans([place for place, _ in bearings], continuous) if len(bearings) > 1 and apart else None
-        self._known: Dict[Tuple[str, int], Number] = {}
+        self._factors: Dict[Tuple[str, int], Number] = {}
 
     def seen(self, response: str, degrees: float) -> Number:
         """A response without counterweights but those that are fixed, at a shaft angle, as the shaft sees it."""
@@ -88,9 +90,9 @@ class Turn:
     def factor(self, response: str, position: Number) -> Number:
         """What a unit of force in a plane adds to a response."""
         key = response, position.low
-        if key not in self._known:
-            self._known[key] = self._adds(response, position)
-        return self._known[key]
+        if key not in self._factors:
+            self._factors[key] = self._adds(response, position)
+        return self._factors[key]
 
     def _adds(self, response: str, position: Number) -> Number:
         kind, _, name = response.partition(":")

@@ -84,22 +84,22 @@ class Part:
         webs = zip(fitted.turning, self.machine.webs)
         return fitted._replace(turning=[one._replace(position=web.position) for one, web in webs])
 
-    def term(self, one: Place) -> Term:
-        response, row = (one / "response").text(), (one / "row").text()
+    def term(self, cut: Place) -> Term:
+        response, row = (cut / "response").text(), (cut / "row").text()
         kind, _, name = response.partition(":")
-        y = (one / "x").number() + J * (one / "y").number()
+        y = (cut / "x").number() + J * (cut / "y").number()
         if kind not in self.weights or self.weights[kind].high <= 0 or not self.turn.knows(response):
-            raise NotCovered(one)
-        if not one / "angle_deg" and not (kind == "bearing" and self.mean):
-            exact = self.exact.terms.get((response, (one / "part").text("co", "counter")))
+            raise NotCovered(cut)
+        if not cut / "angle_deg" and not (kind == "bearing" and self.mean):
+            exact = self.exact.terms.get((response, (cut / "part").text("co", "counter")))
             if exact is None:
-                raise NotCovered(one)
+                raise NotCovered(cut)
             floor = self.exact.floor[exact.row]
             return Term(row, self._group("first"), exact.start, self.of_first_order(exact), y, floor)
         if kind == "bearing" and self.mean:
             return self._mean(response, row, y)
-        weight, degrees = self.weights[kind] * ABOUT_ONE, (one / "angle_deg").double()
-        weight = over(weight, self.area[name], one) if kind == "bearing" and self.specific else weight
+        weight, degrees = self.weights[kind] * ABOUT_ONE, (cut / "angle_deg").double()
+        weight = over(weight, self.area[name], cut) if kind == "bearing" and self.specific else weight
         start, factors = self.turn.seen(response, degrees) * weight, self.at(response, degrees, weight)
         return Term(row, self._group(kind), start, factors, y, ZERO, kind == "roll")
 
@@ -140,8 +140,8 @@ class Part:
             on_shafts = [one.seen(unit) * self._arm(response, one) if moves else ZERO for one in self.geared]
         return [*self._factors(response, weight), *(one * weight for one in on_shafts)]
 
-    def _arm(self, response: str, one: Geared) -> Number:
-        return self.turn.factor(response, one.web.position) * self.machine.square
+    def _arm(self, response: str, shaft_web: Geared) -> Number:
+        return self.turn.factor(response, shaft_web.web.position) * self.machine.square
 
     def value(self, responses: Responses, off: Scatter, sizes: Sequence[Number]) -> Number:
         """The objective of the first order where counterweights of these sizes [kg m] are off."""
@@ -158,20 +158,20 @@ class Part:
         square = self.machine.square
         return [self.turn.factor(response, web.position) * square * factor for web in self.machine.webs]
 
-    def capped(self, one: Place) -> Tuple[Number, List[Number], Number]:
+    def capped(self, cut: Place) -> Tuple[Number, List[Number], Number]:
         """What a ceiling limits, and how much it allows."""
-        response, goal = (one / "response").text(), self.goal
+        response, goal = (cut / "response").text(), self.goal
         kind, _, name = response.partition(":")
         along = bool(name) and kind in ON_FRAME
-        if one / "angle_deg" and not self.turn.knows(kind if along else response):
-            raise NotCovered(one)
-        if not one / "angle_deg":
+        if cut / "angle_deg" and not self.turn.knows(kind if along else response):
+            raise NotCovered(cut)
+        if not cut / "angle_deg":
             if response not in self.exact.caps:
-                raise NotCovered(one)
+                raise NotCovered(cut)
             co, counter = self.machine.laden[kind]
             start = co if not name else co + counter.conjugate() * (ONE if name == "x" else -ONE)
             return start, self.of_ceiling(response), self.exact.caps[response]
-        degrees = (one / "angle_deg").double()
+        degrees = (cut / "angle_deg").double()
         if along and self.all and response in CEILINGS and goal / CEILINGS[response]:
             # the real part of what is turned to the frame and to the axis
             back = self.turn.turned(degrees) * (ONE if name == "x" else -J)
@@ -183,5 +183,5 @@ class Part:
         if kind == "bearing" and goal / "specific_load_ceiling_Pa":
             caps.append((goal / "specific_load_ceiling_Pa").number(least=0) * self.area[name])
         if not caps:
-            raise NotCovered(one)
+            raise NotCovered(cut)
         return start, self.at(response, degrees, ONE), min(caps, key=lambda cap: cap.high)

@@ -70,22 +70,22 @@ def enclosed(curve: Pressed, place: Place, sign: int = 0) -> Peak:
 
 def kinematics(request: Place, pistons: Pistons, place: Place) -> Claims:
     """Motion of every row."""
-    found = yield from shown("kinematics", request, pistons, place)
+    motion = yield from shown("kinematics", request, pistons, place)
     omega = sqrt(pistons.square)
-    for row, k, one in found.rows:
-        there = of_row(pistons, found.angles, k)
+    for row, k, entry in motion.rows:
+        there = of_row(pistons, motion.angles, k)
         # a whole revolution from its own angle, each may be printed as 0 or as 360
-        own = list(one / "crank_angle_deg")
-        aside = [(said.double() - degrees(each.piston.own) + 180) % 360 - 180 for said, each in zip(own, there)]
-        yield from series("kinematics", one / "crank_angle_deg", [a.double() - b for a, b in zip(own, aside)], TURNED)
-        yield from (("kinematics", said, ONE if 0 <= said.double() <= 360 else -ONE, ONE) for said in own)
+        own = list(entry / "crank_angle_deg")
+        aside = [(angle.double() - degrees(instant.piston.own) + 180) % 360 - 180 for angle, instant in zip(own, there)]
+        yield from series("kinematics", entry / "crank_angle_deg", [a.double() - b for a, b in zip(own, aside)], TURNED)
+        yield from (("kinematics", angle, ONE if 0 <= angle.double() <= 360 else -ONE, ONE) for angle in own)
         for name, factor, reads in (
-            ("displacement_m", row.radius, lambda each: each.piston.travel),
-            ("velocity_m_s", row.radius * omega, lambda each: each.piston.turning),
-            ("acceleration_m_s2", row.radius * omega**2, lambda each: each.piston.outward),
+            ("displacement_m", row.radius, lambda instant: instant.piston.travel),
+            ("velocity_m_s", row.radius * omega, lambda instant: instant.piston.turning),
+            ("acceleration_m_s2", row.radius * omega**2, lambda instant: instant.piston.outward),
         ):
-            values = [factor * reads(each) for each in there]
-            yield from series("kinematics", one / name, values, 2 * SAMPLE * factor * row.fastest)
+            values = [factor * reads(instant) for instant in there]
+            yield from series("kinematics", entry / name, values, 2 * SAMPLE * factor * row.fastest)
 
 
 def _cylinders(row: Place) -> List[Optional[str]]:

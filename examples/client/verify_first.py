@@ -61,21 +61,21 @@ def priced_at(values: dict[str, Number], rows: dict[str, Number], least: Number 
     return least + total(row * values[name] for name, row in rows.items())
 
 
-def ceilings(statement: Statement, weights: Sequence[Mass], place: Place, kept: bool) -> Claims:
-    """``kept``: whether the answer says that they are; returns by how much they are exceeded."""
+def ceilings(statement: Statement, weights: Sequence[Mass], place: Place, feasible: bool) -> Claims:
+    """``feasible``: whether the answer says that they are; returns by how much they are exceeded."""
     machine, excess = statement.machine, {}
     after = machine.responses(weights)
     for name, cap in statement.caps.items():
         size = statement.sizes[name]
         excess[name] = largest(abs(phasors(after, name)[0]) - cap, ZERO)
         room = size * real(CEILING) - excess[name]
-        yield "ceilings", place, room if kept or room.high >= 0 else None, size
+        yield "ceilings", place, room if feasible or room.high >= 0 else None, size
     return excess
 
 
 def optimum(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> Claims:
     """The proof of the answer to one request, with its counterweights."""
-    request.known(ENTRY_FIELDS)
+    request.require_coverage(ENTRY_FIELDS)
     asked, goal, proof = request / "machine", request / "objective", answer / "certificate"
     if (goal / "orders").text("first", "all", default="first") == "all":
         raise NotCovered(goal / "orders")
@@ -108,12 +108,12 @@ def optimum(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> 
     yield from prices(statement, request, answer, fitted, chosen)
 
 
-def searched(asked: Place, place: Place, proof: Place) -> Claims:
+def searched(design: Place, place: Place, proof: Place) -> Claims:
     """Returns whether counterweights are chosen by a search; the tree or the comparison behind it is not repeated."""
-    yield from heavy_enough(asked, place)
-    stock = (asked / "catalogue") or (asked / "max_counterweights") or any(map(stocked, asked / "webs"))
+    yield from heavy_enough(design, place)
+    stock = (design / "catalogue") or (design / "max_counterweights") or any(map(stocked, design / "webs"))
     if stock:
-        yield from catalogue(asked, place)
+        yield from catalogue(design, place)
     chosen = bool(stock or proof / "continuous_lower_bound")
     if chosen:
         yield "lower_bound", proof / "lower_bound", None, ONE
@@ -146,7 +146,9 @@ def light(statement: Statement, proof: Place, sizes: dict[str, Number], mass: Nu
     if least and place:
         limited = Statement(statement.machine, Place({}), {name: {name: ONE} for name in statement.caps}, capped=False)
         cancelling = (statement.lightest(sizes), limited.lightest(statement.sizes))
-        counts = min((one for one in cancelling if one is not None), key=lambda one: one.high, default=ZERO)
+        counts = min(
+            (number for number in cancelling if number is not None), key=lambda number: number.high, default=ZERO
+        )
         most = largest(mass - statement.machine.fixed, counts * real(MASS_SHARE)) * ABOUT_ONE
         # what is cut from a plate has another radius than all that could be
         cut = any(web.plate for web in statement.machine.webs) and (most - size).high < 0
@@ -168,69 +170,69 @@ def yardstick(statement: Statement, place: Place, rest: Number, implied: Place) 
     return "yardstick", place, most * ABOUT_ONE - place.number(), most
 
 
-def infeasible(request: Place, answer: Place, budget: Place, said: Place) -> Claims:
+def infeasible(request: Place, answer: Place, budget: Place, verdict: Place) -> Claims:
     """No counterweights within the limits keep the ceilings, and what can be reached without them."""
-    request.known(ENTRY_FIELDS)
-    goal, proofs, implied = request / "objective", said / "multipliers", said / "implied_max_mass_kg"
+    request.require_coverage(ENTRY_FIELDS)
+    goal, proofs, implied = request / "objective", verdict / "multipliers", verdict / "implied_max_mass_kg"
     plain = Machine(request / "machine", goal, answer / "reference_plane_m", budget)
     exact = Machine(request / "machine", goal, answer / "reference_plane_m", budget, exact=True)
     statement = Statement(exact, goal, {})
-    given = {CEILINGS[name]: name for name in statement.caps}
-    named = [one.text() for one in said / "conflict"]
-    yield from (("conflict", one, ONE if one.value in given else -ONE, ONE) for one in said / "conflict")
-    if len({*named}) < len(named):
-        yield "conflict", said / "conflict", -ONE, ONE
-    if proofs / "conflict" and named:
+    limits = {CEILINGS[name]: name for name in statement.caps}
+    names = [item.text() for item in verdict / "conflict"]
+    yield from (("conflict", item, ONE if item.value in limits else -ONE, ONE) for item in verdict / "conflict")
+    if len({*names}) < len(names):
+        yield "conflict", verdict / "conflict", -ONE, ONE
+    if proofs / "conflict" and names:
         # strictly above 0: what is at most 0 proves nothing
         yield from proven("conflict", proofs / "conflict", statement, proofs / "conflict", implied, {}, lambda _: STEP)
     else:
-        yield "conflict", proofs / "conflict", None if named else -ONE, ONE
-    yield from smallest(plain, Place({}), said, proofs, implied)
+        yield "conflict", proofs / "conflict", None if names else -ONE, ONE
+    yield from smallest(plain, Place({}), verdict, proofs, implied)
     for name, unit in NAMES.items():
-        lowest, found = (said / f"smallest_{name}{part}_{unit}" for part in ("_lower_bound", ""))
-        if lowest and found:
-            yield from near_the_bound(f"smallest_{name}", found, lowest, plain, name, implied)
-        if lowest and f"{name}_ceiling_{unit}" in named and len(named) < len(given):
+        lowest, attained = (verdict / f"smallest_{name}{part}_{unit}" for part in ("_lower_bound", ""))
+        if lowest and attained:
+            yield from near_the_bound(f"smallest_{name}", attained, lowest, plain, name, implied)
+        if lowest and f"{name}_ceiling_{unit}" in names and len(names) < len(limits):
             # this ceiling alone is out of reach
             yield "conflict", lowest, lowest.number() - (goal / f"{name}_ceiling_{unit}").number(), lowest.number()
-    for one in said / "smallest":
-        name, lowest = (one / "response").text(*CEILINGS), one / "lower_bound"
-        if CEILINGS[name] not in given:
-            yield "smallest", one / "response", -ONE, ONE
+    for item in verdict / "smallest":
+        name, lowest = (item / "response").text(*CEILINGS), item / "lower_bound"
+        if CEILINGS[name] not in limits:
+            yield "smallest", item / "response", -ONE, ONE
             continue
         alone, priced = Statement(plain, Place({}), {name: {name: ONE}}), partial(priced_at, {name: lowest.number()})
-        yield from proven("smallest", lowest, alone, one / "multipliers", implied, {}, priced)
-        yield "smallest", one / "response", ONE, ONE
-        yield same("smallest", one / "ceiling_field", CEILINGS[name])
-        yield near("smallest", one / "ceiling", (goal / CEILINGS[name]).number(0.0))
-        yield from near_the_bound("smallest", one / "smallest", lowest, plain, name, implied)
-        if CEILINGS[name] in named and len(named) < len(given):
+        yield from proven("smallest", lowest, alone, item / "multipliers", implied, {}, priced)
+        yield "smallest", item / "response", ONE, ONE
+        yield same("smallest", item / "ceiling_field", CEILINGS[name])
+        yield near("smallest", item / "ceiling", (goal / CEILINGS[name]).number(0.0))
+        yield from near_the_bound("smallest", item / "smallest", lowest, plain, name, implied)
+        if CEILINGS[name] in names and len(names) < len(limits):
             yield "conflict", lowest, lowest.number() - (goal / CEILINGS[name]).number(), lowest.number()
-    yield from closest(request, plain, said / "closest")
+    yield from closest(request, plain, verdict / "closest")
 
 
-def near_the_bound(claim: str, found: Place, lowest: Place, machine: Machine, name: str, implied: Place) -> Claims:
+def near_the_bound(claim: str, attained: Place, lowest: Place, machine: Machine, name: str, implied: Place) -> Claims:
     """What is smallest is no less than its bound, and above it by no more than a share of what is there before.
 
     Where rounding of what the limits allow is more than that share, nothing is told.
     """
     of = name.partition(":")[0]
     co, counter = machine.laden[of]
-    above = found.number() - lowest.number()
-    size, noise = abs(co) + abs(counter), SPECK * abs(found.number())
-    yield claim, found, above + noise, abs(found.number())
+    above = attained.number() - lowest.number()
+    size, noise = abs(co) + abs(counter), SPECK * abs(attained.number())
+    yield claim, attained, above + noise, abs(attained.number())
     room = size * real(SMALLEST) + noise - above
     if room.high < 0:
         most = Statement(machine, Place({}), {name: {name: ONE}}).reachable(implied)
         lost = most is None or (above - SPECK * most).low <= 0
-        yield claim, found, None if lost else room, size
+        yield claim, attained, None if lost else room, size
     else:
-        yield claim, found, room, size
+        yield claim, attained, room, size
 
 
-def smallest(machine: Machine, goal: Place, said: Place, proofs: Place, implied: Place) -> Claims:
+def smallest(machine: Machine, goal: Place, verdict: Place, proofs: Place, implied: Place) -> Claims:
     """Bounds on either peak alone, under the ceilings of a goal."""
     for name, unit in NAMES.items():
-        lowest = said / f"smallest_{name}_lower_bound_{unit}"
+        lowest = verdict / f"smallest_{name}_lower_bound_{unit}"
         alone, priced = Statement(machine, goal, {name: {name: ONE}}), partial(priced_at, {name: lowest.number(0.0)})
         yield from proven(f"smallest_{name}", lowest, alone, proofs / f"smallest_{name}", implied, {}, priced)

@@ -7,12 +7,12 @@ from typing import Dict, List, NamedTuple, Sequence
 from verify_answer import Fitted
 from verify_bearings import within
 from verify_cases import Scatter, nominal, peak
-from verify_ceilings import kept
+from verify_ceilings import margins
 from verify_claims import Claims, near
 from verify_cuts import Part
 from verify_levels import WIDE, levels
 from verify_machine import NAMES, ON_FRAME, Machine
-from verify_nominal import NO_SCATTER, as_given, fixed_alone, optimum_as_given
+from verify_nominal import NO_SCATTER, fixed_alone, nominal_optimum, nominal_part
 from verify_numbers import ABOUT_ONE, ONE, ZERO, Number, Place, largest
 from verify_values import Value, most, off_sizes
 from verify_weights import listed
@@ -34,7 +34,7 @@ def values(request: Place, answer: Place, program: Program, fitted: Fitted) -> C
     fixed = fixed_alone(program.machine, fitted)
     there, rest = ([Value(part, each, program.off) for part in program.parts] for each in (fitted, fixed))
     optimal = (answer / "status").text() == "optimal"
-    rooms = yield from kept(answer / "counterweights", there, rest, optimal)
+    rooms = yield from margins(answer / "counterweights", there, rest, optimal)
     if program.machine.budget is not None:
         most_there = float(program.machine.budget)
         rooms["max_total_mass"] = 1 - float(fitted.mass) / most_there if most_there > 0 else 0.0
@@ -53,9 +53,9 @@ def values(request: Place, answer: Place, program: Program, fitted: Fitted) -> C
     if answer / "worst_case":
         yield from _worst_case(answer / "worst_case", proof / "objective", there)
     if answer / "price_of_robustness":
-        as_it_is = Value(as_given(request, program.machine, program.parts), fitted, NO_SCATTER).goal(last)
+        as_it_is = Value(nominal_part(request, program.machine, program.parts), fitted, NO_SCATTER).goal(last)
         yield within("price", answer / "price_of_robustness" / "nominal", as_it_is.low, as_it_is.high, off)
-        yield from optimum_as_given(request, program.machine, program.parts, program.off, answer)
+        yield from nominal_optimum(request, program.machine, program.parts, program.off, answer)
 
 
 def _worst_case(place: Place, objective: Place, there: Sequence[Value]) -> Claims:
@@ -101,4 +101,4 @@ def _exactly(request: Place, answer: Place, program: Program, fitted: Fitted) ->
     if price:
         responses = program.machine.responses(found)
         yield near("price", price / "nominal", nominal(program.machine, request / "objective", program.rows, responses))
-        yield from optimum_as_given(request, program.machine, program.parts, program.off, answer)
+        yield from nominal_optimum(request, program.machine, program.parts, program.off, answer)

@@ -106,7 +106,7 @@ class Curve:
         step = 2 * pi / count
         ends = [self.length(step * n) for n in range(count)]
         low = max(ends)
-        best, high, looked_at = step * ends.index(low), 0.0, count
+        best, high, visits = step * ends.index(low), 0.0, count
         parts = [(step * n, ends[n], ends[(n + 1) % count]) for n in range(count)]
         while parts:
             finer: List[Tuple[float, float, float]] = []
@@ -122,8 +122,8 @@ class Curve:
                     low, best = value, there
                 finer += [(start, first, value), (there, value, last)]
             parts, step = finer, step / 2
-            looked_at += len(finer)
-            if looked_at > MOST:
+            visits += len(finer)
+            if visits > MOST:
                 return None
         return Peak(low, max(high, low), best)
 

@@ -22,16 +22,16 @@ REMARKS = {
 MOST = 200
 
 
-def account(answer: Place, looked_at: Set[Path], evidence: Set[Path]) -> Dict[str, Any]:
+def account(answer: Place, visits: Set[Path], evidence: Set[Path]) -> Dict[str, Any]:
     """How many leaves there are, how many were looked at, and the names of the others, those of a list as one."""
     counts = [0, 0]
     names: Dict[str, None] = {}
-    for path in _left(answer, looked_at, evidence, counts):
+    for path in _left(answer, visits, evidence, counts):
         names.setdefault(pointer(tuple("*" if isinstance(part, int) else part for part in path)))
     return {"leaves": counts[0], "checked": counts[1], "not_covered": list(names)[:MOST]}
 
 
-def _left(answer: Place, looked_at: Set[Path], evidence: Set[Path], counts: List[int]) -> Iterator[Path]:
+def _left(answer: Place, visits: Set[Path], evidence: Set[Path], counts: List[int]) -> Iterator[Path]:
     """Places of what was not looked at: a whole part of the answer where nothing of it was."""
     # without recursion: what is nested deeply is judged like all else
     start: Path = answer.path
@@ -45,14 +45,14 @@ def _left(answer: Place, looked_at: Set[Path], evidence: Set[Path], counts: List
             continue
         if isinstance(value, (dict, list)):
             items = value.items() if isinstance(value, dict) else enumerate(value)
-            left.extend((one, (*path, key)) for key, one in reversed(list(items)))
+            left.extend((item, (*path, key)) for key, item in reversed(list(items)))
         elif value is not None:
             _finite(value, path)
             counts[0] += 1
-            counts[1] += path in looked_at
-            if path not in looked_at:
+            counts[1] += path in visits
+            if path not in visits:
                 missed.append(path)
-    prefixes = {path[:n] for path in looked_at for n in range(len(path) + 1)}
+    prefixes = {path[:n] for path in visits for n in range(len(path) + 1)}
     for path in missed:
         # the shortest part of which nothing was looked at
         yield next((path[:n] for n in range(len(start) + 1, len(path)) if path[:n] not in prefixes), path)

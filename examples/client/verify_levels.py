@@ -45,10 +45,10 @@ def levels(
             yield from _bound(place, proof / "lower_bound", proof)
 
 
-def _goal(place: Place, found: Range, rest: Range, allowance: float) -> Claims:
+def _goal(place: Place, peak: Range, rest: Range, allowance: float) -> Claims:
     """One of the machine."""
     value, off = (place / "value").double(), WIDE * rest.high
-    wide, low = max(allowance, ALLOWANCE) * rest.high, max(value, found.low)
+    wide, low = max(allowance, ALLOWANCE) * rest.high, max(value, peak.low)
     if rest.low <= 0 and (place / "limit").double() >= low - off:
         # where all cancels an allowance is a share of what counterweights could make of it
         yield "goals", place / "limit", None, ONE

@@ -38,20 +38,20 @@ class Piston(NamedTuple):
 class Loads:
     """Curves of one machine without counterweights, and what those add."""
 
-    def __init__(self, asked: Place, machine: Machine, turn: Turn) -> None:
+    def __init__(self, design: Place, machine: Machine, turn: Turn) -> None:
         self.turn, self.square, self.plane = turn, machine.square.middle().real, machine.plane.middle().real
         self.pistons = [_piston(row, self.square) for row in turn.rows]
         #: of every web of the balance shafts, where its shaft is [m]
         self.levers = [
             complex((shaft / "x_m").double(0.0), (shaft / "y_m").double(0.0))
-            for shaft in asked / "balance_shafts"
+            for shaft in design / "balance_shafts"
             for _ in shaft / "webs"
         ]
-        places = [one.position for one in turn.rows]
-        places += [one.position for one in turn.turning]
+        places = [part.position for part in turn.rows]
+        places += [part.position for part in turn.turning]
         places += [web.position for web in machine.webs]
         #: planes of loads, webs and bearings, in which the bending moment has its corners [m]
-        self.planes = sorted({*(one.middle().real for one in places), *turn.places})
+        self.planes = sorted({*(part.middle().real for part in places), *turn.places})
         self._curves: Dict[str, Periodic] = {}
 
     @property

@@ -92,7 +92,7 @@ class Machine:
         (place / "rotation").text("ccw", "cw", default="ccw")
         kind = (place / "kind").text("reciprocating", "scroll")
         masses, planes, ends = (_throws if kind == "reciprocating" else _scroll)(place)
-        masses += [each for own in place / "unbalances" for each in _unbalance(own)]
+        masses += [mass for own in place / "unbalances" for mass in _unbalance(own)]
         self.wide, self.blur = (ONE, ZERO) if exact else (ABOUT_ONE, BLUR)
         omega = (place / "speed_rpm").number(least=0) * Number(PI, PI + 1) / Number(30 * 10**80, 30 * 10**80)
         self.square, self.masses = omega * omega, masses
@@ -104,9 +104,9 @@ class Machine:
             raise Unreadable((*place.path, "webs"), "names must be unique")
         self.budget = budget.number(least=0) if budget else None
         # where the machine says that moments are, or midway; where the answer says so is what counts from here
-        self.asked_plane = (place / "reference_plane_m").number(0.5 * (min(planes) + max(planes)))
-        self.plane = plane.number() if plane else self.asked_plane
-        self.shares = {name: one.shares(self, goal) for name, one in ON_FRAME.items()}
+        self.own_plane = (place / "reference_plane_m").number(0.5 * (min(planes) + max(planes)))
+        self.plane = plane.number() if plane else self.own_plane
+        self.shares = {name: response.shares(self, goal) for name, response in ON_FRAME.items()}
         ends = [*ends, *((web / "position_m").double() for web in place / "webs")]
         span = real(max(ends)) - real(min(ends))
         self.span = span if span.low > real(NO_SPAN).high else ONE
@@ -193,17 +193,17 @@ def web_of(place: Place, fastest: Number) -> Web:
     weight = ((there / "mass_kg").number(least=0), (there / "angle_deg").double()) if there else None
     name, where = (place / "name").text(), (place / "position_m").number()
     limit, bolts = ZERO if there else limit, place / "max_centrifugal_force_N"
-    given = [("max_mass", most.number(least=0))] if most else []
+    limits = [("max_mass", most.number(least=0))] if most else []
     if cut is not None:
-        return Web(name, where, ZERO, limit, edges, weight, (*given, ("envelope", ZERO)), cut)
+        return Web(name, where, ZERO, limit, edges, weight, (*limits, ("envelope", ZERO)), cut)
     if bolts:
-        of_one_kg = radius.number(least=0) * fastest
-        if of_one_kg.low <= 0:
+        per_kg = radius.number(least=0) * fastest
+        if per_kg.low <= 0:
             raise NotCovered(bolts)
-        force = bolts.number(least=0) / of_one_kg
-        given.append(("max_centrifugal_force", force))
-        limit = force if limit is None else min(limit, force, key=lambda one: one.high)
-    return Web(name, where, radius.number(least=0), limit, edges, weight, tuple(given))
+        force = bolts.number(least=0) / per_kg
+        limits.append(("max_centrifugal_force", force))
+        limit = force if limit is None else min(limit, force, key=lambda number: number.high)
+    return Web(name, where, radius.number(least=0), limit, edges, weight, tuple(limits))
 
 
 def _unbalance(place: Place) -> list[Mass]:

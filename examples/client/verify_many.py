@@ -27,63 +27,63 @@ UNSURE = 1e-9
 def front(request: Place, answer: Place) -> Claims:
     """Fronts of force and moment, one for each budget."""
     yield from form(answer, ("pareto",))
-    request.known(ENTRY_FIELDS)
-    asked, goal = request / "machine", request / "objective"
-    plain = _machine(request, answer, asked / "max_total_mass_kg")
+    request.require_coverage(ENTRY_FIELDS)
+    design, goal = request / "machine", request / "objective"
+    plain = _machine(request, answer, design / "max_total_mass_kg")
     yield from before(request, plain, answer)
     yield from first_order("before", answer / "without_counterweights", plain.before)
     fronts, budgets = list(answer / "fronts"), list(request / "total_mass_budgets_kg")
     if len(fronts) != max(1, len(budgets)):
         raise Unreadable((*answer.path, "fronts"), "must hold one front for each budget")
-    worst = max(fronts, key=lambda one: STATUSES.index((one / "status").text(*STATUSES)))
+    worst = max(fronts, key=lambda curve: STATUSES.index((curve / "status").text(*STATUSES)))
     yield same("status", answer / "status", (worst / "status").value)
-    for each, budget in zip(fronts, budgets or [asked / "max_total_mass_kg"]):
-        if each / "max_total_mass_kg" or budget:
-            yield near("max_total_mass", each / "max_total_mass_kg", budget.number(0.0))
-        if (each / "status").text(*STATUSES) == "infeasible":
-            yield "status", each / "status", ONE if each / "infeasibility" else -ONE, ONE
-            yield from infeasible(request, answer, budget, each / "infeasibility")
+    for curve, budget in zip(fronts, budgets or [design / "max_total_mass_kg"]):
+        if curve / "max_total_mass_kg" or budget:
+            yield near("max_total_mass", curve / "max_total_mass_kg", budget.number(0.0))
+        if (curve / "status").text(*STATUSES) == "infeasible":
+            yield "status", curve / "status", ONE if curve / "infeasibility" else -ONE, ONE
+            yield from infeasible(request, answer, budget, curve / "infeasibility")
             continue
         machine = _machine(request, answer, budget)
         statement = Statement(machine, goal, {name: {name: ONE} for name in NAMES})
         for name, unit in NAMES.items():
-            yield _scale(Statement(machine, goal, {name: {name: ONE}}), each / "scale" / f"{name}_{unit}")
-        for one in each / "points":
-            yield from covered(point(statement, request, each / "scale", one))
-        yield from _shape(each)
-        ends, implied = each / "ends", each / "implied_max_mass_kg"
+            yield _scale(Statement(machine, goal, {name: {name: ONE}}), curve / "scale" / f"{name}_{unit}")
+        for entry in curve / "points":
+            yield from covered(point(statement, request, curve / "scale", entry))
+        yield from _shape(curve)
+        ends, implied = curve / "ends", curve / "implied_max_mass_kg"
         yield from covered(smallest(machine, goal, ends, ends / "multipliers", implied))
 
 
-def _shape(each: Place) -> Claims:
+def _shape(curve: Place) -> Claims:
     """The ends are the first and the last point, and the knee is farthest below the line between them."""
-    points, ends = list(each / "points"), each / "ends"
-    worst = max(points, key=lambda one: STATUSES.index((one / "status").text(*STATUSES[:2])), default=each)
-    said, of_points = (each / "status").value, (worst / "status").value
+    points, ends = list(curve / "points"), curve / "ends"
+    worst = max(points, key=lambda point: STATUSES.index((point / "status").text(*STATUSES[:2])), default=curve)
+    status, of_points = (curve / "status").value, (worst / "status").value
     # ends that are not closed leave a front open whose points all are closed: that is not looked at
-    modest = said == "inaccurate" and of_points == "optimal"
-    yield "status", each / "status", None if modest else ONE if said == of_points else -ONE, ONE
-    peaks = [[one / f"weighted_{name}_peak_{unit}" for name, unit in NAMES.items()] for one in points]
+    modest = status == "inaccurate" and of_points == "optimal"
+    yield "status", curve / "status", None if modest else ONE if status == of_points else -ONE, ONE
+    peaks = [[point / f"weighted_{name}_peak_{unit}" for name, unit in NAMES.items()] for point in points]
     names = (("smallest_force_N", "moment_at_smallest_force_Nm"), ("force_at_smallest_moment_N", "smallest_moment_Nm"))
     for fields, point in zip(names, (peaks[0], peaks[-1])) if peaks else ():
         for field, peak in zip(fields, point):
             yield near("front", ends / field, peak.number() * ABOUT_ONE)
-    for one, other in zip(peaks, peaks[1:]):
+    for first, second in zip(peaks, peaks[1:]):
         # from the smallest force to the smallest moment
-        right = one[0].double() <= other[0].double() and one[1].double() > other[1].double()
-        yield "front", other[0], ONE if right else -ONE, ONE
+        right = first[0].double() <= second[0].double() and first[1].double() > second[1].double()
+        yield "front", second[0], ONE if right else -ONE, ONE
     (x, y), (far, low) = (
-        ([one.double() for one in point] for point in (peaks[0], peaks[-1])) if peaks else ((0, 0),) * 2
+        ([number.double() for number in point] for point in (peaks[0], peaks[-1])) if peaks else ((0, 0),) * 2
     )
     bent = peaks if len(peaks) > 2 and far > x and y > low else []
     depths = [(y - m.double()) / (y - low) - (f.double() - x) / (far - x) for f, m in bent]
     deepest = max(depths, default=0.0)
-    if not each / "knee":
-        yield "front", each, ONE if deepest <= STRAIGHT * (1 + UNSURE) else -ONE, ONE
+    if not curve / "knee":
+        yield "front", curve, ONE if deepest <= STRAIGHT * (1 + UNSURE) else -ONE, ONE
     else:
-        k = int((each / "knee").double())
+        k = int((curve / "knee").double())
         there = depths[k] if k in range(len(depths)) else -1.0
-        yield "front", each / "knee", ONE if there >= deepest - UNSURE and deepest > 0 else -ONE, ONE
+        yield "front", curve / "knee", ONE if there >= deepest - UNSURE and deepest > 0 else -ONE, ONE
 
 
 def _scale(statement: Statement, place: Place) -> Claim:
@@ -230,15 +230,15 @@ def _beside(row: Place) -> Iterator[Dict[str, Any]]:
             yield {"response": name, "after": (row / column).value}
 
 
-def _column(path: Path, start: int, found: Any) -> Path:
+def _column(path: Path, start: int, answer: Any) -> Path:
     """The column of a row in which a field of an answer stands."""
     row, inner = path[:start], path[start:]
     if inner[:1] == ("counterweights",) and len(inner) == 3:
-        return (*row, f"{inner[2]}.{found['counterweights'][inner[1]]['web']}")
+        return (*row, f"{inner[2]}.{answer['counterweights'][inner[1]]['web']}")
     if inner[:2] == ("residual", "after") and len(inner) == 4:
         return (*row, f"{inner[2]}_{inner[3]}")
     if inner[:2] == ("residual", "responses") and len(inner) == 4:
-        name = found["residual"]["responses"][inner[2]]["response"]
+        name = answer["residual"]["responses"][inner[2]]["response"]
         return (*row, f"{name}_peak_{ON_FRAME[name].unit}")
     if inner[:1] in (("certificate",), ("infeasibility",)):
         return (*row, *inner[1:2])

@@ -98,14 +98,14 @@ def _assigned(answer: Place, classes: Sequence[Parts], nuts: Dict[str, float], r
     return matched
 
 
-def _with(asked: Place, by_row: Mapping[Any, float]) -> Place:
+def _with(design: Place, by_row: Mapping[Any, float]) -> Place:
     """The machine with masses on its rows."""
-    body: Any = copy.deepcopy(asked.value)
-    for k, throw in enumerate(asked / "throws"):
+    body: Any = copy.deepcopy(design.value)
+    for k, throw in enumerate(design / "throws"):
         for n, row in enumerate(throw / "rows"):
             mass = (row / "reciprocating_mass_kg").double(0.0) + by_row.get((k, n), 0.0)
             body["throws"][k]["rows"][n]["reciprocating_mass_kg"] = mass
-    return Place(body, *asked.path)
+    return Place(body, *design.path)
 
 
 def _evaluated(
@@ -167,8 +167,8 @@ def _gap(request: Place, answer: Place, proof: Place) -> Claims:
     yield "status", answer / "status", wide * size + noise - gap if optimal else ONE, ONE
 
 
-def _places(asked: Place) -> Iterator[Row]:
-    return ((k, n) for k, throw in enumerate(asked / "throws") for n, _ in enumerate(throw / "rows"))
+def _places(design: Place) -> Iterator[Row]:
+    return ((k, n) for k, throw in enumerate(design / "throws") for n, _ in enumerate(throw / "rows"))
 
 
 def _count(classes: Sequence[Parts], nuts: Dict[str, float], rows: int) -> int:
@@ -206,8 +206,8 @@ def _every(
             yield sum(peaks) if together else max(peaks)
 
 
-def _flat(one: Sequence[Tuple[Number, Number]]) -> List[Number]:
-    return [each for pair in one for each in pair]
+def _flat(pairs: Sequence[Tuple[Number, Number]]) -> List[Number]:
+    return [number for pair in pairs for number in pair]
 
 
 def _with_nuts(on_rows: Dict[Row, float], nuts: Dict[str, float]) -> Iterator[Dict[Row, float]]:

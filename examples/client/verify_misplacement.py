@@ -110,22 +110,22 @@ def turned_outline(vectors: Sequence[complex]) -> List[complex]:
     return found
 
 
-def misplacement(parts: Sequence[Part], goal: str, fitted: Fitted, said: Place) -> Claims:
+def misplacement(parts: Sequence[Part], goal: str, fitted: Fitted, entry: Place) -> Claims:
     """Both rises of the last goal."""
-    if not said:
+    if not entry:
         return
     part = parts[0]
     if fitted.on_shafts and part.over_turn:
-        raise NotCovered(said)
+        raise NotCovered(entry)
     weighed = [float(part.weights[name]) > 0 for name in ("bearing", "bending")]
     count = (
         len(part.turn.bearings) * (weighed[0] and not part.mean) + len(part.loads.planes) * weighed[1] + 2 * part.all
     )
     if count * 6 * len(part.machine.webs) * len(parts) > MOST:
-        raise NotCovered(said)
+        raise NotCovered(entry)
     nothing_off = Scatter(ZERO, ZERO)
-    as_it_is = most([Value(one, fitted, nothing_off).goal(goal) for one in parts])
+    as_it_is = most([Value(case, fitted, nothing_off).goal(goal) for case in parts])
     for field, by_angle in (("objective_rise_per_deg", True), ("objective_rise_per_percent", False)):
-        worst = most([Misplaced(one, fitted, by_angle).goal(goal) for one in parts])
+        worst = most([Misplaced(case, fitted, by_angle).goal(goal) for case in parts])
         low, high = max(worst.low - as_it_is.high, 0.0), max(worst.high - as_it_is.low, 0.0)
-        yield within("sensitivity", said / field, low, high, WIDE * (worst.high + as_it_is.high))
+        yield within("sensitivity", entry / field, low, high, WIDE * (worst.high + as_it_is.high))

@@ -62,10 +62,10 @@ class Program:
         found.named, found.levels = self.named[: goal + 1], self.levels[:goal]
         return found
 
-    def _part(self, one: Place) -> Part:
-        name = (one / "scenario").text() if one / "scenario" else None
+    def _part(self, cut: Place) -> Part:
+        name = (cut / "scenario").text() if cut / "scenario" else None
         if name not in self.parts:
-            raise NotCovered(one)
+            raise NotCovered(cut)
         return self.parts[name]
 
     def terms(self, proof: Place) -> List[Term]:
@@ -149,22 +149,22 @@ class Program:
                 pulls.spread = [old + grown * abs(factor) for old, factor in zip(pulls.spread, factors)]
         return self._within_limits(pulls, proof, implied, ZERO)
 
-    def _add(self, pulls: Pulls, one: Term, allowed: Number, share: Number) -> None:
+    def _add(self, pulls: Pulls, term: Term, allowed: Number, share: Number) -> None:
         """A term with its multiplier; |y| <= lambda holds by shortening."""
-        y = one.y.parts()[0] if one.scalar else one.y
+        y = term.y.parts()[0] if term.scalar else term.y
         size = abs(y)
         if self.scattered:
-            grown = (size if one.mean else allowed) * share
+            grown = (size if term.mean else allowed) * share
             pulls.spread = [
-                old + grown * self.off.share * abs(factor) for old, factor in zip(pulls.spread, one.factors)
+                old + grown * self.off.share * abs(factor) for old, factor in zip(pulls.spread, term.factors)
             ]
-            pulls.least = pulls.least + grown * self.off.besides * total(map(abs, one.factors))
+            pulls.least = pulls.least + grown * self.off.besides * total(map(abs, term.factors))
         if size.low > 0:
             shorter = share * (allowed / size if size.high > allowed.low else ONE)
             shorter = Number(min(shorter.low, share.low), min(shorter.low, share.low))
-            pulls.least = pulls.least + y.along(one.start) * shorter
+            pulls.least = pulls.least + y.along(term.start) * shorter
             pulls.slopes = [
-                slope + factor.conjugate() * y * shorter for slope, factor in zip(pulls.slopes, one.factors)
+                slope + factor.conjugate() * y * shorter for slope, factor in zip(pulls.slopes, term.factors)
             ]
 
     def _add_ceilings(self, pulls: Pulls, proof: Place) -> None:

@@ -11,7 +11,7 @@ from typing import Sequence
 from verify_answer import Fitted, fitted
 from verify_bearings import within
 from verify_cases import Case, Scatter, scenarios
-from verify_ceilings import kept
+from verify_ceilings import margins
 from verify_claims import Claims
 from verify_cuts import Part
 from verify_levels import WIDE
@@ -23,37 +23,37 @@ from verify_weights import usual_gap
 NO_SCATTER = Scatter(ZERO, ZERO)
 
 
-def as_given(request: Place, machine: Machine, parts: Sequence[Part]) -> Part:
+def nominal_part(request: Place, machine: Machine, parts: Sequence[Part]) -> Part:
     """The machine without scenarios, nothing off."""
     first = parts[0]
     return Part(Case(request, machine, ONE, None), first.unweighted, first.named)
 
 
-def optimum_as_given(request: Place, machine: Machine, parts: Sequence[Part], off: Scatter, answer: Place) -> Claims:
+def nominal_optimum(request: Place, machine: Machine, parts: Sequence[Part], off: Scatter, answer: Place) -> Claims:
     """Every figure of the best of the machine as it is given, but what multipliers prove."""
     place = answer / "price_of_robustness"
     best, worst = place / "nominal_optimum", place / "nominal_optimum_worst_case"
     if not best:
         yield "nominal_optimum", worst, -ONE if worst else ONE, ONE
         return
-    goal, given = parts[0].named[-1], as_given(request, machine, parts)
-    none = all(one.high == 0 for one in off) and not scenarios(request)
+    goal, plain = parts[0].named[-1], nominal_part(request, machine, parts)
+    none = all(share.high == 0 for share in off) and not scenarios(request)
     if none:
         # nothing is off: the optimum is the answer's own
         value = (answer / "certificate" / "objective").double()
-        for one in (best, worst):
-            yield within("nominal_optimum", one, value, value, 1e-12 * abs(value))
+        for field in (best, worst):
+            yield within("nominal_optimum", field, value, value, 1e-12 * abs(value))
         return
     if not list(place / "nominal_counterweights"):
-        yield from _nothing_told(place, parts, answer)
+        yield from _without_search(place, parts, answer)
         return
     there = yield from fitted(request, machine, place / "nominal_counterweights", place / "nominal_balance_shafts")
-    found, bare = Value(given, there, NO_SCATTER), Value(given, fixed_alone(machine, there), NO_SCATTER)
-    value, rest = found.goal(goal), bare.goal(goal)
+    chosen, bare = Value(plain, there, NO_SCATTER), Value(plain, fixed_alone(machine, there), NO_SCATTER)
+    value, rest = chosen.goal(goal), bare.goal(goal)
     wide = WIDE * rest.high
     yield within("nominal_optimum", best, value.low, value.high, wide)
-    yield from kept(place, [found], [bare], True)
-    of_all = most([Value(one, there, off).goal(goal) for one in parts])
+    yield from margins(place, [chosen], [bare], True)
+    of_all = most([Value(case, there, off).goal(goal) for case in parts])
     yield within("nominal_optimum", worst, of_all.low, of_all.high, WIDE * of_all.high + wide)
     lowest = place / "nominal_lower_bound"
     gap = (request / "accuracy" / "relative_gap").double(usual_gap(request / "machine"), least=0)
@@ -71,7 +71,7 @@ def fixed_alone(machine: Machine, there: Fitted) -> Fitted:
     )
 
 
-def _nothing_told(place: Place, parts: Sequence[Part], answer: Place) -> Claims:
+def _without_search(place: Place, parts: Sequence[Part], answer: Place) -> Claims:
     """Of choices: where nothing is limited the optimum is no better in the worst case than what is proven of all."""
     worst, lowest = place / "nominal_optimum_worst_case", answer / "certificate" / "lower_bound"
     yield "nominal_optimum", place / "nominal_optimum", None, ONE

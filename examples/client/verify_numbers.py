@@ -155,7 +155,7 @@ UNITS: dict[str, dict[str, Any]] = {
 }
 _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*([A-Za-z][A-Za-z/ ]*?)\s*", re.ASCII)
 #: fields of a request that are read here, and those that change nothing of what is checked
-KNOWN = (
+COVERAGE = (
     " machine objective accuracy kind speed_rpm rotation reference_plane_m webs max_total_mass_kg throws position_m"
     " crank_radius_m crank_angle_deg rotating_mass_kg rows axis_deg offset_m reciprocating_mass_kg connecting_rod"
     " mass_kg reciprocating_share orbit_radius_m orbiting_mass_kg orbiting_position_m anti_rotation type count"
@@ -245,17 +245,17 @@ class Place:
             raise Unreadable(self.path, " ".join(["must be a number", *(f"or one in {unit}" for unit in units)]))
         return Fraction(match.group(1)) * Fraction(units[symbol])
 
-    def known(self, also: str = "") -> None:
+    def require_coverage(self, also: str = "") -> None:
         """Raises NotCovered where there is a field that is not known, here or to who asks."""
         for name in self.value if isinstance(self.value, dict) else ():
             # a weight of 0 is none
             nothing: tuple[Any, ...] = (None, [], {}, 0) if name.endswith("_weight") else (None, [], {})
             if f" {name} " not in IDLE and (self / name).value not in nothing:
-                if f" {name} " not in f"{KNOWN} {also} ":
+                if f" {name} " not in f"{COVERAGE} {also} ":
                     raise NotCovered(self / name)
-                (self / name).known(also)
-        for one in self if isinstance(self.value, list) else ():
-            one.known(also)
+                (self / name).require_coverage(also)
+        for item in self if isinstance(self.value, list) else ():
+            item.require_coverage(also)
 
 
 def read(path: str) -> Any:

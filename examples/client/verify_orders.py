@@ -136,9 +136,9 @@ def _phasor(claim: str, place: Place, unit: str, phasor: Number) -> Claims:
     yield claim, place / "phase_deg", -off if -180 <= phase <= 180 else -ONE, abs(phasor)
 
 
-def floor(machine: Machine, asked: Place, place: Place) -> Claims:
+def floor(machine: Machine, design: Place, place: Place) -> Claims:
     """The phasors that turn against the shaft, but where a balance shaft does."""
-    backwards = [shaft for shaft in asked / "balance_shafts" if (shaft / "speed_ratio").double() == -1]
+    backwards = [shaft for shaft in design / "balance_shafts" if (shaft / "speed_ratio").double() == -1]
     planes = [(web / "position_m").number() for shaft in backwards for web in shaft / "webs"]
     arms = any(abs(plane - machine.plane).low > 0 for plane in planes)
     taken = {"force": bool(planes), "moment": arms}

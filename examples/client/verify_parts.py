@@ -49,19 +49,19 @@ def _turning(row: Place) -> float:
 
 def _row(pistons: Pistons, row: Piston, k: int, place: Place, there: Sequence[Instant]) -> Claims:
     off = (SAMPLE * (row.most + row.moving[0]) + RUBBED * row.friction) * leaning(row)
-    moving, turning = (one.middle().real for one in row_masses(row.place))
+    moving, turning = (mass.middle().real for mass in row_masses(row.place))
     rod = turning - sum(
-        (one / "mass_kg").double() for one in row.place / "parts" if (one / "motion").value == "rotating"
+        (part / "mass_kg").double() for part in row.place / "parts" if (part / "motion").value == "rotating"
     )
-    gas = [one.gas for one in there]
+    gas = [instant.gas for instant in there]
     piston = enclosed(alone(pistons, k, "piston"), place)
     pin, stopped = (enclosed(alone(pistons, k, "rod", CASES[name]), place) for name in ("running", "sudden_stop"))
     three = {
         "gas": Peak(*[max(map(abs, gas), default=0.0)] * 2, 0.0),
-        "inertia": Peak(*[max((abs(one.inertia) for one in there), default=0.0)] * 2, 0.0),
+        "inertia": Peak(*[max((abs(instant.inertia) for instant in there), default=0.0)] * 2, 0.0),
         "running": piston,
     }
-    most = max(three.values(), key=lambda one: one.low)
+    most = max(three.values(), key=lambda peak: peak.low)
     governing = (place / "piston_rod_governed_by").text(*three)
     near = three[governing].high + off >= most.low
     yield "loads", place / "piston_rod_governed_by", ONE if near else -ONE, ONE
@@ -83,7 +83,7 @@ def _row(pistons: Pistons, row: Piston, k: int, place: Place, there: Sequence[In
     covers = list(place / "covers")
     yield "loads", place / "covers", ONE if len(covers) == len(row.chambers) else -ONE, ONE
     for n, (chamber, cover) in enumerate(zip(row.chambers, covers)):
-        outward = [abs(force(chamber, one.pressures[n])) for one in there]
+        outward = [abs(force(chamber, instant.pressures[n])) for instant in there]
         yield same("loads", cover / "cylinder", n // 2)
         yield same("loads", cover / "side", "head" if chamber.head else "crank")
         for field, value in (("largest_N", max(outward)), ("smallest_N", min(outward))):
@@ -98,7 +98,7 @@ def _row(pistons: Pistons, row: Piston, k: int, place: Place, there: Sequence[In
         yield within("loads", place / "frame" / field, value, value, off)
 
 
-def _base(asked: Place, pistons: Pistons, place: Place, angles: Sequence[float]) -> Claims:
+def _base(design: Place, pistons: Pistons, place: Place, angles: Sequence[float]) -> Claims:
     """What the torque of rows and shaft does to one base of machine and driver, to that of the machine alone, and
     to the speed."""
     every = of_shaft(pistons)
@@ -110,7 +110,7 @@ def _base(asked: Place, pistons: Pistons, place: Place, angles: Sequence[float])
     for field, curve in (("own_base_peak_Nm", whole), ("shared_base_peak_Nm", whole.moved(complex(-mean)))):
         peak = enclosed(curve, place / field)
         yield within("loads", place / field, peak.low * (1 - PEAK), peak.high, off)
-    wheel = asked / "flywheel"
+    wheel = design / "flywheel"
     if not wheel:
         yield same("loads", place / "angular_acceleration_rad_s2", None)
         return
@@ -120,17 +120,17 @@ def _base(asked: Place, pistons: Pistons, place: Place, angles: Sequence[float])
         inertia = energy / pistons.square / (wheel / "irregularity").double()
         share = RANGE * every.size / energy
     wide = off / inertia + share * max(map(abs, beyond), default=0.0) / inertia
-    yield from series("loads", place / "angular_acceleration_rad_s2", [-one / inertia for one in beyond], wide)
+    yield from series("loads", place / "angular_acceleration_rad_s2", [-torque / inertia for torque in beyond], wide)
 
 
-def _masses(asked: Place, answer: Place) -> Iterator[Tuple[float, float]]:
+def _masses(design: Place, answer: Place) -> Iterator[Tuple[float, float]]:
     """All that turns with the shaft: where along it [m], and its mass."""
-    for throw in asked / "throws":
+    for throw in design / "throws":
         yield (throw / "position_m").double(), (throw / "rotating_mass_kg").double(0.0)
         for row in throw / "rows":
             where = (throw / "position_m").double() + (row / "offset_m").double(0.0)
             yield where, _turning(row)
-    for part in [*(asked / "shaft_parts"), *(answer / "counterweights")]:
+    for part in [*(design / "shaft_parts"), *(answer / "counterweights")]:
         yield (part / "position_m").double(), (part / "mass_kg").double()
 
 

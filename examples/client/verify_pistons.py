@@ -147,15 +147,15 @@ def _turns(chamber: Chamber) -> int:
 class Pistons:
     """All rows over the revolutions after which their gas repeats."""
 
-    def __init__(self, asked: Place, machine: Machine, rows: Sequence[Row]) -> None:
-        self.sense = 1 if (asked / "rotation").text(default="ccw") == "ccw" else -1
+    def __init__(self, design: Place, machine: Machine, rows: Sequence[Row]) -> None:
+        self.sense = 1 if (design / "rotation").text(default="ccw") == "ccw" else -1
         self.square = machine.square.middle().real
         self.rows = [Piston(row, self.square, self.sense) for row in rows]
-        self.turns = max((one.turns for one in self.rows), default=1)
-        self.rubbing = self._rub(asked / "friction", sqrt(self.square))
+        self.turns = max((row.turns for row in self.rows), default=1)
+        self.rubbing = self._rub(design / "friction", sqrt(self.square))
         #: whether anything but inertia acts
-        self.pressed = any(one.chambers or one.friction for one in self.rows)
-        self.place, self._looked_at = asked / "throws", 0
+        self.pressed = any(row.chambers or row.friction for row in self.rows)
+        self.place, self._count = design / "throws", 0
         self._instants: Dict[Tuple[int, float, float], Instant] = {}
         self._steepness: Dict[Tuple[int, float, float], Steepness] = {}
 
@@ -183,8 +183,8 @@ class Pistons:
         inside = shaft if within is None else within
         key = k, shaft, inside
         if key not in self._instants:
-            self._looked_at += 1
-            if self._looked_at > MOST:
+            self._count += 1
+            if self._count > MOST:
                 raise NotCovered(self.place)
             self._instants[key] = self.rows[k].at(shaft, inside)
         return self._instants[key]
@@ -247,9 +247,9 @@ def integral(curve: Callable[[float], float], start: float, end: float, size: fl
     return integral(curve, start, middle, size, depth + 1) + integral(curve, middle, end, size, depth + 1)
 
 
-def rows_of(asked: Place) -> Iterator[Row]:
+def rows_of(design: Place) -> Iterator[Row]:
     """Of a machine, throw by throw."""
-    for throw in asked / "throws":
+    for throw in design / "throws":
         radius, crank = (throw / "crank_radius_m").number(), direction((throw / "crank_angle_deg").double())
         for row in throw / "rows":
             rod = row / "connecting_rod"

@@ -43,9 +43,9 @@ class Acting(NamedTuple):
     friction: bool = True
     inertia: bool = True
 
-    def of(self, one: Instant) -> float:
+    def of(self, instant: Instant) -> float:
         """Their sum."""
-        return self.gas * one.gas + self.friction * one.friction + self.inertia * one.inertia
+        return self.gas * instant.gas + self.friction * instant.friction + self.inertia * instant.inertia
 
 
 ALL = Acting()
@@ -152,7 +152,7 @@ class Pressed:
         parts = [_Part(start, end, (start + end) / 2) for start, end in self.pistons.pieces]
         parts = [one._replace(first=height(one.start, one.within), last=height(one.end, one.within)) for one in parts]
         low, best = max((height, place) for one in parts for place, height in one.ends)
-        high, looked_at = -inf, 0
+        high, visits = -inf, 0
         while parts:
             finer: List[_Part] = []
             floor = low if sign else max(low, enough)
@@ -168,8 +168,8 @@ class Pressed:
                 value = height(there, one.within)
                 low, best = max((low, best), (value, there))
                 finer += [one._replace(end=there, last=value), one._replace(start=there, first=value)]
-            parts, looked_at = finer, looked_at + len(finer)
-            if looked_at > MOST:
+            parts, visits = finer, visits + len(finer)
+            if visits > MOST:
                 return None
         return Peak(low, max(high, low), self.pistons.sense * best)
 

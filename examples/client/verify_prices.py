@@ -22,9 +22,9 @@ UNITS = {"max_mass": "kg", "max_total_mass": "kg", "envelope": "(kg m)", "max_ce
 # ---- where weights are off
 
 
-def sensitivity(statement: Statement, turning: Sequence[Mass], said: Place) -> Claims:
+def sensitivity(statement: Statement, turning: Sequence[Mass], entry: Place) -> Claims:
     """What the objective rises by where all counterweights are off together, each whichever way is worst."""
-    if not said:
+    if not entry:
         return
     machine, rounding = statement.machine, 0.0
     webs = [mass for mass, web in zip(turning, machine.webs) if web.fixed is None]
@@ -36,12 +36,12 @@ def sensitivity(statement: Statement, turning: Sequence[Mass], said: Place) -> C
         ]
         start = term.start.middle()
         worst = worst_by_angle(start, vectors, radians(1)), worst_by_mass(start, vectors, 0.01)
-        sums[term.row] = [one + more for one, more in zip(sums[term.row], (abs(start + sum(vectors)), *worst))]
+        sums[term.row] = [size + more for size, more in zip(sums[term.row], (abs(start + sum(vectors)), *worst))]
         # where what is there cancels, its rounding is that of what cancels
         rounding += 1e-14 * (abs(start) + sum(map(abs, vectors))) + 10.0 * float(abs(term.start - term.start))
-    as_it_is, by_angle, by_mass = (max(one[k] for one in sums.values()) for k in range(3))
+    as_it_is, by_angle, by_mass = (max(row[k] for row in sums.values()) for k in range(3))
     for field, worse in (("objective_rise_per_deg", by_angle), ("objective_rise_per_percent", by_mass)):
-        figure, place = max(worse - as_it_is, 0.0), said / field
+        figure, place = max(worse - as_it_is, 0.0), entry / field
         off = FIGURE * (as_it_is + worse) + rounding if place else -1.0
         yield "sensitivity", place, real(off - abs(place.double(0.0) - figure)), real(abs(figure) + off)
 

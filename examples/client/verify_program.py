@@ -232,10 +232,10 @@ class Statement:
 
     def reach(self, web: Web, implied: Place) -> Number | None:
         """Largest mass of a web: its limit, the budget or what the answer says that they imply; None without."""
-        said = (implied / web.name).number(least=0) if implied / web.name else None
+        implication = (implied / web.name).number(least=0) if implied / web.name else None
         cut = real(web.plate.mass(web.plate.most)) * ABOUT_ONE if web.plate else None
-        limits = [limit for limit in (web.limit, self.machine.left, said, cut) if limit is not None]
-        return min(limits, key=lambda one: one.high) if limits else None
+        limits = [limit for limit in (web.limit, self.machine.left, implication, cut) if limit is not None]
+        return min(limits, key=lambda number: number.high) if limits else None
 
     def change(self, web: Web, row: str) -> Number:
         """What a kilogram on a web adds to a row at most."""
@@ -259,8 +259,8 @@ class Statement:
         limits = [(web, self.reach(web, Place(None))) for web in self.machine.webs]
         webs = [web for web, limit in limits if limit is None or limit.high > 0]
         most = {row: largest(ZERO, *(self.change(web, row) for web in webs)) for row in self.rows}
-        found = [sizes[row] / does for row, does in most.items() if does.low > 0 and sizes[row].low > 0]
-        return min(found, key=lambda one: one.high, default=None)
+        masses = [sizes[row] / does for row, does in most.items() if does.low > 0 and sizes[row].low > 0]
+        return min(masses, key=lambda number: number.high, default=None)
 
 
 def spent(machine: Machine, pulls: dict[str, Number], share: Number, cost: Number, implied: Place) -> Number:

@@ -16,28 +16,28 @@ from verify_numbers import ABOUT_ONE, BLUR, ONE, PI, ZERO, Number, Place, direct
 LEAST, MOST = 0.3, 0.7  # share of the permissible unbalance that a plane has
 
 
-def quality(asked: Place, machine: Machine, said: Place, turning: Sequence[Mass]) -> Claims:
+def quality(design: Place, machine: Machine, entry: Place, turning: Sequence[Mass]) -> Claims:
     """Without counterweights, and with them."""
-    given = asked / "balance_quality"
-    omega = (asked / "speed_rpm").number(least=0) * Number(PI, PI + 1) / Number(30 * 10**80, 30 * 10**80)
-    grade = (given / "grade_mm_s").number()
-    permitted = grade * real(1 / 1000) * ABOUT_ONE * (given / "mass_kg").number() / omega
-    yield near("balance_quality", said / "permissible_kg_m", permitted)
-    ends = [(given / f"plane_{one}_m").double() for one in "ab"]
-    share = (ends[1] - (given / "centre_of_mass_m").double()) / (ends[1] - ends[0])
+    demand = design / "balance_quality"
+    omega = (design / "speed_rpm").number(least=0) * Number(PI, PI + 1) / Number(30 * 10**80, 30 * 10**80)
+    grade = (demand / "grade_mm_s").number()
+    permitted = grade * real(1 / 1000) * ABOUT_ONE * (demand / "mass_kg").number() / omega
+    yield near("balance_quality", entry / "permissible_kg_m", permitted)
+    ends = [(demand / f"plane_{letter}_m").double() for letter in "ab"]
+    share = (ends[1] - (demand / "centre_of_mass_m").double()) / (ends[1] - ends[0])
     share = min(max(share, LEAST), MOST)
-    most = [permitted * real(one) * ABOUT_ONE for one in (share, 1 - share)]
+    most = [permitted * real(part) * ABOUT_ONE for part in (share, 1 - share)]
     for when, weights in (("before", []), ("after", turning)):
         planes = _in_planes(machine, weights, *ends)
-        reached = largest(*(abs(one) / each for one, each in zip(planes, most)))
-        yield near("balance_quality", said / when / "grade_mm_s", grade * reached)
-        for name, end, one, each in zip("ab", ends, planes, most):
-            place = said / when / f"plane_{name}"
+        reached = largest(*(abs(vector) / limit for vector, limit in zip(planes, most)))
+        yield near("balance_quality", entry / when / "grade_mm_s", grade * reached)
+        for name, end, vector, limit in zip("ab", ends, planes, most):
+            place = entry / when / f"plane_{name}"
             yield near("balance_quality", place / "position_m", real(end))
-            yield near("balance_quality", place / "permissible_kg_m", each)
-            yield near("balance_quality", place / "unbalance_kg_m", abs(one))
+            yield near("balance_quality", place / "permissible_kg_m", limit)
+            yield near("balance_quality", place / "unbalance_kg_m", abs(vector))
             way = direction((place / "angle_deg").double()) + BLUR
-            yield "balance_quality", place / "angle_deg", -abs(one - way * abs(one)), abs(one)
+            yield "balance_quality", place / "angle_deg", -abs(vector - way * abs(vector)), abs(vector)
 
 
 def _in_planes(machine: Machine, weights: Sequence[Mass], first: float, second: float) -> Sequence[Number]:

@@ -40,18 +40,18 @@ class Geared(NamedTuple):
         return found.conjugate() if self.mirrored else found
 
 
-def geared(asked: Place, machine: Machine, mirrored: bool) -> List[Geared]:
+def geared(design: Place, machine: Machine, mirrored: bool) -> List[Geared]:
     """All places of the balance shafts; those at -1 ``mirrored`` where the first order counts."""
-    found = []
-    for shaft in asked / "balance_shafts":
+    places = []
+    for shaft in design / "balance_shafts":
         ratio = int((shaft / "speed_ratio").double())
         place = (shaft / "x_m").number(0.0) + J * (shaft / "y_m").number(0.0)
-        for one in shaft / "webs":
-            web, back = web_of(one, machine.fastest * real(ratio * ratio)), mirrored and ratio == -1
+        for entry in shaft / "webs":
+            web, back = web_of(entry, machine.fastest * real(ratio * ratio)), mirrored and ratio == -1
             if back and web.sector is not None:
                 web = web._replace(sector=(-web.sector[0], web.sector[1]))
-            found.append(Geared(web, ratio, place, back))
-    return found
+            places.append(Geared(web, ratio, place, back))
+    return places
 
 
 def power(unit: Number, times: int) -> Number:

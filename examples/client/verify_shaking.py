@@ -119,11 +119,13 @@ def _turned(request: Place, row: Place) -> Number:
     return found if (request / "machine" / "rotation").text(default="ccw") == "ccw" else found.conjugate()
 
 
-def _load(request: Place, place: Place, found: Responses, order: int, way: Number, sizes: Dict[str, Number]) -> Claims:
+def _load(
+    request: Place, place: Place, responses: Responses, order: int, way: Number, sizes: Dict[str, Number]
+) -> Claims:
     sense = (request / "machine" / "rotation").text(default="ccw") == "ccw"
     vectors = []
     for name in NAMES:
-        co, mirrored = found[name][0], found[name][1].conjugate()
+        co, mirrored = responses[name][0], responses[name][1].conjugate()
         vectors += [(name, co + mirrored), (name, -J * (co - mirrored))]
     for field, (name, vector) in zip(_ALONG, vectors):
         amplitude, phase = place / field / f"amplitude_{NAMES[name]}", place / field / "phase_deg"

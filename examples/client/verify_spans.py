@@ -20,13 +20,13 @@ class Spans:
         self.places, self.continuous = list(places), continuous
         self.lengths = [end - start for start, end in zip(places, places[1:])]
         self.extent = places[-1] - places[0]
-        self._known: Dict[Fraction, List[Fraction]] = {}
+        self._shares_by_place: Dict[Fraction, List[Fraction]] = {}
 
     def shares(self, place: Fraction) -> List[Fraction]:
         """What a unit of load in a plane puts on every bearing."""
-        if place not in self._known:
-            self._known[place] = self._shares(place)
-        return self._known[place]
+        if place not in self._shares_by_place:
+            self._shares_by_place[place] = self._shares(place)
+        return self._shares_by_place[place]
 
     def bending(self, plane: Fraction, place: Fraction) -> Fraction:
         """The moment in a plane of the shaft from a unit of load in another."""

@@ -41,7 +41,7 @@ def looks_at_the_turn(request: Place) -> bool:
 
 def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> Claims:
     """The proof of the answer to one request whose objective looks at the whole turn."""
-    request.known(f"{FIELDS}{CASES}{SHAFTS}{ENTRY_FIELDS}")
+    request.require_coverage(f"{FIELDS}{CASES}{SHAFTS}{ENTRY_FIELDS}")
     asked, proof = request / "machine", answer / "certificate"
     program = Program(request, machine, answer)
     objective, lowest, implied = proof / "objective", proof / "lower_bound", proof / "implied_max_mass_kg"
@@ -71,7 +71,7 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
         yield near("yardstick", size, mass)
     goals_of = Asked([*program.parts.values()], program.named, program.off, machine, program.rows)
     yield from covered(values(request, answer, goals_of, fitted))
-    yield from covered(_as_given(request, machine, answer, implied))
+    yield from covered(_nominal(request, machine, answer, implied))
     if slopes:
         yield from covered(costs(request, answer, machine, program.first, terms, slopes))
     yield from covered(misplacement(goals_of.parts, program.named[-1], fitted, answer / "sensitivity"))
@@ -91,7 +91,7 @@ def _earlier(program: Program, proof: Place, implied: Place) -> Claims:
         yield from _proven("goals", one / "lower_bound", found, implied, one / "multipliers")
 
 
-def _as_given(request: Place, machine: Machine, answer: Place, implied: Place) -> Claims:
+def _nominal(request: Place, machine: Machine, answer: Place, implied: Place) -> Claims:
     """The bound of the machine as it is given, nothing off, by multipliers of its own."""
     price = answer / "price_of_robustness"
     if not price / "nominal_multipliers":
@@ -103,26 +103,26 @@ def _as_given(request: Place, machine: Machine, answer: Place, implied: Place) -
         priced = partial(priced_at, dict.fromkeys(first.exact.rows, lowest.number()))
         yield from exactly("nominal_optimum", lowest, first.exact, proof, implied, {}, priced)
         return
-    found = program.bound(proof, program.terms(proof), implied)
-    yield from _proven("nominal_optimum", lowest, found, implied, proof)
+    bound = program.bound(proof, program.terms(proof), implied)
+    yield from _proven("nominal_optimum", lowest, bound, implied, proof)
 
 
-def unreachable(request: Place, answer: Place, budget: Place, said: Place) -> Claims:
+def unreachable(request: Place, answer: Place, budget: Place, verdict: Place) -> Claims:
     """No counterweights keep the ceilings, at the angles of the cuts."""
-    request.known(f"{FIELDS}{CASES}{SHAFTS}{ENTRY_FIELDS}")
-    goal, proofs, implied = request / "objective", said / "multipliers", said / "implied_max_mass_kg"
+    request.require_coverage(f"{FIELDS}{CASES}{SHAFTS}{ENTRY_FIELDS}")
+    goal, proofs, implied = request / "objective", verdict / "multipliers", verdict / "implied_max_mass_kg"
     machine = Machine(request / "machine", goal, answer / "reference_plane_m", budget)
-    given = [field for field in (*CEILINGS.values(), *LOADED) if goal / field]
-    named = [one.text() for one in said / "conflict"]
-    yield from (("conflict", one, ONE if one.value in given else -ONE, ONE) for one in said / "conflict")
-    if not named or len({*named}) < len(named):
-        yield "conflict", said / "conflict", -ONE, ONE
+    limits = [field for field in (*CEILINGS.values(), *LOADED) if goal / field]
+    names = [item.text() for item in verdict / "conflict"]
+    yield from (("conflict", item, ONE if item.value in limits else -ONE, ONE) for item in verdict / "conflict")
+    if not names or len({*names}) < len(names):
+        yield "conflict", verdict / "conflict", -ONE, ONE
     program = Program(request, machine, Place(None))
     least, believed = program.conflict(proofs / "conflict", implied) if proofs / "conflict" else (None, False)
     if believed:
         yield "reach", implied, None, ONE
     # what a comparison of all choices proves has no multipliers
-    place = proofs / "conflict" if proofs / "conflict" else said / "conflict"
+    place = proofs / "conflict" if proofs / "conflict" else verdict / "conflict"
     room = None if least is None else least - STEP
     if room is not None and room.high < 0 and (program.scattered or None not in program.parts):
         # how the cases share what is exceeded is not told
@@ -131,28 +131,28 @@ def unreachable(request: Place, answer: Place, budget: Place, said: Place) -> Cl
     if least is not None:
         yield EVIDENCE, proofs / "conflict", None, ONE
         yield EVIDENCE, implied, None, ONE
-    yield from closest(request, machine, said / "closest")
+    yield from closest(request, machine, verdict / "closest")
     if len(program.parts) == 1 and not (program.scattered or program.first.all or program.first.geared):
-        yield from smallest(machine, Place({}), said, proofs, implied)
+        yield from smallest(machine, Place({}), verdict, proofs, implied)
         for name, unit in NAMES.items():
-            lowest, found = (said / f"smallest_{name}{part}_{unit}" for part in ("_lower_bound", ""))
-            yield from near_the_bound(f"smallest_{name}", found, lowest, machine, name, implied)
+            lowest, attained = (verdict / f"smallest_{name}{part}_{unit}" for part in ("_lower_bound", ""))
+            yield from near_the_bound(f"smallest_{name}", attained, lowest, machine, name, implied)
 
 
 def _proven(
     claim: str,
-    said: Place,
-    found: Tuple[Optional[Number], bool],
+    entry: Place,
+    bound: Tuple[Optional[Number], bool],
     implied: Place,
     proof: Place,
     besides: Number = ZERO,
 ) -> Claims:
     """``besides``: what is there in any case."""
-    least, believed = found
+    least, believed = bound
     if believed:
         yield "reach", implied, None, ONE
-    room = None if least is None or not said else least + besides - said.number()
-    yield claim, said, room, largest(abs(said.number(0.0)), abs(least or ZERO))
+    room = None if least is None or not entry else least + besides - entry.number()
+    yield claim, entry, room, largest(abs(entry.number(0.0)), abs(least or ZERO))
     if room is not None:
         yield EVIDENCE, proof, None, ONE
         yield EVIDENCE, implied, None, ONE

@@ -27,19 +27,19 @@ _NOWHERE, _NONE = Place(None), {"mass_kg": 0, "angle_deg": 0, "radius_m": 0}
 SAME = 1e-9  # of a mass, relative, and of an angle in degrees: by which they are those of a catalogue
 
 
-def counterweights(machine: Machine, place: Place, asked: Place = _NOWHERE) -> Claims:
+def counterweights(machine: Machine, place: Place, design: Place = _NOWHERE) -> Claims:
     """Their consistency and the limits of the webs; returns them as masses, and their total mass.
 
-    ``asked``: the machine in the request, by which the cranks are known; without it the cranks are not looked at.
+    ``design``: the machine in the request, by which the cranks are known; without it the cranks are not looked at.
     """
-    names = [(one / "web").text() for one in place]
+    names = [(entry / "web").text() for entry in place]
     yield "counterweights", place, ONE if names == [web.name for web in machine.webs] else -ONE, ONE
-    by_name, turning, total_mass, cranks = dict(zip(names, place)), [], ZERO, own_cranks(asked)
+    by_name, turning, total_mass, cranks = dict(zip(names, place)), [], ZERO, own_cranks(design)
     for web in machine.webs:
-        one = by_name.get(web.name, Place({**_NONE, "web": web.name}, *place.path))
-        turns = yield from counterweight(machine, web, one, machine.fastest)
-        yield from _crank(cranks.get(web.name), one) if asked else ()
-        total_mass = total_mass + (one / "mass_kg").number()
+        entry = by_name.get(web.name, Place({**_NONE, "web": web.name}, *place.path))
+        turns = yield from counterweight(machine, web, entry, machine.fastest)
+        yield from _crank(cranks.get(web.name), entry) if design else ()
+        total_mass = total_mass + (entry / "mass_kg").number()
         turning.append(turns)
     if all(web.name in by_name for web in machine.webs):
         yield from _alike(machine, by_name)
@@ -48,60 +48,60 @@ def counterweights(machine: Machine, place: Place, asked: Place = _NOWHERE) -> C
     return turning, total_mass * machine.wide
 
 
-def counterweight(machine: Machine, web: Web, one: Place, fastest: Number) -> Claims:
+def counterweight(machine: Machine, web: Web, entry: Place, fastest: Number) -> Claims:
     """A counterweight within the limits of its web; returns it as a mass. ``fastest``: square of its highest speed."""
-    yield "counterweights", one / "web", ONE, ONE
-    said, mass, angle = one / "mass_kg", (one / "mass_kg").number(), (one / "angle_deg").double()
+    yield "counterweights", entry / "web", ONE, ONE
+    printed, mass, angle = entry / "mass_kg", (entry / "mass_kg").number(), (entry / "angle_deg").double()
     radius = web.radius
     if web.plate is not None:
-        radius = (one / "radius_m").number(least=0)
-        yield from _cut(web.plate, one)
+        radius = (entry / "radius_m").number(least=0)
+        yield from _cut(web.plate, entry)
     u = (direction(angle) + machine.blur) * mass * radius * machine.wide
     exactly = mass * radius * machine.wide, *u.parts(), web.position, radius, mass * radius * fastest * machine.wide
     fields = "mass_radius_kg_m", "x_kg_m", "y_kg_m", "position_m", "radius_m", "centrifugal_force_N"
     figures = zip(fields, exactly)
-    yield from (near("counterweights", one / field, exact) for field, exact in figures if one / field)
-    yield "max_mass", said, mass, abs(mass)
+    yield from (near("counterweights", entry / field, exact) for field, exact in figures if entry / field)
+    yield "max_mass", printed, mass, abs(mass)
     if (mass.high <= 0 and angle != 0) or not 0 <= angle < 360:
         # no weight has no angle, and an angle is told within one turn
-        yield "counterweights", one / "angle_deg", -ONE, ONE
-    yield "counterweights", one / "angle_deg", ONE, ONE
+        yield "counterweights", entry / "angle_deg", -ONE, ONE
+    yield "counterweights", entry / "angle_deg", ONE, ONE
     if web.fixed is not None:
-        yield near("fixed", said, web.fixed[0])
+        yield near("fixed", printed, web.fixed[0])
         off = (Fraction(angle) - Fraction(web.fixed[1]) + 180) % 360 - 180
-        yield "fixed", one / "angle_deg", real(Fraction(ANGLE) - abs(off)) if mass.high > 0 else ONE, ONE
+        yield "fixed", entry / "angle_deg", real(Fraction(ANGLE) - abs(off)) if mass.high > 0 else ONE, ONE
     elif web.limit is not None:
-        yield "max_mass", said, web.limit * real(1 + MASS) - mass, web.limit
-    if one / "fixed":
-        there = (one / "fixed").read((bool,), "true or false")
-        yield "fixed", one / "fixed", ONE if there == (web.fixed is not None) else -ONE, ONE
+        yield "max_mass", printed, web.limit * real(1 + MASS) - mass, web.limit
+    if entry / "fixed":
+        there = (entry / "fixed").read((bool,), "true or false")
+        yield "fixed", entry / "fixed", ONE if there == (web.fixed is not None) else -ONE, ONE
     if web.sector is not None and mass.high > 0:
         turn, (centre, half) = Fraction(360), web.sector
         off = abs((Fraction(angle) - Fraction(centre) + turn / 2) % turn - turn / 2)
-        yield "sector", one / "angle_deg", real(Fraction(half) + Fraction(ANGLE) - off), ONE
-    if one / "active_limits":
-        yield from listed("active_limits", one / "active_limits", dict(_touched(web, one)))
+        yield "sector", entry / "angle_deg", real(Fraction(half) + Fraction(ANGLE) - off), ONE
+    if entry / "active_limits":
+        yield from listed("active_limits", entry / "active_limits", dict(_touched(web, entry)))
     return Mass(mass * radius, direction(angle), ZERO, web.position)
 
 
-def _crank(crank: Optional[Crank], one: Place) -> Claims:
+def _crank(crank: Optional[Crank], entry: Place) -> Claims:
     """The crank that a counterweight belongs to, and the angle from it: what a fitter drills by."""
-    throw, said = one / "throw", one / "angle_from_crank_deg"
+    throw, printed = entry / "throw", entry / "angle_from_crank_deg"
     if crank is None:
-        yield "crank", one, -ONE if throw or said else ONE, ONE
+        yield "crank", entry, -ONE if throw or printed else ONE, ONE
         return
     yield "crank", throw, ONE if throw and throw.double() == crank.throw else -ONE, ONE
-    if (one / "mass_kg").double() == 0:
-        yield "crank", said, -ONE if said else ONE, ONE
+    if (entry / "mass_kg").double() == 0:
+        yield "crank", printed, -ONE if printed else ONE, ONE
         return
-    if not said:
-        yield "crank", said, -ONE, ONE
+    if not printed:
+        yield "crank", printed, -ONE, ONE
         return
-    angle = said.double()
-    off = (Fraction((one / "angle_deg").double()) - Fraction(crank.degrees) - Fraction(angle) + 180) % 360 - 180
+    angle = printed.double()
+    off = (Fraction((entry / "angle_deg").double()) - Fraction(crank.degrees) - Fraction(angle) + 180) % 360 - 180
     # a remainder of doubles: off by the rounding of the larger of both angles
     allowed = Fraction(ROUNDING) * (360 + abs(Fraction(crank.degrees)))
-    yield "crank", said, real(allowed - abs(off)) if 0 <= angle < 360 else -ONE, ONE
+    yield "crank", printed, real(allowed - abs(off)) if 0 <= angle < 360 else -ONE, ONE
 
 
 def _alike(machine: Machine, by_name: Dict[str, Place]) -> Claims:
@@ -119,14 +119,14 @@ def _alike(machine: Machine, by_name: Dict[str, Place]) -> Claims:
             yield "web_groups", one / "angle_deg", real(Fraction(ANGLE) - abs(off)) if fitted else ONE, ONE
 
 
-def _touched(web: Web, one: Place) -> Iterator[Tuple[str, float]]:
+def _touched(web: Web, entry: Place) -> Iterator[Tuple[str, float]]:
     """Limits of a web, and by which share of each a counterweight stays below it; a limit of 0 is touched."""
-    mass, angle = (one / "mass_kg").double(), (one / "angle_deg").double()
+    mass, angle = (entry / "mass_kg").double(), (entry / "angle_deg").double()
     if web.fixed is not None:
         return
     for name, most in web.limits:
         largest = float(most) if web.plate is None or name == "max_mass" else web.plate.unbalance(web.plate.most)
-        size = mass * (one / "radius_m").double() if name == "envelope" else mass
+        size = mass * (entry / "radius_m").double() if name == "envelope" else mass
         yield name, 1 - size / largest if largest > 0 else 0.0
     if web.sector is not None:
         off = abs((angle - web.sector[0] + 180) % 360 - 180)
@@ -146,11 +146,11 @@ def listed(claim: str, place: Place, rooms: Dict[str, float]) -> Claims:
     yield from ((claim, one, ONE, ONE) for one in place)
 
 
-def _cut(of: Plate, one: Place) -> Claims:
+def _cut(of: Plate, entry: Place) -> Claims:
     """The outline of a counterweight that is cut from a plate."""
-    mass, radius, shape = (one / "mass_kg").double(least=0), (one / "radius_m").double(least=0), one / "shape"
+    mass, radius, shape = (entry / "mass_kg").double(least=0), (entry / "radius_m").double(least=0), entry / "shape"
     if mass == 0:
-        yield _close("shape", one / "radius_m", of.lever(0.0))
+        yield _close("shape", entry / "radius_m", of.lever(0.0))
         yield "shape", shape, -ONE if shape else ONE, ONE
         return
     angle = radians((shape / "half_angle_deg").double(least=0))
@@ -159,8 +159,8 @@ def _cut(of: Plate, one: Place) -> Claims:
     away = abs(of.unbalance(min(angle, of.most)) - mass * radius) - FIGURE * of.unbalance(of.most)
     yield "shape", shape / "half_angle_deg", real(-away), ONE
     opening = min(angle, of.most)
-    yield _close("shape", one / "mass_kg", of.mass(opening), of.mass(of.most) * SAME)
-    yield _close("shape", one / "radius_m", of.unbalance(opening) / max(of.mass(opening), 1e-300), of.outer * 1e-6)
+    yield _close("shape", entry / "mass_kg", of.mass(opening), of.mass(of.most) * SAME)
+    yield _close("shape", entry / "radius_m", of.unbalance(opening) / max(of.mass(opening), 1e-300), of.outer * 1e-6)
     yield _close("shape", shape / "inertia_kg_m2", of.inertia(opening))
     yield _close("shape", shape / "outer_radius_m", of.outer)
     if of.chord:
@@ -176,39 +176,39 @@ def _close(claim: str, place: Place, figure: float, more: float = 0.0) -> Claim:
     return claim, place, real(FIGURE * abs(figure) + more - abs(place.double() - figure)), real(abs(figure))
 
 
-def shafts(machine: Machine, asked: Place, place: Place) -> Claims:
+def shafts(machine: Machine, design: Place, place: Place) -> Claims:
     """The unbalances of the balance shafts; returns what they add, by order, and their total mass."""
-    given, said = list(asked / "balance_shafts"), list(place)
-    names = [(one / "name").text() for one in said]
-    yield "balance_shafts", place, ONE if names == [(one / "name").text() for one in given] else -ONE, ONE
-    found: List[Tuple[int, Mass]] = []
+    design_shafts, entries = list(design / "balance_shafts"), list(place)
+    names = [(entry / "name").text() for entry in entries]
+    yield "balance_shafts", place, ONE if names == [(entry / "name").text() for entry in design_shafts] else -ONE, ONE
+    weights: List[Tuple[int, Mass]] = []
     mass = ZERO
-    for shaft, one in zip(given, said):
+    for shaft, entry in zip(design_shafts, entries):
         ratio = int((shaft / "speed_ratio").double())
-        yield near("balance_shafts", one / "speed_ratio", real(ratio))
-        yield "balance_shafts", one / "name", ONE, ONE
+        yield near("balance_shafts", entry / "speed_ratio", real(ratio))
+        yield "balance_shafts", entry / "name", ONE, ONE
         webs = [web_of(web, machine.fastest * real(ratio * ratio)) for web in shaft / "webs"]
-        fitted = [(each / "web").text() for each in one / "counterweights"]
+        fitted = [(weight / "web").text() for weight in entry / "counterweights"]
         right = fitted == [web.name for web in webs]
-        yield "balance_shafts", one / "counterweights", ONE if right else -ONE, ONE
+        yield "balance_shafts", entry / "counterweights", ONE if right else -ONE, ONE
         on_shaft = ZERO
-        for web, each in zip(webs, one / "counterweights") if right else ():
-            turns = yield from counterweight(machine, web, each, machine.fastest * real(ratio * ratio))
-            yield from _crank(None, each)
-            on_shaft = on_shaft + (each / "mass_kg").number()
+        for web, weight in zip(webs, entry / "counterweights") if right else ():
+            turns = yield from counterweight(machine, web, weight, machine.fastest * real(ratio * ratio))
+            yield from _crank(None, weight)
+            on_shaft = on_shaft + (weight / "mass_kg").number()
             back = Mass(turns.product, ZERO, turns.co, turns.position)
-            found.append((abs(ratio), turns if ratio > 0 else back))
-        yield near("total_mass", one / "total_mass_kg", on_shaft * machine.wide)
+            weights.append((abs(ratio), turns if ratio > 0 else back))
+        yield near("total_mass", entry / "total_mass_kg", on_shaft * machine.wide)
         mass = mass + on_shaft
-    return found, mass * machine.wide
+    return weights, mass * machine.wide
 
 
-def heavy_enough(asked: Place, place: Place) -> Claims:
+def heavy_enough(design: Place, place: Place) -> Claims:
     """Masses that are fitted are no smaller than the least that is."""
-    for web, one in zip(asked / "webs", place):
-        least, mass = web / "min_fitted_mass_kg", (one / "mass_kg").number(least=0)
+    for web, entry in zip(design / "webs", place):
+        least, mass = web / "min_fitted_mass_kg", (entry / "mass_kg").number(least=0)
         if least and mass.high > 0:
-            yield "min_fitted_mass", one / "mass_kg", mass - least.number() * real(1 - MASS), mass
+            yield "min_fitted_mass", entry / "mass_kg", mass - least.number() * real(1 - MASS), mass
 
 
 def stocked(web: Place) -> bool:
@@ -216,35 +216,37 @@ def stocked(web: Place) -> bool:
     return any(web / name for name in CHOICES)
 
 
-def usual_gap(asked: Place) -> float:
+def usual_gap(design: Place) -> float:
     """The gap that a machine is asked for where none is said: wide where counterweights are chosen, or a least is."""
-    places = (asked, *(web for web in asked / "webs"))
+    places = (design, *(web for web in design / "webs"))
     names = ("catalogue", "max_counterweights", "min_fitted_mass_kg", *CHOICES)
     return 1e-3 if any(place / name for place in places for name in names) else 1e-6
 
 
-def catalogue(asked: Place, place: Place) -> Claims:
+def catalogue(design: Place, place: Place) -> Claims:
     """Masses, holes and counts that there are; steps are not covered. What is fixed is no choice, and not counted."""
-    general = asked / "catalogue"
+    general = design / "catalogue"
     used: list[Number] = []
-    chosen = [(web, one) for web, one in zip(asked / "webs", place) if not web / "fixed"]
-    for web, one in chosen:
-        mass, angle = (one / "mass_kg").number(), (one / "angle_deg").double()
+    chosen = [(web, entry) for web, entry in zip(design / "webs", place) if not web / "fixed"]
+    for web, entry in chosen:
+        mass, angle = (entry / "mass_kg").number(), (entry / "angle_deg").double()
         if mass.high <= 0:
             continue
         own = [option for name, options in CHOICES.items() if web / name for option in options(web / name)]
         # where an option is both, masses of the catalogue are none of them
-        masses = [each for each, _ in own if each is not None] or list(general / "masses_kg")
-        off = min((abs(each.number() - mass) for each in masses), key=lambda each: each.high, default=None)
-        yield "catalogue", one / "mass_kg", None if off is None else mass * real(SAME) - off, mass
+        masses = [option for option, _ in own if option is not None] or list(general / "masses_kg")
+        off = min((abs(option.number() - mass) for option in masses), key=lambda option: option.high, default=None)
+        yield "catalogue", entry / "mass_kg", None if off is None else mass * real(SAME) - off, mass
         turn = Fraction(360)
         wide = (mass * real(SAME)).high
-        angles = [at for each, at in own if at is not None and (each is None or abs(each.number() - mass).low <= wide)]
-        away = [abs((Fraction(each.double()) - Fraction(angle) + turn / 2) % turn - turn / 2) for each in angles]
-        yield "catalogue", one / "angle_deg", real(Fraction(SAME) - min(away)) if away else None, ONE
+        angles = [
+            at for option, at in own if at is not None and (option is None or abs(option.number() - mass).low <= wide)
+        ]
+        away = [abs((Fraction(option.double()) - Fraction(angle) + turn / 2) % turn - turn / 2) for option in angles]
+        yield "catalogue", entry / "angle_deg", real(Fraction(SAME) - min(away)) if away else None, ONE
         if all(abs(mass - other).low > (mass * real(SAME)).high for other in used):
             used.append(mass)
-    fitted = sum((one / "mass_kg").double() > 0 for _, one in chosen)
-    for most, count in ((asked / "max_counterweights", fitted), (general / "max_part_numbers", len(used))):
+    fitted = sum((entry / "mass_kg").double() > 0 for _, entry in chosen)
+    for most, count in ((design / "max_counterweights", fitted), (general / "max_part_numbers", len(used))):
         if most:
             yield "catalogue", most, most.number() - real(count), ONE

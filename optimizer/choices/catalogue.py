@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from optimizer.choices.catalogue_options import Stock
-from optimizer.choices.discrete.search import Known, search
+from optimizer.choices.discrete.search import Prior, search
 from optimizer.choices.feasible_set import Choice, SearchResult, Subproblem
 from optimizer.formulation.counterweights import unbalance
 from optimizer.numerics.arrays import Real
@@ -41,11 +41,11 @@ class Catalogue:
             subproblem.relative_gap,
             subproblem.yardstick,
             subproblem.time_limit_s,
-            Known(known, subproblem.below),
+            Prior(known, subproblem.below),
         )
         return self.picked(found.chosen, found)
 
-    def picked(self, chosen: np.ndarray, found: SearchResult) -> Choice:
+    def picked(self, chosen: np.ndarray, result: SearchResult) -> Choice:
         """Options (K,) as a choice."""
         mass, angle = self.stock.fitted(chosen)
-        return Choice(mass, angle, unbalance(mass, angle, self.radius), found)
+        return Choice(mass, angle, unbalance(mass, angle, self.radius), result)

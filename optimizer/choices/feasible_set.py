@@ -22,7 +22,7 @@ class SearchResult(Protocol):
     """Where a search ended."""
 
     @property
-    def kept(self) -> bool:
+    def feasible(self) -> bool:
         """Whether what was found keeps the ceilings."""
         ...
 
@@ -54,7 +54,7 @@ class Choice(NamedTuple):
     mass: Real  # (K,) kg
     angle: Real  # (K,) degrees
     unbalance: Complex  # (K,) kg m
-    found: SearchResult
+    result: SearchResult
 
 
 class FeasibleSet(Protocol):

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from optimizer.choices.feasible_set import Choice, Subproblem
-from optimizer.choices.semicontinuous.search import Asked, search
+from optimizer.choices.semicontinuous.search import SearchGoal, search
 from optimizer.formulation.counterweights import masses_and_angles, unbalance
 from optimizer.numerics.arrays import Real
 from optimizer.program.limits import Limits
@@ -46,7 +46,7 @@ class MinimumMasses:
         relaxed, *known = subproblem.points
         statement, size = subproblem.statement, subproblem.yardstick
         share = OPTIMUM_SHARE * size if self.lightest else 0.0
-        asked = Asked(subproblem.relative_gap * size, size, share, subproblem.time_limit_s)
+        asked = SearchGoal(subproblem.relative_gap * size, size, share, subproblem.time_limit_s)
         least = self.least * statement.limits.radius
         found = search(statement, least, relaxed, subproblem.at_least, asked, self.solver, known, subproblem.below)
         mass, angle = masses_and_angles(self.machine, found.unbalance, statement.limits)

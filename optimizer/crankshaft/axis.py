@@ -53,10 +53,10 @@ def frame_on(line: Line, towards: Real | None = None) -> Frame:
     return Frame(origin, _across(z, start))
 
 
-def frame_given(frame: ShaftFrame) -> Frame:
+def frame_of(frame: ShaftFrame) -> Frame:
     """The frame of a request."""
-    z, x = (np.array(one, dtype=float) for one in (frame.z, frame.x))
-    z, x = (one / np.max(np.abs(one)) for one in (z, x))
+    z, x = (np.array(axis, dtype=float) for axis in (frame.z, frame.x))
+    z, x = (axis / np.max(np.abs(axis)) for axis in (z, x))
     return Frame(np.array(frame.origin_m, dtype=float), _across(z / np.linalg.norm(z), x))
 
 

@@ -75,21 +75,24 @@ def plates(chain: Sequence[Stretch], flanks: Flanks, sides: Sides, tolerance: fl
     return Plates(tuple(found), tuple(free), tuple(doubts))
 
 
-def _material(one: Stretch, other: Stretch, flanks: Flanks) -> tuple[float, float] | None:
+def _material(first: Stretch, second: Stretch, flanks: Flanks) -> tuple[float, float] | None:
     """Flanks between two neighbours: the largest ones, or, where areas are not listed, the outermost."""
-    return flanks.largest(one.middle, other.middle) or flanks.between(one.high, other.low)
+    return flanks.largest(first.middle, second.middle) or flanks.between(first.high, second.low)
 
 
 def _air(
-    one: Stretch, other: Stretch, material: tuple[float, float] | None, flanks: Flanks, tolerance: float
+    first: Stretch, second: Stretch, material: tuple[float, float] | None, flanks: Flanks, tolerance: float
 ) -> float | None:
     """How much air is between two neighbours, whose ends are closed towards it; None without any."""
-    low, high = material or (other.low, one.high)
-    closed = flanks.cap(one.centre, one.radius, one.high, 1), flanks.cap(other.centre, other.radius, other.low, -1)
+    low, high = material or (second.low, first.high)
+    closed = (
+        flanks.cap(first.centre, first.radius, first.high, 1),
+        flanks.cap(second.centre, second.radius, second.low, -1),
+    )
     if material is None:
-        gap = other.low - one.high
+        gap = second.low - first.high
         return gap if gap > 10 * tolerance and all(closed) else None
-    gaps = [gap for gap, end in ((low - one.high, closed[0]), (other.low - high, closed[1])) if end]
+    gaps = [gap for gap, end in ((low - first.high, closed[0]), (second.low - high, closed[1])) if end]
     worst = max(gaps, default=0.0)
     return worst if worst > 10 * tolerance else None
 
@@ -121,9 +124,9 @@ def _doubts_about(plate: Plate, before: Stretch) -> Iterator[Doubt]:
         yield doubt("no_room", before.faces[-1], message)
 
 
-def _without_flanks(one: Stretch, other: Stretch, flanks: Flanks, tolerance: float) -> Iterator[Doubt]:
+def _without_flanks(first: Stretch, second: Stretch, flanks: Flanks, tolerance: float) -> Iterator[Doubt]:
     """Why there is no web between two neighbours; split pins need none."""
-    gap, leaning = other.low - one.high, flanks.lean(one.middle, other.middle)
+    gap, leaning = second.low - first.high, flanks.lean(first.middle, second.middle)
     if leaning is not None:
         number, angle = leaning
         message = f"a flank that leans by {angle:.3g} degrees: the web has no one thickness, and gets no envelope"
@@ -131,4 +134,4 @@ def _without_flanks(one: Stretch, other: Stretch, flanks: Flanks, tolerance: flo
     elif gap > 10 * tolerance:
         where = f"in the {gap * 1e3:.4g} mm between it and what follows"
         message = f"no plane faces across the shaft {where}: nothing shows a web there"
-        yield doubt("no_plane", one.faces[-1], message, serious=True)
+        yield doubt("no_plane", first.faces[-1], message, serious=True)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from optimizer.crankshaft.axis import axis_of, extent, frame_given, frame_on, lean, parallel
+from optimizer.crankshaft.axis import axis_of, extent, frame_of, frame_on, lean, parallel
 from optimizer.crankshaft.faces import Cylinders, Frame, cylinders_of, other_points, planes_of
 from optimizer.crankshaft.flanks import Flanks
 from optimizer.crankshaft.plates import Plates, Sides, plates
@@ -35,7 +35,7 @@ def read_shaft(request: ShaftRequest) -> ShaftAnswer:
 def _bare(request: ShaftRequest) -> Shaft:
     """Without faces there are a frame and bodies, as a rule of the request says."""
     assert request.frame is not None
-    return Shaft(frame_given(request.frame), Plates((), (), ()), (), None)
+    return Shaft(frame_of(request.frame), Plates((), (), ()), (), None)
 
 
 def _shown(request: ShaftRequest) -> Shaft:
@@ -44,7 +44,7 @@ def _shown(request: ShaftRequest) -> Shaft:
         refuse([FieldProblem(("faces",), "no outer cylinder is among them: nothing shows where the axis is")])
     refuse(unit_problems(cylinders))
     tolerance = request.tolerance_m or _TOLERANCE * extent(cylinders)
-    frame = _found_frame(request, cylinders, tolerance) if request.frame is None else frame_given(request.frame)
+    frame = _pin_frame(request, cylinders, tolerance) if request.frame is None else frame_of(request.frame)
     along, flanks, chain = _seen(request, cylinders, frame, tolerance)
     sides = Sides(along, planes_of(request).seen_from(frame), frame.points(other_points(request)))
     found = plates(chain.chain, flanks, sides, tolerance)
@@ -54,12 +54,12 @@ def _shown(request: ShaftRequest) -> Shaft:
     return Shaft(frame, found, chain.doubts, (float(np.min(z)), float(np.max(z))))
 
 
-def _found_frame(request: ShaftRequest, cylinders: Cylinders, tolerance: float) -> Frame:
+def _pin_frame(request: ShaftRequest, cylinders: Cylinders, tolerance: float) -> Frame:
     """The frame with x towards the first pin."""
     line = axis_of(cylinders, tolerance)
     frame = frame_on(line)
     _, _, chain = _seen(request, cylinders, frame, tolerance)
-    first = next(one for one in chain.chain if not one.journal)
+    first = next(stretch for stretch in chain.chain if not stretch.journal)
     towards = frame.origin + np.array([first.centre.real, first.centre.imag, 0.0]) @ frame.across
     return frame_on(line, towards)
 

@@ -42,7 +42,7 @@ class Shaft:
     """What the faces show in the frame of the shaft; its ends along the axis, None without faces."""
 
     frame: Frame
-    found: Plates
+    plates: Plates
     doubts: tuple[Doubt, ...]
     ends: tuple[float, float] | None
 
@@ -50,9 +50,9 @@ class Shaft:
 def report(request: ShaftRequest, shaft: Shaft, rotor: RotorMoments | None) -> ShaftAnswer:
     """The answer to a request."""
     origin, (x, y, z) = shaft.frame.origin, shaft.frame.across
-    chain = shaft.found.chain
+    chain = shaft.plates.chain
     pins = [n for n, one in enumerate(chain) if not one.journal]
-    webs = list(_webs(shaft.found.plates, pins))
+    webs = list(_webs(shaft.plates.plates, pins))
     bearings = dict(_bearings(chain))
     names = {n: _letters(k) for k, n in enumerate(bearings)}
     return ShaftAnswer(
@@ -68,7 +68,7 @@ def report(request: ShaftRequest, shaft: Shaft, rotor: RotorMoments | None) -> S
         rotor=None if rotor is None else _rotor(rotor),
         doubts=(
             *shaft.doubts,
-            *shaft.found.doubts,
+            *shaft.plates.doubts,
             *(one for each in bearings.values() for one in each),
             *_sizes([chain[n] for n in pins]),
             *density_doubts(request.bodies),
@@ -130,8 +130,10 @@ def _bearing(name: str, journal: Stretch) -> ShaftBearing:
     return ShaftBearing(name=name, position_m=journal.middle, diameter_m=2 * journal.radius, length_m=journal.length)
 
 
-def _journal(one: Stretch, bearing: str | None) -> ShaftJournal:
-    return ShaftJournal(diameter_m=2 * one.radius, bearing=bearing, from_m=one.low, to_m=one.high, faces=one.faces)
+def _journal(stretch: Stretch, bearing: str | None) -> ShaftJournal:
+    return ShaftJournal(
+        diameter_m=2 * stretch.radius, bearing=bearing, from_m=stretch.low, to_m=stretch.high, faces=stretch.faces
+    )
 
 
 def _letters(number: int) -> str:

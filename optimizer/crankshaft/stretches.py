@@ -67,26 +67,30 @@ def stretches(cylinders: Cylinders, flanks: Flanks, tolerance: float) -> Stretch
     OutOfRange
         without a crank pin, or with a second shaft.
     """
-    found = [one for one in _joined(cylinders, tolerance) if one.angle_deg >= _MOST_DEG]
+    candidates = [stretch for stretch in _joined(cylinders, tolerance) if stretch.angle_deg >= _MOST_DEG]
     doubts = [
-        doubt("interrupted", one.faces[0], f"goes {one.angle_deg:.4g} degrees about its axis: taken as all about it")
-        for one in found
-        if one.angle_deg < _WHOLE_DEG
+        doubt(
+            "interrupted",
+            stretch.faces[0],
+            f"goes {stretch.angle_deg:.4g} degrees about its axis: taken as all about it",
+        )
+        for stretch in candidates
+        if stretch.angle_deg < _WHOLE_DEG
     ]
-    found, more = _without_others(found, tolerance)
+    candidates, more = _without_others(candidates, tolerance)
     doubts += more
-    table = _Table.of(found)
-    discs = [table.is_disc(n, flanks, tolerance) for n in range(len(found))]
-    for one, disc in zip(found, discs, strict=True):
+    table = _Table.of(candidates)
+    discs = [table.is_disc(n, flanks, tolerance) for n in range(len(candidates))]
+    for stretch, disc in zip(candidates, discs, strict=True):
         if disc:
             message = "a smaller pin stands on it: taken for a round web, not for a crank pin or a journal"
-            doubts.append(doubt("round_web", one.faces[0], message))
-    chain = [one for one, disc in zip(found, discs, strict=True) if not disc]
-    chain.sort(key=lambda one: (one.middle, one.low, one.centre.real, one.centre.imag))
-    if all(one.journal for one in chain):
+            doubts.append(doubt("round_web", stretch.faces[0], message))
+    chain = [stretch for stretch, disc in zip(candidates, discs, strict=True) if not disc]
+    chain.sort(key=lambda stretch: (stretch.middle, stretch.low, stretch.centre.real, stretch.centre.imag))
+    if all(stretch.journal for stretch in chain):
         message = "there is no crank pin: no full cylinder beside the axis, parallel to it"
         refuse([FieldProblem(("faces",), message)])
-    return Stretches(tuple(_in_one(chain, flanks, tolerance)), tuple(doubts))
+    return Stretches(tuple(_merged(chain, flanks, tolerance)), tuple(doubts))
 
 
 def _joined(cylinders: Cylinders, tolerance: float) -> Iterator[Stretch]:
@@ -120,29 +124,29 @@ def _clusters(values: Real, tolerance: float) -> Numbers:
     return found
 
 
-def _without_others(found: Sequence[Stretch], tolerance: float) -> tuple[list[Stretch], list[Doubt]]:
+def _without_others(candidates: Sequence[Stretch], tolerance: float) -> tuple[list[Stretch], list[Doubt]]:
     """Without dowels, bolts, and what stands beside the shaft.
 
     Raises
     ------
     OutOfRange
     """
-    table = _Table.of(found)
+    table = _Table.of(candidates)
     thick = _THIN * float(np.max(table.radius[table.journal], initial=0.0))
-    beside = np.array([table.is_beside(n, tolerance) for n in range(len(found))], dtype=bool)
+    beside = np.array([table.is_beside(n, tolerance) for n in range(len(candidates))], dtype=bool)
     area = table.radius * (table.high - table.low)
     if np.sum(area[beside]) > _ANOTHER * np.sum(area[table.journal]):
-        worst = found[int(np.argmax(np.where(beside, area, -1.0)))]
+        worst = candidates[int(np.argmax(np.where(beside, area, -1.0)))]
         message = "stands beside the shaft, not on it: list the faces of one shaft"
         refuse([FieldProblem(("faces", worst.faces[0]), message)])
-    kept, doubts = [], []
-    for one, away in zip(found, beside, strict=True):
-        if away or (not one.journal and one.radius < thick):
+    members, doubts = [], []
+    for stretch, away in zip(candidates, beside, strict=True):
+        if away or (not stretch.journal and stretch.radius < thick):
             message = "stands beside the shaft, or is too thin for a crank pin: taken for a bolt or a dowel"
-            doubts.append(doubt("beside", one.faces[0], message))
+            doubts.append(doubt("beside", stretch.faces[0], message))
         else:
-            kept.append(one)
-    return kept, doubts
+            members.append(stretch)
+    return members, doubts
 
 
 @dataclass(frozen=True)
@@ -156,13 +160,13 @@ class _Table:
     journal: NDArray[np.bool_]
 
     @classmethod
-    def of(cls, found: Sequence[Stretch]) -> "_Table":
+    def of(cls, chain: Sequence[Stretch]) -> "_Table":
         return cls(
-            np.array([one.centre for one in found], dtype=complex),
-            np.array([one.radius for one in found]),
-            np.array([one.low for one in found]),
-            np.array([one.high for one in found]),
-            np.array([one.journal for one in found], dtype=bool),
+            np.array([stretch.centre for stretch in chain], dtype=complex),
+            np.array([stretch.radius for stretch in chain]),
+            np.array([stretch.low for stretch in chain]),
+            np.array([stretch.high for stretch in chain]),
+            np.array([stretch.journal for stretch in chain], dtype=bool),
         )
 
     def is_beside(self, n: int, tolerance: float) -> bool:
@@ -190,31 +194,33 @@ class _Table:
         )
 
 
-def _in_one(chain: Sequence[Stretch], flanks: Flanks, tolerance: float) -> Iterator[Stretch]:
+def _merged(chain: Sequence[Stretch], flanks: Flanks, tolerance: float) -> Iterator[Stretch]:
     """Neighbours about one line beside the axis are one pin, with grooves and collars, unless a web is between them."""
     before: Stretch | None = None
-    for one in chain:
-        if before is not None and _one_pin(before, one, flanks, tolerance):
+    for stretch in chain:
+        if before is not None and _same_pin(before, stretch, flanks, tolerance):
             before = replace(
                 before,
-                radius=min(before.radius, one.radius),
-                low=min(before.low, one.low),
-                high=max(before.high, one.high),
-                faces=(*before.faces, *one.faces),
+                radius=min(before.radius, stretch.radius),
+                low=min(before.low, stretch.low),
+                high=max(before.high, stretch.high),
+                faces=(*before.faces, *stretch.faces),
             )
             continue
         if before is not None:
             yield before
-        before = one
+        before = stretch
     if before is not None:
         yield before
 
 
-def _one_pin(one: Stretch, other: Stretch, flanks: Flanks, tolerance: float) -> bool:
-    if one.journal or other.journal or abs(one.centre - other.centre) > 10 * tolerance:
+def _same_pin(first: Stretch, second: Stretch, flanks: Flanks, tolerance: float) -> bool:
+    if first.journal or second.journal or abs(first.centre - second.centre) > 10 * tolerance:
         return False
-    gap = other.low - one.high
+    gap = second.low - first.high
     if gap <= tolerance:
         return True
-    caps = flanks.cap(one.centre, one.radius, one.high, 1) and flanks.cap(other.centre, other.radius, other.low, -1)
-    return gap <= one.radius and not caps and not flanks.between(one.high, other.low)
+    caps = flanks.cap(first.centre, first.radius, first.high, 1) and flanks.cap(
+        second.centre, second.radius, second.low, -1
+    )
+    return gap <= first.radius and not caps and not flanks.between(first.high, second.low)

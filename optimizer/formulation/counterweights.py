@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from optimizer.formulation.limits import given_limits, sectors
+from optimizer.formulation.limits import limit_sizes, sectors
 from optimizer.mechanics.angles import angle_deg, direction
 from optimizer.mechanics.crank_of_web import own_throws
 from optimizer.mechanics.fixed_weights import beside
@@ -61,30 +61,32 @@ def unbalance(mass_kg: Real, angles_deg: Real, radius: Real) -> Complex:
     return mass_kg * radius * direction(angles_deg)
 
 
-def as_given(machine: Machine, counterweights: Sequence[FittedCounterweight | GivenCounterweight]) -> tuple[Real, Real]:
+def mass_and_angle(
+    machine: Machine, counterweights: Sequence[FittedCounterweight | GivenCounterweight]
+) -> tuple[Real, Real]:
     """Masses (..., K) [kg] and angles (..., K) [deg] of counterweights on webs and of fixed weights;
     0 where a web has neither.
 
     Those on the webs of balance shafts stand behind those of the crankshaft.
     """
-    given = {counterweight.web: counterweight for counterweight in counterweights}
-    fitted = [given.get(web.name) for web in places(machine)]
-    mass = stacked([one.mass_kg if one else 0.0 for one in fitted])
-    angle = np.mod(stacked([one.angle_deg if one else 0.0 for one in fitted]), 360.0)
+    weights = {counterweight.web: counterweight for counterweight in counterweights}
+    fitted = [weights.get(web.name) for web in places(machine)]
+    mass = stacked([weight.mass_kg if weight else 0.0 for weight in fitted])
+    angle = np.mod(stacked([weight.angle_deg if weight else 0.0 for weight in fitted]), 360.0)
     return beside(machine, mass, angle)
 
 
 def too_heavy(
-    machine: Machine, given: Sequence[FittedCounterweight | GivenCounterweight], field: str
+    machine: Machine, weights: Sequence[FittedCounterweight | GivenCounterweight], field: str
 ) -> Iterator[FieldProblem]:
     """Counterweights of a field of the request that are more than the envelope of their web holds."""
     cut, webs = plates(machine), machine.webs
     if cut is None:
         return
     most = {webs[k].name: mass for k, mass in zip(cut.webs.tolist(), cut.mass(cut.most).tolist(), strict=True)}
-    for index, one in enumerate(given):
-        if one.mass_kg > most.get(str(one.web), np.inf) * (1.0 + _ABOVE_ENVELOPE):
-            message = f"the envelope of this web holds {most[str(one.web)]:.6g} kg at most"
+    for index, weight in enumerate(weights):
+        if weight.mass_kg > most.get(str(weight.web), np.inf) * (1.0 + _ABOVE_ENVELOPE):
+            message = f"the envelope of this web holds {most[str(weight.web)]:.6g} kg at most"
             yield FieldProblem((field, index, "mass_kg"), message)
 
 
@@ -131,7 +133,7 @@ def _placed(
     ratio : turns of the webs for one of the crankshaft.
     """
     touched = {
-        name: limit.touched(machine, mass_kg, angles_deg).tolist() for name, (limit, _) in given_limits(machine).items()
+        name: limit.touched(machine, mass_kg, angles_deg).tolist() for name, (limit, _) in limit_sizes(machine).items()
     }
     if vectors is None:
         vectors = unbalance(mass_kg, angles_deg, stacked([web.radius_m for web in machine.webs]))

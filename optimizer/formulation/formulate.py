@@ -123,15 +123,15 @@ def weighing(objective: Objective, weights: Mapping[str, float], **update: objec
     return objective.model_copy(update=wanted | update)
 
 
-def given_ceilings(objective: Objective) -> list[tuple[CeilingFields, float]]:
+def objective_ceilings(objective: Objective) -> list[tuple[CeilingFields, float]]:
     """Hard limits on the peaks that an objective gives, with the largest peaks allowed: N and N m."""
-    return [(each, getattr(objective, each.field)) for each in limited_fields(objective)]
+    return [(fields, getattr(objective, fields.field)) for fields in limited_fields(objective)]
 
 
 def limited(responses: Sequence[Response], objective: Objective) -> list[tuple[Response, float]]:
     """Responses, and components of them, that have a ceiling, with the largest peaks allowed: N and N m."""
     by_name = {response.name: response for response in responses}
-    return [(_of(by_name, ceiling), allowed) for ceiling, allowed in given_ceilings(objective)]
+    return [(_of(by_name, ceiling), allowed) for ceiling, allowed in objective_ceilings(objective)]
 
 
 def _of(responses: Mapping[str, Response], ceiling: CeilingFields) -> Response:

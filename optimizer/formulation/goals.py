@@ -13,8 +13,8 @@ from typing import Literal
 import numpy as np
 
 from optimizer.errors import MissingInput
-from optimizer.formulation.formulate import given_ceilings, of_all_orders, weights
 from optimizer.formulation.formulate import limited as limited_responses
+from optimizer.formulation.formulate import objective_ceilings, of_all_orders, weights
 from optimizer.formulation.limits import limits
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.roll import mirrored, roll
@@ -114,7 +114,7 @@ def formulate(
     """
     quantities: list[Quantity] = []
     wanted = weights(machine, objective)
-    asked = [_Asked(case, objective, fidelity, wanted, omega_squared, quantities) for case in cases]
+    asked = [_CaseQuantities(case, objective, fidelity, wanted, omega_squared, quantities) for case in cases]
     groups: dict[str, list[tuple[Group, ...]]] = {"external": [each.external(apart) for each in asked]}
     if objective.bearing_weight > 0:
         groups["bearings"] = [(each.weighed_bearings(),) for each in asked]
@@ -153,7 +153,7 @@ def cone_program(
     return program
 
 
-class _Asked:
+class _CaseQuantities:
     """The quantities that an objective asks of a case, each once."""
 
     def __init__(
@@ -238,7 +238,7 @@ class _Asked:
 
     def limited(self) -> Iterator[Limited]:
         """Ceilings, whatever is weighed on peaks."""
-        for each, allowed in given_ceilings(self.objective) if self.objective.orders == "all" else ():
+        for each, allowed in objective_ceilings(self.objective) if self.objective.orders == "all" else ():
             yield self._limited(each.field, each.limit, self._of_frame_under(each), allowed)
         load, specific = self.objective.bearing_ceiling_N, self.objective.specific_load_ceiling_Pa
         if load is not None:
@@ -296,10 +296,10 @@ class _Asked:
     def _limited(self, field: CeilingField, limit: MachineLimit, quantity: int, ceiling: float) -> Limited:
         return Limited(field, limit, quantity, ceiling, float(self.case.omega_squared), self.case.scenario)
 
-    def _placed(self, kind: str, found: Callable[[], list[Quantity]]) -> range:
+    def _placed(self, kind: str, source: Callable[[], list[Quantity]]) -> range:
         if kind not in self._places:
             first = len(self.quantities)
-            self.quantities += found()
+            self.quantities += source()
             self._places[kind] = range(first, len(self.quantities))
         return self._places[kind]
 

@@ -55,11 +55,11 @@ class MassLimit:
 
     unit: str
     largest: Callable[[Machine], Real]  # (..., K), in the unit; inf where a web has no such limit
-    of_one_kg: Callable[[Machine], Reals]  # (..., K), in the unit
+    per_kg: Callable[[Machine], Reals]  # (..., K), in the unit
 
     def mass(self, machine: Machine) -> Real:
         """Largest mass of every web, kg."""
-        return self.largest(machine) / self.of_one_kg(machine)
+        return self.largest(machine) / self.per_kg(machine)
 
     def size(self, machine: Machine) -> Real:
         return self.largest(machine)
@@ -70,7 +70,7 @@ class MassLimit:
     def price(self, machine: Machine, prices: ShadowPrices) -> Real:
         # of several the smallest mass is the one that binds
         binds = self.mass(machine) <= largest_mass(machine)
-        return np.where(binds, prices.max_mass / self.of_one_kg(machine), 0.0)
+        return np.where(binds, prices.max_mass / self.per_kg(machine), 0.0)
 
 
 class _Sector:
@@ -118,7 +118,7 @@ def _largest_force(machine: Machine) -> Real:
     return stacked([np.inf if force is None else force for force in given])
 
 
-def _force_of_one_kg(machine: Machine) -> Real:
+def _force_per_kg(machine: Machine) -> Real:
     """Centrifugal force of a kilogram on every web (..., K) at the highest speed, N."""
     fastest = machine.speed_rpm if machine.overspeed_rpm is None else machine.overspeed_rpm
     omega = np.asarray(fastest) * (np.pi / 30.0)
@@ -132,21 +132,21 @@ WEB_LIMITS: dict[WebLimit, Limit] = {
         largest=lambda machine: stacked(
             [np.inf if web.max_mass_kg is None else web.max_mass_kg for web in machine.webs]
         ),
-        of_one_kg=lambda machine: 1.0,
+        per_kg=lambda machine: 1.0,
     ),
     "envelope": MassLimit(
         "(kg m)",
         largest=_largest_unbalances,
-        of_one_kg=lambda machine: stacked([web.radius_m for web in machine.webs]),
+        per_kg=lambda machine: stacked([web.radius_m for web in machine.webs]),
     ),
-    "max_centrifugal_force": MassLimit("N", _largest_force, _force_of_one_kg),
+    "max_centrifugal_force": MassLimit("N", _largest_force, _force_per_kg),
     "sector": _Sector(),
 }
 #: of the machine
 MACHINE_LIMITS: dict[MachineLimit, Limit] = {"max_total_mass": _Budget()}
 
 
-class Given(NamedTuple):
+class LimitSize(NamedTuple):
     """A limit of the webs that is stated at all."""
 
     limit: Limit
@@ -154,16 +154,16 @@ class Given(NamedTuple):
 
 
 @remembered
-def given_limits(machine: Machine) -> dict[WebLimit, Given]:
+def limit_sizes(machine: Machine) -> dict[WebLimit, LimitSize]:
     """Limits that some web of a machine states, in the order of the answer; no other is touched, or has a price."""
-    every = {name: Given(limit, limit.size(machine)) for name, limit in WEB_LIMITS.items()}
-    return {name: each for name, each in every.items() if (each.size < np.inf).any()}
+    every = {name: LimitSize(limit, limit.size(machine)) for name, limit in WEB_LIMITS.items()}
+    return {name: limit for name, limit in every.items() if (limit.size < np.inf).any()}
 
 
 @remembered
 def largest_mass(machine: Machine) -> Real:
     """Largest mass of every web (..., K), the smallest of what its limits allow, kg; inf where there is none."""
-    given = (each.limit for each in given_limits(machine).values())
+    given = (each.limit for each in limit_sizes(machine).values())
     allowed = [each.mass(machine) for each in given if isinstance(each, MassLimit)]
     # where a weight is fixed nothing is chosen
     mass = np.where(fixed_webs(machine), 0.0, reduce(np.minimum, allowed, np.full(len(machine.webs), np.inf)))

@@ -130,7 +130,7 @@ class Prepared:
 
 def simulated(
     request: Scene,
-    asked: Mapping[str, Sequence[str]],
+    outputs: Mapping[str, Sequence[str]],
     samples: int,
     leading: tuple[int, ...] = (),
     machine: Machine | None = None,
@@ -140,7 +140,7 @@ def simulated(
     Parameters
     ----------
     request : its machine gives what the effects need; its fields may hold columns of the leading axes.
-    asked : outputs by name, with the effects that each needs.
+    outputs : outputs by name, with the effects that each needs.
     samples : number of sampled shaft angles in one turn.
     leading : axes of all results; none for one machine.
     machine : another in place of that of the request.
@@ -150,9 +150,9 @@ def simulated(
     plan = layout(machine)
     if leading:
         plan = spread(plan, leading)
-    turns = turns_over(machine, [need for needs in asked.values() for need in needs])
+    turns = turns_over(machine, [need for needs in outputs.values() for need in needs])
     angle: Real = np.arange(samples * turns, dtype=float) * (360.0 / samples)
-    result = simulate(machine, plan, asked, request.fidelity, np.deg2rad(angle))
+    result = simulate(machine, plan, outputs, request.fidelity, np.deg2rad(angle))
     objective = request.objective if isinstance(request, OptimizeRequest) else Objective()
     spent_ms = (time.perf_counter() - start) * 1e3
     return Prepared(request, machine, objective, plan, angle, result, spent_ms, turns=turns)

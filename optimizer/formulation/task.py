@@ -68,7 +68,7 @@ class Task:
             request.tolerances,
         )
 
-    def as_given(self, time_limit_s: float) -> "Task":
+    def nominal(self, time_limit_s: float) -> "Task":
         """The same of the machine as it is given alone, with nothing off."""
         return replace(self, scenarios=(), tolerances=None, time_limit_s=time_limit_s)
 

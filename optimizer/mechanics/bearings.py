@@ -78,7 +78,7 @@ def simple_spans_influence(bearing: Real, position: Real) -> Real:
     (..., B, L) dimensionless; every column has the sum 1. Exactly 1 and 0 where a load sits at a bearing.
     """
     spans = _spans(bearing, position)
-    return spans.as_given(_levers(spans))
+    return spans.by_bearing(_levers(spans))
 
 
 def continuous_beam_influence(bearing: Real, position: Real) -> Real:
@@ -96,7 +96,7 @@ def continuous_beam_influence(bearing: Real, position: Real) -> Real:
     outer = np.zeros_like(spans.from_left[..., :1, :])
     # the moments of overhanging loads at the outer bearings are in the levers already
     tilt = np.diff(np.concatenate([outer, moment, outer], axis=-2), axis=-2) / spans.length
-    return spans.as_given(_levers(spans) + _at_bearings(tilt, -tilt))
+    return spans.by_bearing(_levers(spans) + _at_bearings(tilt, -tilt))
 
 
 def bending_moment(bearing: Real, reaction: Complex, position: Real, load: Complex, station: Real) -> Complex:
@@ -146,7 +146,7 @@ class _Spans(NamedTuple):
     from_left: Real  # (..., B-1, L) from the left bearing to the load, m; negative on the left overhang
     from_right: Real  # (..., B-1, L) from the load to the right bearing, m; negative on the right overhang
 
-    def as_given(self, influence: Real) -> Real:
+    def by_bearing(self, influence: Real) -> Real:
         """Rows (..., B, L) in rising z, put into the order in which the bearings came."""
         return np.take_along_axis(influence, self.rank[..., None], axis=-2)
 

@@ -15,7 +15,7 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.responses.piecewise_cubics import Index, Pieces
 
 if TYPE_CHECKING:
-    from optimizer.responses.kernel.parts import Asked, Best, Known
+    from optimizer.responses.kernel.parts import Best, Cubics, Members
 
 
 @dataclass(frozen=True)
@@ -50,9 +50,9 @@ class CurveBatch:
         """The curves at angles (m,) within pieces, ends included."""
         return self._series.values(curve, piece, angle)
 
-    def search(self, known: "Known", asked: "Asked", best: "Best") -> Complex:
+    def search(self, cubics: "Cubics", members: "Members", best: "Best") -> Complex:
         """Peaks of the curves, compiled."""
-        return self._series.search(known, asked, best)
+        return self._series.search(cubics, members, best)
 
     @cached_property
     def _series(self) -> CurveSeries:

@@ -14,7 +14,7 @@ from optimizer.responses.piecewise_cubics import Index
 
 if TYPE_CHECKING:
     from optimizer.mechanics.kernel.curves import Sums
-    from optimizer.responses.kernel.parts import Asked, Best, Known
+    from optimizer.responses.kernel.parts import Best, Cubics, Members
 
 #: of what is expanded at points
 _NO_WIDTHS = np.zeros(0)
@@ -59,12 +59,12 @@ class CurveSeries:
         number[:] = [READINGS.index(reading) for reading in self.readings]
         return Sums(number, *(in_order(np.asarray(each, complex)) for each in (self.weights, self.constant)))
 
-    def search(self, known: "Known", asked: "Asked", best: "Best") -> Complex:
+    def search(self, cubics: "Cubics", members: "Members", best: "Best") -> Complex:
         """Peaks of the curves, from their pieces, and the curves there; nothing of it leaves what is compiled."""
         from optimizer.mechanics.kernel.search import search
 
-        found: Complex = search(known, asked, best, self.rows.packed, self.sums, self._within)
-        return found
+        values: Complex = search(cubics, members, best, self.rows.packed, self.sums, self._within)
+        return values
 
     def _about(self, curve: Index, piece: Index, angle: Real, half: Real | None, order: int) -> tuple[Complex, Real]:
         """Coefficients (m, order + 1) at angles (m,) rad; over half widths that of the last (m, 1) and its radius."""

@@ -47,8 +47,8 @@ def phasors(shares: Shares, wrench: Wrench) -> Phasors:
     return Phasors(_sum(force.co, moment.co), _sum(force.counter, moment.counter))
 
 
-def _sum(one: Complex, other: Complex) -> Complex:
-    return total(np.stack(np.broadcast_arrays(one, other), axis=-1))
+def _sum(first: Complex, second: Complex) -> Complex:
+    return total(np.stack(np.broadcast_arrays(first, second), axis=-1))
 
 
 def first_order(name: str, unit: str, shares: Shares, force: Response, moment: Response) -> Response:

@@ -120,9 +120,11 @@ def layout(machine: ReciprocatingMachine | ScrollMachine) -> Layout:
 def spread(plan: Layout, leading: tuple[int, ...]) -> Layout:
     """The layout with all of the leading axes in every array; what is common to all designs is not copied."""
 
-    def each(part: Any) -> Any:
+    def leading_axes(part: Any) -> Any:
         arrays = {field.name: getattr(part, field.name) for field in fields(part)}
-        return replace(part, **{name: np.broadcast_to(one, (*leading, one.shape[-1])) for name, one in arrays.items()})
+        return replace(
+            part, **{name: np.broadcast_to(array, (*leading, array.shape[-1])) for name, array in arrays.items()}
+        )
 
     centre = np.broadcast_to(plan.centre_plane, leading)
     return Layout(
@@ -130,10 +132,10 @@ def spread(plan: Layout, leading: tuple[int, ...]) -> Layout:
         sense=np.broadcast_to(plan.sense, leading),
         centre_plane=centre,
         reference_plane=centre if plan.central else np.broadcast_to(plan.reference_plane, leading),
-        rotating=each(plan.rotating),
-        reciprocating=each(plan.reciprocating),
-        webs=each(plan.webs),
-        balance=None if plan.balance is None else each(plan.balance),
+        rotating=leading_axes(plan.rotating),
+        reciprocating=leading_axes(plan.reciprocating),
+        webs=leading_axes(plan.webs),
+        balance=None if plan.balance is None else leading_axes(plan.balance),
     )
 
 

@@ -46,7 +46,7 @@ class Plates:
 
     def opened(self, unbalance: Real) -> Real:
         """Half-angles of the counterweights of unbalances, rad; the largest for more than a plate holds."""
-        return self._by_part(lambda part, each: part.opened(each), unbalance)
+        return self._by_part(lambda part, size: part.opened(size), unbalance)
 
     def chord(self, half_angle: Real) -> Real:
         """Distances of chords from the shaft, m; nan where there is none."""

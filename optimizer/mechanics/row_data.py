@@ -42,11 +42,11 @@ class RowData:
     def of_design(self, number: int) -> "RowData":
         """Data of one of the designs alone."""
 
-        def one(value: Any) -> Any:
+        def single(value: Any) -> Any:
             return value[number : number + 1] if len(value) > 1 else value
 
-        arrays = {name: one(value) for name, value in vars(self).items() if isinstance(value, np.ndarray)}
-        traces = tuple(replace(trace, table=one(trace.table), lead=one(trace.lead)) for trace in self.traces)
+        arrays = {name: single(value) for name, value in vars(self).items() if isinstance(value, np.ndarray)}
+        traces = tuple(replace(trace, table=single(trace.table), lead=single(trace.lead)) for trace in self.traces)
         return replace(self, designs=1, traces=traces, **arrays)
 
     @cached_property

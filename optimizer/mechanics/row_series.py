@@ -86,7 +86,7 @@ class RowSeries:
         from optimizer.mechanics.kernel.readings import READINGS, WITHOUT_GAS, row_series
 
         rows, number, pressed = self.data.packed, READINGS.index(reading), reading not in WITHOUT_GAS
-        if known := self._known(pressed):
+        if known := self._memo(pressed):
             return row_series(rows, known, self.design, self.centre.shape[1], number)
         found = [row_series(rows, made, self.design, angles, number) for made, angles in self._functions(pressed)]
         if len(found) == 1:
@@ -94,7 +94,7 @@ class RowSeries:
         parts, radius = (np.concatenate(each, axis=-1) for each in zip(*found, strict=True))
         return parts, radius
 
-    def _known(self, pressed: bool) -> "Functions | None":
+    def _memo(self, pressed: bool) -> "Functions | None":
         """What forces are made of, where that is kept: with gas it serves both."""
         return self._functions_by_pressure.get(True) or self._functions_by_pressure.get(pressed)
 

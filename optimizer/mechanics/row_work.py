@@ -121,19 +121,19 @@ def _gas_work(
     growing : (..., rows, C, n).
     switching : (..., rows, C) m, travels at which suction and discharge open; nan on open sides.
     """
-    closed, low, high = (each[..., None] for each in (chambers.closed, chambers.suction, chambers.discharge))
-    opens, delivers = (np.where(closed, each[..., None], 0.0) for each in switching)
+    closed, low, high = (side[..., None] for side in (chambers.closed, chambers.suction, chambers.discharge))
+    opens, delivers = (np.where(closed, side[..., None], 0.0) for side in switching)
     expansion, compression = chambers.expansion_exponent[..., None], chambers.compression_exponent[..., None]
     clear = np.where(closed, chambers.clearance[..., None], 1.0) * stroke
     log, full = log_ratio(chambers)[..., None], stroke + clear
 
-    def given_back(travel: Real) -> Real:
+    def expansion_work(travel: Real) -> Real:
         length = np.minimum(np.log1p(travel / clear), log / expansion)
         return high * clear * length * _growth((1.0 - expansion) * length) + low * np.maximum(travel - opens, 0.0)
 
     length = np.minimum(-np.log1p(-rest / full), log / compression)
     put_in = low * full * length * _growth((compression - 1.0) * length) + high * np.maximum(delivers - travel, 0.0)
-    of_cycle = np.where(growing, -given_back(travel), put_in - given_back(stroke))
+    of_cycle = np.where(growing, -expansion_work(travel), put_in - expansion_work(stroke))
     # what is open takes the one pressure both ways
     work: Real = chambers.area[..., None] * np.where(closed, of_cycle, -low * travel)
     return work
@@ -151,7 +151,7 @@ def _crossings(torque: TurnCurves, mean: Real) -> tuple[Real, Real]:
     from optimizer.mechanics.kernel.crossings import crossings
 
     pieces = torque.pieces
-    where, place, between, (jumped, at) = crossings(pieces.known.cubic, pieces.known.half, compact(mean))
+    where, place, between, (jumped, at) = crossings(pieces.cubics.cubic, pieces.cubics.half, compact(mean))
     angle, off = _polished(torque, mean, where, place, between)
     error = np.zeros(len(pieces.half))
     np.maximum.at(error, where[0], off)

@@ -18,8 +18,8 @@ from optimizer.outputs.peaks import (
     bracket,
     customary_search,
     of_shaft,
-    of_shaft_each,
-    one_by_one,
+    of_shaft_sets,
+    separate_groups,
     shaft_search,
 )
 from optimizer.responses.curve import floors
@@ -34,13 +34,15 @@ def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
     """Loads of the main bearings of one machine, and the bending moments of its shaft."""
     machine = scene.machine
     planes = stations(scene.layout, bearing_places(machine))
-    found = scene.shaft_curves
+    curves = scene.shaft_curves
     count = len(machine.bearings)
     # every bearing's, and the largest of all bending moments
-    circles = [each.circle for each in floors(found.curves, FLOOR_TOLERANCE, None, one_by_one(count, planes.size))]
-    before, *fitted_too = of_shaft_each(scene, found, _sets(unbalance))
+    circles = [
+        floor.circle for floor in floors(curves.curves, FLOOR_TOLERANCE, None, separate_groups(count, planes.size))
+    ]
+    before, *fitted_too = of_shaft_sets(scene, curves, _sets(unbalance))
     after = fitted_too[0] if fitted_too else None
-    alone = found.first(count)
+    alone = curves.first(count)
     samples = _samples(scene)
     loads = _loads(scene, alone, samples, before, circles, None)
     fitted = None if after is None else _loads(scene, alone, samples, after, circles, unbalance)
@@ -87,13 +89,13 @@ def _samples(scene: Prepared) -> Complex:
     """Loads of the bearings of one machine without counterweights (B, T) N."""
     _, loads = scene.results["shaft_loads"]
     # the webs come last
-    found: Complex = scene.bearing_influence[:, : len(loads)] @ loads
-    return found
+    samples: Complex = scene.bearing_influence[:, : len(loads)] @ loads
+    return samples
 
 
 def _loads(
     scene: Prepared,
-    found: ShaftCurves,
+    curves: ShaftCurves,
     bare: Complex,
     peak: Bracket,
     circles: Sequence[Circle],
@@ -108,14 +110,14 @@ def _loads(
     machine = scene.machine
     bearings = machine.bearings
     square, turn = scene.omega_squared, np.deg2rad(scene.angle_deg)
-    offset = found.offsets(unbalance)
+    offset = curves.offsets(unbalance)
     samples = bare + offset[:, None] * turned(scene.layout.sense, turn) * square
     centre = (np.array([circle.centre for circle in circles[: len(bearings)]]) + offset) * square
-    rms = np.sqrt(found.curves.variance + np.abs(found.curves.mean + offset) ** 2) * square
+    rms = np.sqrt(curves.curves.variance + np.abs(curves.curves.mean + offset) ** 2) * square
     return tuple(
         BearingLoad(
-            force_x_N=tuple(one.real.tolist()),
-            force_y_N=tuple(one.imag.tolist()),
+            force_x_N=tuple(load.real.tolist()),
+            force_y_N=tuple(load.imag.tolist()),
             peak_N=float(peak.lower[k]),
             peak_bracket_N=bracket(peak, k),
             peak_angle_deg=float(np.rad2deg(peak.angle[k])),
@@ -125,7 +127,7 @@ def _loads(
             circle_x_N=float(centre[k].real),
             circle_y_N=float(centre[k].imag),
         )
-        for k, one in enumerate(samples)
+        for k, load in enumerate(samples)
     )
 
 
@@ -141,7 +143,7 @@ def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
     curves = scene.shaft_curves
     # the largest bending moment alone; the bearings one by one
     count = len(machine.bearings)
-    peak = of_shaft(scene, curves, unbalance, one_by_one(count, curves.webs.shape[-2] - count)).lower
+    peak = of_shaft(scene, curves, unbalance, separate_groups(count, curves.webs.shape[-2] - count)).lower
     names = labels([bearing.name for bearing in machine.bearings])
     return {
         "peak_bearing_load_N": np.max(peak[..., :count], axis=-1),

@@ -42,7 +42,7 @@ _CANCELLED = 1e-9
 
 
 @dataclass(frozen=True)
-class Told:
+class Evidence:
     """What there is to look at."""
 
     scene: Prepared
@@ -68,8 +68,8 @@ def cautions(
     ----------
     fields, proven : of the answer that has been made so far; what is proven only where counterweights were chosen.
     """
-    told = Told(scene, unbalance, fields, proven)
-    return tuple(caution for watch in WATCHES for caution in watch(told))
+    evidence = Evidence(scene, unbalance, fields, proven)
+    return tuple(caution for watch in WATCHES for caution in watch(evidence))
 
 
 def _plain(value: float, digits: int = 4) -> str:
@@ -77,10 +77,10 @@ def _plain(value: float, digits: int = 4) -> str:
     return f"{float(f'{value:.{digits}g}'):.15g}"
 
 
-def _no_gas(told: Told) -> Iterator[Caution]:
+def _no_gas(evidence: Evidence) -> Iterator[Caution]:
     """Rows whose loads were wanted with gas and have none."""
-    machine = told.scene.machine
-    if not isinstance(machine, ReciprocatingMachine) or "piston_force" not in told.scene.simulated.times_ms:
+    machine = evidence.scene.machine
+    if not isinstance(machine, ReciprocatingMachine) or "piston_force" not in evidence.scene.simulated.times_ms:
         return
     rows = without_gas(machine)
     if rows:
@@ -92,9 +92,9 @@ def _no_gas(told: Told) -> Iterator[Caution]:
         )
 
 
-def _crosshead_lifts(told: Told) -> Iterator[Caution]:
+def _crosshead_lifts(evidence: Evidence) -> Iterator[Caution]:
     """Rows whose side force carries the crosshead to the upper guide, from which it falls at the dead centres."""
-    loads: Loads | None = told.fields.get("loads")
+    loads: Loads | None = evidence.fields.get("loads")
     for row in () if loads is None else loads.rows:
         if row.guide is not None and row.guide.lifts:
             weight, up = row.guide.weight_N, row.guide.weight_N - row.guide.smallest_N
@@ -106,22 +106,22 @@ def _crosshead_lifts(told: Told) -> Iterator[Caution]:
             )
 
 
-def _second_order(told: Told) -> Iterator[Caution]:
+def _second_order(evidence: Evidence) -> Iterator[Caution]:
     """What counterweights on the shaft cannot change, where it is more than what they leave."""
-    shafts = told.scene.layout.balance
+    shafts = evidence.scene.layout.balance
     remedy = "no counterweight on the crank changes it."
     if shafts is not None:
         remedy = "balance shafts at twice the speed could change it."
     if shafts is not None and np.any(np.abs(shafts.ratio) == 2.0):
         remedy = "ask for all orders, so that the balance shafts at twice the speed count."
-        request = told.scene.request
+        request = evidence.scene.request
         if not isinstance(request, OptimizeRequest) or request.objective.orders == "all":
             remedy = "that is what the balance shafts at twice the speed leave."
-    residual: Residual | None = told.fields.get("residual")
+    residual: Residual | None = evidence.fields.get("residual")
     first, second = (None, None) if residual is None or residual.orders.after is None else residual.orders.after
     if residual is None or first is None or second is None:
         return
-    force, moment = told.sizes
+    force, moment = evidence.sizes
     for what, left, twice, size, unit in (
         ("force", first.force.peak_N, second.force.peak_N, force, "N"),
         ("moment", first.moment.peak_Nm, second.moment.peak_Nm, moment, "N m"),
@@ -135,16 +135,16 @@ def _second_order(told: Told) -> Iterator[Caution]:
             )
 
 
-def _bare_crank(told: Told) -> Iterator[Caution]:
+def _bare_crank(evidence: Evidence) -> Iterator[Caution]:
     """External balance alone leaves the bearings to carry the rotating masses."""
-    request, machine = told.scene.request, told.scene.machine
+    request, machine = evidence.scene.request, evidence.scene.machine
     if not isinstance(request, OptimizeRequest) or not isinstance(machine, ReciprocatingMachine):
         return
     goal = request.objective
-    if told.unbalance is None or not machine.webs or goal.of_the_shaft:
+    if evidence.unbalance is None or not machine.webs or goal.of_the_shaft:
         return
-    rates: tuple[BalanceRate, ...] = told.fields["balance_rate"]
-    bare = [(each.rate, each.throw) for each in rates if each.rate is not None and each.rate < _BARE]
+    rates: tuple[BalanceRate, ...] = evidence.fields["balance_rate"]
+    bare = [(rate.rate, rate.throw) for rate in rates if rate.rate is not None and rate.rate < _BARE]
     if bare:
         rate, least = min(bare)
         name = machine.throws[least].name or str(least + 1)
@@ -157,12 +157,12 @@ def _bare_crank(told: Told) -> Iterator[Caution]:
         )
 
 
-def _component_grows(told: Told) -> Iterator[Caution]:
+def _component_grows(evidence: Evidence) -> Iterator[Caution]:
     """A component across the shaft that counterweights make larger."""
-    residual: Residual | None = told.fields.get("residual")
+    residual: Residual | None = evidence.fields.get("residual")
     if residual is None or residual.after is None:
         return
-    was, now, sizes = residual.before, residual.after, told.sizes
+    was, now, sizes = residual.before, residual.after, evidence.sizes
     for names, unit, size, pairs in (
         (("force along x", "force along y"), "N", sizes[0], {"x": (was.force.peak_x_N, now.force.peak_x_N),
                                           "y": (was.force.peak_y_N, now.force.peak_y_N)}),
@@ -179,9 +179,9 @@ def _component_grows(told: Told) -> Iterator[Caution]:
                 )
 
 
-def _far_web(told: Told) -> Iterator[Caution]:
+def _far_web(evidence: Evidence) -> Iterator[Caution]:
     """A default weight of the moment that a web far from the throws decides."""
-    request, machine = told.scene.request, told.scene.machine
+    request, machine = evidence.scene.request, evidence.scene.machine
     if not isinstance(request, OptimizeRequest) or not isinstance(machine, ReciprocatingMachine):
         return
     if request.objective.moment_weight is not None or not machine.webs:
@@ -199,20 +199,22 @@ def _far_web(told: Told) -> Iterator[Caution]:
         )
 
 
-def _loads_grow(told: Told) -> Iterator[Caution]:
+def _loads_grow(evidence: Evidence) -> Iterator[Caution]:
     """Bearing loads or bending moments above those of the bare or of the customary crank."""
-    scene, machine = told.scene, told.scene.machine
-    shown: MainBearings | None = told.fields.get("main_bearings")
-    if shown is None or told.unbalance is None or not isinstance(machine, ReciprocatingMachine) or not machine.webs:
+    scene, machine = evidence.scene, evidence.scene.machine
+    shown: MainBearings | None = evidence.fields.get("main_bearings")
+    if shown is None or evidence.unbalance is None or not isinstance(machine, ReciprocatingMachine) or not machine.webs:
         return
     count = len(machine.bearings)
-    before = np.array([*(one.before.peak_N for one in shown.bearings), *shown.bending.before_Nm])
-    after = np.array([*(one.after.peak_N for one in shown.bearings if one.after), *(shown.bending.after_Nm or ())])
+    before = np.array([*(bearing.before.peak_N for bearing in shown.bearings), *shown.bending.before_Nm])
+    after = np.array(
+        [*(bearing.after.peak_N for bearing in shown.bearings if bearing.after), *(shown.bending.after_Nm or ())]
+    )
     kinds: tuple[tuple[CautionCode, str, str, slice], ...] = (
         ("bearing_load_grows", "bearing load", "N", slice(0, count)),
         ("bending_moment_grows", "bending moment", "N m", slice(count, None)),
     )
-    largest = [tuple(float(np.max(each[some])) for *_, some in kinds) for each in (after, before)]
+    largest = [tuple(float(np.max(peaks[some])) for *_, some in kinds) for peaks in (after, before)]
     usual = of_customary(scene, cranks(machine).customary)
     for (code, what, unit, _), now, bare, of_usual in zip(kinds, *largest, usual.tolist(), strict=True):
         for than, of in ((bare, "without counterweights"), (of_usual, "of a crank balanced throw by throw")):
@@ -224,21 +226,21 @@ def _loads_grow(told: Told) -> Iterator[Caution]:
                 )
 
 
-def _not_closed(told: Told) -> Iterator[Caution]:
+def _not_closed(evidence: Evidence) -> Iterator[Caution]:
     """Peaks over the turn of which less is proven than a designer takes for granted."""
-    force, moment = told.sizes
-    for output, field in told.fields.items():
+    force, moment = evidence.sizes
+    for output, field in evidence.fields.items():
         if not isinstance(field, Model) or not any(_bracketed(field.__class__)):
             continue
-        brackets = [(name, found) for name, found in _brackets(field) if _is_wide(*found)]
+        brackets = [(name, bracket) for name, bracket in _brackets(field) if _is_wide(*bracket)]
         for unit, size in (("N", force), ("Nm", moment)):
-            wide = [found for name, found in brackets if _of(name, unit)]
+            wide = [bracket for name, bracket in brackets if _of(name, unit)]
             if not wide:
                 continue
             values = _values(field)
             # of the same unit: what cancels between rows or bearings is as large in each of them
-            most = max(float(np.max(np.abs(found), initial=size)) for name, found in values if _of(name, unit))
-            open_ = [found for found in wide if _width(found) > _CANCELLED * most]
+            most = max(float(np.max(np.abs(bracket), initial=size)) for name, bracket in values if _of(name, unit))
+            open_ = [bracket for bracket in wide if _width(bracket) > _CANCELLED * most]
             if open_:
                 low, high = max(open_, key=_width)
                 yield Caution(
@@ -263,15 +265,15 @@ def _is_wide(low: float, high: float) -> bool:
 def _brackets(field: Any) -> list[tuple[str, tuple[float, float]]]:
     """Names and contents of all brackets in the models of an answer."""
     if isinstance(field, tuple):
-        return [found for item in field for found in _brackets(item)]
+        return [bracket for item in field for bracket in _brackets(item)]
     if not isinstance(field, Model):
         return []
     own, others = _bracketed(field.__class__)
     every = [(name, getattr(field, name)) for name in own]
-    found = [(name, content) for name, content in every if content is not None]
+    brackets = [(name, content) for name, content in every if content is not None]
     for name in others:
-        found += _brackets(getattr(field, name))
-    return found
+        brackets += _brackets(getattr(field, name))
+    return brackets
 
 
 @cache
@@ -279,7 +281,7 @@ def _bracketed(model: type[Model]) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Fields of a model that are brackets, and those that hold some; most answers have none of both."""
     fields = model.model_fields
     own = tuple(name for name in fields if "_bracket_" in name)
-    others = (name for name in fields if any(any(_bracketed(one)) for one in _models(fields[name].annotation)))
+    others = (name for name in fields if any(any(_bracketed(model)) for model in _models(fields[name].annotation)))
     return own, tuple(others)
 
 
@@ -310,13 +312,13 @@ def _values(field: Any) -> Iterator[tuple[str, Any]]:
             yield from _values(item)
 
 
-def _fragile(told: Told) -> Iterator[Caution]:
+def _fragile(evidence: Evidence) -> Iterator[Caution]:
     """Counterweights of which little errors cost much of what they gain."""
-    certificate: Certificate | None = told.proven.get("certificate")
-    sensitivity: Sensitivity | None = told.proven.get("sensitivity")
+    certificate: Certificate | None = evidence.proven.get("certificate")
+    sensitivity: Sensitivity | None = evidence.proven.get("sensitivity")
     if certificate is None or sensitivity is None:
         return
-    request = told.scene.request
+    request = evidence.scene.request
     stated = isinstance(request, OptimizeRequest) and request.tolerances is not None
     gain = certificate.objective_without_counterweights - certificate.objective
     for what, rise in (
@@ -335,7 +337,7 @@ def _fragile(told: Told) -> Iterator[Caution]:
 
 
 #: what is looked at, in the order of the answer
-Watch = Callable[[Told], Iterator[Caution]]
+Watch = Callable[[Evidence], Iterator[Caution]]
 WATCHES: tuple[Watch, ...] = (
     _no_gas,
     _crosshead_lifts,

@@ -247,14 +247,14 @@ def _case(case: Case, peaks: Extremes, k: int) -> LoadCase:
     )
 
 
-def _pull(found: tuple[float, float]) -> tuple[float, float]:
+def _pull(extremes: tuple[float, float]) -> tuple[float, float]:
     """0 where there is none."""
-    return max(found[0], 0.0), max(found[1], 0.0)
+    return max(extremes[0], 0.0), max(extremes[1], 0.0)
 
 
-def _negated(found: tuple[float, float]) -> tuple[float, float]:
+def _negated(extremes: tuple[float, float]) -> tuple[float, float]:
     # no -0.0
-    return 0.0 - found[1], 0.0 - found[0]
+    return 0.0 - extremes[1], 0.0 - extremes[0]
 
 
 def _largest(case: LoadCase) -> float:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from optimizer.formulation.balance_shafts import fitted
-from optimizer.formulation.counterweights import as_given
+from optimizer.formulation.counterweights import mass_and_angle
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.foundation import foundation_load, outer_dead_centre_deg, rounding
 from optimizer.mechanics.inertia import Wrench
@@ -60,7 +60,7 @@ def _as_built(scene: Prepared) -> tuple[Prepared, Complex] | None:
     request = scene.request
     if not isinstance(request, OptimizeRequest) or not request.fitted:
         return None
-    mass, angle = as_given(request.machine, request.fitted)
+    mass, angle = mass_and_angle(request.machine, request.fitted)
     built = fitted(fitted_masses(request.machine, mass), mass, angle)
     return replace(scene, shafts=built.on_shafts), built.on_crank
 

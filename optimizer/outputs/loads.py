@@ -173,10 +173,10 @@ def _turning(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | N
     return _joined(places, webs.position), _joined(masses, np.nan_to_num(np.abs(fitted)) / webs.radius)
 
 
-def _joined(one: Any, other: Any) -> Any:
+def _joined(first: Any, second: Any) -> Any:
     """Side by side on the last axis, leading axes broadcast."""
-    leading = np.broadcast_shapes(one.shape[:-1], other.shape[:-1])
-    return np.concatenate([np.broadcast_to(each, (*leading, each.shape[-1])) for each in (one, other)], axis=-1)
+    leading = np.broadcast_shapes(first.shape[:-1], second.shape[:-1])
+    return np.concatenate([np.broadcast_to(part, (*leading, part.shape[-1])) for part in (first, second)], axis=-1)
 
 
 def on_bearings(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | None) -> Complex:

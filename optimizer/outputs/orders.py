@@ -23,12 +23,12 @@ def by_order(scene: Prepared, unbalance: Complex | None) -> dict[int, Wrench]:
 def orders(scene: Prepared, unbalance: Complex | None) -> OrdersComparison:
     """Orders 1, 2, 4 and 6 of one machine."""
 
-    def found(fitted: Complex | None) -> list[dict[str, Any]]:
+    def sets(fitted: Complex | None) -> list[dict[str, Any]]:
         wrenches = by_order(scene, fitted)
         return orders_of([*wrenches], vectors_of([*wrenches.values()]))
 
     return OrdersComparison.model_validate(
-        {"before": tuple(found(None)), "after": None if unbalance is None else tuple(found(unbalance))}
+        {"before": tuple(sets(None)), "after": None if unbalance is None else tuple(sets(unbalance))}
     )
 
 

@@ -38,9 +38,9 @@ class Extremes(NamedTuple):
         )
 
 
-def bracket(found: Bracket, *index: int) -> tuple[float, float]:
+def bracket(peak: Bracket, *index: int) -> tuple[float, float]:
     """One bracket as an answer holds it: at least and at most."""
-    return float(found.lower[index]), float(found.upper[index])
+    return float(peak.lower[index]), float(peak.upper[index])
 
 
 class Search(NamedTuple):
@@ -64,30 +64,30 @@ class Search(NamedTuple):
 
 def searched(scene: Prepared, searches: Iterable[Search]) -> dict[tuple[Hashable, ...], Bracket]:
     """Brackets (m,), or (groups,), of all searches of one machine, each as if it were alone."""
-    every = list({each.name: each for each in searches}.values())
+    every = list({search.name: search for search in searches}.values())
     if not every:
         return {}
     # what several outputs have in common stands there once
-    curves = list({id(each.curves): each.curves for each in every}.values())
+    curves = list({id(search.curves): search.curves for search in every}.values())
     batch = CurveBatch(tuple(curves))
-    first = {id(each): int(number) for each, number in zip(curves, batch.first, strict=False)}
-    number = np.concatenate([each.number + first[id(each.curves)] for each in every])
-    offset = np.concatenate([each.offset for each in every])
-    sign = np.concatenate([np.zeros(each.number.size) + each.sign for each in every])
-    groups = [np.arange(each.number.size) if each.group is None else each.group for each in every]
+    first = {id(search): int(number) for search, number in zip(curves, batch.first, strict=False)}
+    number = np.concatenate([search.number + first[id(search.curves)] for search in every])
+    offset = np.concatenate([search.offset for search in every])
+    sign = np.concatenate([np.zeros(search.number.size) + search.sign for search in every])
+    groups = [np.arange(search.number.size) if search.group is None else search.group for search in every]
     ends = np.cumsum([0, *(int(np.max(group, initial=-1)) + 1 for group in groups)]).tolist()
-    group = np.concatenate([one + end for one, end in zip(groups, ends, strict=False)])
-    found = _reshaped(scene, batch.pieces.peaks(offset, TOLERANCE, number, group, sign))
+    group = np.concatenate([part + end for part, end in zip(groups, ends, strict=False)])
+    peaks = _reshaped(scene, batch.pieces.peaks(offset, TOLERANCE, number, group, sign))
     return {
-        each.name: Bracket._make(part[slice(*own)] for part in found)
-        for each, own in zip(every, pairwise(ends), strict=True)
+        search.name: Bracket._make(part[slice(*own)] for part in peaks)
+        for search, own in zip(every, pairwise(ends), strict=True)
     }
 
 
 def peaks_of(scene: Prepared, search: Search) -> Bracket:
     """What has been searched together with all else, or else is searched now."""
-    known = scene.brackets.get(search.name)
-    return _reshaped(scene, search.peaks) if known is None else known
+    peaks = scene.brackets.get(search.name)
+    return _reshaped(scene, search.peaks) if peaks is None else peaks
 
 
 def rows_search(scene: Prepared, reading: Reading) -> Search:
@@ -107,9 +107,9 @@ def _rows_name(reading: Reading) -> tuple[Hashable, ...]:
 
 def of_rows(scene: Prepared, reading: Reading) -> Extremes:
     """Of a force of every row, (..., rows)."""
-    known = scene.brackets.get(_rows_name(reading))
-    if known is not None:
-        return Extremes(*_parts(known, 2))
+    peaks = scene.brackets.get(_rows_name(reading))
+    if peaks is not None:
+        return Extremes(*_parts(peaks, 2))
     return Extremes(*(_reshaped(scene, part) for part in _parts(rows_search(scene, reading).peaks, 2)))
 
 
@@ -121,8 +121,8 @@ def largest_of_rows(scene: Prepared, reading: Reading) -> Bracket:
         nothing = np.zeros(scene.layout.omega.shape)
         return Bracket(nothing, nothing.astype(complex), nothing, nothing)
     designs = np.repeat(np.arange(len(whole.centre)), count)
-    found = whole.of_rows(reading).pieces.peaks(np.zeros(designs.size), TOLERANCE, None, designs)
-    return _one(_reshaped(scene, found))
+    peaks = whole.of_rows(reading).pieces.peaks(np.zeros(designs.size), TOLERANCE, None, designs)
+    return _single(_reshaped(scene, peaks))
 
 
 def torque_search(scene: Prepared, constant: Real | float = 0.0) -> Search:
@@ -134,41 +134,41 @@ def torque_search(scene: Prepared, constant: Real | float = 0.0) -> Search:
 
 def of_torque(scene: Prepared, constant: Real | float = 0.0) -> Bracket:
     """The same: (...)."""
-    return _one(peaks_of(scene, torque_search(scene, constant)))
+    return _single(peaks_of(scene, torque_search(scene, constant)))
 
 
-def of_shaft(scene: Prepared, found: ShaftCurves, unbalance: Complex | None, group: Index | None = None) -> Bracket:
+def of_shaft(scene: Prepared, curves: ShaftCurves, unbalance: Complex | None, group: Index | None = None) -> Bracket:
     """Peaks of loads [N] or moments [N m] without or with counterweights (..., webs) kg m: (..., C).
 
     Parameters
     ----------
     group : (C,) from 0, where only the largest of each group is asked for: (..., groups).
     """
-    pieces = found.curves.pieces
+    pieces = curves.curves.pieces
     if group is not None:
         designs = np.arange(len(pieces.half) // group.size)
         group = (designs[:, None] * (np.max(group) + 1) + group).reshape(-1)
-    return _times_square(scene, _reshaped(scene, pieces.peaks(found.offsets(unbalance), TOLERANCE, None, group)))
+    return _times_square(scene, _reshaped(scene, pieces.peaks(curves.offsets(unbalance), TOLERANCE, None, group)))
 
 
-def shaft_search(found: ShaftCurves, unbalances: Sequence[Complex | None]) -> Search:
+def shaft_search(curves: ShaftCurves, unbalances: Sequence[Complex | None]) -> Search:
     """Peaks of loads and moments of one machine with several sets of counterweights."""
-    count, sets = found.curves.weights.shape[1], len(unbalances)
-    offset = np.concatenate([found.offsets(each) for each in unbalances])
-    return Search(("shaft",), found.curves, np.tile(np.arange(count), sets), offset)
+    count, sets = curves.curves.weights.shape[1], len(unbalances)
+    offset = np.concatenate([curves.offsets(unbalance) for unbalance in unbalances])
+    return Search(("shaft",), curves.curves, np.tile(np.arange(count), sets), offset)
 
 
-def of_shaft_each(scene: Prepared, found: ShaftCurves, unbalances: Sequence[Complex | None]) -> tuple[Bracket, ...]:
+def of_shaft_sets(scene: Prepared, curves: ShaftCurves, unbalances: Sequence[Complex | None]) -> tuple[Bracket, ...]:
     """The same as :func:`of_shaft` with several sets of counterweights, all peaks searched together."""
-    every = peaks_of(scene, shaft_search(found, unbalances))
+    every = peaks_of(scene, shaft_search(curves, unbalances))
     return tuple(_times_square(scene, part) for part in _parts(every, len(unbalances)))
 
 
-def _parts(found: Bracket, number: int) -> Iterator[Bracket]:
+def _parts(peaks: Bracket, number: int) -> Iterator[Bracket]:
     """So many parts of equal size, one after the other."""
-    size = found.angle.size // number
+    size = peaks.angle.size // number
     for k in range(number):
-        yield Bracket._make(part[k * size : (k + 1) * size] for part in found)
+        yield Bracket._make(part[k * size : (k + 1) * size] for part in peaks)
 
 
 def customary_search(scene: Prepared, customary: Complex) -> Search:
@@ -183,31 +183,31 @@ def of_customary(scene: Prepared, customary: Complex) -> Real:
     return _times_square(scene, peaks_of(scene, customary_search(scene, customary))).lower
 
 
-def one_by_one(alone: int, together: int) -> Index:
+def separate_groups(alone: int, together: int) -> Index:
     """Groups of curves of which some stand alone, and of the others only the largest counts."""
     return np.minimum(np.arange(alone + together), alone)
 
 
-def _times_square(scene: Prepared, found: Bracket) -> Bracket:
+def _times_square(scene: Prepared, peaks: Bracket) -> Bracket:
     """Times omega^2."""
-    angle, value, lower, upper = found
+    angle, value, lower, upper = peaks
     square = scene.layout.omega[..., None] ** 2
     return Bracket(angle, value * square, lower * square, upper * square)
 
 
-def _one(found: Bracket) -> Bracket:
+def _single(peaks: Bracket) -> Bracket:
     """Without the last axis, of length 1."""
-    angle, value, lower, upper = found
+    angle, value, lower, upper = peaks
     return Bracket(angle[..., 0], value[..., 0], lower[..., 0], upper[..., 0])
 
 
-def _reshaped(scene: Prepared, found: Bracket) -> Bracket:
+def _reshaped(scene: Prepared, peaks: Bracket) -> Bracket:
     """With the leading axes of the scene, and angles within the turns after which all repeats."""
     leading = scene.layout.omega.shape
-    count = found.angle.size // max(math.prod(leading), 1)
+    count = peaks.angle.size // max(math.prod(leading), 1)
     shape = (*leading, count)
     whole: WholeTurn = scene.results["whole_turn"]
-    angle = np.mod(found.angle, TURN * whole.turns)
+    angle = np.mod(peaks.angle, TURN * whole.turns)
     return Bracket(
-        angle.reshape(shape), found.value.reshape(shape), found.lower.reshape(shape), found.upper.reshape(shape)
+        angle.reshape(shape), peaks.value.reshape(shape), peaks.lower.reshape(shape), peaks.upper.reshape(shape)
     )

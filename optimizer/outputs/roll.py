@@ -26,13 +26,13 @@ def _figure(scene: Prepared, unbalance: Complex | None) -> Roll:
     return Roll(angle_deg=scene.angles, before=before, after=None if unbalance is None else after)
 
 
-def _moment(scene: Prepared, samples: Real, found: Bracket) -> RollMoment:
+def _moment(scene: Prepared, samples: Real, peak: Bracket) -> RollMoment:
     square = scene.omega_squared
     return RollMoment(
         moment_Nm=tuple(samples.tolist()),
-        peak_Nm=float(found.lower[0]) * square,
-        peak_bracket_Nm=bracket(found._replace(lower=found.lower * square, upper=found.upper * square), 0),
-        peak_angle_deg=float(np.mod(np.rad2deg(found.angle[0]), scene.roll.period_deg)),
+        peak_Nm=float(peak.lower[0]) * square,
+        peak_bracket_Nm=bracket(peak._replace(lower=peak.lower * square, upper=peak.upper * square), 0),
+        peak_angle_deg=float(np.mod(np.rad2deg(peak.angle[0]), scene.roll.period_deg)),
     )
 
 

@@ -15,7 +15,7 @@ from schemas.answer.outputs import RuleOfThumb
 #: the smaller phasor over the larger one below which the ellipse is a circle, or above 1 minus which it is a line
 SHAPE_TOLERANCE = 1e-9
 #: planes closer than this are one plane
-ONE_PLANE_M = 1e-12
+SAME_PLANE_M = 1e-12
 
 
 class Rule(NamedTuple):
@@ -64,7 +64,7 @@ def moment_rules(first: Ellipse, square: float, span_m: float) -> tuple[RuleOfTh
     square : omega^2, rad^2/s^2.
     span_m : distance between the two counterweights, m; there is no couple in one plane.
     """
-    if span_m <= ONE_PLANE_M or not _is_line(first):
+    if span_m <= SAME_PLANE_M or not _is_line(first):
         return ()
     vertical = _is_vertical(first)
     rules = [_transfer("moment", share, vertical) for share in ((0.15, 0.5) if vertical else (0.5,))]

@@ -15,7 +15,7 @@ from optimizer.mechanics.inertia import Wrench, reciprocating, rotating
 from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Complex
 from optimizer.outputs.ellipses import Ellipse
-from optimizer.outputs.rules_of_thumb import ONE_PLANE_M
+from optimizer.outputs.rules_of_thumb import SAME_PLANE_M
 from schemas.answer.stages import Acting, StageIron
 
 #: the smaller phasor over the larger one below which it counts as none: an optimum leaves what the asked gap allows
@@ -75,7 +75,7 @@ def iron(layout: Layout, turning: Wrench, first: Wrench) -> tuple[StageIron, ...
         return ()
     layout, turning, first = about_centre(layout, turning, first)
     low, high = float(np.min(planes)), float(np.max(planes))
-    ends = (low, high) if high - low > ONE_PLANE_M else (low,)
+    ends = (low, high) if high - low > SAME_PLANE_M else (low,)
     parts = [_against(ends, float(layout.centre_plane), *pair) for pair in (_co(turning, 1.0), _co(first, 2.0))]
     return tuple(
         StageIron(

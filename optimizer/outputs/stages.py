@@ -23,7 +23,7 @@ from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.ellipses import Ellipse, ellipses
 from optimizer.outputs.output import Columns, Output
-from optimizer.outputs.rules_of_thumb import ONE_PLANE_M, SHAPE_TOLERANCE, force_rules, moment_rules
+from optimizer.outputs.rules_of_thumb import SAME_PLANE_M, SHAPE_TOLERANCE, force_rules, moment_rules
 from optimizer.outputs.stage_parts import about_centre, actings, iron
 from optimizer.responses.response import Phasors
 from schemas.answer.outputs import STAGE_UNITS, Stage
@@ -214,7 +214,7 @@ class _Missing:
         if planes.shape[-1] == 0:
             return np.abs(force)
         low, high = np.min(planes, axis=-1), np.max(planes, axis=-1)
-        apart = high - low > ONE_PLANE_M
+        apart = high - low > SAME_PLANE_M
         ends = np.abs(couple - (high - centre) * force) + np.abs(couple - (low - centre) * force)
         return np.where(apart, ends / np.where(apart, high - low, 1.0), np.abs(force))
 
@@ -224,7 +224,7 @@ def _planes_of_iron(planes: Real) -> str:
     if planes.size == 0:
         return "no webs, force only"
     low, high = float(planes.min()), float(planes.max())
-    if high - low > ONE_PLANE_M:
+    if high - low > SAME_PLANE_M:
         return f"planes z = {low:.6g} m and z = {high:.6g} m"
     return f"plane z = {low:.6g} m, force only"
 

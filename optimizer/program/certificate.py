@@ -17,7 +17,7 @@ from optimizer.program.statement import Statement
 _EPS = float(np.finfo(float).eps)
 #: roundings of one product of a bound with its data (responses, sectors, multipliers of sum 1), in eps; a sum of n
 #: such products is off by less than n + this times eps of the sum of their magnitudes (Higham 2002, section 3.1)
-_EACH = 16
+_PER_PRODUCT = 16
 #: of these, those of influences (arms, weights) and of multipliers as they are printed, which no finer sum mends
 _DATA = 6
 #: for the rounding of a product
@@ -279,7 +279,7 @@ def spread(statement: Statement, multipliers: Multipliers) -> Real | float:
     if alike is not None:
         # webs that carry as much as one another share what it is
         each = (alike.summed(each) / alike.count)[..., alike.owner]
-    return each * (1.0 - _EPS * (_EACH + statement.row.size + multipliers.ceiling.shape[-1]))
+    return each * (1.0 - _EPS * (_PER_PRODUCT + statement.row.size + multipliers.ceiling.shape[-1]))
 
 
 def _slope(statement: Statement, multipliers: Multipliers, worth: Real) -> tuple[Complex, Real]:
@@ -293,7 +293,7 @@ def _slope(statement: Statement, multipliers: Multipliers, worth: Real) -> tuple
     price = np.concatenate([multipliers.term, multipliers.ceiling], axis=-1)[..., None]
     terms = price.shape[-2]
     slope, size = np.add.reduce(influence * price, axis=-2), np.add.reduce(np.abs(influence) * np.abs(price), axis=-2)
-    rounding = _EPS * (_EACH + terms) * size
+    rounding = _EPS * (_PER_PRODUCT + terms) * size
     dear = np.add.reduce(statement.limits.reach * rounding, axis=-1) > _DEAR * worth
     if not dear.any():
         return slope, rounding
@@ -301,12 +301,13 @@ def _slope(statement: Statement, multipliers: Multipliers, worth: Real) -> tuple
     finer = np.add.reduce(influence * price.astype(np.clongdouble), axis=-2)
     rest = float(np.finfo(np.longdouble).eps) * (2 + terms) * size
     slope = np.where(dear[..., None], finer.astype(complex), slope)
-    return slope, np.where(dear[..., None], _EPS * (_DATA * size + _EACH * np.abs(slope)) + rest, rounding)
+    return slope, np.where(dear[..., None], _EPS * (_DATA * size + _PER_PRODUCT * np.abs(slope)) + rest, rounding)
 
 
 def _rounding(statement: Statement, size: Real) -> Real:
     """Rounding of a sum over terms, rows and ceilings whose magnitudes sum to ``size``."""
-    return _EPS * (_EACH + statement.row.size + 2 * len(statement.ceilings.names) + statement.floor.shape[-1]) * size
+    count = statement.row.size + 2 * len(statement.ceilings.names) + statement.floor.shape[-1]
+    return _EPS * (_PER_PRODUCT + count) * size
 
 
 def _least_over_limits(minorant: _Minorant, mass_cost: float, limits: Limits) -> Real:
@@ -318,4 +319,4 @@ def _least_over_limits(minorant: _Minorant, mass_cost: float, limits: Limits) ->
     gain = np.maximum(limits.radius * minorant.support(limits) - mass_cost, 0.0)
     masses, _ = limits.spent(gain)
     gained = np.add.reduce(gain * masses, axis=-1)
-    return -gained * (1.0 + _EPS * (_EACH + 2 * gain.shape[-1]))
+    return -gained * (1.0 + _EPS * (_PER_PRODUCT + 2 * gain.shape[-1]))

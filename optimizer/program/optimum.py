@@ -4,7 +4,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Complex
 from optimizer.program.certificate import objective_lower_bound
-from optimizer.program.cuts.optimum import TIME_LIMIT_S, Found, Reached, Unkept, over_turn
+from optimizer.program.cuts.optimum import TIME_LIMIT_S, CertifiedOptimum, Reached, Unkept, over_turn
 from optimizer.program.cuts.proof import Proof
 from optimizer.program.cuts.semi_infinite import Problem, Values
 from optimizer.program.cuts.stage import Point
@@ -21,7 +21,7 @@ def optimum(
     least_mass: bool,
     solver: Solver,
     time_limit_s: float = TIME_LIMIT_S,
-) -> Found | Unkept:
+) -> CertifiedOptimum | Unkept:
     """Certified optimum of one problem: its goals one after the other, then the least mass.
 
     Parameters
@@ -52,7 +52,9 @@ def cone_program(program: Problem, least_mass: bool) -> Statement | None:
     return statement
 
 
-def solution(program: Problem, statement: Statement, found: Optima, u: Complex, least_mass: bool) -> Found | Unkept:
+def solution(
+    program: Problem, statement: Statement, optima: Optima, u: Complex, least_mass: bool
+) -> CertifiedOptimum | Unkept:
     """What is found of a problem that is a cone program, of a batch of one.
 
     Parameters
@@ -61,16 +63,16 @@ def solution(program: Problem, statement: Statement, found: Optima, u: Complex, 
     u : (K,) kg m, no worse than what is found.
     least_mass : whether the least mass was sought.
     """
-    method, spent = str(found.method[0]), float(found.certify_s[0])
+    method, spent = str(optima.method[0]), float(optima.certify_s[0])
     over = statement.ceilings.excess(u) if program.ceilings else np.zeros(0)
-    point = Point(u, Values(found.objective, over, ()), float(found.mass[0]))
-    if found.unreachable[0]:
-        excess, conflict = statement.excess(), found.conflict.chosen(0)
+    point = Point(u, Values(optima.objective, over, ()), float(optima.mass[0]))
+    if optima.unreachable[0]:
+        excess, conflict = statement.excess(), optima.conflict.chosen(0)
         proof = Proof(float(objective_lower_bound(excess, conflict)), excess, conflict)
         return Unkept(point, proof, statement.limits, spent, method)
-    value, of_mass, target = float(point.values.goals[-1]), None, float(found.mass_target[0])
+    value, of_mass, target = float(point.values.goals[-1]), None, float(optima.mass_target[0])
     if least_mass:
-        of_mass = Proof(float(found.mass_lower_bound[0]), statement, found.mass_multipliers.chosen(0))
-    of_goal = Proof(float(found.lower_bound[0]), statement, found.multipliers.chosen(0))
+        of_mass = Proof(float(optima.mass_lower_bound[0]), statement, optima.mass_multipliers.chosen(0))
+    of_goal = Proof(float(optima.lower_bound[0]), statement, optima.multipliers.chosen(0))
     goals = (Reached(program.goals[-1].name, value, of_goal, value),)
-    return Found(point, goals, of_mass, target, statement.limits, spent, method)
+    return CertifiedOptimum(point, goals, of_mass, target, statement.limits, spent, method)

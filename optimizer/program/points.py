@@ -19,7 +19,7 @@ class Points(NamedTuple):
     rounding: Real  # (N,) of the objective
 
     @property
-    def each(self) -> "Iterator[Points]":
+    def items(self) -> "Iterator[Points]":
         """One by one of the first of two leading axes, (n, N)."""
         return (Points(*values) for values in zip(*self, strict=True))
 

@@ -43,15 +43,15 @@ class Harmonics:
 
 def moved(pieces: Pieces, number: int, by: Harmonics) -> Pieces:
     """One of some curves with harmonics added, as the only one."""
-    one = slice(number, number + 1)
-    centre, half = pieces.centre[one], pieces.half[one]
+    curve = slice(number, number + 1)
+    centre, half = pieces.centre[curve], pieces.half[curve]
     return replace(
         pieces,
         centre=centre,
         half=half,
-        cubic=pieces.cubic[one] + by.cubics(centre, half),
-        rest=pieces.rest[one] + by.rests(half),
-        size=pieces.size[one] + np.sum(np.abs(by.size)),
+        cubic=pieces.cubic[curve] + by.cubics(centre, half),
+        rest=pieces.rest[curve] + by.rests(half),
+        size=pieces.size[curve] + np.sum(np.abs(by.size)),
         source=_Moved(pieces.source, number, by),
     )
 

@@ -36,7 +36,7 @@ class Cells(NamedTuple):
     signs: Real  # (n, R) of masses that are decided, whose parts are in the cubic; 0 of the others
 
     def chosen(self, keep: NDArray[np.bool_] | Index) -> "Cells":
-        return Cells._make(each[keep] for each in self)
+        return Cells._make(array[keep] for array in self)
 
     def cut(self, count: int) -> "Cells":
         """Each in so many parts of its angles, by the same polynomials."""
@@ -63,7 +63,7 @@ class Cells(NamedTuple):
         first = np.cumsum(2**count) - 2**count
         # the numbers from 0 of the ways, as signs of the rows that are open
         way = (np.arange(again.member.size) - np.repeat(first, 2**count))[:, None]
-        open_, known = (np.repeat(each, 2**count, axis=0) for each in (seen.open, seen.signs))
+        open_, known = (np.repeat(array, 2**count, axis=0) for array in (seen.open, seen.signs))
         digit = np.where(open_, np.cumsum(open_, axis=-1) - 1, 0)
         signs = np.where(open_, 2.0 * (way >> digit & 1) - 1.0, known)
         return again._replace(
@@ -157,12 +157,12 @@ def _attained(cells: Cells, signs: Real) -> tuple[Real, Real, Real]:
     """What is attained in cells, at which angle and with which signs of the masses (n, R)."""
     curve = cells.cubic @ _POWERS.T
     parts = np.einsum("nrk,pk->nrp", cells.parts, _POWERS)
-    found = []
+    places = []
     for k in range(_PLACES.size):
         chosen = np.where(signs != 0.0, signs, worst_masses(curve[:, k], parts[..., k]))
         value = np.abs(curve[:, k] + np.sum(chosen * parts[..., k], axis=-1))
-        found.append((value, chosen))
-    value, chosen = (np.stack(each) for each in zip(*found, strict=True))
+        places.append((value, chosen))
+    value, chosen = (np.stack(array) for array in zip(*places, strict=True))
     best = np.argmax(value, axis=0)
     every = np.arange(best.size)
     rest = cells.rest + np.sum(cells.rests, axis=-1)

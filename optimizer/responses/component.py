@@ -57,10 +57,10 @@ class Component:
 
     @cached_property
     def pieces(self) -> Pieces:
-        whole, one = self.curves.pieces, slice(self.number, self.number + 1)
-        centre, half, cubic = whole.centre[one], whole.half[one], whole.cubic[one]
-        along, rest = self._source.product(cubic, centre, half), leibniz(cubic, whole.rest[one], half)
-        return Pieces(centre, half, along, rest, whole.size[one], self._source)
+        whole, curve = self.curves.pieces, slice(self.number, self.number + 1)
+        centre, half, cubic = whole.centre[curve], whole.half[curve], whole.cubic[curve]
+        along, rest = self._source.product(cubic, centre, half), leibniz(cubic, whole.rest[curve], half)
+        return Pieces(centre, half, along, rest, whole.size[curve], self._source)
 
     @cached_property
     def parts(self) -> "_ComponentParts":
@@ -112,13 +112,13 @@ def leibniz(cubic: Complex, rest: Real, half: Real) -> Real:
     cubic, rest, half : (..., 4), (...), (...) of the curve, as in :class:`optimizer.responses.piecewise_cubics.Pieces`.
     """
     fourth = factorial(4) * rest
-    found = fourth.copy()
+    bound = fourth.copy()
     for k in range(_DEGREE + 1):
         # a derivative is that of the polynomial and what that leaves out of it
         factors = [factorial(i) / factorial(i - k) for i in range(k, _DEGREE + 1)]
         largest = np.sum(np.abs(cubic[..., k:]) * factors, axis=-1) + fourth / factorial(4 - k)
-        found = found + comb(4, k) * half ** (4 - k) * largest
-    return found / factorial(4)
+        bound = bound + comb(4, k) * half ** (4 - k) * largest
+    return bound / factorial(4)
 
 
 @dataclass(frozen=True)

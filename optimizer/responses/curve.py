@@ -114,8 +114,8 @@ class TurnResponse:
         ----------
         tolerance : of upper - lower, relative to lower.
         """
-        found = self.curves.pieces.peaks(np.array([offset]), tolerance, np.array([self.number]))
-        return Bracket(*(each[0] for each in found))
+        brackets = self.curves.pieces.peaks(np.array([offset]), tolerance, np.array([self.number]))
+        return Bracket(*(brackets[0] for brackets in brackets))
 
     @property
     def mean(self) -> complex:
@@ -144,14 +144,14 @@ def peaks(responses: Sequence[TurnResponse], unbalance: Complex, tolerance: Real
     if all(response.turning is None for response in responses):
         return peaks_about(responses, offset, tolerance)
     # what turns makes another curve of each
-    asked = np.broadcast_to(tolerance, len(responses))
-    each = [
-        peaks_about([response], offset[k : k + 1], asked[k])
+    tolerances = np.broadcast_to(tolerance, len(responses))
+    brackets = [
+        peaks_about([response], offset[k : k + 1], tolerances[k])
         if response.turning is None
-        else _moving(response, unbalance, asked[k])
+        else _moving(response, unbalance, tolerances[k])
         for k, response in enumerate(responses)
     ]
-    return Bracket(*(np.concatenate(part) for part in zip(*each, strict=True)))
+    return Bracket(*(np.concatenate(part) for part in zip(*brackets, strict=True)))
 
 
 def peaks_about(
@@ -164,26 +164,29 @@ def peaks_about(
     group : (responses,) from 0, each of one response, where only the largest of each group is asked for, which costs
         less: peaks (groups,).
     """
-    asked, sought = np.broadcast_to(tolerance, len(responses)), np.arange(len(responses)) if group is None else group
+    tolerances, sought = (
+        np.broadcast_to(tolerance, len(responses)),
+        np.arange(len(responses)) if group is None else group,
+    )
     number: Index = np.array([response.number for response in responses], dtype=np.intp)
     together: dict[int, list[int]] = {}
     for k, response in enumerate(responses):
         together.setdefault(id(response.curves), []).append(k)
-    groups, found = [], []
+    groups, brackets = [], []
     for some in together.values():
         labels, of = np.unique(sought[some], return_inverse=True)
         groups.append(labels)
-        found.append(responses[some[0]].curves.pieces.peaks(offset[some], asked[some], number[some], of))
+        brackets.append(responses[some[0]].curves.pieces.peaks(offset[some], tolerances[some], number[some], of))
     order = np.argsort(np.concatenate(groups))
-    return Bracket(*(np.concatenate(part)[order] for part in zip(*found, strict=True)))
+    return Bracket(*(np.concatenate(part)[order] for part in zip(*brackets, strict=True)))
 
 
 def _moving(response: TurnResponse, unbalance: Complex, tolerance: Reals) -> Bracket:
     """Peak (1,) of a curve to which counterweights add what turns; its value is that without them all the same."""
     by = response.harmonics(unbalance)
     assert by is not None  # that is what turns
-    found = moved(response.curves.pieces, response.number, by).peaks(np.zeros(1, dtype=complex), tolerance)
-    return found._replace(value=found.value - by.at(found.angle))
+    brackets = moved(response.curves.pieces, response.number, by).peaks(np.zeros(1, dtype=complex), tolerance)
+    return brackets._replace(value=brackets.value - by.at(brackets.angle))
 
 
 class Floor(NamedTuple):
@@ -208,7 +211,7 @@ def floors(
     """
     from optimizer.responses.kernel.outlines import PLACES, farthest, nearer, outlines
 
-    pieces, every = curves.pieces, curves.pieces.known
+    pieces, every = curves.pieces, curves.pieces.cubics
     number: Index = np.arange(len(pieces.half)) if numbers is None else np.array(numbers, dtype=np.intp)
     if not number.size:
         return []

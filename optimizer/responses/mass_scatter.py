@@ -27,9 +27,11 @@ def peaks_astray(
         key = id(response.curves) if response.turning is None else id(response)
         together.setdefault((key, share), []).append(k)
     groups = list(together.items())
-    found = [_peaks([responses[k] for k in group], share, unbalance, tolerance[group]) for (_, share), group in groups]
+    brackets = [
+        _peaks([responses[k] for k in group], share, unbalance, tolerance[group]) for (_, share), group in groups
+    ]
     order = np.argsort(np.concatenate([group for _, group in groups]))
-    return Worst(*(np.concatenate(part)[order] for part in zip(*found, strict=True)))
+    return Worst(*(np.concatenate(part)[order] for part in zip(*brackets, strict=True)))
 
 
 def _peaks(responses: Sequence[TurnResponse], share: float, unbalance: Complex, tolerance: Real) -> Worst:
@@ -41,8 +43,8 @@ def _peaks(responses: Sequence[TurnResponse], share: float, unbalance: Complex, 
         return worst_peaks(first.curves.pieces, first.curves.parts, share, offset, number, tolerance)
     assert first.number == 0  # a component is the only one of its curves
     pieces, still = moved(first.curves.pieces, 0, by), np.zeros(1, dtype=complex)
-    found = worst_peaks(pieces, first.curves.parts, share, still, number, tolerance)
-    return found._replace(value=found.value - by.at(found.angle))
+    brackets = worst_peaks(pieces, first.curves.parts, share, still, number, tolerance)
+    return brackets._replace(value=brackets.value - by.at(brackets.angle))
 
 
 def _numbers(responses: Sequence[TurnResponse]) -> Index:

@@ -22,11 +22,11 @@ from numpy.typing import NDArray
 from optimizer.numerics.arrays import Complex, Real, Reals, in_order
 
 if TYPE_CHECKING:
-    from optimizer.responses.kernel.parts import Asked, Best, Known, Parts
+    from optimizer.responses.kernel.parts import Best, Cubics, Members, Parts
 
 Index = NDArray[np.intp]
 #: of pieces, what is asked and the best so far, which it improves: the curves (peaks,) there
-Search = Callable[["Known", "Asked", "Best"], Complex]
+Search = Callable[["Cubics", "Members", "Best"], Complex]
 #: real for scalars, complex across the shaft
 Vector = NDArray[Any]
 
@@ -46,7 +46,7 @@ class Bracket(NamedTuple):
 
     def where(self, mask: NDArray[np.bool_]) -> "Bracket":
         """The same, nan where nothing is known (...)."""
-        return self if np.all(mask) else Bracket(*(np.where(mask, each, np.nan) for each in self))
+        return self if np.all(mask) else Bracket(*(np.where(mask, part, np.nan) for part in self))
 
 
 class Source(Protocol):
@@ -86,12 +86,12 @@ class Pieces:
         return np.sum(np.abs(self.cubic[..., 1:]), axis=-1) + self.rest
 
     @cached_property
-    def known(self) -> "Known":
+    def cubics(self) -> "Cubics":
         """What is compiled takes them as."""
-        from optimizer.responses.kernel.parts import Known
+        from optimizer.responses.kernel.parts import Cubics
 
-        centre, half, rest = (in_order(np.asarray(each, float)) for each in (self.centre, self.half, self.rest))
-        return Known(centre, half, in_order(np.asarray(self.cubic, complex)), rest)
+        centre, half, rest = (in_order(np.asarray(array, float)) for array in (self.centre, self.half, self.rest))
+        return Cubics(centre, half, in_order(np.asarray(self.cubic, complex)), rest)
 
     def peaks(
         self,
@@ -113,15 +113,15 @@ class Pieces:
             d + offset, -1 for the smallest, negated.
         """
         every = np.arange(offset.size)
-        of_member, known = every if curve is None else curve, np.isfinite(offset)
-        if group is None and known.all():
+        of_member, finite = every if curve is None else curve, np.isfinite(offset)
+        if group is None and finite.all():
             scale, share, signs = self.size[of_member] + np.abs(offset), np.empty(every.size), np.empty(every.size)
             share[:], signs[:] = tolerance, sign
             return _bracketed(self, offset, of_member, every, scale, share, signs)
         sought = every if group is None else group
         scale, share, signs = np.zeros((3, int(np.max(sought, initial=-1)) + 1))
-        offset, of_member, sought = offset[known], of_member[known], sought[known]
-        tolerances, sign = (np.broadcast_to(each, known.shape)[known] for each in (tolerance, sign))
+        offset, of_member, sought = offset[finite], of_member[finite], sought[finite]
+        tolerances, sign = (np.broadcast_to(part, finite.shape)[finite] for part in (tolerance, sign))
         np.maximum.at(scale, sought, self.size[of_member] + np.abs(offset))
         np.maximum.at(share, sought, tolerances)
         signs[sought] = sign
@@ -142,46 +142,46 @@ def _bracketed(
     offset, of_member, group : (m,) of every member, its curve, and the peak to which it belongs.
     scale, share, sign : (count,) size of what is added up, tolerance and sign of each peak.
     """
-    from optimizer.responses.kernel.parts import Asked, Best
+    from optimizer.responses.kernel.parts import Best, Members
 
     count = scale.size
     if not group.size:
         return Bracket(*(np.full(count, np.nan) for _ in range(4)))
-    curve, peak = (in_order(np.asarray(each, np.int64)) for each in (of_member, group))
-    asked = Asked(curve, peak, in_order(np.asarray(offset, complex)), share, ROUNDING * scale, sign)
+    curve, peak = (in_order(np.asarray(part, np.int64)) for part in (of_member, group))
+    members = Members(curve, peak, in_order(np.asarray(offset, complex)), share, ROUNDING * scale, sign)
     nowhere = np.zeros(count, np.int64)
     best = Best(np.full(count, np.nan), np.full(count, -np.inf), np.zeros(count), nowhere, nowhere.copy())
     # a source that is compiled searches by itself
     search: Search | None = getattr(pieces.source, "search", None)
-    value = _searched(pieces, asked, best) if search is None else search(pieces.known, asked, best)
-    there = value + asked.offset[best.member]
+    value = _searched(pieces, members, best) if search is None else search(pieces.cubics, members, best)
+    there = value + members.offset[best.member]
     lower = np.where(sign == 0.0, np.abs(there), sign * there.real)
-    return Bracket(best.angle, value, lower, best.upper + asked.rounding)
+    return Bracket(best.angle, value, lower, best.upper + members.rounding)
 
 
-def _searched(pieces: Pieces, asked: "Asked", best: "Best") -> Vector:
+def _searched(pieces: Pieces, members: "Members", best: "Best") -> Vector:
     """The same of any other source."""
     from optimizer.responses.kernel.parts import MOST_CUTS, MOST_PARTS, Parts, first_open, narrowed, still_open
 
-    parts, cuts = first_open(pieces.known, asked, best), 0
+    parts, cuts = first_open(pieces.cubics, members, best), 0
     while parts.member.size:
-        fine, coarse, cuts = narrowed(parts, asked, best, cuts)
-        every = [fine, _expanded(pieces, asked, best, coarse)] if coarse.member.size else [fine]
+        fine, coarse, cuts = narrowed(parts, members, best, cuts)
+        every = [fine, _expanded(pieces, members, best, coarse)] if coarse.member.size else [fine]
         parts = Parts(*map(np.concatenate, zip(*every, strict=True)))
-        parts = still_open(parts, asked, best, MOST_PARTS if cuts < MOST_CUTS else 0)
-    return pieces.source.values(asked.curve[best.member], best.piece, best.angle)
+        parts = still_open(parts, members, best, MOST_PARTS if cuts < MOST_CUTS else 0)
+    return pieces.source.values(members.curve[best.member], best.piece, best.angle)
 
 
-def _expanded(pieces: Pieces, asked: "Asked", best: "Best", parts: "Parts") -> "Parts":
+def _expanded(pieces: Pieces, members: "Members", best: "Best", parts: "Parts") -> "Parts":
     """The same parts (n,) by polynomials of their own, and where that does not help enough by bounds of their own."""
     from optimizer.responses.kernel.parts import ENOUGH, Parts
 
-    curve, peak = asked.curve[parts.member], asked.group[parts.member]
+    curve, peak = members.curve[parts.member], members.group[parts.member]
     centre, half, _, fourth = parts.place.T
     cubic = np.array(pieces.source.cubics(curve, parts.piece, centre, half), dtype=complex)
-    cubic[:, 0] += asked.offset[parts.member]
+    cubic[:, 0] += members.offset[parts.member]
     rest = fourth * half**4
-    steep = rest > ENOUGH * np.maximum(asked.share * np.abs(best.lower), asked.rounding)[peak]
+    steep = rest > ENOUGH * np.maximum(members.share * np.abs(best.lower), members.rounding)[peak]
     if np.any(steep):
         closer = pieces.source.rests(curve[steep], parts.piece[steep], centre[steep], half[steep])
         rest[steep] = np.minimum(rest[steep], closer)

@@ -128,9 +128,12 @@ class Response:
         Its name is that of the response with the axis behind it, force:x.
         """
         counter = np.conj(self.baseline.counter)
-        one = self.baseline.co + counter if axis == "x" else self.baseline.co - counter
+        component = self.baseline.co + counter if axis == "x" else self.baseline.co - counter
         alone = replace(
-            self, name=f"{self.name}:{axis}", baseline=Phasors(one, np.zeros_like(one)), counter_influence=None
+            self,
+            name=f"{self.name}:{axis}",
+            baseline=Phasors(component, np.zeros_like(component)),
+            counter_influence=None,
         )
         if self.counter_influence is None:
             return alone

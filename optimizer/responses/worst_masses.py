@@ -98,7 +98,7 @@ class _Boxes(NamedTuple):
     seen: Seen
 
     def chosen(self, keep: NDArray[np.bool_]) -> "_Boxes":
-        return _Boxes(self.cells.chosen(keep), Seen._make(each[keep] for each in self.seen))
+        return _Boxes(self.cells.chosen(keep), Seen._make(boxes[keep] for boxes in self.seen))
 
 
 class _Search:
@@ -125,12 +125,12 @@ class _Search:
                 left = self._still_open(self._finer(left))
             # whatever is left may hold a peak as large as it is known to come to at most
             most = self.best.upper.copy()
-            for each in (left, *self.later):
-                np.maximum.at(most, each.cells.member, each.seen.most)
+            for boxes in (left, *self.later):
+                np.maximum.at(most, boxes.cells.member, boxes.seen.most)
             proven = np.minimum(proven, most)
-            if left.cells.member.size or not any(each.cells.member.size for each in self.later):
+            if left.cells.member.size or not any(boxes.cells.member.size for boxes in self.later):
                 break
-            cells = _together([each.cells for each in self.later])
+            cells = _together([boxes.cells for boxes in self.later])
             self.later = []
         return proven
 
@@ -144,13 +144,13 @@ class _Search:
         finer brackets wait for these, and the rest is told in the bracket."""
         seen = look(cells)
         _keep(self.best, cells, seen)
-        looked = _Boxes(cells._replace(towards=seen.towards, width=seen.width), seen)
+        boxes = _Boxes(cells._replace(towards=seen.towards, width=seen.width), seen)
         # a peak at a jump of gas forces is steep on one side: what rounding of its angle leaves stays open for ever
         least = seen.most - seen.rounding
         now, ever = (least > self._above(level)[cells.member] for level in (self.level, 0.0))
         np.maximum.at(self.best.upper, cells.member[~ever], seen.most[~ever])
-        self.later.append(looked.chosen(ever & ~now))
-        return looked.chosen(now)
+        self.later.append(boxes.chosen(ever & ~now))
+        return boxes.chosen(now)
 
     def _ways(self, boxes: _Boxes) -> tuple[NDArray[np.bool_], ...]:
         """Which cells are expanded anew, have few signs that are tried, and are cut by direction and by angle."""
@@ -207,9 +207,9 @@ def _first(
     there = pieces.half[curve] > 0.0
     centred = np.abs(pieces.cubic[curve, :, 0] + offset[:, None])
     most = np.where(there, centred + pieces.reach[curve] + share * parts.largest[curve], -np.inf)
-    known = np.where(there, centred - pieces.rest[curve], -np.inf)
+    least = np.where(there, centred - pieces.rest[curve], -np.inf)
     # masses as they are, in the middle of the piece that is largest there
-    where, lower = np.argmax(known, axis=-1), np.max(known, axis=-1)
+    where, lower = np.argmax(least, axis=-1), np.max(least, axis=-1)
     open_ = most > (lower * (1.0 + tolerance))[:, None]
     member, piece = np.nonzero(open_)
     none = np.zeros(member.size)

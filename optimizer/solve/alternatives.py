@@ -19,7 +19,7 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import beside
 from optimizer.numerics.arrays import Complex
-from optimizer.program.cuts.optimum import Found, over_turn
+from optimizer.program.cuts.optimum import CertifiedOptimum, over_turn
 from optimizer.program.limits import Limits
 from optimizer.program.reference.solver import Solver
 from optimizer.solve.caps import cost
@@ -79,21 +79,21 @@ def _cheaper(
     robust: Robust,
     choices: Callable[[Limits], FeasibleSet],
     solver: Solver,
-    known: Sequence[Complex],
+    incumbents: Sequence[Complex],
 ) -> Iterator[_Cheap]:
     """What is cheaper than the best choice, by what is known of masses that scatter.
 
     Parameters
     ----------
-    known : (K,) kg m each, the best choice first.
+    incumbents : (K,) kg m each, the best choice first.
     """
     allowances = sorted(set(every))
-    program = robust.asked().program
+    program = robust.goals().program
     first, size = over_turn(program, robust.wanted.relative_gap, False, robust.left_s), float(program.units[-1])
-    assert isinstance(first, Found)  # the best choice keeps the ceilings
+    assert isinstance(first, CertifiedOptimum)  # the best choice keeps the ceilings
     costs, seconds = Costs(program, first, (), choices, solver, size=size), robust.left_s
     # to the last digit, as it is answered
-    offered = [Choice(*masses_and_angles(robust.task.machine, u, program.limits), u, COMPARED) for u in known]
+    offered = [Choice(*masses_and_angles(robust.task.machine, u, program.limits), u, COMPARED) for u in incumbents]
     for start in offered:
         costs.offer(start)
     best = costs.value(offered[0])
@@ -108,9 +108,9 @@ def _cheaper(
                 cheapest = choice
 
 
-def _described(machine: Machine, scene: Prepared, one: _Cheap) -> Alternative:
+def _described(machine: Machine, scene: Prepared, cheap: _Cheap) -> Alternative:
     """As it is answered."""
-    minimised, allowance, choice, value, bound = one
+    minimised, allowance, choice, value, bound = cheap
     mass, angle = beside(machine, choice.mass, choice.angle)
     total, own = float(np.sum(mass)), cost(choice, minimised)
     fixed = total - cost(choice, "mass") if minimised == "mass" else 0.0

@@ -9,7 +9,7 @@ import numpy as np
 
 from optimizer.formulation.balance_shafts import DesignSpace, chosen
 from optimizer.formulation.counterweights import unbalance
-from optimizer.formulation.formulate import given_ceilings
+from optimizer.formulation.formulate import objective_ceilings
 from optimizer.formulation.goals import Goals
 from optimizer.formulation.limits import TOUCHED
 from optimizer.formulation.simulation import Prepared
@@ -17,7 +17,7 @@ from optimizer.formulation.task import Demand, Task
 from optimizer.mechanics.fixed_weights import beside
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.certificate import Multipliers, budget_price, ceiling_allowance
-from optimizer.program.cuts.optimum import METHOD, Found
+from optimizer.program.cuts.optimum import METHOD, CertifiedOptimum
 from optimizer.program.cuts.proof import Proof
 from optimizer.program.cuts.semi_infinite import Problem, Values
 from optimizer.program.points import points_at
@@ -47,28 +47,30 @@ class Candidate(NamedTuple):
 
     mass: Real  # (K,) kg
     angle: Real  # (K,) degrees
-    found: Found
+    optimum: CertifiedOptimum
 
 
-def fitted(task: Task, scene: Prepared, asked: Goals, found: Found, wanted: Demand, in_full: bool = True) -> Solution:
+def fitted(
+    task: Task, scene: Prepared, goals: Goals, optimum: CertifiedOptimum, wanted: Demand, in_full: bool = True
+) -> Solution:
     """What is told of counterweights that were found.
 
     Parameters
     ----------
-    asked : what the counterweights are judged by: the program that was solved, or one with more variants.
+    goals : what the counterweights are judged by: the program that was solved, or one with more variants.
     in_full : with prices of the limits and what misplaced counterweights may cost.
     """
-    task, scene, asked, mass, angle = cut_plates(task, scene, asked, found.point.unbalance, found.limits)
-    if asked.program.plates is not None:
-        found = found.within(asked.program.limits)
-    outcome = told(task, scene, asked, Candidate(mass, angle, found), wanted, in_full=in_full)
-    return outcome if asked.program.plates is None else replace(outcome, cut=scene)
+    task, scene, goals, mass, angle = cut_plates(task, scene, goals, optimum.point.unbalance, optimum.limits)
+    if goals.program.plates is not None:
+        optimum = optimum.within(goals.program.limits)
+    outcome = solution_of(task, scene, goals, Candidate(mass, angle, optimum), wanted, in_full=in_full)
+    return outcome if goals.program.plates is None else replace(outcome, cut=scene)
 
 
-def told(
+def solution_of(
     task: Task,
     scene: Prepared,
-    asked: Goals,
+    goals: Goals,
     candidate: Candidate,
     wanted: Demand,
     search: SearchProof | None = None,
@@ -81,34 +83,34 @@ def told(
     search : what is proven of all that may be chosen; None where any mass at any angle may be.
     in_full : with prices of the limits and what misplaced counterweights may cost.
     """
-    began, (mass, angle, found) = time.perf_counter(), candidate
-    together, program, square = task.space, asked.program, scene.omega_squared
-    machine, u = together.machine, unbalance(mass, angle, found.limits.radius)
+    began, (mass, angle, optimum) = time.perf_counter(), candidate
+    together, program, square = task.space, goals.program, scene.omega_squared
+    machine, u = together.machine, unbalance(mass, angle, optimum.limits.radius)
     shown = chosen(task.machine, task.objective, mass, angle, u)
     values = program.values(u, _CLOSE if len(program.goals) == 1 else _CLOSER)
-    found = found.counting(float(values.goals[-1]))
-    claimed = _claim(wanted, program, found, u, values, mass, -np.inf if search is None else search.lower_bound)
+    optimum = optimum.counting(float(values.goals[-1]))
+    claimed = _claim(wanted, program, optimum, u, values, mass, -np.inf if search is None else search.lower_bound)
     # what the last goal allows is for the mass, and for what castings cost, after it
     judged = verdict(claimed, wanted.relative_gap + program.goals[-1].allowance)
     there, _ = beside(machine, mass, angle)
-    touched = tuple(dict.fromkeys((*touched_by_mass(machine, there), *_touched(task, asked, values))))
-    proofs = Proofs.of(found, square, asked.speeds)
+    touched = tuple(dict.fromkeys((*touched_by_mass(machine, there), *_touched(task, goals, values))))
+    proofs = Proofs.of(optimum, square, goals.speeds)
     prices, several = tuple[ShadowPrice, ...](), task.robust or task.objective.priorities
     if in_full and search is None and not (several or np.isnan(judged.gap[0]) or machine.web_groups):
         # of a group no web gives way by itself, and no choice gives way at all
         active = shown.active_limits(touched)
-        prices = _prices(together, asked, found.proof, proofs.objective, u, active, float(judged.gap[0]), square)
-    at_rest, target = program.at_rest.goals[-1], np.asarray(found.mass_target)
+        prices = _prices(together, goals, optimum.proof, proofs.objective, u, active, float(judged.gap[0]), square)
+    at_rest, target = program.at_rest.goals[-1], np.asarray(optimum.mass_target)
     printed = figures(task.machine, claimed, judged, at_rest, target, square) | _of_search(
-        found, judged, search, square
+        optimum, judged, search, square
     )
-    status, reason = status_of(found, judged, wanted, search, program.goals[-1].allowance)
-    levels = _levels(found, search, asked, square)
+    status, reason = status_of(optimum, judged, wanted, search, program.goals[-1].allowance)
+    levels = _levels(optimum, search, goals, square)
     if search is None and program.goals[-1].allowance > 0.0:
-        levels += (_mass_level(found, float(np.sum(there)), printed["mass_lower_bound_kg"]),)
+        levels += (_mass_level(optimum, float(np.sum(there)), printed["mass_lower_bound_kg"]),)
     if judged.reason == CONTRADICTED:
-        levels = tuple(each.model_copy(update={"lower_bound": None, "multipliers": None}) for each in levels)
-    turning = any(each.response.turning is not None for each in program.quantities)
+        levels = tuple(level.model_copy(update={"lower_bound": None, "multipliers": None}) for level in levels)
+    turning = any(quantity.response.turning is not None for quantity in program.quantities)
     return Solution(
         status,
         reason,
@@ -116,65 +118,67 @@ def told(
         angle,
         u,
         shown,
-        certificate(printed, machine, found.limits.max_mass, proofs.named(found), levels),
+        certificate(printed, machine, optimum.limits.max_mass, proofs.named(optimum), levels),
         {
             "active_limits": touched,
             "shadow_prices": prices,
             "sensitivity": sensitivity(program, u, values, square) if in_full and not turning else None,
         },
-        found.certify_s,
-        found.method if search is None else search.ended.method,
+        optimum.certify_s,
+        optimum.method if search is None else search.ended.method,
         0 if search is None else search.nodes,
         time.perf_counter() - began,
     )
 
 
 def _of_search(
-    found: Found, judged: Verdict, search: SearchProof | None, omega_squared: float
+    optimum: CertifiedOptimum, judged: Verdict, search: SearchProof | None, omega_squared: float
 ) -> dict[str, Real | float | str | None]:
     """How the counterweights were found, as the certificate has it."""
-    by_cuts = found.method == METHOD
-    rounds, cuts = (found.rounds, found.cuts) if by_cuts else (None, None)
+    by_cuts = optimum.method == METHOD
+    rounds, cuts = (optimum.rounds, optimum.cuts) if by_cuts else (None, None)
     if search is None:
-        return {"method": found.method, "cuts": cuts, "rounds": rounds}
+        return {"method": optimum.method, "cuts": cuts, "rounds": rounds}
     printed: dict[str, Real | float | str | None] = {"method": search.ended.method, "nodes": search.nodes}
     if search.bounds is None:
         return printed | {"cuts": cuts, "rounds": rounds} | dict.fromkeys(("lower_bound", "gap", "relative_gap"))
     if by_cuts:
-        printed |= {"cuts": search.ended.cuts, "rounds": found.rounds + search.rounds}
-    any_mass = np.minimum(max(found.proof.bound, 0.0), judged.lower_bound[0]) * omega_squared
+        printed |= {"cuts": search.ended.cuts, "rounds": optimum.rounds + search.rounds}
+    any_mass = np.minimum(max(optimum.proof.bound, 0.0), judged.lower_bound[0]) * omega_squared
     return printed | {"continuous_lower_bound": any_mass}
 
 
-def _levels(found: Found, search: SearchProof | None, asked: Goals, omega_squared: float) -> tuple[GoalReached, ...]:
+def _levels(
+    optimum: CertifiedOptimum, search: SearchProof | None, goals: Goals, omega_squared: float
+) -> tuple[GoalReached, ...]:
     """What goals came to in their order, as far as there are bounds of them; of those before the last with proofs."""
     if search is not None and search.levels:
         return tuple(search.levels)
-    bounds = [goal.lower_bound for goal in found.goals[:-1]]
+    bounds = [goal.lower_bound for goal in optimum.goals[:-1]]
     if search is not None and search.bounds is not None:
         bounds = [*search.bounds]
-    if search is None and asked.program.goals[-1].allowance > 0.0:
-        bounds.append(found.proof.bound)
+    if search is None and goals.program.goals[-1].allowance > 0.0:
+        bounds.append(optimum.proof.bound)
     levels = []
-    for goal, bound in zip(found.goals, bounds, strict=False):
+    for goal, bound in zip(optimum.goals, bounds, strict=False):
         # above what it comes to by no more than rounding
         least = finite_or_null(min(bound, goal.value) * omega_squared)
-        alone = search is None and goal is not found.goals[-1]
-        proof = multipliers_of(goal.proof, omega_squared, asked.speeds) if alone else None
+        alone = search is None and goal is not optimum.goals[-1]
+        proof = multipliers_of(goal.proof, omega_squared, goals.speeds) if alone else None
         value, limit = goal.value * omega_squared, goal.most * omega_squared
         levels.append(GoalReached(goal=goal.goal, value=value, lower_bound=least, limit=limit, multipliers=proof))
     return tuple(levels)
 
 
-def _mass_level(found: Found, kilograms: float, least: object) -> GoalReached:
+def _mass_level(optimum: CertifiedOptimum, kilograms: float, least: object) -> GoalReached:
     """The minimum mass after goals that allow something for it."""
-    bound = None if found.mass_proof is None else finite_or_null(np.asarray(least))
+    bound = None if optimum.mass_proof is None else finite_or_null(np.asarray(least))
     return GoalReached(goal="mass", value=kilograms, lower_bound=bound, limit=kilograms)
 
 
 def _prices(
     together: DesignSpace,
-    asked: Goals,
+    goals: Goals,
     proof: Proof,
     in_units: PhysicalMultipliers,
     u: Complex,
@@ -189,18 +193,18 @@ def _prices(
         together.machine,
         together.objective,
         shadow_prices(proof.statement, u, usable, budget),
-        [(each, proof.cuts[each.quantity]) for each in asked.limited],
+        [(limit, proof.cuts[limit.quantity]) for limit in goals.limited],
         active,
         omega_squared,
         gap,
-        float(asked.program.at_rest.goals[-1]),
+        float(goals.program.at_rest.goals[-1]),
     )
 
 
 def _claim(
     wanted: Demand,
     program: Problem,
-    found: Found,
+    optimum: CertifiedOptimum,
     u: Complex,
     values: Values,
     mass: Real,
@@ -208,24 +212,26 @@ def _claim(
 ) -> Claim:
     """What is claimed of the counterweights as they are fitted."""
     size = float(program.yardsticks[-1])
-    *before, (bound, rounding) = (_bound(goal.proof, u, values.excess) for goal in found.goals)
+    *before, (bound, rounding) = (_bound(goal.proof, u, values.excess) for goal in optimum.goals)
     # what goals before the last are proven to need, these counterweights need as well
-    against = [least > value + known for (least, known), value in zip(before, values.goals[:-1], strict=True)]
+    against = [least > value + off for (least, off), value in zip(before, values.goals[:-1], strict=True)]
     mass_bound = None
     if wanted.least_mass:
-        mass_bound = np.asarray(0.0 if found.mass_proof is None else found.mass_proof.bound)
-    kept = all(value <= goal.most * (1.0 + 1e-12) for value, goal in zip(values.goals[:-1], found.goals, strict=False))
+        mass_bound = np.asarray(0.0 if optimum.mass_proof is None else optimum.mass_proof.bound)
+    feasible = all(
+        value <= goal.most * (1.0 + 1e-12) for value, goal in zip(values.goals[:-1], optimum.goals, strict=False)
+    )
     return Claim(
         values.goals[-1:],
         # a sum of sizes is not below 0, whatever the rounding of a proof
         np.array([max(bound, lower_bound, 0.0)]),
         np.array([rounding]),
         np.array([size]),
-        np.asarray(values.excess if kept else np.inf),
+        np.asarray(values.excess if feasible else np.inf),
         np.asarray(np.sum(mass)),
-        mass_resolution(found.proof.statement, np.array([size])),
+        mass_resolution(optimum.proof.statement, np.array([size])),
         mass_bound,
-        found.contradicted or any(against),
+        optimum.contradicted or any(against),
     )
 
 
@@ -241,13 +247,13 @@ def _bound(proof: Proof, u: Complex, excess: float) -> tuple[float, float]:
     return proof.bound - allowance, float(points_at(statement, u).rounding) + charge * np.finfo(float).eps
 
 
-def _touched(task: Task, asked: Goals, values: Values) -> Iterator[MachineLimit]:
+def _touched(task: Task, goals: Goals, values: Values) -> Iterator[MachineLimit]:
     """Ceilings that are touched, in any case."""
-    program = asked.program
+    program = goals.program
     if not values.over.size:
         return
-    called = {each.response: each.limit for each, _ in given_ceilings(task.objective)}
-    limits = [*(called[each.name] for each, _ in program.ceilings), *(each.limit for each in asked.limited)]
+    called = {ceiling.response: ceiling.limit for ceiling, _ in objective_ceilings(task.objective)}
+    limits = [*(called[ceiling.name] for ceiling, _ in program.ceilings), *(ceiling.limit for ceiling in goals.limited)]
     caps = np.array([cap for _, cap in (*program.ceilings, *program.limited)])
     for limit, over in zip(limits, values.over * program.sizes + TOUCHED * caps, strict=True):
         if over >= 0.0:

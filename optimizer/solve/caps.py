@@ -49,8 +49,8 @@ class Caps(NamedTuple):
 NO_CAPS = Caps()
 
 
-def _least(known: int | None, cap: float) -> int | None:
-    return known if cap == np.inf else int(cap) if known is None else min(known, int(cap))
+def _least(most: int | None, cap: float) -> int | None:
+    return most if cap == np.inf else int(cap) if most is None else min(most, int(cap))
 
 
 def cost(choice: Choice, kind: Cost) -> float:

@@ -28,7 +28,7 @@ class Certified:
 
     program: Statement  # (N,), over omega^2, with the limits that the proofs count with
     omega_squared: Real  # (N,) rad^2/s^2
-    found: Optima
+    optima: Optima
     mass_kg: Real  # (N, K), those that are chosen, as all that follows
     angle_deg: Real  # (N, K)
     unbalance: Complex  # (N, K) kg m, of these masses and angles
@@ -64,7 +64,7 @@ def judged(
     machine: Machine,
     wanted: Demand,
     program: Statement,
-    found: Optima,
+    optima: Optima,
     omega_squared: Real,
 ) -> Certified:
     """Counterweights as they are fitted, and what may be claimed of them.
@@ -73,14 +73,14 @@ def judged(
     ----------
     program : (N,), over omega^2, of the machine.
     """
-    mass, angle, u, found, claimed, judged = judgement(machine, wanted, program, found)
-    certificate = figures(machine, claimed, judged, program.at_rest, found.mass_target, omega_squared)
-    certificate["method"] = found.method
+    mass, angle, u, optima, claimed, judged = judgement(machine, wanted, program, optima)
+    certificate = figures(machine, claimed, judged, program.at_rest, optima.mass_target, omega_squared)
+    certificate["method"] = optima.method
     status, reason = judged.status, judged.reason
-    if found.unreachable.any():
-        status = np.where(found.unreachable, "infeasible", status)
-        reason = np.where(found.unreachable, INFEASIBLE, reason)
-    return Certified(program, omega_squared, found, mass, angle, u, judged, certificate, status, reason)
+    if optima.unreachable.any():
+        status = np.where(optima.unreachable, "infeasible", status)
+        reason = np.where(optima.unreachable, INFEASIBLE, reason)
+    return Certified(program, omega_squared, optima, mass, angle, u, judged, certificate, status, reason)
 
 
 class Judgement(NamedTuple):
@@ -94,20 +94,20 @@ class Judgement(NamedTuple):
     verdict: Verdict
 
 
-def judgement(machine: Machine, wanted: Demand, program: Statement, found: Optima) -> Judgement:
+def judgement(machine: Machine, wanted: Demand, program: Statement, optima: Optima) -> Judgement:
     """What may be claimed of counterweights as they are fitted, whatever the speed.
 
     Parameters
     ----------
     program : (N,), over omega^2, of the machine.
     """
-    mass, angle = masses_and_angles(machine, found.unbalance, program.limits)
+    mass, angle = masses_and_angles(machine, optima.unbalance, program.limits)
     u = unbalance(mass, angle, program.limits.radius)
     if wanted.least_mass:
-        found = found.counting(program, program.objective(u))
-    mass_bound = found.mass_lower_bound if wanted.least_mass else None
-    claimed = claim(program, u, np.add.reduce(mass, axis=-1), found.lower_bound, found.multipliers, mass_bound)
-    return Judgement(mass, angle, u, found, claimed, verdict(claimed, wanted.relative_gap))
+        optima = optima.counting(program, program.objective(u))
+    mass_bound = optima.mass_lower_bound if wanted.least_mass else None
+    claimed = claim(program, u, np.add.reduce(mass, axis=-1), optima.lower_bound, optima.multipliers, mass_bound)
+    return Judgement(mass, angle, u, optima, claimed, verdict(claimed, wanted.relative_gap))
 
 
 def figures(

@@ -21,18 +21,18 @@ from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import fixed_masses
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.program.cuts.optimum import Found, Reached, Unkept, next_goal, semicontinuous_limits
+from optimizer.program.cuts.optimum import CertifiedOptimum, Reached, Unkept, next_goal, semicontinuous_limits
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.limits import Limits
 from optimizer.program.optimum import optimum
 from optimizer.program.reference.solver import Solver
-from optimizer.solve.answer_fields import Candidate, told
+from optimizer.solve.answer_fields import Candidate, solution_of
 from optimizer.solve.caps import NO_CAPS, Caps, cost
 from optimizer.solve.costs import Costs
 from optimizer.solve.cutting_plane_rounds import Ended, Start, in_rounds
 from optimizer.solve.infeasibility import out_of_reach, unreachable
 from optimizer.solve.solution import Infeasible, Solution, finite_or_null
-from optimizer.solve.statuses import SearchProof, told_status
+from optimizer.solve.statuses import SearchProof, search_status
 from optimizer.solve.uncertain_program import MOST_ROUNDS, Robust
 from optimizer.solve.worst_case import best_of_any_mass, with_worst_case
 from schemas.answer.answers import GoalReached
@@ -66,42 +66,42 @@ def best_choice(task: Task, scene: Prepared, solver: Solver, in_full: bool = Tru
     any_mass = task.of_any_mass
     robust = Robust(task, scene, any_mass)
     for _ in range(MOST_ROUNDS):
-        asked = robust.asked()
-        first = _of_any_mass(asked.program, any_mass.relative_gap, robust, solver)
+        goals = robust.goals()
+        first = _of_any_mass(goals.program, any_mass.relative_gap, robust, solver)
         if isinstance(first, Unkept):
-            return out_of_reach(task, scene, asked, first, solver)
-        course = _in_order(task, robust, asked, first, solver)
-        stages, picked = course.stages, course.known
+            return out_of_reach(task, scene, goals, first, solver)
+        course = _in_order(task, robust, goals, first, solver)
+        stages, picked = course.stages, course.incumbent
         if picked is None or not robust.learnt(picked.unbalance) or robust.left_s == 0.0:
             break
     # judged by all changes of masses that are known, of which those before have proven no less
-    asked = robust.asked() if robust.scatters else asked
+    goals = robust.goals() if robust.scatters else goals
     assert picked is not None  # a choice is there after the first goal
     last = stages[-1]
-    found = last.found
+    outcome = last.outcome
     best = replace(last.best, contradicted=last.best.contradicted or any(stage.contradicted for stage in stages))
-    if not found.kept and found.lower_bound == np.inf:
+    if not outcome.feasible and outcome.lower_bound == np.inf:
         shown = chosen(task.machine, task.objective, picked.mass, picked.angle)
-        status, reason = told_status(found, "infeasible", "", True)
-        none = unreachable(task, scene, asked, shown, best.limits, None, solver)
-        return replace(none, status=status, reason=reason, method=found.method, nodes=_nodes(stages))
+        status, reason = search_status(outcome, "infeasible", "", True)
+        none = unreachable(task, scene, goals, shown, best.limits, None, solver)
+        return replace(none, status=status, reason=reason, method=outcome.method, nodes=_nodes(stages))
     judged = task.demand._replace(least_mass=False)
-    if len(stages) < len(asked.program.goals):
+    if len(stages) < len(goals.program.goals):
         # nothing is proven of what goals come to in their order
-        asked, of_any = robust.solved(solver)
+        goals, of_any = robust.solved(solver)
         if isinstance(of_any, Unkept):
-            return out_of_reach(task, scene, asked, of_any, solver)
-        nothing = SearchProof(found, found.nodes, found.rounds, None, True)
-        return told(task, scene, asked, Candidate(picked.mass, picked.angle, of_any), judged, nothing, in_full)
+            return out_of_reach(task, scene, goals, of_any, solver)
+        nothing = SearchProof(outcome, outcome.nodes, outcome.rounds, None, True)
+        return solution_of(task, scene, goals, Candidate(picked.mass, picked.angle, of_any), judged, nothing, in_full)
     proof = SearchProof(
-        found,
+        outcome,
         _nodes(stages),
-        sum(stage.found.rounds for stage in stages),
-        [stage.found.lower_bound for stage in stages[:-1]],
+        sum(stage.outcome.rounds for stage in stages),
+        [stage.outcome.lower_bound for stage in stages[:-1]],
         course.closed,
         course.levels,
     )
-    answer = told(task, scene, asked, Candidate(picked.mass, picked.angle, best), judged, proof, in_full)
+    answer = solution_of(task, scene, goals, Candidate(picked.mass, picked.angle, best), judged, proof, in_full)
     if task.robust:
         answer = with_worst_case(robust, answer, *_nominal_choice(task, scene, robust.left_s, solver))
     return answer
@@ -110,31 +110,31 @@ def best_choice(task: Task, scene: Prepared, solver: Solver, in_full: bool = Tru
 class _Stage(NamedTuple):
     """A goal, the best choice for it under the goals before, and what is proven of all choices."""
 
-    best: Found  # of any masses at any angles, under the same
+    best: CertifiedOptimum  # of any masses at any angles, under the same
     picked: Choice
-    found: Ended
+    outcome: Ended
     contradicted: bool  # the choice comes to less than any is proven to
 
 
-def _of_any_mass(program: Problem, gap: float, robust: Robust, solver: Solver) -> Found | Unkept:
+def _of_any_mass(program: Problem, gap: float, robust: Robust, solver: Solver) -> CertifiedOptimum | Unkept:
     """The first goal by itself."""
     return optimum(program.changed(goals=program.goals[:1]), gap, False, solver, robust.left_s)
 
 
-def _in_order(task: Task, robust: Robust, asked: Goals, best: Found, solver: Solver) -> "_Course":
+def _in_order(task: Task, robust: Robust, goals: Goals, best: CertifiedOptimum, solver: Solver) -> "_Course":
     """The goals one after the other, each with the most that those before it may come to."""
-    course = _Course(task, robust, asked.program, best, solver)
+    course = _Course(task, robust, goals.program, best, solver)
     order = list(task.objective.priorities)
-    if order and order[-1].goal == "mass" and asked.program.goals[-1].allowance == 0.0:
+    if order and order[-1].goal == "mass" and goals.program.goals[-1].allowance == 0.0:
         # of equal choices the lightest is taken anyhow
         order.pop()
     costs = any(priority.goal in COSTS for priority in order)
     for i, priority in enumerate(order or [None]):
         later = max(len(order), 1) - i - 1
-        kept_back = robust.left_s * later / (later + 1)
+        reserve_s = robust.left_s * later / (later + 1)
         if priority is not None and priority.goal in COSTS:
-            course.cheapest(priority.goal, priority.allowance, kept_back)
-        elif not course.smallest(later, kept_back):
+            course.cheapest(priority.goal, priority.allowance, reserve_s)
+        elif not course.smallest(later, reserve_s):
             # counterweights that keep no ceilings are told by what any masses come to
             break
     return course if costs else replace(course, levels=[])
@@ -147,45 +147,47 @@ class _Course:
     task: Task
     robust: Robust
     program: Problem
-    first: Found  # of any masses, the first goal that is no cost by itself
+    first: CertifiedOptimum  # of any masses, the first goal that is no cost by itself
     solver: Solver
     stages: list[_Stage] = field(default_factory=list)
     levels: list[GoalReached] = field(default_factory=list)
     caps: Caps = NO_CAPS
-    known: Choice | None = None  # that keeps all so far
+    incumbent: Choice | None = None  # that keeps all so far
     closed: bool = True  # the gaps of all goals are the asked ones
     _reached: list[Reached] = field(default_factory=list)
 
-    def smallest(self, later: int, kept_back: float) -> bool:
+    def smallest(self, later: int, reserve_s: float) -> bool:
         """Make the next goal small that is no cost; whether a choice was found that keeps the ceilings."""
         n, program, gap = len(self.stages), self.program, self.robust.wanted.relative_gap
-        goal, known = program.goals[n], self.known
+        goal, incumbent = program.goals[n], self.incumbent
         so_far = self._so_far(n + 1)
         best = self.first
         if n > 0:
-            assert known is not None  # else it would have ended
-            best = next_goal(so_far, self._reached, known.unbalance, gap, self.robust.left_s)
+            assert incumbent is not None  # else it would have ended
+            best = next_goal(so_far, self._reached, incumbent.unbalance, gap, self.robust.left_s)
         size = float(program.units[n])
-        limits = self.caps.within(_limits(self.task, so_far, best, self._reached, known))
-        asked_gap, left_s = self.task.relative_gap, _left(self.robust, kept_back)
+        limits = self.caps.within(_limits(self.task, so_far, best, self._reached, incumbent))
+        choice_gap, left_s = self.task.relative_gap, _left(self.robust, reserve_s)
         choices = self.caps.of(self._choices(limits))
-        picked, found = in_rounds(so_far, replace(best, limits=limits), choices, asked_gap, size, left_s, Start(known))
+        picked, outcome = in_rounds(
+            so_far, replace(best, limits=limits), choices, choice_gap, size, left_s, Start(incumbent)
+        )
         value = float(so_far.values(picked.unbalance, _CLOSE).goals[-1])
-        left = value - found.lower_bound
-        contradicted = found.kept and left < -EQUAL * size
-        self.stages.append(_Stage(best, picked, found, contradicted))
-        self.closed &= left <= max(asked_gap * size, EQUAL * size)
+        left = value - outcome.lower_bound
+        contradicted = outcome.feasible and left < -EQUAL * size
+        self.stages.append(_Stage(best, picked, outcome, contradicted))
+        self.closed &= left <= max(choice_gap * size, EQUAL * size)
         # choices that are this near are equal, which leaves room for the brackets by which they are judged
-        most = max(value, found.lower_bound + goal.allowance * size) + EQUAL * size if later else value
+        most = max(value, outcome.lower_bound + goal.allowance * size) + EQUAL * size if later else value
         self._reached.append(Reached(goal.name, value, best.proof, most))
-        if self.task.objective.priorities and found.kept:
+        if self.task.objective.priorities and outcome.feasible:
             square = self.robust.scene.omega_squared
-            least = finite_or_null(self._bound(found.lower_bound, value, EQUAL * size) * square)
+            least = finite_or_null(self._bound(outcome.lower_bound, value, EQUAL * size) * square)
             self.levels.append(
                 GoalReached(goal=goal.name, value=value * square, lower_bound=least, limit=most * square)
             )
-        self.known = picked
-        return found.kept
+        self.incumbent = picked
+        return outcome.feasible
 
     def _bound(self, bound: float, value: float, rounding: float) -> float:
         """A bound as it is shown beside a value; one above it by more than rounding proves nothing, and is shown so."""
@@ -195,15 +197,15 @@ class _Course:
         self.closed = False
         return bound
 
-    def cheapest(self, kind: Cost, allowance: float, kept_back: float) -> None:
+    def cheapest(self, kind: Cost, allowance: float, reserve_s: float) -> None:
         """Make a cost small."""
         n = max(len(self.stages) - 1, 0)
         best, size = self.stages[n].best if self.stages else self.first, float(self.program.units[n])
         costs = Costs(self._so_far(n + 1), best, self._reached[:-1], self._choices, self.solver, self.caps, size)
-        if self.known is not None:
-            costs.offer(self.known)
+        if self.incumbent is not None:
+            costs.offer(self.incumbent)
         level = self._reached[-1].most if self._reached else np.inf
-        choice, bound = costs.least(kind, level, max(self.robust.left_s - kept_back, 0.0))
+        choice, bound = costs.least(kind, level, max(self.robust.left_s - reserve_s, 0.0))
         if choice is None:
             # that there is none is told of the goal after it
             self.closed = False
@@ -212,7 +214,7 @@ class _Course:
         most = value * (1.0 + allowance) if kind == "mass" else np.floor(value * (1.0 + allowance) * (1.0 + _ROUNDING))
         gap = self.task.relative_gap * value if kind == "mass" else 0.0
         self.closed &= value - bound <= gap
-        self.caps, self.known = self.caps.lower(kind, most), choice
+        self.caps, self.incumbent = self.caps.lower(kind, most), choice
         fixed = float(np.sum(fixed_masses(self.task.machine))) if kind == "mass" else 0.0
         limits = {
             "value": value + fixed,
@@ -230,19 +232,21 @@ class _Course:
         return feasible_set(self.task, limits, self.solver)
 
 
-def _limits(task: Task, program: Problem, best: Found, before: Sequence[Reached], known: Choice | None) -> Limits:
+def _limits(
+    task: Task, program: Problem, best: CertifiedOptimum, before: Sequence[Reached], incumbent: Choice | None
+) -> Limits:
     """Limits that hold some best choice for the last goal.
 
     Parameters
     ----------
     before : the goals before it.
-    known : a choice that keeps these and the ceilings, if there is one.
+    incumbent : a choice that keeps these and the ceilings, if there is one.
     """
     if task.choice == "discrete":
         # what is chosen from a catalogue is what it holds
         return best.limits
-    if known is not None:
-        value = float(program.values(known.unbalance, _CLOSE).goals[-1])
+    if incumbent is not None:
+        value = float(program.values(incumbent.unbalance, _CLOSE).goals[-1])
     else:
         rest = program.at_rest
         value = float(rest.goals[-1]) if rest.excess <= 0.0 else np.inf
@@ -251,14 +255,14 @@ def _limits(task: Task, program: Problem, best: Found, before: Sequence[Reached]
     return semicontinuous_limits(program, least, most)
 
 
-def _left(robust: Robust, kept_back: float) -> Callable[[], float]:
+def _left(robust: Robust, reserve_s: float) -> Callable[[], float]:
     """What is left of the time limit for a goal, for those after it some kept back."""
-    return lambda: max(robust.left_s - kept_back, 0.0)
+    return lambda: max(robust.left_s - reserve_s, 0.0)
 
 
 def _nodes(stages: list[_Stage]) -> int:
     """Nodes of the trees of all goals."""
-    return sum(stage.found.nodes for stage in stages)
+    return sum(stage.outcome.nodes for stage in stages)
 
 
 def _heavy_enough(task: Task, mass: Real) -> bool:
@@ -270,6 +274,6 @@ def _nominal_choice(task: Task, scene: Prepared, left_s: float, solver: Solver) 
     """The best choice for the machine as it is given, if it is found; whether the limit of time left it open."""
     if left_s == 0.0:
         return None, True
-    of_machine = best_choice(task.as_given(left_s), scene, solver, in_full=False)
+    of_machine = best_choice(task.nominal(left_s), scene, solver, in_full=False)
     late = of_machine.status == "inaccurate"
     return of_machine.unbalance if isinstance(of_machine, Solution) and not late else None, late

@@ -25,7 +25,7 @@ from optimizer.choices.feasible_set import Choice, FeasibleSet
 from optimizer.numerics.arrays import Complex
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.cuts.dominance import Group
-from optimizer.program.cuts.optimum import Found, Reached, Unkept, next_goal, over_turn
+from optimizer.program.cuts.optimum import CertifiedOptimum, Reached, Unkept, next_goal, over_turn
 from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.limits import Limits
 from optimizer.program.reference.solver import Solver
@@ -76,13 +76,13 @@ class Costs:
     """
 
     program: Problem
-    best: Found
+    best: CertifiedOptimum
     reached: Sequence[Reached]
     choices: Callable[[Limits], FeasibleSet]  # within limits that hold the best of them
     solver: Solver
     caps: Caps = NO_CAPS
     size: float = 1.0  # what gaps of the last goal are relative to
-    known: list[tuple[float, Choice]] = field(default_factory=list)  # with what they come to of the last goal
+    offers: list[tuple[float, Choice]] = field(default_factory=list)  # with what they come to of the last goal
     few: dict[int, FewWebs] = field(default_factory=dict)  # by the number of webs
     proven: dict[tuple[Cost, int], float] = field(default_factory=dict)  # of no more than a number, of the last goal
 
@@ -98,14 +98,14 @@ class Costs:
 
     def cheapest(self, kind: Cost, level: float) -> Choice | None:
         """Of the choices that were come upon, of equally cheap ones the lightest, and of these the best."""
-        within = [(value, choice) for value, choice in self.known if value <= level]
+        within = [(value, choice) for value, choice in self.offers if value <= level]
         if not within:
             return None
         # sums of masses are rounded
         cheap = min(cost(choice, kind) for _, choice in within) * (1.0 + EQUAL)
-        equal = [each for each in within if cost(each[1], kind) <= cheap]
+        equal = [offer for offer in within if cost(offer[1], kind) <= cheap]
         # what is within the level is good enough, and what is light is cheap
-        return min(equal, key=lambda each: (cost(each[1], "mass"), each[0]))[1]
+        return min(equal, key=lambda offer: (cost(offer[1], "mass"), offer[0]))[1]
 
     def value(self, choice: Choice) -> float:
         """What a choice comes to of the last goal."""
@@ -116,7 +116,7 @@ class Costs:
         values = self.program.values(choice.unbalance, _CLOSE)
         most = np.array([goal.most for goal in self.reached])
         if values.excess <= CEILING_TOLERANCE and np.all(values.goals[:-1] <= most):
-            self.known.append((float(values.goals[-1]), choice))
+            self.offers.append((float(values.goals[-1]), choice))
 
     def _fewest(self, kind: Cost, level: float, seconds: float) -> float:
         """Look for the fewest, and lighter ones that are as few: the number that they are at least."""
@@ -195,7 +195,7 @@ class Costs:
             if bound > level or (known is not None and cost(known, kind) <= number):
                 self.proven[kind, number] = bound
                 return bound
-            choice, found = in_rounds(
+            choice, result = in_rounds(
                 self.program,
                 replace(self.best, limits=limits, goals=(*self.reached, self.best.goals[-1])),
                 choices,
@@ -204,8 +204,8 @@ class Costs:
                 lambda: clock.left_s,
                 Start(None, level, tuple(few.points[:1])),
             )
-            bound = max(bound, found.lower_bound)
-            if found.kept:
+            bound = max(bound, result.lower_bound)
+            if result.feasible:
                 self.offer(choice)
         self.proven[kind, number] = bound
         return bound
@@ -248,7 +248,7 @@ class Costs:
         mass = Goal("mass", (Group((total_mass(self.program.limits),)),))
         weighed = self.program.changed(goals=(*goals, mass), limits=self.caps.within(self.best.limits))
         reached = [*self.reached, self.best.goals[-1]._replace(most=level)] if goals else []
-        any_mass: Found | Unkept
+        any_mass: CertifiedOptimum | Unkept
         if known is not None and reached:
             any_mass = next_goal(weighed, reached, known.unbalance, _SHARP, seconds)
         else:
@@ -264,7 +264,7 @@ class Costs:
             statement = replace(self.program.finite, limits=self.caps.within(self.best.limits))
             return self._compared(statement, choices, known, level, bound, any_mass.point.unbalance, clock)
         size = max(any_mass.point.mass, bound) or 1.0
-        choice, found = in_rounds(
+        choice, result = in_rounds(
             weighed,
             replace(any_mass, goals=(*reached, any_mass.goals[-1])),
             choices,
@@ -273,17 +273,17 @@ class Costs:
             lambda: clock.left_s,
             Start(known),
         )
-        if found.kept:
+        if result.feasible:
             self.offer(choice)
         # what is weighed may be off as well
         off = self.program.scatter.of(1.0 / self.program.limits.radius, np.zeros(1, complex))
-        return max((max(found.lower_bound, bound) - off) / (1.0 + self.program.scatter.share), 0.0)
+        return max((max(result.lower_bound, bound) - off) / (1.0 + self.program.scatter.share), 0.0)
 
     def _compared(
         self,
         statement: Statement,
         choices: Catalogue,
-        known: Choice,
+        incumbent: Choice,
         level: float,
         least: float,
         relaxed: Complex,
@@ -293,23 +293,23 @@ class Costs:
 
         Parameters
         ----------
-        known : the lightest choice so far.
+        incumbent : the lightest choice so far.
         least : kg, that none is lighter than.
         relaxed : (K,) kg m, the lightest of any masses.
         """
         options = choices.stock.options
-        every, above = [np.flatnonzero(some) for some in options.exists], cost(known, "mass")
-        found = lightest(statement, options, every, level, (least, above), clock)
-        if found.chosen is not None:
-            self.offer(choices.picked(found.chosen, COMPARED))
-        elif found.lower_bound < above:
+        every, above = [np.flatnonzero(some) for some in options.exists], cost(incumbent, "mass")
+        result = lightest(statement, options, every, level, (least, above), clock)
+        if result.chosen is not None:
+            self.offer(choices.picked(result.chosen, COMPARED))
+        elif result.lower_bound < above:
             about = relaxed if options.alike is None else options.alike.means(relaxed)
             for near, many in _COUNTS:
                 for which in neighbourhoods(options, about, near, many):
-                    cheapest = self.cheapest("mass", level) or known
+                    cheapest = self.cheapest("mass", level) or incumbent
                     chosen = None
                     if not clock.spent():
                         chosen = lighter(statement, options, which, level, cost(cheapest, "mass"), clock).chosen
                     if chosen is not None:
                         self.offer(choices.picked(chosen, COMPARED))
-        return options.next_mass(found.lower_bound)
+        return options.next_mass(result.lower_bound)

@@ -23,12 +23,12 @@ class CutPlates(NamedTuple):
 
     task: Task
     scene: Prepared
-    asked: Goals
+    goals: Goals
     mass: Real  # (K,) kg
     angle: Real  # (K,) degrees
 
 
-def cut_plates(task: Task, scene: Prepared, asked: Goals, u: Complex, reached: Limits) -> CutPlates:
+def cut_plates(task: Task, scene: Prepared, goals: Goals, u: Complex, reached: Limits) -> CutPlates:
     """Unbalances (K,) kg m as they are fitted, with the radii that plates come to; all as it was where there are none.
 
     Parameters
@@ -37,7 +37,7 @@ def cut_plates(task: Task, scene: Prepared, asked: Goals, u: Complex, reached: L
     """
     of_machine, machine = plates(task.machine), task.space.machine
     if of_machine is None:
-        return CutPlates(task, scene, asked, *masses_and_angles(machine, u, reached))
+        return CutPlates(task, scene, goals, *masses_and_angles(machine, u, reached))
     angle = openings(of_machine, u, reached.alike)
     # plates that differ by what rounding leaves are the same to the last digit
     near = (np.abs(angle[:, None] - angle) <= SAME_SIZE * angle) & (of_machine.kinds[:, None] == of_machine.kinds)
@@ -47,8 +47,8 @@ def cut_plates(task: Task, scene: Prepared, asked: Goals, u: Complex, reached: L
     # the price of a budget is that of its pieces: what a plate is worth is told where it is full
     within = limits_of_cut(limits(task.machine), reached, of_machine, of_machine.most)
     mass, towards = masses_and_angles(task.machine, u, within)
-    asked = replace(asked, program=asked.program.changed(limits=within))
-    return CutPlates(task, replace(scene, machine=task.machine), asked, mass[same], towards)
+    goals = replace(goals, program=goals.program.changed(limits=within))
+    return CutPlates(task, replace(scene, machine=task.machine), goals, mass[same], towards)
 
 
 def openings(of_machine: Plates, u: Complex, alike: Alike | None) -> Real:

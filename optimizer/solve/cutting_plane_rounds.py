@@ -17,7 +17,7 @@ from optimizer.numerics.arrays import Complex
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.cuts.cut import Cut, Pool
 from optimizer.program.cuts.exact_penalty import under_levels
-from optimizer.program.cuts.optimum import Found
+from optimizer.program.cuts.optimum import CertifiedOptimum
 from optimizer.program.cuts.row_generation import FEW, MANY, single_group
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.methods.discs import in_discs
@@ -25,7 +25,7 @@ from optimizer.program.methods.discs import in_discs
 #: width of the brackets by which choices are told apart, as a share of goals and ceilings
 _CLOSE = 1e-10
 #: what a search may leave open of the gap that is asked, and of the gap that is left as long as that is more
-_ASKED, _LEFT = 0.5, 0.25
+_GAP_SHARE, _LEFT = 0.5, 0.25
 #: share of the time left that a search has, unless the one before has shown nothing new
 _TURN = 0.3
 #: angles at which every peak has a cut from the start: what is chosen by few cuts is good at those alone
@@ -42,7 +42,7 @@ _STEEP, _SHEER = 1e3, 1e9
 class Ended:
     """Where the rounds ended, as a search does, by what is true over the turn."""
 
-    kept: bool
+    feasible: bool
     lower_bound: float
     nodes: int
     method: str
@@ -55,7 +55,7 @@ class Ended:
 class Start(NamedTuple):
     """What rounds begin with, and where they may end."""
 
-    known: Choice | None = (
+    incumbent: Choice | None = (
         None  # that keeps ceilings and goals; where goals come first and are solved there has to be one
     )
     level: float = -np.inf  # once it is told whether any comes to no more, no more is asked; -inf asks for the best
@@ -67,7 +67,7 @@ _NOTHING = Start()
 
 def in_rounds(
     program: Problem,
-    best: Found,
+    best: CertifiedOptimum,
     choices: FeasibleSet,
     relative_gap: float,
     size: float,
@@ -84,30 +84,30 @@ def in_rounds(
     size : what gaps are relative to, in units of the goal.
     left_s : what is left of the time limit.
     """
-    known, level, hints = start
+    incumbent, level, hints = start
     gap, resolution = relative_gap * size, EQUAL * size
-    pool, points, case_of = Pool(_known(program), program.scatter), best.point.unbalance[None], program.case_of
+    pool, points, case_of = Pool(_first_cuts(program), program.scatter), best.point.unbalance[None], program.case_of
     most = np.array([goal.most for goal in best.goals[:-1]])
     kinds = program.goal_of_case
-    if program.finite is not None and known is None:
+    if program.finite is not None and incumbent is None:
         # all is known of it
         whole = choices.posed(replace(program.finite, limits=best.limits))
         last = choices.best(Subproblem(whole, points, best.proof.bound, relative_gap, size, left_s()))
-        found = last.found
-        bound = np.inf if found.lower_bound == np.inf else max(best.proof.bound, found.lower_bound)
-        return last, Ended(found.kept, bound, found.nodes, found.method, found.proven, found.ended, 0, 0)
-    bound, least, chosen, stuck = best.proof.bound, np.inf, known, not program.quantities
-    if known is not None:
-        points = np.concatenate([points, known.unbalance[None]])
-        least = float(program.values(known.unbalance, _CLOSE).goals[-1])
+        result = last.result
+        bound = np.inf if result.lower_bound == np.inf else max(best.proof.bound, result.lower_bound)
+        return last, Ended(result.feasible, bound, result.nodes, result.method, result.proven, result.ended, 0, 0)
+    bound, least, chosen, stuck = best.proof.bound, np.inf, incumbent, not program.quantities
+    if incumbent is not None:
+        points = np.concatenate([points, incumbent.unbalance[None]])
+        least = float(program.values(incumbent.unbalance, _CLOSE).goals[-1])
     points = np.concatenate([points, *(hint[None] for hint in hints)])
     for point in points:
         _learn(program, pool, point)
     at_rest, nodes, rounds = float(program.at_rest.goals[-1]), 0, 0
 
-    def ended(found: SearchResult, proven: bool, early: str | None) -> Ended:
-        lower = np.inf if found.lower_bound == np.inf else bound
-        return Ended(chosen is not None, lower, nodes, found.method, proven, early, rounds, pool.count())
+    def ended(result: SearchResult, proven: bool, early: str | None) -> Ended:
+        lower = np.inf if result.lower_bound == np.inf else bound
+        return Ended(chosen is not None, lower, nodes, result.method, proven, early, rounds, pool.count())
 
     while True:
         rounds += 1
@@ -123,17 +123,17 @@ def in_rounds(
             whole = under_levels(posed, program, most, bound, _SHEER)
             # a statement is of one sum
             whole = single_group(whole, case_of, points, MANY, kinds) if case_of[-1] > 0 else whole
-        wanted = _ASKED * gap if stuck else max(_ASKED * gap, _LEFT * (min(least, at_rest) - bound))
+        wanted = _GAP_SHARE * gap if stuck else max(_GAP_SHARE * gap, _LEFT * (min(least, at_rest) - bound))
         left = left_s() * (1.0 if stuck else _TURN)
         last = choices.best(Subproblem(whole, points, bound, wanted / size, size, left, below))
-        found, nodes = last.found, nodes + last.found.nodes
-        if found.lower_bound == np.inf:
+        result, nodes = last.result, nodes + last.result.nodes
+        if result.lower_bound == np.inf:
             # none keeps the cuts of the ceilings
-            return last, ended(found, False, None)
-        before, bound = (bound, least), max(bound, found.lower_bound)
+            return last, ended(result, False, None)
+        before, bound = (bound, least), max(bound, result.lower_bound)
         values = program.values(last.unbalance, _CLOSE)
-        value, kept = float(values.goals[-1]), bool(np.all(values.goals[:-1] <= most))
-        if kept and values.excess <= CEILING_TOLERANCE and value <= least + resolution:
+        value, feasible = float(values.goals[-1]), bool(np.all(values.goals[:-1] <= most))
+        if feasible and values.excess <= CEILING_TOLERANCE and value <= least + resolution:
             least, chosen = min(value, least), last
         closed = least - bound <= max(gap, resolution) or least <= level or -np.inf < level < bound
         learnt = _learn(program, pool, last.unbalance)
@@ -141,21 +141,21 @@ def in_rounds(
             # levels are told apart the better the closer both are
             learnt |= bound > before[0] + resolution or least < before[1] - resolution
         if closed or left_s() <= 0.0 or (stuck and not learnt):
-            all_compared = closed and chosen is last and found.proven
-            early = None if closed else found.ended or ("time" if left_s() <= 0.0 else "cuts")
-            return chosen or last, ended(found, all_compared, early)
+            all_compared = closed and chosen is last and result.proven
+            early = None if closed else result.ended or ("time" if left_s() <= 0.0 else "cuts")
+            return chosen or last, ended(result, all_compared, early)
         stuck, points = not learnt, np.concatenate([points, last.unbalance[None]])
 
 
-def _known(program: Problem) -> list[list[Cut]]:
+def _first_cuts(program: Problem) -> list[list[Cut]]:
     """Cuts to begin with."""
     angle = np.linspace(0.0, 2.0 * np.pi, _ANGLES, endpoint=False)
-    known = [list(cuts) for cuts in program.first]
-    for cuts, quantity in zip(known, program.quantities, strict=True):
+    cuts_of = [list(cuts) for cuts in program.first]
+    for cuts, quantity in zip(cuts_of, program.quantities, strict=True):
         if quantity.measure == "peak":
             values = zip(angle.tolist(), quantity.response.at(angle).tolist(), strict=True)
             cuts += [quantity.cut(at, value) for at, value in values]
-    return known
+    return cuts_of
 
 
 def _learn(program: Problem, pool: Pool, u: Complex) -> bool:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.formulation.balance_shafts import Fitted, chosen
-from optimizer.formulation.formulate import RESPONSES, given_ceilings
+from optimizer.formulation.formulate import RESPONSES, objective_ceilings
 from optimizer.formulation.formulate import limited as limited_responses
 from optimizer.formulation.goals import Goals
 from optimizer.formulation.simulation import Prepared
@@ -16,7 +16,7 @@ from optimizer.mechanics.shapes import closed
 from optimizer.outputs.first_order import added_peaks, first_order, smallest_peaks, smallest_proofs
 from optimizer.program.certificate import Multipliers, objective_lower_bound
 from optimizer.program.cuts.dominance import Group, Weighed
-from optimizer.program.cuts.optimum import METHOD, Found, Unkept
+from optimizer.program.cuts.optimum import METHOD, CertifiedOptimum, Unkept
 from optimizer.program.cuts.proof import Proof
 from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.limits import Limits
@@ -117,73 +117,77 @@ def report(
     )
 
 
-def out_of_reach(task: Task, scene: Prepared, asked: Goals, found: Unkept, solver: Solver) -> Infeasible:
+def out_of_reach(task: Task, scene: Prepared, goals: Goals, failure: Unkept, solver: Solver) -> Infeasible:
     """Which ceilings conflict, what each peak comes to by itself, and the best compromise."""
-    cut, there, within, mass, angle = cut_plates(task, scene, asked, found.closest.unbalance, found.limits)
-    told = unreachable(task, there, asked, chosen(cut.machine, cut.objective, mass, angle), found.limits, found, solver)
-    return told if within.program.plates is None else replace(told, cut=there)
+    cut, there, within, mass, angle = cut_plates(task, scene, goals, failure.closest.unbalance, failure.limits)
+    infeasible = unreachable(
+        task, there, goals, chosen(cut.machine, cut.objective, mass, angle), failure.limits, failure, solver
+    )
+    return infeasible if within.program.plates is None else replace(infeasible, cut=there)
 
 
 def unreachable(
     task: Task,
     scene: Prepared,
-    asked: Goals,
+    goals: Goals,
     shown: Fitted,
     within: Limits,
-    found: Unkept | None,
+    failure: Unkept | None,
     solver: Solver,
 ) -> Infeasible:
     """The same of what is shown as closest, with the proof by multipliers where there is one."""
     square = scene.omega_squared
-    alone = asked.program.changed(ceilings=(), limited=())
-    groups = {name: Group(rows=rows) for name, rows in _alone(task, asked, square).items()}
+    alone = goals.program.changed(ceilings=(), limited=())
+    groups = {name: Group(rows=rows) for name, rows in _alone(task, goals, square).items()}
     # of quantities those that the conflict is about, all that are limited where that is not told
-    at_fault = _under_ceilings(task, asked) if found is None else _at_fault(found)
-    limited = {alone.quantities[each.quantity].name: each for each in asked.limited}
-    limited = {name: each for name, each in limited.items() if name in at_fault}
+    at_fault = _under_ceilings(task, goals) if failure is None else _at_fault(failure)
+    limited = {alone.quantities[limit.quantity].name: limit for limit in goals.limited}
+    limited = {name: limit for name, limit in limited.items() if name in at_fault}
     for name in limited:
-        of_name = {each.quantity: each for each in asked.limited if alone.quantities[each.quantity].name == name}
-        groups[name] = Group(weighed=tuple(Weighed(q, each.omega_squared / square) for q, each in of_name.items()))
+        of_name = {limit.quantity: limit for limit in goals.limited if alone.quantities[limit.quantity].name == name}
+        groups[name] = Group(weighed=tuple(Weighed(q, limit.omega_squared / square) for q, limit in of_name.items()))
     # one reach for all that is proven here
     common, least = alone.limits, {name: _least(alone, group, solver) for name, group in groups.items()}
-    most = np.max([within.max_mass, *(each.limits.max_mass for each in least.values())], axis=0)
+    most = np.max([within.max_mass, *(peak.limits.max_mass for peak in least.values())], axis=0)
     if np.any(most != alone.limits.max_mass):
         common = replace(alone.limits, max_mass=most)
-        if found is not None and np.any(most != within.max_mass):
-            again = _conflict(asked.program, found, common, {name: each.proof for name, each in least.items()}, solver)
+        if failure is not None and np.any(most != within.max_mass):
+            again = _conflict(
+                goals.program, failure, common, {name: peak.proof for name, peak in least.items()}, solver
+            )
             # where the conflict is proven for less only, all is proven for that
-            common, found = (within, found) if again is None else (common, again)
+            common, failure = (within, failure) if again is None else (common, again)
         alone = alone.changed(limits=common)
         least = {name: _least(alone, group, solver) for name, group in groups.items()}
     peaks = {
-        name: Smallest(goal.value * square, goal.lower_bound * square, multipliers_of(goal.proof, square, asked.speeds))
-        for name, (goal,) in ((name, each.goals) for name, each in least.items())
+        name: Smallest(goal.value * square, goal.lower_bound * square, multipliers_of(goal.proof, square, goals.speeds))
+        for name, (goal,) in ((name, smallest.goals) for name, smallest in least.items())
     }
     # of all orders the ceilings are among what is limited over the turn
-    given = given_ceilings(task.objective) if task.objective.orders == "first" else []
-    exact = [StatedCeiling(each.response, each.field, allowed) for each, allowed in given]
+    ceilings = objective_ceilings(task.objective) if task.objective.orders == "first" else []
+    exact = [StatedCeiling(fields.response, fields.field, allowed) for fields, allowed in ceilings]
     both = [
-        StatedCeiling(name, each.field, each.ceiling, over_turn=True)
-        for each in asked.limited
-        for name in [alone.quantities[each.quantity].name]
+        StatedCeiling(name, limit.field, limit.ceiling, over_turn=True)
+        for limit in goals.limited
+        for name in [alone.quantities[limit.quantity].name]
         if name in limited
     ]
     # of a cone program a small multiplier may hold a large ceiling
-    few = asked.program.finite is None
-    together = [each for each in (*exact, *both) if few and each.response in at_fault] or exact
+    few = goals.program.finite is None
+    together = [ceiling for ceiling in (*exact, *both) if few and ceiling.response in at_fault] or exact
     conflict, scenarios = None, tuple[str, ...]()
-    if found is not None:
-        scales, proof = asked.program.excess_scales(found.proof.cuts), found.proof
-        conflict = named_excess(proof.with_pieces, proof.multipliers, scales, asked.speeds)
-        scenarios = _scenarios(asked.program, found, solver)
+    if failure is not None:
+        scales, proof = goals.program.excess_scales(failure.proof.cuts), failure.proof
+        conflict = named_excess(proof.with_pieces, proof.multipliers, scales, goals.speeds)
+        scenarios = _scenarios(goals.program, failure, solver)
     implied = implied_max_mass(closed(task.space.machine), common.max_mass[None])[0]
-    told = report(scene, shown, (*exact, *both), together, peaks, implied, conflict, scenarios)
-    spent = (0.0 if found is None else found.certify_s) + sum(each.certify_s for each in least.values())
-    return Infeasible("infeasible", INFEASIBLE, told, spent, METHOD if found is None else found.method)
+    infeasibility = report(scene, shown, (*exact, *both), together, peaks, implied, conflict, scenarios)
+    spent = (0.0 if failure is None else failure.certify_s) + sum(peak.certify_s for peak in least.values())
+    return Infeasible("infeasible", INFEASIBLE, infeasibility, spent, METHOD if failure is None else failure.method)
 
 
 def _conflict(
-    program: Problem, found: Unkept, limits: Limits, alone: Mapping[str, Proof], solver: Solver
+    program: Problem, failure: Unkept, limits: Limits, alone: Mapping[str, Proof], solver: Solver
 ) -> Unkept | None:
     """The proof that ceilings conflict within larger limits; None where that is proven for less only.
 
@@ -192,40 +196,42 @@ def _conflict(
     alone : of the smallest peak of each response by itself. Where a ceiling is below it, what proves it proves the
         conflict as well.
     """
-    excess, rows = replace(found.proof.statement, limits=limits), found.proof.statement.names.rows
-    of_one = ((n, alone[name].multipliers) for n, name in enumerate(rows) if name in alone)
-    by_one = (_of_one_ceiling(excess, n, each) for n, each in of_one if each.term.size == each.row.size == 1)
-    for multipliers in (found.proof.multipliers, *by_one):
+    excess, rows = replace(failure.proof.statement, limits=limits), failure.proof.statement.names.rows
+    peaks = ((n, alone[name].multipliers) for n, name in enumerate(rows) if name in alone)
+    proofs = (_own_ceiling(excess, n, peak) for n, peak in peaks if peak.term.size == peak.row.size == 1)
+    for multipliers in (failure.proof.multipliers, *proofs):
         bound = float(objective_lower_bound(excess, multipliers))
         if bound > CEILING_ROUNDING:
-            return replace(found, proof=replace(found.proof, bound=bound, statement=excess, multipliers=multipliers))
+            return replace(
+                failure, proof=replace(failure.proof, bound=bound, statement=excess, multipliers=multipliers)
+            )
     again = optimum(program.changed(limits=limits), 1.0, False, solver)
     return again if isinstance(again, Unkept) else None
 
 
-def _of_one_ceiling(excess: Statement, ceiling: int, peak: Multipliers) -> Multipliers:
+def _own_ceiling(excess: Statement, ceiling: int, peak: Multipliers) -> Multipliers:
     """The proof of a smallest peak as one of the smallest excess: all on the row of its own ceiling."""
     only = (np.arange(excess.row.size) == ceiling).astype(float)
     return Multipliers(peak.term * only, peak.row * only, np.zeros_like(excess.ceilings.norms.constant))
 
 
-def _alone(task: Task, asked: Goals, omega_squared: float) -> dict[str, tuple[Row, ...]]:
+def _alone(task: Task, goals: Goals, omega_squared: float) -> dict[str, tuple[Row, ...]]:
     """Peaks of the first order, and components with a ceiling, by themselves: the largest of all cases."""
     rows: dict[str, list[Row]] = {}
-    for case in asked.cases:
+    for case in goals.cases:
         for responses in case.variants:
             limited = limited_responses(responses, task.objective) if task.objective.orders == "first" else ()
-            components = [each for each, _ in limited if each.name not in RESPONSES]
-            for each in (*responses, *components):
-                of_name = rows.setdefault(each.name, [])
-                name = f"{each.name} {len(of_name)}" if of_name else each.name
-                of_name.append(Row(name, (weighted_peak(each, case.omega_squared / omega_squared),)))
-    return {name: tuple(each) for name, each in rows.items()}
+            components = [response for response, _ in limited if response.name not in RESPONSES]
+            for response in (*responses, *components):
+                of_name = rows.setdefault(response.name, [])
+                name = f"{response.name} {len(of_name)}" if of_name else response.name
+                of_name.append(Row(name, (weighted_peak(response, case.omega_squared / omega_squared),)))
+    return {name: tuple(rows_of) for name, rows_of in rows.items()}
 
 
-def _scenarios(program: Problem, found: Unkept, solver: Solver) -> tuple[str, ...]:
+def _scenarios(program: Problem, failure: Unkept, solver: Solver) -> tuple[str, ...]:
     """Scenarios whose ceilings are out of reach by themselves, or those whose ceilings conflict with one another."""
-    statement, row = found.proof.statement, np.maximum(found.proof.multipliers.row, 0.0)
+    statement, row = failure.proof.statement, np.maximum(failure.proof.multipliers.row, 0.0)
     leant = row[statement.row] > _TAKES_PART * np.sum(row)
     terms = zip(statement.names.terms, leant.tolist(), strict=True)
     names = tuple(dict.fromkeys(term.scenario for term, counts in terms if counts and term.scenario is not None))
@@ -234,16 +240,16 @@ def _scenarios(program: Problem, found: Unkept, solver: Solver) -> tuple[str, ..
     return tuple(name for name in names if isinstance(_under(program, name, solver), Unkept)) or names
 
 
-def _under(program: Problem, scenario: str, solver: Solver) -> Found | Unkept:
+def _under(program: Problem, scenario: str, solver: Solver) -> CertifiedOptimum | Unkept:
     """The program under the ceilings of one scenario alone, as far as whether they can be kept."""
     ceilings = tuple(each for each in program.ceilings if each[0].scenario == scenario)
     limited = tuple(each for each in program.limited if program.quantities[each[0]].scenario == scenario)
     return optimum(program.changed(goals=program.goals[-1:], ceilings=ceilings, limited=limited), 1.0, False, solver)
 
 
-def _at_fault(found: Unkept) -> list[str]:
+def _at_fault(failure: Unkept) -> list[str]:
     """Responses whose ceilings conflict, those first that the proof leans on most."""
-    statement, row = found.proof.statement, np.maximum(found.proof.multipliers.row, 0.0)
+    statement, row = failure.proof.statement, np.maximum(failure.proof.multipliers.row, 0.0)
     share: dict[str, float] = {}
     for term, owner in zip(statement.names.terms, statement.row.tolist(), strict=True):
         share[term.response] = share.get(term.response, 0.0) + float(row[owner] / np.sum(row))
@@ -251,15 +257,15 @@ def _at_fault(found: Unkept) -> list[str]:
     return sorted(leant, key=lambda name: -share[name])[:_MOST_AT_FAULT]
 
 
-def _under_ceilings(task: Task, asked: Goals) -> list[str]:
+def _under_ceilings(task: Task, goals: Goals) -> list[str]:
     """Responses that have a ceiling, the first of them."""
-    given = given_ceilings(task.objective) if task.objective.orders == "first" else ()
-    limited = (asked.program.quantities[each.quantity].name for each in asked.limited)
-    return list(dict.fromkeys((*(each.response for each, _ in given), *limited)))[:_MOST_AT_FAULT]
+    ceilings = objective_ceilings(task.objective) if task.objective.orders == "first" else ()
+    limited = (goals.program.quantities[limit.quantity].name for limit in goals.limited)
+    return list(dict.fromkeys((*(fields.response for fields, _ in ceilings), *limited)))[:_MOST_AT_FAULT]
 
 
-def _least(program: Problem, group: Group, solver: Solver) -> Found:
+def _least(program: Problem, group: Group, solver: Solver) -> CertifiedOptimum:
     """The smallest value of one group."""
     found = optimum(program.changed(goals=(Goal("alone", (group,)),)), _ALONE, False, solver)
-    assert isinstance(found, Found)  # without ceilings nothing is out of reach
+    assert isinstance(found, CertifiedOptimum)  # without ceilings nothing is out of reach
     return found

@@ -17,7 +17,7 @@ from optimizer.program.optimum import optimum
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import total_mass
 from optimizer.solve.cutting_plane_rounds import in_rounds
-from optimizer.solve.statuses import ended, told_ample
+from optimizer.solve.statuses import ample_reason, ended
 from optimizer.solve.uncertain_program import Robust
 
 #: gap of the least mass of any masses at any angles, which the search begins with
@@ -46,16 +46,16 @@ def minimum_mass(task: Task, scene: Prepared, solver: Solver) -> Lightest:
         where the options of a web cannot be told.
     """
     gap, robust = task.relative_gap, Robust(task, scene, task.demand)
-    program = robust.asked().program
+    program = robust.goals().program
     weighed = program.changed(goals=(Goal("mass", (Group((total_mass(program.limits),)),)),))
     best = optimum(weighed, _SHARP, False, solver, robust.left_s)
     if isinstance(best, Unkept):
         return _none(program.limits, best.method)
     size = max(best.point.mass, best.proof.bound) or 1.0
     choices = feasible_set(task, best.limits, solver)
-    choice, found = in_rounds(weighed, best, choices, gap, size, lambda: robust.left_s)
-    reason = told_ample(ended(found), found, best.proof.bound)
-    return _lightest(choice, found, found.lower_bound, gap, reason)
+    choice, result = in_rounds(weighed, best, choices, gap, size, lambda: robust.left_s)
+    reason = ample_reason(ended(result), result, best.proof.bound)
+    return _lightest(choice, result, result.lower_bound, gap, reason)
 
 
 def _none(limits: Limits, method: str) -> Lightest:
@@ -64,7 +64,7 @@ def _none(limits: Limits, method: str) -> Lightest:
     return Lightest(nothing, nothing, np.inf, "infeasible", ended(None), 0, method)
 
 
-def _lightest(choice: Choice, found: SearchResult, bound: float, gap: float, reason: str) -> Lightest:
+def _lightest(choice: Choice, result: SearchResult, bound: float, gap: float, reason: str) -> Lightest:
     """What may be said of a choice.
 
     Parameters
@@ -73,7 +73,7 @@ def _lightest(choice: Choice, found: SearchResult, bound: float, gap: float, rea
     gap : relative, that is wanted.
     """
     value = float(np.sum(choice.mass))
-    status = "optimal" if found.kept and value - bound <= gap * value else "inaccurate"
-    if not found.kept and bound == np.inf:
+    status = "optimal" if result.feasible and value - bound <= gap * value else "inaccurate"
+    if not result.feasible and bound == np.inf:
         status = "infeasible"
-    return Lightest(choice.mass, choice.angle, bound, status, reason, found.nodes, found.method)
+    return Lightest(choice.mass, choice.angle, bound, status, reason, result.nodes, result.method)

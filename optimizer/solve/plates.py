@@ -21,11 +21,11 @@ from optimizer.formulation.task import Demand
 from optimizer.mechanics.plates import Plates
 from optimizer.mechanics.shapes import fitted
 from optimizer.numerics.arrays import Complex, Real, mapped
-from optimizer.program.cuts.optimum import Found, Unkept
+from optimizer.program.cuts.optimum import CertifiedOptimum, Unkept
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import Optima, optima
-from optimizer.program.methods.plate_sizes import Cut, one_size, total_mass, unlike
+from optimizer.program.methods.plate_sizes import Cut, equal_sizes, total_mass, unlike
 from optimizer.program.methods.rounding import dust
 from optimizer.program.methods.symmetry import symmetric
 from optimizer.program.optimum import solution
@@ -55,7 +55,7 @@ _ROOM_TO_BE_ALIKE = (0.999, 0.99, 0.9)
 
 def cut_optimum(
     machine: Machine, cut: Plates, program: Problem, statement: Statement, wanted: Demand, solver: Solver
-) -> Found | Unkept:
+) -> CertifiedOptimum | Unkept:
     """Certified unbalances that are cut from plates, of a problem that is a cone program without a budget.
 
     Parameters
@@ -68,22 +68,22 @@ def cut_optimum(
     stated, every = statement.alone(), np.ones(len(machine.webs), bool)
     whole = within_reach(stated, solver)
     task = _Task(machine, wanted, program.symmetric, whole, cut, solver, wanted.relative_gap, every)
-    found = task.optimum(end)
+    outcome = task.optimum(end)
     if whole is not stated:
         statement = replace(statement, limits=mapped(whole.limits, lambda array: array[0]))
-    return solution(program, statement, found, found.unbalance[0], wanted.least_mass)
+    return solution(program, statement, outcome, outcome.unbalance[0], wanted.least_mass)
 
 
 class _Attempt(NamedTuple):
     """What is found of a cut, and what may be claimed of it."""
 
-    found: Optima
+    optima: Optima
     verdict: Verdict
 
     @property
     def status(self) -> str:
         """That of an answer; what keeps no ceiling is the best there is."""
-        return "infeasible" if self.found.unreachable[0] else str(self.verdict.status[0])
+        return "infeasible" if self.optima.unreachable[0] else str(self.verdict.status[0])
 
     @property
     def gap(self) -> float:
@@ -132,17 +132,17 @@ class _Task:
         nodes, tried = self.guessed(first_nodes(self.plates)), list[_Round]()
         for _ in range(_ROUNDS):
             tried.append(self.round(nodes))
-            found = self.lightest(tried)
-            if not self.too_heavy(found):
-                best = self.judged_alike(self.without_dust(found, nodes), nodes)
+            outcome = self.lightest(tried)
+            if not self.too_heavy(outcome):
+                best = self.judged_alike(self.without_dust(outcome, nodes), nodes)
                 if best.status != "inaccurate":
-                    return best.found
+                    return best.optima
             if thread_time() > end:
                 break
             nodes = closer_nodes(nodes, self.opened(tried[-1].called_for))
         # of those that are equally near the last
         attempts = (*reversed(tried), self.lightest(tried))
-        return min((self.judged(each.proven, each.cut) for each in attempts), key=lambda best: best.gap).found
+        return min((self.judged(each.proven, each.cut) for each in attempts), key=lambda best: best.gap).optima
 
     def opened(self, u: Complex) -> Real:
         """Half-angles (P,) of what is cut for unbalances (K,), of alike webs alike, rad."""
@@ -171,13 +171,15 @@ class _Task:
         *_, last = tried
         if not self.wanted.least_mass or last.proven.unreachable[0]:
             return last
-        proven = max((each.proven for each in reversed(tried)), key=lambda each: float(each.mass_lower_bound[0]))
-        optima = [each.cut for each in tried if self._keeps(proven, each.cut)]
+        proven = max(
+            (attempt.proven for attempt in reversed(tried)), key=lambda attempt: float(attempt.mass_lower_bound[0])
+        )
+        optima = [attempt.cut for attempt in tried if self._keeps(proven, attempt.cut)]
         return _Round(proven, self._between(optima), last.called_for) if optima else last
 
     def _between(self, optima: Sequence[Cut]) -> Cut:
         """The lightest of some cuts and of what lies between it and them: objective and mass are convex."""
-        lightest = min(optima, key=lambda each: each.mass)
+        lightest = min(optima, key=lambda cut: cut.mass)
         for other in optima:
             u = lightest.unbalance + _PARTS[:, None] * (other.unbalance - lightest.unbalance)
             angle = self.plates.opened(np.abs(u[:, self.plates.webs]))
@@ -196,37 +198,37 @@ class _Task:
         laid = pieces(self.whole, self.plates, webs, self.left)
         return laid, optima(laid.program, self.relative_gap, self.wanted.least_mass, self.solver)
 
-    def without_dust(self, found: _Round, nodes: Real) -> _Round:
+    def without_dust(self, outcome: _Round, nodes: Real) -> _Round:
         """The same with webs left empty that carry next to nothing, where what is proven of all holds for it."""
         left, allowed = self.left, min(self.relative_gap, OPTIMUM_SHARE)
-        while not found.proven.unreachable[0]:
-            empty = dust(self._masses(found.cut))
+        while not outcome.proven.unreachable[0]:
+            empty = dust(self._masses(outcome.cut))
             if not empty.any():
                 break
-            rounded = found._replace(cut=emptied(self.whole, self.plates, found.cut, empty))
-            if self._optimal(found.proven, rounded.cut) is not None:
-                found, left = rounded, left & ~empty
+            rounded = outcome._replace(cut=emptied(self.whole, self.plates, outcome.cut, empty))
+            if self._optimal(outcome.proven, rounded.cut) is not None:
+                outcome, left = rounded, left & ~empty
                 continue
             left, share, laid = left & ~empty, _WITH_ROOM * allowed, nodes
             optima = list[Cut]()
             for _ in range(_CLEARINGS):
                 other = replace(self, left=left, relative_gap=share).round(laid)
-                optima += [other.cut] if self._keeps(found.proven, other.cut) else []
-                cleared = found._replace(cut=self._between(optima) if optima else other.cut)
-                if self._optimal(found.proven, cleared.cut) is not None:
-                    found = cleared
+                optima += [other.cut] if self._keeps(outcome.proven, other.cut) else []
+                cleared = outcome._replace(cut=self._between(optima) if optima else other.cut)
+                if self._optimal(outcome.proven, cleared.cut) is not None:
+                    outcome = cleared
                     break
                 # the smallest objective of these webs is larger: what it is above is no longer to be spent on mass
-                over = float(self.whole.objective(other.cut.unbalance)[0] - self._largest(found.proven))
+                over = float(self.whole.objective(other.cut.unbalance)[0] - self._largest(outcome.proven))
                 if over > 0.0:
                     share -= max(1.01 * over / float(self.size[0]), (1.0 - _WITH_ROOM) * allowed)
                 if share <= 0.0:
-                    return found
+                    return outcome
                 # what is too heavy is so because the nodes lie about other plates
                 laid = closer_nodes(laid, self.opened(other.called_for))
             else:
                 break
-        return found
+        return outcome
 
     def _masses(self, cut: Cut) -> Real:
         """(K,) kg."""
@@ -234,45 +236,45 @@ class _Task:
         mass[self.plates.webs] = self.plates.mass(cut.angle)
         return mass
 
-    def too_heavy(self, found: _Round) -> bool:
+    def too_heavy(self, outcome: _Round) -> bool:
         """Whether what would be cut is not the lightest, so that it need not be judged."""
-        if not self.wanted.least_mass or found.proven.unreachable[0]:
+        if not self.wanted.least_mass or outcome.proven.unreachable[0]:
             return False
-        mass = found.cut.mass
+        mass = outcome.cut.mass
         size = np.maximum(mass, _NEARER * mass_resolution(self.whole, self.size[..., None])[0])
-        return bool(mass - found.proven.mass_lower_bound[0] > MASS_GAP * size)
+        return bool(mass - outcome.proven.mass_lower_bound[0] > MASS_GAP * size)
 
-    def judged_alike(self, found: _Round, nodes: Real) -> _Attempt:
+    def judged_alike(self, outcome: _Round, nodes: Real) -> _Attempt:
         """What is cut, with plates opened alike where what is proven still holds."""
-        best = self._judged_alike(found, nodes)
-        if best.status != "optimal" or not unlike(self.plates, self.opened(best.found.unbalance[0])):
+        best = self._judged_alike(outcome, nodes)
+        if best.status != "optimal" or not unlike(self.plates, self.opened(best.optima.unbalance[0])):
             return best
         for share in _ROOM_TO_BE_ALIKE:
             # the least mass spends all that an optimum may be off, so that none is left for plates to be alike
             task = replace(self, relative_gap=share * min(self.relative_gap, OPTIMUM_SHARE))
-            other = self._judged_alike(found._replace(cut=task.round(nodes).cut), nodes)
-            if other.status == "optimal" and not unlike(self.plates, self.opened(other.found.unbalance[0])):
+            other = self._judged_alike(outcome._replace(cut=task.round(nodes).cut), nodes)
+            if other.status == "optimal" and not unlike(self.plates, self.opened(other.optima.unbalance[0])):
                 return other
         return best
 
-    def _judged_alike(self, found: _Round, nodes: Real) -> _Attempt:
-        cut = self._alike(found, nodes)
+    def _judged_alike(self, outcome: _Round, nodes: Real) -> _Attempt:
+        cut = self._alike(outcome, nodes)
         # those that are chosen anew for it may be next to nothing
-        alike_first = cut is not found.cut and not dust(self._masses(cut)).any()
-        for each in (cut, found.cut) if alike_first else (found.cut,):
-            for equal in one_size(self.whole, self.plates, each):
-                optimum = self._optimal(found.proven, equal)
+        alike_first = cut is not outcome.cut and not dust(self._masses(cut)).any()
+        for cut_of in (cut, outcome.cut) if alike_first else (outcome.cut,):
+            for equal in equal_sizes(self.whole, self.plates, cut_of):
+                optimum = self._optimal(outcome.proven, equal)
                 if optimum is not None:
                     return optimum
-        return self.judged(found.proven, found.cut)
+        return self.judged(outcome.proven, outcome.cut)
 
-    def _alike(self, found: _Round, nodes: Real) -> Cut:
-        proven = found.proven
+    def _alike(self, outcome: _Round, nodes: Real) -> Cut:
+        proven = outcome.proven
         if proven.unreachable[0]:
-            return found.cut
+            return outcome.cut
         optimum = float(proven.lower_bound[0]), self._largest(proven)
         least_mass = float(proven.mass_lower_bound[0]) if self.wanted.least_mass else np.inf
-        return alike(self.whole, self.plates, nodes, found.cut, optimum, least_mass)
+        return alike(self.whole, self.plates, nodes, outcome.cut, optimum, least_mass)
 
     def _largest(self, proven: Optima) -> float:
         """Largest objective of an optimum, of which what is proven of the mass holds."""
@@ -291,5 +293,5 @@ class _Task:
         machine = fitted(self.machine, cut.angle)
         stated = limits(machine, (1,))
         program = replace(self.whole, limits=limits_of_cut(stated, self.whole.limits, self.plates, cut.angle))
-        found = replace(proven, unbalance=cut.unbalance[None])
-        return _Attempt(found, judgement(machine, self.wanted, program, found).verdict)
+        outcome = replace(proven, unbalance=cut.unbalance[None])
+        return _Attempt(outcome, judgement(machine, self.wanted, program, outcome).verdict)

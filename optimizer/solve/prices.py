@@ -5,9 +5,9 @@ from typing import NamedTuple, get_args
 
 import numpy as np
 
-from optimizer.formulation.formulate import RESPONSES, given_ceilings, limited, weights
+from optimizer.formulation.formulate import RESPONSES, limited, objective_ceilings, weights
 from optimizer.formulation.goals import Limited
-from optimizer.formulation.limits import MACHINE_LIMITS, TOUCHED, given_limits
+from optimizer.formulation.limits import MACHINE_LIMITS, TOUCHED, limit_sizes
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.sensitivity import ShadowPrices
 from optimizer.responses.response import Response
@@ -53,7 +53,7 @@ def touched_limits(
     mass_kg, unbalance : (K,) kg and kg m, of the counterweights.
     """
     peaks = (each.to(unbalance).peak * omega_squared for each, _ in limited(responses, objective))
-    given = zip(given_ceilings(objective), peaks, strict=True)
+    given = zip(objective_ceilings(objective), peaks, strict=True)
     return (
         *touched_by_mass(machine, mass_kg),
         *(each.limit for (each, allowed), peak in given if peak >= allowed * (1.0 - TOUCHED)),
@@ -130,7 +130,7 @@ def of_limits(machine: Machine, prices: ShadowPrices) -> Iterator[Priced]:
     """What every limit of mass and place costs that is given, web by web, then of the machine."""
     of_webs = {
         name: (limit.unit, size.tolist(), limit.price(machine, prices).tolist())
-        for name, (limit, size) in given_limits(machine).items()
+        for name, (limit, size) in limit_sizes(machine).items()
     }
     for k, web in enumerate(machine.webs):
         if web.fixed is not None:
@@ -150,7 +150,7 @@ def _of_ceilings(objective: Objective, prices: Real, omega_squared: float) -> It
     ----------
     prices : (M,) of the M ceilings of the first order alone, whatever else a program limits.
     """
-    for (each, allowed), price in zip(given_ceilings(objective), prices.tolist(), strict=True):
+    for (each, allowed), price in zip(objective_ceilings(objective), prices.tolist(), strict=True):
         # an objective over omega^2 per ceiling over omega^2
         yield Priced(each.limit, None, price / omega_squared, allowed, _per(each.unit))
 

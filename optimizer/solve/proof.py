@@ -131,20 +131,20 @@ class PhysicalProofs(NamedTuple):
     mass: PhysicalMultipliers
 
 
-def physical_proofs(statement: Statement, found: Optima, omega_squared: Real) -> PhysicalProofs:
+def physical_proofs(statement: Statement, optima: Optima, omega_squared: Real) -> PhysicalProofs:
     """Those of N programs, one leading axis (N,)."""
-    bounds: dict[Bounded, Multipliers] = {"objective": found.multipliers, "mass": found.mass_multipliers}
+    bounds: dict[Bounded, Multipliers] = {"objective": optima.multipliers, "mass": optima.mass_multipliers}
     return PhysicalProofs(*physical_bounds(statement, bounds, omega_squared))
 
 
 def named_proofs(
-    statement: Statement, found: Optima, proofs: PhysicalProofs, omega_squared: Real, least_mass: bool
+    statement: Statement, optima: Optima, proofs: PhysicalProofs, omega_squared: Real, least_mass: bool
 ) -> Iterator[Proofs]:
     """The proofs of N programs, one leading axis (N,), one by one."""
-    for n, unreachable in enumerate(found.unreachable.tolist()):
+    for n, unreachable in enumerate(optima.unreachable.tolist()):
         if unreachable:
             alone = statement.chosen(n)
-            against = conflict(alone, found.conflict.chosen(n), omega_squared[n])
+            against = conflict(alone, optima.conflict.chosen(n), omega_squared[n])
             yield Proofs(None, None, named_conflict(alone, against))
         else:
             of_mass = named(statement, proofs.mass.chosen(n)) if least_mass else None

@@ -9,7 +9,7 @@ from optimizer.formulation.balance_shafts import Fitted
 from optimizer.formulation.simulation import Prepared
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.certificate import Multipliers as MultipliersOfProgram
-from optimizer.program.cuts.optimum import Found
+from optimizer.program.cuts.optimum import CertifiedOptimum
 from optimizer.program.cuts.proof import Proof
 from optimizer.solve.proof import (
     Bounded,
@@ -86,14 +86,14 @@ class Proofs(NamedTuple):
     mass: PhysicalMultipliers | None  # None where the least mass was not sought
 
     @classmethod
-    def of(cls, found: Found, omega_squared: float, speeds: Speeds) -> "Proofs":
+    def of(cls, optimum: CertifiedOptimum, omega_squared: float, speeds: Speeds) -> "Proofs":
         """Those of what was found.
 
         Parameters
         ----------
         speeds : omega^2 by scenario, that ceilings are over.
         """
-        proof, of_mass = found.proof, found.mass_proof
+        proof, of_mass = optimum.proof, optimum.mass_proof
         if of_mass is not None and of_mass.statement is proof.statement and of_mass.laid is proof.laid:
             bounds: dict[Bounded, MultipliersOfProgram] = {"objective": proof.multipliers, "mass": of_mass.multipliers}
             return cls(*physical_bounds(proof.with_pieces, bounds, omega_squared, speeds))
@@ -102,12 +102,12 @@ class Proofs(NamedTuple):
             return cls(in_units, None)
         return cls(in_units, physical(of_mass.with_pieces, of_mass.multipliers, "mass", omega_squared, speeds))
 
-    def named(self, found: Found) -> Multipliers:
+    def named(self, optimum: CertifiedOptimum) -> Multipliers:
         """As an answer prints them."""
         of_mass = None
-        if self.mass is not None and found.mass_proof is not None:
-            of_mass = _named(found.mass_proof, self.mass)
-        return Multipliers(objective=_named(found.proof, self.objective), mass=of_mass)
+        if self.mass is not None and optimum.mass_proof is not None:
+            of_mass = _named(optimum.mass_proof, self.mass)
+        return Multipliers(objective=_named(optimum.proof, self.objective), mass=of_mass)
 
 
 def _named(proof: Proof, in_units: PhysicalMultipliers) -> BoundMultipliers:

@@ -11,7 +11,7 @@ import numpy as np
 from optimizer.choices.discrete.search import EXHAUSTED
 from optimizer.choices.feasible_set import SearchResult
 from optimizer.formulation.task import Demand
-from optimizer.program.cuts.optimum import Found
+from optimizer.program.cuts.optimum import CertifiedOptimum
 from optimizer.program.verdict import CONTRADICTED, Verdict
 from optimizer.solve.cutting_plane_rounds import Ended
 from schemas.answer.answers import GoalReached
@@ -44,7 +44,7 @@ _AMPLE = (
 )
 _NONE = "Proven infeasible: no set of counterweights keeps the ceilings, since {proof}."
 _BY = {True: "all were compared", False: "branch and bound excludes all of them"}
-_NONE_FOUND = (
+_NOTHING_FEASIBLE = (
     "The search ended before it found a set of counterweights that keeps the ceilings or proved that none does. The"
     " closest set is shown."
 )
@@ -55,40 +55,42 @@ _EARLIER = (
 _IN_ORDER = "Proven optimal: every goal is certified in its order, and keeps what those before it allow."
 
 
-def ended(found: SearchResult | None) -> str:
+def ended(result: SearchResult | None) -> str:
     """What is said of the lightest set that keeps the ceilings; None: none of any masses does."""
-    if found is None:
+    if result is None:
         return _NONE.format(proof="no free masses do")
-    if not found.kept:
-        return _NONE.format(proof=_BY[found.method == EXHAUSTED]) if found.lower_bound == np.inf else _NONE_FOUND
-    if found.ended is not None:
-        return _WHY[found.ended]
-    return _LIGHTEST if found.proven else _TREE
+    if not result.feasible:
+        return (
+            _NONE.format(proof=_BY[result.method == EXHAUSTED]) if result.lower_bound == np.inf else _NOTHING_FEASIBLE
+        )
+    if result.ended is not None:
+        return _WHY[result.ended]
+    return _LIGHTEST if result.proven else _TREE
 
 
-def told_status(found: SearchResult, status: str, reason: str, proven: bool) -> tuple[str, str]:
+def search_status(result: SearchResult, status: str, reason: str, proven: bool) -> tuple[str, str]:
     """What may be said of a set, from what the search and the verdict say."""
     if not proven:
         return status, reason
-    if not found.kept:
-        if found.lower_bound == np.inf:
-            return "infeasible", _NONE.format(proof=_BY[found.method == EXHAUSTED])
-        return "inaccurate", _NONE_FOUND
+    if not result.feasible:
+        if result.lower_bound == np.inf:
+            return "infeasible", _NONE.format(proof=_BY[result.method == EXHAUSTED])
+        return "inaccurate", _NOTHING_FEASIBLE
     if status == "optimal":
-        return status, _ALL if found.proven else _TREE
-    if found.ended is not None:
-        return status, _WHY[found.ended]
+        return status, _ALL if result.proven else _TREE
+    if result.ended is not None:
+        return status, _WHY[result.ended]
     return status, reason
 
 
-def told_ample(reason: str, found: SearchResult, of_any: float) -> str:
+def ample_reason(reason: str, result: SearchResult, of_any: float) -> str:
     """The same with what is said of a choice of which nothing is proven but what holds for any masses at any angles.
 
     Parameters
     ----------
     of_any : lower bound of these, over omega^2.
     """
-    return reason + _AMPLE if reason in _WHY.values() and not found.lower_bound > of_any else reason
+    return reason + _AMPLE if reason in _WHY.values() and not result.lower_bound > of_any else reason
 
 
 class SearchProof(NamedTuple):
@@ -108,7 +110,7 @@ class SearchProof(NamedTuple):
 
 
 def status_of(
-    found: Found, judged: Verdict, wanted: Demand, search: SearchProof | None, allowance: float
+    optimum: CertifiedOptimum, judged: Verdict, wanted: Demand, search: SearchProof | None, allowance: float
 ) -> tuple[str, str]:
     """The status and a sentence why.
 
@@ -117,13 +119,13 @@ def status_of(
     allowance : of the last goal, for what comes after it.
     """
     status, reason = str(judged.status.item()), str(judged.reason.item())
-    if found.timed_out and status != "optimal" and reason != CONTRADICTED:
+    if optimum.timed_out and status != "optimal" and reason != CONTRADICTED:
         reason = f"The time limit of {wanted.time_limit_s:g} s ended the search. {reason}"
     if search is not None:
         proven = search.bounds is None or not np.isnan(judged.lower_bound[0])
-        status, reason = told_status(search.ended, status, reason, proven)
+        status, reason = search_status(search.ended, status, reason, proven)
         if search.bounds is not None:
-            reason = told_ample(reason, search.ended, found.proof.bound)
+            reason = ample_reason(reason, search.ended, optimum.proof.bound)
         if status == "optimal" and not search.closed:
             return "inaccurate", _EARLIER
     if status == "optimal" and (allowance > 0.0 or (search is not None and search.levels)):

@@ -16,7 +16,7 @@ import numpy as np
 
 from optimizer.errors import MissingInput
 from optimizer.formulation.balance_shafts import DesignSpace
-from optimizer.formulation.formulate import counted, given_ceilings, responses, weights
+from optimizer.formulation.formulate import counted, objective_ceilings, responses, weights
 from optimizer.formulation.goals import Case, Goals, formulate
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Demand, Task
@@ -27,7 +27,7 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.registry import prepare
 from optimizer.outputs.requirements import effects_of_objective, missing
 from optimizer.program.cuts.cut import EXACT, Scatter
-from optimizer.program.cuts.optimum import Found, Unkept
+from optimizer.program.cuts.optimum import CertifiedOptimum, Unkept
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.optimum import cone_program, optimum
 from optimizer.program.reference.solver import Solver
@@ -109,14 +109,14 @@ class MachineOfCase:
         """The forces of its rows over the turn."""
         return whole_turn_of(self.scene, self.space.objective)
 
-    def case(self, known: Sequence[Real] = ()) -> Case:
+    def case(self, corners: Sequence[Real] = ()) -> Case:
         """What the program asks of it, with the masses as they should be or with changes of these signs (rows,)."""
         variants = tuple(
             tuple(
-                replace(each, baseline=each.baseline + changed(part, signs, self.share))
-                for each, part in zip(self.nominal, self.parts, strict=True)
+                replace(response, baseline=response.baseline + changed(part, signs, self.share))
+                for response, part in zip(self.nominal, self.parts, strict=True)
             )
-            for signs in known
+            for signs in corners
         )
         turn = (self.turn, self.scene.laden) if self.space.objective.of_the_revolution else None
         masses = self.share if self.scatters else 0.0
@@ -145,7 +145,7 @@ class Robust:
                 scene.simulated.join(machine.scene.simulated, "scenarios")
         self._until = time.thread_time() + wanted.time_limit_s
         #: signs of the changes of masses that are known of every machine
-        self._known: list[list[Real]] = [[] for _ in self.machines]
+        self._signs: list[list[Real]] = [[] for _ in self.machines]
         if self.scatters:
             self.learnt(np.zeros(len(self.space.machine.webs), complex))
 
@@ -163,9 +163,9 @@ class Robust:
         """What is left of the time limit."""
         return max(self._until - time.thread_time(), 0.0)
 
-    def asked(self) -> Goals:
+    def goals(self) -> Goals:
         """The program with the changes of masses that are known."""
-        cases = [machine.case(known) for machine, known in zip(self.machines, self._known, strict=True)]
+        cases = [machine.case(signs) for machine, signs in zip(self.machines, self._signs, strict=True)]
         (machine, objective), fidelity = self.space, self.task.fidelity
         return formulate(machine, objective, cases, self.scene.omega_squared, fidelity, self.scatter, self.scatters)
 
@@ -173,32 +173,32 @@ class Robust:
         """Whether counterweights (K,) have shown changes of masses that are worse than those known before."""
         if not self.scatters:
             return False
-        new = [list(self._worse(machine, known, u)) for machine, known in zip(self.machines, self._known, strict=True)]
-        for known, more in zip(self._known, new, strict=True):
+        new = [list(self._worse(machine, known, u)) for machine, known in zip(self.machines, self._signs, strict=True)]
+        for known, more in zip(self._signs, new, strict=True):
             known += more
         return any(new)
 
-    def _worse(self, machine: MachineOfCase, known: Sequence[Real], u: Complex) -> Iterator[Real]:
-        found: list[Real] = []
+    def _worse(self, machine: MachineOfCase, signs: Sequence[Real], u: Complex) -> Iterator[Real]:
+        additions: list[Real] = []
         for measure in self._measures if machine.scatters else ():
-            corners, so_far = machine.corners(measure), [*known, *found]
+            corners, so_far = machine.corners(measure), [*signs, *additions]
             size = machine.sizes(measure, corners, u)
             if not so_far or np.max(size) > (1.0 + _ALIKE) * np.max(machine.sizes(measure, np.stack(so_far), u)):
-                found.append(corners[np.argmax(size)])
-        yield from found
+                additions.append(corners[np.argmax(size)])
+        yield from additions
 
-    def solved(self, solver: Solver) -> tuple[Goals, Found | Unkept]:
+    def solved(self, solver: Solver) -> tuple[Goals, CertifiedOptimum | Unkept]:
         """The program with all changes of masses that matter, and its proof."""
         gap, least = self.wanted.relative_gap, self.wanted.least_mass
         for _ in range(MOST_ROUNDS):
-            asked = self.asked()
+            asked = self.goals()
             found = self._cut(asked.program, solver) or optimum(asked.program, gap, least, solver, self.left_s)
             if isinstance(found, Unkept) or found.timed_out or not self.learnt(found.point.unbalance):
                 return asked, found
         # judged by all that is known: the gap tells what is left open
-        return self.asked(), found
+        return self.goals(), found
 
-    def _cut(self, program: Problem, solver: Solver) -> Found | Unkept | None:
+    def _cut(self, program: Problem, solver: Solver) -> CertifiedOptimum | Unkept | None:
         """The optimum of a cone program of plates; None of other problems.
 
         A budget holds of what is cut and not of its tangents, by which it is found here.
@@ -210,13 +210,13 @@ class Robust:
         return cut_optimum(self.space.machine, cut, program, statement, self.wanted, solver)
 
 
-def _scenarios(task: Task, given: Prepared, share: float) -> Iterator[MachineOfCase]:
+def _scenarios(task: Task, nominal: Prepared, share: float) -> Iterator[MachineOfCase]:
     objective = task.objective
     for name, machine, weight, changes in task.scenarios:
         lacking = list(missing(machine, objective))
         if lacking:
             raise MissingInput(FieldProblem(changes, f"{pointer(path)}: {message}") for path, message in lacking)
-        scene = prepare(given.request, ("residual",), effects_of_objective(objective), (), machine)
+        scene = prepare(nominal.request, ("residual",), effects_of_objective(objective), (), machine)
         yield MachineOfCase(DesignSpace(machine, objective), replace(scene, objective=objective), name, weight, share)
 
 
@@ -230,6 +230,6 @@ def _measures(task: Task) -> Iterator[Measure]:
     for r, name in enumerate(names):
         if wanted[name] > 0:
             yield Measure(r, across.x, across.y)
-    for ceiling, _ in given_ceilings(objective):
+    for ceiling, _ in objective_ceilings(objective):
         response = names.index(ceiling.response.partition(":")[0])
         yield Measure(response, float(ceiling.axis != "y"), float(ceiling.axis != "x"))

@@ -15,7 +15,7 @@ from optimizer.formulation.task import Task
 from optimizer.numerics.arrays import Complex
 from optimizer.program.cuts.brackets import Brackets
 from optimizer.program.cuts.cut import Quantity
-from optimizer.program.cuts.optimum import Found, Unkept
+from optimizer.program.cuts.optimum import CertifiedOptimum, Unkept
 from optimizer.program.optimum import optimum
 from optimizer.program.reference.solver import Solver
 from optimizer.responses.curve import TurnResponse
@@ -54,23 +54,23 @@ def best_of_any_mass(task: Task, scene: Prepared, solver: Solver, in_full: bool 
     return _beside_nominal(robust, asked, told, solver) if task.robust else told
 
 
-def _beside_nominal(robust: Robust, asked: Goals, told: Solution, solver: Solver) -> Solution:
+def _beside_nominal(robust: Robust, goals: Goals, solution: Solution, solver: Solver) -> Solution:
     """The same with the worst case, and what it costs beside the optimum of the machine as it is given."""
     task, scene = robust.task, robust.scene
     best, late = _nominal_optimum(robust, solver)
     if best is None:
-        return with_worst_case(robust, told, None, late)
+        return with_worst_case(robust, solution, None, late)
     # of the masses that are printed, like every figure
-    task, scene, asked, mass, angle = cut_plates(task, scene, asked, best.point.unbalance, best.limits)
-    if asked.program.plates is not None:
-        best = best.within(asked.program.limits)
+    task, scene, goals, mass, angle = cut_plates(task, scene, goals, best.point.unbalance, best.limits)
+    if goals.program.plates is not None:
+        best = best.within(goals.program.limits)
     u = unbalance(mass, angle, best.limits.radius)
     return with_worst_case(
-        robust, told, u, late, _proof_of(scene, best, chosen(task.machine, task.objective, mass, angle))
+        robust, solution, u, late, _proof_of(scene, best, chosen(task.machine, task.objective, mass, angle))
     )
 
 
-def _proof_of(scene: Prepared, best: Found, shown: Fitted) -> dict[str, object]:
+def _proof_of(scene: Prepared, best: CertifiedOptimum, shown: Fitted) -> dict[str, object]:
     """The best counterweights of the machine as it is given, and of one goal what is proven of them."""
     fields: dict[str, object] = {
         "nominal_counterweights": shown.counterweights,
@@ -86,7 +86,7 @@ def _proof_of(scene: Prepared, best: Found, shown: Fitted) -> dict[str, object]:
 
 
 def with_worst_case(
-    robust: Robust, told: Solution, nominal: Complex | None, late: bool, proof: Mapping[str, object] = _NO_PROOF
+    robust: Robust, solution: Solution, nominal: Complex | None, late: bool, proof: Mapping[str, object] = _NO_PROOF
 ) -> Solution:
     """What is told of counterweights, with what the worst case costs.
 
@@ -96,10 +96,12 @@ def with_worst_case(
     late : the limit of time left them open.
     proof : fields of the price that prove the nominal optimum.
     """
-    u = told.unbalance
+    u = solution.unbalance
     price = PriceOfRobustness.model_validate({**_price(robust, u, nominal), **proof})
-    worst = {"worst_case": _worst_case(robust, u, told.certificate.objective), "price_of_robustness": price}
-    return replace(told, reason=f"{told.reason}{_NO_PRICE if late else ''}", fields={**told.fields, **worst})
+    worst = {"worst_case": _worst_case(robust, u, solution.certificate.objective), "price_of_robustness": price}
+    return replace(
+        solution, reason=f"{solution.reason}{_NO_PRICE if late else ''}", fields={**solution.fields, **worst}
+    )
 
 
 def nothing_off(task: Task, scene: Prepared, u: Complex, objective: float) -> dict[str, object]:
@@ -162,15 +164,15 @@ def _bearing_responses(machine: MachineOfCase, fidelity: Fidelity) -> Iterator[T
     yield from bearing_responses(machine.space.machine, fidelity, machine.turn, machine.scene.laden)
 
 
-def _nominal_optimum(robust: Robust, solver: Solver) -> tuple[Found | None, bool]:
+def _nominal_optimum(robust: Robust, solver: Solver) -> tuple[CertifiedOptimum | None, bool]:
     """The best counterweights of the machine as it is given, if any keep its ceilings; whether the limit of time,
     of which the search has what is left, leaves that open."""
     nominal, wanted, left = _nominal(robust), robust.wanted, robust.left_s
     if left == 0.0:
         return None, True
     found = optimum(nominal.program, wanted.relative_gap, wanted.least_mass, solver, left)
-    late = isinstance(found, Found) and found.timed_out
-    return found if isinstance(found, Found) and not late else None, late
+    late = isinstance(found, CertifiedOptimum) and found.timed_out
+    return found if isinstance(found, CertifiedOptimum) and not late else None, late
 
 
 def _price(robust: Robust, u: Complex, best: Complex | None) -> dict[str, float | None]:
@@ -193,4 +195,4 @@ def _nominal(robust: Robust) -> Goals:
 def _objective(robust: Robust, u: Complex) -> float:
     """The last goal in the worst case, with any counterweights."""
     robust.learnt(u)
-    return float(robust.asked().program.values(u, _CLOSE).goals[-1]) * robust.scene.omega_squared
+    return float(robust.goals().program.values(u, _CLOSE).goals[-1]) * robust.scene.omega_squared

@@ -288,7 +288,7 @@ OUTPUT_COLUMNS: dict[str, tuple[Column, ...]] = {
 }
 
 
-class OfEach(NamedTuple):
+class PartColumns(NamedTuple):
     """Columns that an output has for each of some parts of the machine; the name of the part follows after a dot."""
 
     parts: Literal["throws", "bearings"]
@@ -296,16 +296,16 @@ class OfEach(NamedTuple):
 
 
 #: what some come to besides, part by part
-COLUMNS_OF_EACH: dict[str, OfEach] = {
-    "balance_rate": OfEach(
+COLUMNS_OF_PARTS: dict[str, PartColumns] = {
+    "balance_rate": PartColumns(
         "throws",
         (
             Column("balance_rate", "number", None, "share of the rotating unbalance of this throw that is balanced"),
             Column("balance_rate_sideways", "number", None, "what its counterweights do across the crank, as a share"),
         ),
     ),
-    "loads": OfEach("bearings", (Column("bearing_weight_N", "number", "N", "weight on this bearing"),)),
-    "main_bearings": OfEach(
+    "loads": PartColumns("bearings", (Column("bearing_weight_N", "number", "N", "weight on this bearing"),)),
+    "main_bearings": PartColumns(
         "bearings", (Column("bearing_peak_N", "number", "N", "largest load of this bearing, with the counterweights"),)
     ),
 }

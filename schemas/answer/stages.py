@@ -6,7 +6,7 @@ from pydantic import Field
 
 from schemas.base.model import Model
 from schemas.base.quantities import Degrees, KilogramMetres, Metres
-from schemas.base.units import Told
+from schemas.base.units import AnswerUnit
 
 
 class Acting(Model):
@@ -14,7 +14,7 @@ class Acting(Model):
 
     quantity: Literal["force", "moment"] = Field(description="which of the two", examples=["force"])
     order: int = Field(description="multiple of the shaft speed", examples=[1])
-    frequency_Hz: Annotated[float, Told("Hz")] = Field(description="its frequency", examples=[8.333])
+    frequency_Hz: Annotated[float, AnswerUnit("Hz")] = Field(description="its frequency", examples=[8.333])
     unit: Literal["N", "N m"] = Field(description="unit of peak and minor", examples=["N"])
     peak: float = Field(description="major semi-axis, largest over a revolution", examples=[9994.7])
     minor: float = Field(description="minor semi-axis", examples=[0.0])

@@ -10,8 +10,8 @@ from schemas.base.responses import RESPONSES, ceilings
 
 Groups = dict[str, tuple[str, ...]]
 
-_WEIGHTS = tuple(field for each in RESPONSES.values() for field in (each.weight, *each.parameters))
-_CEILINGS = tuple(each.field for each in sorted(ceilings(), key=lambda each: each.axis is not None))
+_WEIGHTS = tuple(field for ceiling in RESPONSES.values() for field in (ceiling.weight, *ceiling.parameters))
+_CEILINGS = tuple(ceiling.field for ceiling in sorted(ceilings(), key=lambda ceiling: ceiling.axis is not None))
 
 _ROTOR: Groups = {
     "Machine": ("kind", "name", "description"),

@@ -82,18 +82,18 @@ def _collapsed(node: Schema) -> Schema:
     """The same schema, with as few alternatives as there can be."""
     inner = {key: _collapsed(node[key]) for key in ("items",) if key in node}
     options: list[Schema] = []
-    for one in _options(node):
+    for option in _options(node):
         # a unit may be said twice, of a quantity and of the quantity or null
-        options += [one] if one not in options else []
+        options += [option] if option not in options else []
     if options == [node]:
         return node | inner
     own = {key: value for key, value in node.items() if key not in ("anyOf", "oneOf")} | inner
-    plain = sorted((one for one in options if _plain(one)), key=lambda one: _TYPES.index(one["type"]))
-    others = [one for one in options if not _plain(one)]
+    plain = sorted((option for option in options if _plain(option)), key=lambda option: _TYPES.index(option["type"]))
+    others = [option for option in options if not _plain(option)]
     if not others and _joinable(plain):
         return own | _joined(plain)
-    null = [{"type": _NULL, "title": "None"}] if any(one["type"] == _NULL for one in plain) else []
-    values = [one for one in plain if one["type"] != _NULL]
+    null = [{"type": _NULL, "title": "None"}] if any(option["type"] == _NULL for option in plain) else []
+    values = [option for option in plain if option["type"] != _NULL]
     if _joinable(values):
         values = [{**_joined(values), "title": "One value"}]
     return {**own, "anyOf": [*values, *others, *null]}

@@ -17,7 +17,7 @@ _MOST = 50
 
 def line(model: BaseModel) -> str:
     """The answer on one line: its first figures and words, and of lists how much they hold."""
-    told = [f"{name}={_short(value)}" for name, value in _given(model)]
+    told = [f"{name}={_short(value)}" for name, value in _content(model)]
     return f"{type(model).__name__}({', '.join([*told[:_FIGURES], *(['...'] if len(told) > _FIGURES else [])])})"
 
 
@@ -37,11 +37,11 @@ def shown(model: BaseModel) -> str:
 
 
 def _fields(model: BaseModel) -> str:
-    rows = "".join(f"<tr><th>{escape(name)}</th><td>{_value(value)}</td></tr>" for name, value in _given(model))
+    rows = "".join(f"<tr><th>{escape(name)}</th><td>{_value(value)}</td></tr>" for name, value in _content(model))
     return f"<table>{rows}</table>"
 
 
-def _given(model: BaseModel) -> Iterator[tuple[str, object]]:
+def _content(model: BaseModel) -> Iterator[tuple[str, object]]:
     for name, value in model:
         if not (value is None or (isinstance(value, tuple | dict) and not value)):
             yield name, value
@@ -64,9 +64,9 @@ def _several(values: tuple[object, ...]) -> str:
         numbers = len(values) > 1 and all(isinstance(value, float | None) for value in values)
         return f"{len(values)} numbers" if numbers else ", ".join(map(_value, values))
     # a column for every field that one of them has
-    names = list(dict.fromkeys(chain.from_iterable((name for name, _ in _given(one)) for one in models)))
+    names = list(dict.fromkeys(chain.from_iterable((name for name, _ in _content(one)) for one in models)))
     head = "".join(f"<th>{escape(name)}</th>" for name in names)
-    rows = (dict(_given(one)) for one in models[:_MOST])
+    rows = (dict(_content(one)) for one in models[:_MOST])
     body = "".join(f"<tr>{''.join(f'<td>{_value(row.get(name, str()))}</td>' for name in names)}</tr>" for row in rows)
     more = f"<caption>{len(models)}, the first {_MOST} of them</caption>" if len(models) > _MOST else ""
     return f"<table>{more}<tr>{head}</tr>{body}</table>"

@@ -10,7 +10,7 @@ Schema = dict[str, Any]
 _NULL = {"type": "null"}
 
 
-def given(*names: str) -> Schema:
+def present(*names: str) -> Schema:
     """All of some fields are given."""
     return {"properties": {name: {"not": _NULL} for name in names}, "required": list(names)}
 
@@ -35,19 +35,19 @@ def when(condition: Schema, then: Schema, otherwise: Schema | None = None) -> li
     return [{"if": condition, "then": then, **({} if otherwise is None else {"else": otherwise})}]
 
 
-def either(one: str, *others: str) -> list[Schema]:
+def either(first: str, *others: str) -> list[Schema]:
     """Where the first field is given, the others are not."""
-    return when(given(one), absent(*others))
+    return when(present(first), absent(*others))
 
 
-def exactly_one(one: str, other: str) -> list[Schema]:
+def alternatives(first: str, second: str) -> list[Schema]:
     """One of two fields is given."""
-    return when(given(one), absent(other), given(other))
+    return when(present(first), absent(second), present(second))
 
 
-def together(one: str, other: str) -> list[Schema]:
+def together(first: str, second: str) -> list[Schema]:
     """Both of two fields are given, or none."""
-    return when(given(one), given(other), absent(other))
+    return when(present(first), present(second), absent(second))
 
 
 def conditions(*listed: list[Schema]) -> Schema:

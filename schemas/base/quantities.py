@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pydantic import Strict, StringConstraints
 
-from schemas.base.units import Told, Unit, between, non_negative, positive, symmetric
+from schemas.base.units import AnswerUnit, Unit, between, non_negative, positive, symmetric
 
 Name = Annotated[str, StringConstraints(min_length=1, max_length=64, pattern=r"^[^\x00-\x1f\x7f]+$")]
 
@@ -26,17 +26,17 @@ Flag = Annotated[bool, Strict()]
 Count = Annotated[int, Strict()]
 
 #: of answers
-Kilograms = Annotated[float, Told("kg")]
-Metres = Annotated[float, Told("m")]
-KilogramMetres = Annotated[float, Told("kg m")]
-Degrees = Annotated[float, Told("deg")]
-Newtons = Annotated[float, Told("N")]
-NewtonMetres = Annotated[float, Told("N m")]
-Seconds = Annotated[float, Told("s")]
-Milliseconds = Annotated[float, Told("ms")]
-MetresPerSecond = Annotated[float, Told("m/s")]
-MetresPerSquareSecond = Annotated[float, Told("m/s2")]
-Pascals = Annotated[float, Told("Pa")]
-Joules = Annotated[float, Told("J")]
-Watts = Annotated[float, Told("W")]
-KilogramSquareMetres = Annotated[float, Told("kg m2")]
+Kilograms = Annotated[float, AnswerUnit("kg")]
+Metres = Annotated[float, AnswerUnit("m")]
+KilogramMetres = Annotated[float, AnswerUnit("kg m")]
+Degrees = Annotated[float, AnswerUnit("deg")]
+Newtons = Annotated[float, AnswerUnit("N")]
+NewtonMetres = Annotated[float, AnswerUnit("N m")]
+Seconds = Annotated[float, AnswerUnit("s")]
+Milliseconds = Annotated[float, AnswerUnit("ms")]
+MetresPerSecond = Annotated[float, AnswerUnit("m/s")]
+MetresPerSquareSecond = Annotated[float, AnswerUnit("m/s2")]
+Pascals = Annotated[float, AnswerUnit("Pa")]
+Joules = Annotated[float, AnswerUnit("J")]
+Watts = Annotated[float, AnswerUnit("W")]
+KilogramSquareMetres = Annotated[float, AnswerUnit("kg m2")]

@@ -81,6 +81,6 @@ def first_of(rules: Iterable[Rule]) -> Iterator[Rule]:
         before = after
 
 
-def larger(one: Any, other: Any) -> Any:
+def larger(first: Any, second: Any) -> Any:
     """The larger of two finite numbers, or of each pair of two columns."""
-    return one * (one >= other) + other * (other > one)
+    return first * (first >= second) + second * (second > first)

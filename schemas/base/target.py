@@ -55,7 +55,7 @@ class Target:
     above: bool
     below: bool
 
-    def number(self, given: float | str | None) -> float | None:
+    def number(self, entry: float | str | None) -> float | None:
         """A value as it may stand in the field, in the unit of the field; its range is not looked at.
 
         Raises
@@ -63,18 +63,18 @@ class Target:
         ValueError
             if the field takes no such value.
         """
-        if given is None:
+        if entry is None:
             if not self.nullable:
                 raise ValueError("this field may not be null")
             return None
-        if isinstance(given, str):
+        if isinstance(entry, str):
             if not self.takes_text or self.unit is None:
                 raise ValueError("must be a number" + (f" in {self.unit}" if self.unit else ""))
-            value = parse_quantity(given, self.unit)
+            value = parse_quantity(entry, self.unit)
             if math.isinf(value):
                 raise ValueError("must be a finite number")
             return value
-        return float(given)
+        return float(entry)
 
     def rules(self, value: Any) -> Iterator[Rule]:
         """What a value, or each of a column, must keep; nan stands for null and breaks none of them."""

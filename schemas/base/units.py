@@ -113,8 +113,8 @@ class Unit:
         return {"anyOf": [number, text], "x-unit": self.symbol, "x-accepted-units": list(UNITS[self.symbol])}
 
 
-class Told(Unit):
-    """The same of a field of answers alone, which are told in numbers."""
+class AnswerUnit(Unit):
+    """The same of a field of answers alone, which are numbers."""
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return handler(source)

@@ -6,7 +6,7 @@ from typing import Annotated
 from pydantic import ConfigDict, Field, Strict
 
 from schemas.base.model import Model
-from schemas.base.presence import absent, conditions, exactly_one, given, when
+from schemas.base.presence import absent, alternatives, conditions, present, when
 from schemas.base.quantities import Force, Fraction, Length, Moment, Name, Position
 from schemas.base.rules import Rule, Ruled
 from schemas.base.units import Unit, between, non_negative
@@ -21,9 +21,12 @@ class Friction(Ruled):
     model_config = ConfigDict(
         json_schema_extra=conditions(
             when(
-                given("mechanical_efficiency"),
+                present("mechanical_efficiency"),
                 absent("reciprocating_force_N", "rotating_torque_Nm"),
-                {**absent("indicated_power_W"), "anyOf": [given("reciprocating_force_N"), given("rotating_torque_Nm")]},
+                {
+                    **absent("indicated_power_W"),
+                    "anyOf": [present("reciprocating_force_N"), present("rotating_torque_Nm")],
+                },
             )
         )
     )
@@ -65,7 +68,7 @@ class Friction(Ruled):
 class FlywheelData(Ruled):
     """What is known of the turning inertia: the irregularity to be held, or the inertia."""
 
-    model_config = ConfigDict(json_schema_extra=conditions(exactly_one("irregularity", "inertia_kg_m2")))
+    model_config = ConfigDict(json_schema_extra=conditions(alternatives("irregularity", "inertia_kg_m2")))
 
     irregularity: Annotated[float, Strict(), between(1e-6, 2.0)] | None = Field(
         None, description="range of the speed over its mean that is allowed", examples=[0.01]

@@ -6,7 +6,7 @@ from typing import Annotated
 from pydantic import ConfigDict, Field
 
 from schemas.base.model import Model
-from schemas.base.presence import conditions, exactly_one, given, when
+from schemas.base.presence import alternatives, conditions, present, when
 from schemas.base.quantities import Angle, Length, Mass, Name, Position
 from schemas.base.rules import REQUIRED, Rule, Ruled
 from schemas.base.units import Unit
@@ -32,7 +32,7 @@ class GivenCounterweight(_Weight, Ruled):
     model_config = ConfigDict(
         json_schema_extra={
             "anyOf": [{"required": ["web"]}, {"required": ["position_m", "radius_m"]}],
-            **conditions(exactly_one("web", "position_m"), when(given("position_m"), given("radius_m"))),
+            **conditions(alternatives("web", "position_m"), when(present("position_m"), present("radius_m"))),
         }
     )
 

@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import ConfigDict, Field
 
-from schemas.base.presence import absent, conditions, given, when
+from schemas.base.presence import absent, conditions, present, when
 from schemas.base.quantities import Angle, Pressure
 from schemas.base.rules import Path, Rule, Ruled, first_of
 from schemas.base.units import Unit, between
@@ -72,7 +72,7 @@ class PressureTrace(Ruled):
 class IndicatedPressure(Ruled):
     """Pressures of the sides of a piston over a cycle, in place of the cycle of four processes."""
 
-    model_config = ConfigDict(json_schema_extra=conditions(when(absent("head"), given("crank"))))
+    model_config = ConfigDict(json_schema_extra=conditions(when(absent("head"), present("crank"))))
 
     head: PressureTrace | None = Field(
         None,

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 from pydantic import ConfigDict, Field
 
 from schemas.base.model import Model
-from schemas.base.presence import conditions, given, when
+from schemas.base.presence import conditions, present, when
 from schemas.base.quantities import Angle, Fraction, Length, Mass, Name, Position
 from schemas.base.rules import REQUIRED, Rule, Ruled
 from schemas.base.units import Unit
@@ -27,7 +27,7 @@ class ConnectingRod(Ruled):
     model_config = ConfigDict(
         json_schema_extra=conditions(
             when(
-                given("centre_of_mass_m"),
+                present("centre_of_mass_m"),
                 {
                     "properties": {
                         "length_m": {"not": {"type": "null"}},

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 from pydantic import ConfigDict, Field
 
 from schemas.base.model import Model, NotEmpty
-from schemas.base.presence import absent, conditions, given, when
+from schemas.base.presence import absent, conditions, present, when
 from schemas.base.quantities import Angle, Count, Flag, Length, Mass, MaxMass, Name, Position
 from schemas.base.rules import REQUIRED, Rule, Ruled
 from schemas.base.units import Unit, between, positive
@@ -104,8 +104,8 @@ class Web(Ruled):
                 {"required": ["fixed"]},
             ],
             **conditions(
-                when(given("fixed"), absent(*_CHOSEN)),
-                when(given("envelope"), absent("counterweight_radius_m", *_OF_ENVELOPES)),
+                when(present("fixed"), absent(*_CHOSEN)),
+                when(present("envelope"), absent("counterweight_radius_m", *_OF_ENVELOPES)),
                 when(
                     absent("fixed", "envelope"),
                     {

@@ -6,18 +6,18 @@ from pydantic import Field
 
 from schemas.base.model import Answer, Model
 from schemas.base.quantities import Newtons
-from schemas.base.units import Told
+from schemas.base.units import AnswerUnit
 from schemas.machine.cylinder import Cylinder
 
-Kelvins = Annotated[float, Told("K")]
-Pascals = Annotated[float, Told("Pa")]
-Metres = Annotated[float, Told("m")]
-SquareMetres = Annotated[float, Told("m2")]
-CubicMetres = Annotated[float, Told("m3")]
-CubicMetresPerMinute = Annotated[float, Told("m3/min")]
-MetresPerSecond = Annotated[float, Told("m/s")]
-Watts = Annotated[float, Told("W")]
-RevolutionsPerMinute = Annotated[float, Told("rpm")]
+Kelvins = Annotated[float, AnswerUnit("K")]
+Pascals = Annotated[float, AnswerUnit("Pa")]
+Metres = Annotated[float, AnswerUnit("m")]
+SquareMetres = Annotated[float, AnswerUnit("m2")]
+CubicMetres = Annotated[float, AnswerUnit("m3")]
+CubicMetresPerMinute = Annotated[float, AnswerUnit("m3/min")]
+MetresPerSecond = Annotated[float, AnswerUnit("m/s")]
+Watts = Annotated[float, AnswerUnit("W")]
+RevolutionsPerMinute = Annotated[float, AnswerUnit("rpm")]
 
 
 class StageState(Model):

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import ConfigDict, Field, Strict
 
 from schemas.base.model import Model, NotEmpty
-from schemas.base.presence import absent, conditions, exactly_one, filled, when
+from schemas.base.presence import absent, alternatives, conditions, filled, when
 from schemas.base.quantities import Count, Fraction, Name
 from schemas.base.rules import Rule, Ruled
 from schemas.base.units import Unit
@@ -50,7 +50,7 @@ StageNumber = Annotated[int, Strict(), Field(ge=1, le=MAX_STAGES)]
 class CompressionStage(Ruled):
     """One stage: its cylinders, which are all alike, and what is known of its losses."""
 
-    model_config = ConfigDict(json_schema_extra=conditions(exactly_one("leakage_coefficient", "relative_leaks")))
+    model_config = ConfigDict(json_schema_extra=conditions(alternatives("leakage_coefficient", "relative_leaks")))
 
     name: Name | None = Field(None, description="name of the stage, unique in the machine", examples=["I"])
     cylinders: Annotated[Count, Field(ge=1, le=100)] = Field(

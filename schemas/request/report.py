@@ -116,16 +116,16 @@ class ReportRequest(OptimizeRequest):
                 for broken, path, message in fitted_rules(machine, version.counterweights):
                     yield Rule(broken, (*place, *path), message)
                 continue
-            for broken, path, message in self.asked_of(version).rules():
+            for broken, path, message in self.request_for(version).rules():
                 given = getattr(version, str(path[0]), None) is not None
                 yield Rule(broken, (*place, *(path if given else ())), message)
 
-    def asked_of(self, version: DesignVersion) -> OptimizeRequest:
+    def request_for(self, version: DesignVersion) -> OptimizeRequest:
         """What is asked of a version for which counterweights are to be found."""
         own = {name: getattr(self, name) for name in OptimizeRequest.model_fields}
         changed = {name: getattr(version, name) for name in ("machine", "objective")}
-        given = {name: value for name, value in changed.items() if value is not None}
-        return OptimizeRequest.model_construct(**{**own, **given, "outputs": ("residual",), "fitted": ()})
+        stated = {name: value for name, value in changed.items() if value is not None}
+        return OptimizeRequest.model_construct(**{**own, **stated, "outputs": ("residual",), "fitted": ()})
 
     @property
     def alone(self) -> OptimizeRequest:

@@ -64,12 +64,12 @@ class Accuracy(Model):
         return found
 
     @model_serializer(mode="wrap")
-    def _said(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
+    def _without_usual_gap(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
         """Without the gap where none is said: who reads it again takes the usual one of the machine."""
-        found: dict[str, Any] = handler(self)
+        fields: dict[str, Any] = handler(self)
         if "relative_gap" not in self.model_fields_set:
-            found.pop("relative_gap", None)
-        return found
+            fields.pop("relative_gap", None)
+        return fields
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:

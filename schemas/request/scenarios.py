@@ -119,6 +119,6 @@ def _refused(path: Path) -> str | None:
     return None
 
 
-def _number(target: Target, given: Any) -> float | int | None:
-    value = target.number(given)
+def _number(target: Target, entry: Any) -> float | int | None:
+    value = target.number(entry)
     return int(value) if target.integer and value is not None else value

@@ -11,17 +11,17 @@ from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 #: designs of a sweep whose counterweights are searched, each for as long as a single answer
 MAX_SEARCHED = 10_000
 #: fields that ask for a search and may be null in the base
-_ASKED_BY_AXES = ("max_counterweights", "min_fitted_mass_kg")
+_AXIS_SETTINGS = ("max_counterweights", "min_fitted_mass_kg")
 
 
 def searched(base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target]) -> bool:
     """Whether counterweights are searched among discrete choices."""
     machine = base.machine
-    varied = any(target.path[-1] in _ASKED_BY_AXES for target in targets)
+    varied = any(target.path[-1] in _AXIS_SETTINGS for target in targets)
     return isinstance(base, OptimizeRequest) and (machine.choice is not None or varied)
 
 
-def one_by_one(base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target]) -> bool:
+def separate(base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target]) -> bool:
     """Whether designs are no batch of one program."""
     plates = any(web.envelope is not None for web in base.machine.webs)
     return isinstance(base, OptimizeRequest) and bool(plates or base.machine.web_groups or searched(base, targets))

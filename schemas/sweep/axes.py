@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 from pydantic import ConfigDict, Field
 
 from schemas.base.model import NotEmpty
-from schemas.base.presence import absent, conditions, given, when
+from schemas.base.presence import absent, conditions, present, when
 from schemas.base.quantities import Count
 from schemas.base.rules import Rule, Ruled
 from schemas.base.target import Value
@@ -18,7 +18,9 @@ class Axis(Ruled):
     """One field of the base request and the values that take its place: a list, or a range."""
 
     model_config = ConfigDict(
-        json_schema_extra=conditions(when(given("values"), absent("start", "stop", "count"), given("start", "stop")))
+        json_schema_extra=conditions(
+            when(present("values"), absent("start", "stop", "count"), present("start", "stop"))
+        )
     )
 
     path: Annotated[str, Field(max_length=512)] = Field(

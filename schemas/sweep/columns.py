@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
-from schemas.answer.outputs import COLUMNS_OF_EACH, OUTPUT_COLUMNS, Column, labels
+from schemas.answer.outputs import COLUMNS_OF_PARTS, OUTPUT_COLUMNS, Column, labels
 from schemas.base.responses import PAIR, counted
 from schemas.base.target import Target, pointer
 from schemas.machine.machine import Machine
@@ -98,7 +98,7 @@ def _columns(
         yield from goal_columns(base.objective)
     for output in dict.fromkeys((*always, *base.outputs)):
         yield from OUTPUT_COLUMNS[output]
-        yield from _of_each(base.machine, output)
+        yield from _of_parts(base.machine, output)
         if details:
             yield from detail_columns(base.machine, output)
     if optimizes:
@@ -121,12 +121,12 @@ def _residual(base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target])
             yield Column(each.peak, "number", each.unit, meaning)
 
 
-def _of_each(machine: Machine, output: str) -> Iterator[Column]:
+def _of_parts(machine: Machine, output: str) -> Iterator[Column]:
     """Columns of an output for each of the parts that it is about; none where the machine has no such parts."""
-    if output not in COLUMNS_OF_EACH:
+    if output not in COLUMNS_OF_PARTS:
         return
-    parts, columns = COLUMNS_OF_EACH[output]
-    found = getattr(machine, parts, ())
-    for k, label in enumerate(labels([part.name for part in found])):
+    parts, columns = COLUMNS_OF_PARTS[output]
+    items = getattr(machine, parts, ())
+    for k, label in enumerate(labels([part.name for part in items])):
         for column in columns:
             yield column._replace(name=f"{column.name}.{label}", source=pointer(("machine", parts, k)))

@@ -42,7 +42,7 @@ class CrankOrders:
         return factorial(sum(self.times)) // prod(map(factorial, self.times))
 
     @property
-    def looked_through(self) -> int:
+    def sequence_count(self) -> int:
         """Number of sequences among which there is one of each order: the first angle may be fixed if all are alike."""
         return self.sequences * self.times[0] // sum(self.times) if self.alike else self.sequences
 
@@ -152,9 +152,9 @@ def _mirrored(rows: Sequence[Row], line_deg: float) -> bool:
     return True
 
 
-def _alike(one: Row, other: Row) -> bool:
+def _alike(first: Row, second: Row) -> bool:
     plain = {"name": None, "axis_deg": 0.0}
-    return one.model_copy(update=plain) == other.model_copy(update=plain)
+    return first.model_copy(update=plain) == second.model_copy(update=plain)
 
 
 def _same_from_both_ends(machine: Machine) -> bool:
@@ -196,17 +196,23 @@ def _from_an_end(part: Any, ends: float, turned: bool, last: int | None = None) 
     return found
 
 
-def _equal(one: Sequence[dict[str, Any]], other: Sequence[dict[str, Any]], size: float, anywhere: bool = False) -> bool:
-    left = list(other)
-    for part in one:
+def _equal(
+    first: Sequence[dict[str, Any]], second: Sequence[dict[str, Any]], size: float, anywhere: bool = False
+) -> bool:
+    left = list(second)
+    for part in first:
         twins = left if anywhere else left[:1]
-        twin = next((each for each in twins if _same(part, each, size)), None)
+        twin = next((candidate for candidate in twins if _same(part, candidate, size)), None)
         if twin is None:
             return False
         left.remove(twin)
     return True
 
 
-def _same(one: dict[str, Any], other: dict[str, Any], size: float) -> bool:
-    near = abs(one["position_m"] - other["position_m"]) <= _NEAR * size
-    return near and one.keys() == other.keys() and all(one[key] == other[key] for key in one if key != "position_m")
+def _same(first: dict[str, Any], second: dict[str, Any], size: float) -> bool:
+    near = abs(first["position_m"] - second["position_m"]) <= _NEAR * size
+    return (
+        near
+        and first.keys() == second.keys()
+        and all(first[key] == second[key] for key in first if key != "position_m")
+    )

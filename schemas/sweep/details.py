@@ -5,7 +5,7 @@ of them by ``details``. Each costs time or room that most sweeps have no use for
 from collections.abc import Iterator, Sequence
 from typing import Literal, NamedTuple
 
-from schemas.answer.outputs import COLUMNS_OF_EACH, OUTPUT_COLUMNS, Column, labels
+from schemas.answer.outputs import COLUMNS_OF_PARTS, OUTPUT_COLUMNS, Column, labels
 from schemas.base.model import Model
 from schemas.base.rules import Path
 from schemas.base.target import pointer
@@ -52,7 +52,7 @@ def key(name: str) -> str:
 
 def usual_keys(output: str) -> frozenset[str]:
     """Keys of the columns that an output brings wherever it is asked for."""
-    each = COLUMNS_OF_EACH[output].columns if output in COLUMNS_OF_EACH else ()
+    each = COLUMNS_OF_PARTS[output].columns if output in COLUMNS_OF_PARTS else ()
     of_parts = (f"{column.name}." for column in each)
     return frozenset((*(key(column.name) for column in OUTPUT_COLUMNS.get(output, ())), *of_parts))
 
@@ -71,8 +71,8 @@ def parts_of(machine: Machine, of: Of) -> Iterator[Part]:
                 yield from _within(machine, of, label, path)
 
 
-def _named(field: str, found: Sequence[Model]) -> Iterator[Part]:
-    for k, label in enumerate(labels([getattr(one, "name", None) for one in found])):
+def _named(field: str, parts: Sequence[Model]) -> Iterator[Part]:
+    for k, label in enumerate(labels([getattr(part, "name", None) for part in parts])):
         yield Part(label, (field, k))
 
 

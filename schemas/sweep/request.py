@@ -16,7 +16,7 @@ from schemas.machine.reciprocating import ReciprocatingMachine, no_balance_shaft
 from schemas.machine.throws import MAX_THROWS
 from schemas.request.objective import OVER_THE_TURN, of_the_shaft
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
-from schemas.sweep.alone import MAX_SEARCHED, alone_problems, one_by_one, searched
+from schemas.sweep.alone import MAX_SEARCHED, alone_problems, searched, separate
 from schemas.sweep.axes import MAX_DESIGNS, Axis
 from schemas.sweep.columns import MULTIPLIERS, result_columns
 from schemas.sweep.crank_orders import MAX_ORDERED, MAX_SEQUENCES, CrankOrders, crank_orders
@@ -163,9 +163,9 @@ class SweepRequest(Ruled):
         return tuple(name for name in OVER_THE_TURN if name in given or name in varied)
 
     @property
-    def one_by_one(self) -> bool:
+    def separate(self) -> bool:
         """Whether its designs are no batch: they are searched, cut from plates or alike."""
-        return one_by_one(self.base, self.targets)
+        return separate(self.base, self.targets)
 
     @property
     def searched(self) -> bool:
@@ -238,7 +238,7 @@ class SweepRequest(Ruled):
             yield FieldProblem(("angles_deg",), f"at most {MAX_ORDERED} throws are put in order")
         else:
             found = crank_orders(machine, angles, self._alike_across)
-            if found.looked_through > MAX_SEQUENCES:
+            if found.sequence_count > MAX_SEQUENCES:
                 message = f"at most {MAX_SEQUENCES} sequences are looked through; these angles make more"
                 yield FieldProblem(("angles_deg",), message)
             self._crank_orders = found

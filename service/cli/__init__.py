@@ -28,8 +28,8 @@ from service.computations import COMPUTATIONS
 _LOG_LEVEL = "COUNTERWEIGHT_LOG_LEVEL"
 
 
-def _version(asked: bool) -> None:
-    if asked:
+def _version(wanted: bool) -> None:
+    if wanted:
         from schemas.base.version import package_version
 
         put(package_version())

@@ -10,7 +10,7 @@ from typing import Annotated, Any
 
 import typer
 
-from service.cli.terminal import WORKBOOK, AsJson, File, answer, asked, fail, put, show
+from service.cli.terminal import WORKBOOK, AsJson, File, answer, fail, put, read_input, show
 from service.computations import Computation
 
 #: new objects before those are looked for that nothing holds any more
@@ -46,40 +46,42 @@ _Workbook = Annotated[
 ]
 
 
-def command(one: Computation) -> Callable[..., None]:
+def command(computation: Computation) -> Callable[..., None]:
     """The command of a computation, with the options that its entry names."""
 
     @_seldom_collected()
-    def run(file: str, as_json: bool, picture: Path | None = None, to: Path | None = None, **given: Any) -> None:
+    def run(file: str, as_json: bool, picture: Path | None = None, to: Path | None = None, **fields: Any) -> None:
         if to is not None and to.suffix.lower() != WORKBOOK:
             fail(f"the name of the workbook must end in {WORKBOOK}")
-        request, where = asked(one.asks, file, {name: _read(value) for name, value in given.items() if value})
-        found = answer(one.function, request, where)
-        name = getattr(getattr(request, "machine", request), "name", None) or one.title
+        request, where = read_input(
+            computation.asks, file, {name: _read(value) for name, value in fields.items() if value}
+        )
+        outcome = answer(computation.function, request, where)
+        name = getattr(getattr(request, "machine", request), "name", None) or computation.title
         if picture is not None:
             try:
-                picture.write_text(resolve_name(one.picture or "")(name, found))
+                picture.write_text(resolve_name(computation.picture or "")(name, outcome))
             except OSError as error:
                 fail(f"cannot write {picture}: {error.strerror}")
         if to is not None:
             try:
-                to.write_bytes(resolve_name(one.workbook or "")(request, found))
+                to.write_bytes(resolve_name(computation.workbook or "")(request, outcome))
             except OSError as error:
                 fail(f"cannot write {to}: {error.strerror}")
-        status = getattr(found, "status", None)
+        status = getattr(outcome, "status", None)
         if as_json:
-            put(found.model_dump_json())
+            put(outcome.model_dump_json())
         else:
-            show(resolve_name(one.chapters or "")(request, found), name, status)
+            show(resolve_name(computation.chapters or "")(request, outcome), name, status)
         raise typer.Exit(1 if status in _UNMET else 0)
 
-    options = {"file": File, **{name: _OPTIONS[name] for name in one.options}, "as_json": AsJson}
-    if one.picture is not None:
+    options = {"file": File, **{name: _OPTIONS[name] for name in computation.options}, "as_json": AsJson}
+    if computation.picture is not None:
         options["picture"] = _Picture
-    if one.workbook is not None:
+    if computation.workbook is not None:
         options["to"] = _Workbook
     defaults = {"file": Parameter.empty, "as_json": False}
-    run.__doc__ = one.help
+    run.__doc__ = computation.help
     run.__annotations__ = options
     run.__signature__ = Signature(  # type: ignore[attr-defined]
         [
@@ -101,11 +103,11 @@ def _seldom_collected() -> Iterator[None]:
         gc.set_threshold(*before)
 
 
-def _read(given: Any) -> Any:
+def _read(entry: Any) -> Any:
     """Numbers as numbers; texts with a unit as they stand."""
-    if isinstance(given, list):
-        return [_read(each) for each in given]
+    if isinstance(entry, list):
+        return [_read(part) for part in entry]
     try:
-        return float(given) if isinstance(given, str) else given
+        return float(entry) if isinstance(entry, str) else entry
     except ValueError:
-        return given
+        return entry

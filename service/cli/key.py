@@ -86,8 +86,8 @@ def revoke(
         known[:] = left
 
 
-def _file(given: Path | None) -> Path:
-    named = given or os.environ.get("COUNTERWEIGHT_KEYS_FILE")
+def _file(path: Path | None) -> Path:
+    named = path or os.environ.get("COUNTERWEIGHT_KEYS_FILE")
     if not named:
         fail("name the file of the keys with --file or COUNTERWEIGHT_KEYS_FILE")
     return Path(named)

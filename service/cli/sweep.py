@@ -91,22 +91,22 @@ def _sweep(
     raise typer.Exit(FAULT if "failed" in counts else 0 if set(counts) <= {"optimal", "analyzed"} else 1)
 
 
-def _estimate(asked: "SweepRequest", workers: int | None, as_json: bool) -> None:
+def _estimate(request: "SweepRequest", workers: int | None, as_json: bool) -> None:
     from os import cpu_count
 
     from optimizer.errors import MissingInput
     from optimizer.studies.sweep.plan import plan
 
     try:
-        found = plan(asked).estimate_for(workers or cpu_count() or 1)
+        estimate = plan(request).estimate_for(workers or cpu_count() or 1)
     except MissingInput as error:
         fail_fields(error.problems)
     if as_json:
-        put(found.model_dump_json())
+        put(estimate.model_dump_json())
     else:
         from service.report.chapters.sweep import estimated
 
-        show(estimated(found))
+        show(estimated(estimate))
 
 
 def _require_writable(output: Path) -> None:
@@ -118,14 +118,14 @@ def _require_writable(output: Path) -> None:
         fail(f"{output}: there is no folder {output.parent}")
 
 
-def _require_fits(output: Path, asked: "SweepRequest") -> None:
+def _require_fits(output: Path, request: "SweepRequest") -> None:
     """Before anything is computed; of a front nobody knows yet how many stay."""
     from service.jobs.worksheet import TooLargeForWorksheet, require_fits
 
-    if output.suffix == ".xlsx" and asked.pareto is None:
-        rows = asked.total if asked.top is None else min(asked.total, asked.top.count)
+    if output.suffix == ".xlsx" and request.pareto is None:
+        rows = request.total if request.top is None else min(request.total, request.top.count)
         try:
-            require_fits(rows, len(asked.chosen_columns))
+            require_fits(rows, len(request.chosen_columns))
         except TooLargeForWorksheet as error:
             fail(f"{output}: {error}")
 
@@ -142,13 +142,13 @@ def _desk(place: Path, workers: int | None, engine: str | None) -> "JobService":
         fail(str(error))
 
 
-def _run(desk: "OwnerJobs", asked: "SweepRequest", place: Path, quiet: bool) -> "Job":
+def _run(desk: "OwnerJobs", request: "SweepRequest", place: Path, quiet: bool) -> "Job":
     from optimizer.errors import MissingInput
     from service.jobs.database import DatabaseUnavailable
     from service.jobs.store import KeyReused
 
     try:
-        job, new = desk.sweep(asked, _KEY)
+        job, new = desk.sweep(request, _KEY)
         if not new and job.state in ("failed", "cancelled"):
             job = desk.resume(job.id)
     except MissingInput as error:
@@ -198,7 +198,7 @@ def _watch(desk: "OwnerJobs", job: "Job", quiet: bool) -> "Job":
     return job
 
 
-def _finish(desk: "OwnerJobs", job: "Job", asked: "SweepRequest", output: Path, as_json: bool) -> dict[str, int]:
+def _finish(desk: "OwnerJobs", job: "Job", request: "SweepRequest", output: Path, as_json: bool) -> dict[str, int]:
     from service.jobs.export import export
     from service.jobs.files import FilesUnavailable
     from service.jobs.owner_jobs import NotFinished, RowsDamaged
@@ -206,7 +206,7 @@ def _finish(desk: "OwnerJobs", job: "Job", asked: "SweepRequest", output: Path, 
 
     schema = desk.schema(job)
     try:
-        export(output, schema, (desk.kept if job.selects else desk.rows)(job, schema).batches)
+        export(output, schema, (desk.selection if job.selects else desk.rows)(job, schema).batches)
         counts = _counts(desk, job, schema)
     except OSError as error:
         _not_written(f"cannot write {output}: {error.strerror}; the same command tries again")
@@ -219,8 +219,8 @@ def _finish(desk: "OwnerJobs", job: "Job", asked: "SweepRequest", output: Path, 
     else:
         from service.report.chapters.sweep import swept
 
-        best, title = _best(desk, job, asked)
-        show(swept(counts, best, tuple(axis.path for axis in asked.axes), title))
+        best, title = _best(desk, job, request)
+        show(swept(counts, best, tuple(axis.path for axis in request.axes), title))
         put(f"{output}: {desk.state(job).rows} rows")
     return counts
 
@@ -242,7 +242,7 @@ def _counts(desk: "OwnerJobs", job: "Job", schema: "pa.Schema") -> dict[str, int
     return dict(counts)
 
 
-def _best(desk: "OwnerJobs", job: "Job", asked: "SweepRequest") -> "tuple[pa.Table, str]":
+def _best(desk: "OwnerJobs", job: "Job", request: "SweepRequest") -> "tuple[pa.Table, str]":
     import pyarrow as pa
 
     from optimizer.studies.sweep.reduce import Top
@@ -250,7 +250,7 @@ def _best(desk: "OwnerJobs", job: "Job", asked: "SweepRequest") -> "tuple[pa.Tab
 
     schema = desk.schema(job)
     if job.selects:
-        return pa.Table.from_batches(desk.kept(job, schema, 0, _SHOWN).batches, schema), "First rows"
+        return pa.Table.from_batches(desk.selection(job, schema, 0, _SHOWN).batches, schema), "First rows"
     if "force_peak_N" not in schema.names:
         return schema.empty_table(), ""
     top = Top(TopFilter(by="force_peak_N", count=_SHOWN), schema)

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from service.cli.terminal import File, answer, asked, fail, put
+from service.cli.terminal import File, answer, fail, put, read_input
 from service.computations import COMPUTATIONS
 
 _PREFIX = "table_"
@@ -23,7 +23,7 @@ def table(name: NameOfTable, file: File, to: Target = None) -> None:
     if name not in NAMES:
         fail(f"there is no table {name}; these are {', '.join(NAMES)}")
     one = COMPUTATIONS[_PREFIX + name]
-    request, where = asked(one.asks, file)
+    request, where = read_input(one.asks, file)
     written = resolve_name(one.forms[0].write)(answer(one.function, request, where))
     if to is None:
         put(written.decode().replace("\r\n", "\n").rstrip("\n"))

@@ -29,27 +29,27 @@ File = Annotated[str, typer.Argument(metavar="FILE", help="JSON file or workbook
 AsJson = Annotated[bool, typer.Option("--json", help="Print the exact answer of the REST service.")]
 
 
-class Asked(NamedTuple, Generic[Question]):
+class Input(NamedTuple, Generic[Question]):
     """A request, and where its file says what; ``where`` takes a problem of a field."""
 
     request: Question
     where: "Callable[[FieldProblem], str]"
 
 
-def question(model: type[Question], file: str, given: Mapping[str, object] | None = None) -> Question:
+def question(model: type[Question], file: str, fields: Mapping[str, object] | None = None) -> Question:
     """The request in a file, with fields given on the command line in place of those in it."""
-    return asked(model, file, given).request
+    return read_input(model, file, fields).request
 
 
-def asked(model: type[Question], file: str, given: Mapping[str, object] | None = None) -> Asked[Question]:
+def read_input(model: type[Question], file: str, fields: Mapping[str, object] | None = None) -> Input[Question]:
     """The same, and where it stands: of a workbook in which cell."""
     from service.common.validation import InvalidRequest, check
 
     body, where = _cells(file) if file.lower().endswith(WORKBOOK) else (content(file), _pointer)
-    if given and isinstance(body, dict):
-        body = {**body, **given}
+    if fields and isinstance(body, dict):
+        body = {**body, **fields}
     try:
-        return Asked(check(model, body), where)
+        return Input(check(model, body), where)
     except InvalidRequest as error:
         fail_fields(error.problems, error.more, where)
 

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 _SOURCE = logging.getLogger("optimizer")
 
 
-class _Kept(logging.Handler):
+class _Recorder(logging.Handler):
     def __init__(self) -> None:
         super().__init__(logging.ERROR)
         self.messages: list[str] = []
@@ -20,9 +20,9 @@ class _Kept(logging.Handler):
 
 
 @contextmanager
-def kept() -> Iterator[list[str]]:
+def error_log() -> Iterator[list[str]]:
     """What the optimiser logs as an error meanwhile, message by message."""
-    handler = _Kept()
+    handler = _Recorder()
     _SOURCE.addHandler(handler)
     try:
         yield handler.messages

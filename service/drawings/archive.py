@@ -48,8 +48,10 @@ def _placed(drawn: DrawingSet) -> Iterator[Solid]:
             yield _solid(part, one)
 
 
-def _solid(part: Part, one: Counterweight) -> Solid:
+def _solid(part: Part, counterweight: Counterweight) -> Solid:
     half = 0.5 * part.envelope.thickness_m
     # drawn upwards, which is at a right angle
-    edges = turned(part.outline, radians(one.angle_deg) - 0.5 * pi)
-    return Solid(f"Counterweight {one.web}", edges, one.position_m - half, one.position_m + half)
+    edges = turned(part.outline, radians(counterweight.angle_deg) - 0.5 * pi)
+    return Solid(
+        f"Counterweight {counterweight.web}", edges, counterweight.position_m - half, counterweight.position_m + half
+    )

@@ -44,15 +44,15 @@ def _rows(drawn: DrawingSet) -> Iterator[tuple[Cell, ...]]:
             yield None, 1, *_placed(one), *(None,) * 7, "none: the web has no envelope"
 
 
-def _placed(one: Counterweight) -> tuple[Cell, ...]:
+def _placed(weight: Counterweight) -> tuple[Cell, ...]:
     return (
-        one.web, one.mass_kg, 1e3 * one.position_m, one.angle_deg, one.angle_from_crank_deg,
-        1e3 * one.radius_m, one.mass_radius_kg_m, one.centrifugal_force_N,
+        weight.web, weight.mass_kg, 1e3 * weight.position_m, weight.angle_deg, weight.angle_from_crank_deg,
+        1e3 * weight.radius_m, weight.mass_radius_kg_m, weight.centrifugal_force_N,
     )  # fmt: skip
 
 
-def _made(part: Part, one: Counterweight) -> tuple[Cell, ...]:
-    envelope, shape = part.envelope, one.shape
+def _made(part: Part, counterweight: Counterweight) -> tuple[Cell, ...]:
+    envelope, shape = part.envelope, counterweight.shape
     height = None if shape is None or shape.chord_height_m is None else 1e3 * shape.chord_height_m
     return (
         envelope.shape, 1e3 * envelope.inner_radius_m, 1e3 * envelope.outer_radius_m, 1e3 * envelope.thickness_m,

@@ -49,7 +49,9 @@ def drawings(request: DrawingsRequest) -> DrawingSet:
     fitted = tuple(one for one in every if one.mass_kg > 0)
     found = parts(request.machine, fitted)
     if not found:
-        raise OutOfRange([FieldProblem(_asked(request), "no counterweight is cut from a plate: there is none to draw")])
+        raise OutOfRange(
+            [FieldProblem(_origin(request), "no counterweight is cut from a plate: there is none to draw")]
+        )
     status = getattr(answer, "status", "given")
     return DrawingSet(request.machine.name or "machine without a name", status, found, fitted, built)
 
@@ -64,5 +66,5 @@ def _answer(request: DrawingsRequest) -> OptimizeAnswer | AnalyzeAnswer:
     return found
 
 
-def _asked(request: DrawingsRequest) -> tuple[str | int, ...]:
+def _origin(request: DrawingsRequest) -> tuple[str | int, ...]:
     return ("machine", "webs") if request.counterweights is None else ("counterweights",)

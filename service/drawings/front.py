@@ -54,8 +54,8 @@ def front(layout: Layout) -> Drawing:
     place of them has no ground.
     """
     machine, best, built = layout.machine, layout.best, layout.built
-    told = ", ".join(f"{one.web.name} {_weight(one)}" for one in best)
-    words = f"From the front, at shaft angle 0. Counterweights: {told or 'none'}."
+    names = ", ".join(f"{fitted.web.name} {_weight(fitted)}" for fitted in best)
+    words = f"From the front, at shaft angle 0. Counterweights: {names or 'none'}."
     drawing = Drawing(SIZE, SIZE, words, _SCALE)
     view = _View(_MACHINE / _reach(layout))
     _frame(drawing)
@@ -64,10 +64,10 @@ def front(layout: Layout) -> Drawing:
         wanted += _rows(drawing, view, machine)
     for web in machine.places:
         _allowed(drawing, view, web)
-    shapes = [_fitted(drawing, view, one, best) for one in sorted(best, key=lambda one: -one.mass_kg)]
-    for one in built:
-        with drawing.group("counterweight built", f"{one.web.name} as built: {_weight(one)}"):
-            drawing.area(_disc(view, one, (*best, *built)), "none", stroke=BUILT, width=1.6, dash="6 3")
+    shapes = [_fitted(drawing, view, fitted, best) for fitted in sorted(best, key=lambda fitted: -fitted.mass_kg)]
+    for fitted in built:
+        with drawing.group("counterweight built", f"{fitted.web.name} as built: {_weight(fitted)}"):
+            drawing.area(_disc(view, fitted, (*best, *built)), "none", stroke=BUILT, width=1.6, dash="6 3")
     cranks = _cranks(drawing, view, machine) if isinstance(machine, CrankMachine) else _scroll(drawing, view, machine)
     drawing.circle(view.centre, 4, fill=INK)
     _sense(drawing, machine.rotation)
@@ -76,8 +76,8 @@ def front(layout: Layout) -> Drawing:
     return drawing
 
 
-def _weight(one: Fitted) -> str:
-    return f"{digits(round(one.mass_kg, 4))} kg at {digits(round(one.angle_deg, 2))}°"
+def _weight(fitted: Fitted) -> str:
+    return f"{digits(round(fitted.mass_kg, 4))} kg at {digits(round(fitted.angle_deg, 2))}°"
 
 
 def _reach(layout: Layout) -> float:
@@ -147,32 +147,32 @@ def _allowed(drawing: Drawing, view: _View, web: Place) -> None:
         drawing.area(wedge, _ALLOWED, 0.08, _ALLOWED, 1.0, "4 4")
 
 
-def _fitted(drawing: Drawing, view: _View, one: Fitted, weights: Sequence[Fitted]) -> Shape:
+def _fitted(drawing: Drawing, view: _View, fitted: Fitted, weights: Sequence[Fitted]) -> Shape:
     """Draws a counterweight, and gives its outline."""
-    shape = _disc(view, one, weights) if one.shape is None else _cut(view, one, one.shape)
-    kind = f"counterweight{' fixed' if one.fixed else ''}{' unknown' if one.shape is None else ''}"
-    with drawing.group(kind, f"{one.web.name}: {_weight(one)}, radius {digits(one.radius_m)} m"):
-        ground, edge = (MUTED, INK) if one.fixed else (AFTER, AFTER)
-        drawing.area(shape, ground, 0.3, edge, 1.6, "5 3" if one.shape is None else None)
-        drawing.circle(view(one.radius_m, one.angle_deg), 2.2, edge, edge)
+    shape = _disc(view, fitted, weights) if fitted.shape is None else _cut(view, fitted, fitted.shape)
+    kind = f"counterweight{' fixed' if fitted.fixed else ''}{' unknown' if fitted.shape is None else ''}"
+    with drawing.group(kind, f"{fitted.web.name}: {_weight(fitted)}, radius {digits(fitted.radius_m)} m"):
+        ground, edge = (MUTED, INK) if fitted.fixed else (AFTER, AFTER)
+        drawing.area(shape, ground, 0.3, edge, 1.6, "5 3" if fitted.shape is None else None)
+        drawing.circle(view(fitted.radius_m, fitted.angle_deg), 2.2, edge, edge)
     return shape
 
 
-def _cut(view: _View, one: Fitted, shape: Outline) -> Shape:
+def _cut(view: _View, fitted: Fitted, shape: Outline) -> Shape:
     """True to shape."""
-    hub = one.web.envelope.inner_radius_m if one.web.envelope else 0.0
+    hub = fitted.web.envelope.inner_radius_m if fitted.web.envelope else 0.0
     half_angle, chord = math.radians(shape.half_angle_deg), shape.chord_height_m is not None
     edges = bounded(shape.outer_radius_m, hub, half_angle, chord)
-    found = points(turned(edges, math.radians(one.angle_deg - 90.0)), _FINE / view.scale)
+    corners = points(turned(edges, math.radians(fitted.angle_deg - 90.0)), _FINE / view.scale)
     x0, y0 = view.centre
-    return [(x0 + view.scale * x, y0 - view.scale * y) for x, y in found]
+    return [(x0 + view.scale * x, y0 - view.scale * y) for x, y in corners]
 
 
-def _disc(view: _View, one: Fitted, weights: Sequence[Fitted]) -> Shape:
+def _disc(view: _View, fitted: Fitted, weights: Sequence[Fitted]) -> Shape:
     """What stands for a weight of which only mass and centre are known: its area is as its mass."""
-    heaviest = max(weights, key=lambda each: each.mass_kg)
-    radius = _DISC * heaviest.radius_m * math.sqrt(one.mass_kg / heaviest.mass_kg)
-    return _View(1.0, view(one.radius_m, one.angle_deg)).arc(max(3.0, view.scale * radius), 0, 360)
+    heaviest = max(weights, key=lambda weight: weight.mass_kg)
+    radius = _DISC * heaviest.radius_m * math.sqrt(fitted.mass_kg / heaviest.mass_kg)
+    return _View(1.0, view(fitted.radius_m, fitted.angle_deg)).arc(max(3.0, view.scale * radius), 0, 360)
 
 
 #: place of the pin, names of what is there, their common name
@@ -226,9 +226,9 @@ def _crank_names(view: _View, cranks: Sequence[Crank]) -> Iterator[Label]:
 def _web_names(view: _View, weights: Sequence[Fitted], shapes: Sequence[Shape]) -> Iterator[Label]:
     """Of those in the same place one name: beyond the shape, or above it where the axes of rows run beside it."""
     places: dict[tuple[int, str], list[int]] = {}
-    order = sorted(weights, key=lambda one: -one.mass_kg)
-    for k, one in enumerate(order):
-        places.setdefault((round(one.angle_deg), f"{one.radius_m:.2g}"), []).append(k)
+    order = sorted(weights, key=lambda weight: -weight.mass_kg)
+    for k, weight in enumerate(order):
+        places.setdefault((round(weight.angle_deg), f"{weight.radius_m:.2g}"), []).append(k)
     if len(places) > _MAX_NAMES:
         return
     for group in places.values():

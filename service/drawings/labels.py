@@ -70,8 +70,8 @@ def _around(shape: Shape) -> Box:
     return min(x for x, _ in shape), min(y for _, y in shape), max(x for x, _ in shape), max(y for _, y in shape)
 
 
-def _overlap(one: Box, other: Box) -> bool:
-    return one[2] > other[0] and one[0] < other[2] and one[3] > other[1] and one[1] < other[3]
+def _overlap(first: Box, second: Box) -> bool:
+    return first[2] > second[0] and first[0] < second[2] and first[3] > second[1] and first[1] < second[3]
 
 
 def _meet(box: Box, shape: Shape) -> bool:

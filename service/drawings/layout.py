@@ -244,7 +244,7 @@ def layout_of(machine: Machine, best: Sequence[Counterweight], built: Sequence[C
     return Layout.model_validate({"machine": machine, "counterweights": best, "fitted": built})
 
 
-def known(typed: dict[str, Any]) -> tuple[Layout | None, list[FieldProblem]]:
+def partial_layout(typed: dict[str, Any]) -> tuple[Layout | None, list[FieldProblem]]:
     """What is known of a layout that is half-typed, and why the rest is not.
 
     A value that cannot be read is taken away; where it has to be there, what it is part of goes with it.
@@ -254,17 +254,17 @@ def known(typed: dict[str, Any]) -> tuple[Layout | None, list[FieldProblem]]:
     Layout, None where nothing can be drawn; the first reasons, by their paths.
     """
     rest, why = _copied(typed, _DEEPEST), dict[Path, str]()
-    found: Layout | None = None
-    while found is None:
+    layout: Layout | None = None
+    while layout is None:
         try:
-            found = Layout.model_validate(rest)
+            layout = Layout.model_validate(rest)
         except ValidationError as error:
             if not _cut(rest, error, why):
                 break
-    if found and isinstance(found.machine, CrankMachine) and not (found.machine.cranks or found.machine.places):
+    if layout and isinstance(layout.machine, CrankMachine) and not (layout.machine.cranks or layout.machine.places):
         why.setdefault(("machine", "throws"), REQUIRED)
-        found = None
-    return found, [FieldProblem(*one) for one in islice(why.items(), MAX_ERRORS)]
+        layout = None
+    return layout, [FieldProblem(*reason) for reason in islice(why.items(), MAX_ERRORS)]
 
 
 def _copied(value: Any, deep: int) -> Any:

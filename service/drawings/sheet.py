@@ -198,7 +198,7 @@ def _tolerance(built: AsBuilt | None, mass: float) -> str:
     return f"; tolerance ±{built.tolerance.share * mass:.2g} kg and ±{built.tolerance.angle_deg:.2g}°"
 
 
-def _place(one: Counterweight) -> str:
-    crank = "" if one.angle_from_crank_deg is None else f", {one.angle_from_crank_deg:.4g}° from its crank"
-    where = f"plane z = {millimetres(one.position_m)} mm{crank}, {one.angle_deg:.4g}° as drawn at shaft angle 0"
-    return f"{shortened(one.web, 24)}: {where}, {one.centrifugal_force_N:.5g} N to hold"
+def _place(weight: Counterweight) -> str:
+    crank = "" if weight.angle_from_crank_deg is None else f", {weight.angle_from_crank_deg:.4g}° from its crank"
+    where = f"plane z = {millimetres(weight.position_m)} mm{crank}, {weight.angle_deg:.4g}° as drawn at shaft angle 0"
+    return f"{shortened(weight.web, 24)}: {where}, {weight.centrifugal_force_N:.5g} N to hold"

@@ -180,16 +180,16 @@ def _weights(drawing: Drawing, view: _View, layout: Layout) -> None:
             drawing.area(_plate(view, one._replace(shape=None), heaviest), "none", stroke=BUILT, width=1.6, dash="6 3")
 
 
-def _plate(view: _View, one: Fitted, heaviest: float) -> list[Point]:
+def _plate(view: _View, fitted: Fitted, heaviest: float) -> list[Point]:
     """From the inner to the outer radius and as thick as it is; of unknown shape as wide as its mass asks for."""
-    plate, place = one.web.envelope, one.web.position_m
-    if one.shape is None:
-        inner, outer, half = _INNER * one.radius_m, _OUTER * one.radius_m, 3.0 + 9.0 * one.mass_kg / heaviest
+    plate, place = fitted.web.envelope, fitted.web.position_m
+    if fitted.shape is None:
+        inner, outer, half = _INNER * fitted.radius_m, _OUTER * fitted.radius_m, 3.0 + 9.0 * fitted.mass_kg / heaviest
     else:
-        inner = max(plate.inner_radius_m if plate else 0.0, one.shape.chord_height_m or 0.0)
-        outer = one.shape.outer_radius_m
+        inner = max(plate.inner_radius_m if plate else 0.0, fitted.shape.chord_height_m or 0.0)
+        outer = fitted.shape.outer_radius_m
         half = max(1.0, 0.5 * view.per_m * ((plate.thickness_m if plate else None) or 0.0))
-    (x1, y1), (x2, y2) = (view(place, radius, one.angle_deg) for radius in (inner, outer))
+    (x1, y1), (x2, y2) = (view(place, radius, fitted.angle_deg) for radius in (inner, outer))
     return [(x1 - half, y1), (x1 + half, y1), (x2 + half, y2), (x2 - half, y2)]
 
 
@@ -217,12 +217,12 @@ def _axis(drawing: Drawing, view: _View, planes: Iterable[_Plane]) -> None:
 def _radii(drawing: Drawing, view: _View, weights: Sequence[Fitted]) -> None:
     """The radius of the centre of mass beyond the end of each weight, mm, where there is room."""
     ends = {-1: -math.inf, 1: -math.inf}
-    for one in sorted(weights, key=lambda each: each.web.position_m):
-        reach = one.shape.outer_radius_m if one.shape else _OUTER * one.radius_m
-        x, y = view(one.web.position_m, reach, one.angle_deg)
+    for fitted in sorted(weights, key=lambda weight: weight.web.position_m):
+        reach = fitted.shape.outer_radius_m if fitted.shape else _OUTER * fitted.radius_m
+        x, y = view(fitted.web.position_m, reach, fitted.angle_deg)
         where = -1 if y < _MIDDLE else 1
         if x - ends[where] >= _GAP:
-            text = f"R {typeset(millimetres(one.radius_m))}"
+            text = f"R {typeset(millimetres(fitted.radius_m))}"
             drawing.text((x, y + (-6 if where < 0 else 14)), text, "middle", 9.5, AFTER, halo=True)
             ends[where] = x
 

@@ -4,14 +4,14 @@ from schemas.answer.problem import FieldError
 from schemas.request.layout import LayoutAnswer, LayoutRequest
 from service.common.validation import pointer
 from service.drawings.front import front
-from service.drawings.layout import known
+from service.drawings.layout import partial_layout
 from service.drawings.side import side
 
 
 def views(request: LayoutRequest) -> LayoutAnswer:
     """Front and side of what is known, and why the rest is not drawn."""
     # field by field: what stands in them may be nested more deeply than a model writes
-    layout, missing = known({name: getattr(request, name) for name in ("machine", "counterweights", "fitted")})
+    layout, missing = partial_layout({name: getattr(request, name) for name in ("machine", "counterweights", "fitted")})
     return LayoutAnswer(
         front=None if layout is None else front(layout).svg(),
         side=None if layout is None else side(layout).svg(),

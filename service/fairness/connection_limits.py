@@ -39,7 +39,7 @@ class ConnectionLimits:
         """
         own = self._probing.setdefault(client_network(address), [])
         own.append(give_up)
-        if len(own) > PROBES.each:
+        if len(own) > PROBES.per_client:
             own.pop(0)()
         elif sum(map(len, self._probing.values())) > PROBES.altogether:
             max(self._probing.values(), key=len).pop(0)()

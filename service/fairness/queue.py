@@ -92,7 +92,7 @@ class FairQueue:
 
     def __init__(self, processes: Share, places: Share, clock: Callable[[], float] = time.monotonic) -> None:
         self.size = processes.altogether
-        self._most_above = processes.kept
+        self._most_above = processes.reserve
         self._places = places
         self._clock = clock
         self._accounts, self._loads = Accounts(clock), Loads(clock)
@@ -155,7 +155,7 @@ class FairQueue:
             self._begin(turn)
             return
         own = len(self._waiting.get(turn.owner, ()))
-        if own >= self._places.each:
+        if own >= self._places.per_client:
             raise Full
         if self.waiting >= self._places.altogether:
             longest = max(self._waiting.values(), key=len, default=None)

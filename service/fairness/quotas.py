@@ -26,8 +26,8 @@ class Quota:
         many : it stands for many clients, who have more than what is there for each.
         """
         share, then = self.share, self._held[client] + amount
-        kept = share.kept if then <= share.assured else 0
-        if self._total + amount > share.altogether + kept or not (many or then <= max(share.each, share.assured)):
+        kept = share.reserve if then <= share.assured else 0
+        if self._total + amount > share.altogether + kept or not (many or then <= max(share.per_client, share.assured)):
             return False
         self._held[client] = then
         self._total += amount

@@ -40,8 +40,8 @@ class SingleFlight:
             # what was asked for in a loop that has ended is gone with it
             self._loop, self._queue = loop, FairQueue(LOOKS, ANY)
             # the queue says who is next
-            self._threads = CapacityLimiter(LOOKS.altogether + LOOKS.kept)
-            self._asked: dict[tuple[str, Hashable], asyncio.Task[Any]] = {}
+            self._threads = CapacityLimiter(LOOKS.altogether + LOOKS.reserve)
+            self._tasks: dict[tuple[str, Hashable], asyncio.Task[Any]] = {}
             self._own: dict[str, asyncio.Semaphore] = {}
         return loop
 
@@ -53,9 +53,9 @@ class SingleFlight:
         what : looks of one client at the same find the same.
         """
         loop = self._of_loop()
-        shared = self._asked.get((who, what))
+        shared = self._tasks.get((who, what))
         if shared is None:
-            shared = self._asked[who, what] = loop.create_task(self._taken(loop, who, what, look))
+            shared = self._tasks[who, what] = loop.create_task(self._taken(loop, who, what, look))
             # there may be nobody left to be told
             shared.add_done_callback(lambda task: task.cancelled() or task.exception())
         # who leaves takes nothing away from the others
@@ -72,14 +72,14 @@ class SingleFlight:
         def work() -> Result:
             nonlocal computed_s, took_s
             # who asks from now on needs a later one
-            del self._asked[who, what]
+            del self._tasks[who, what]
             begun, begun_at = time.thread_time(), time.monotonic()
             try:
                 return look()
             finally:
                 computed_s, took_s = time.thread_time() - begun, time.monotonic() - begun_at
 
-        own = self._own.setdefault(who, asyncio.Semaphore(int(LOOKS.each)))
+        own = self._own.setdefault(who, asyncio.Semaphore(int(LOOKS.per_client)))
         await own.acquire()
         try:
             async with self._queue.turn(who) as turn:
@@ -92,7 +92,7 @@ class SingleFlight:
 
     def _others(self, who: str) -> int:
         """How many other clients wait, if this one does too."""
-        waiting = {client for client, _ in self._asked}
+        waiting = {client for client, _ in self._tasks}
         return len(waiting - {who}) if who in waiting else 0
 
     def _go_on(self, who: str, own: asyncio.Semaphore) -> None:
@@ -102,7 +102,7 @@ class SingleFlight:
             del self._own[who]
 
 
-async def looked(request: Request, what: Hashable, look: Callable[[], Result]) -> Result:
+async def shared_look(request: Request, what: Hashable, look: Callable[[], Result]) -> Result:
     """What a look for a request finds, by the looks of the application."""
     looks: SingleFlight = request.app.state.looks
     return await looks.at(holding(request).who, what, look)

@@ -33,17 +33,17 @@ WAITS = "waits"
 class Share:
     """What clients may have of a resource at a time.
 
-    each, altogether : units of one client, and of all.
-    assured : units that a client may have also of what is kept.
-    kept : units above ``altogether`` for clients who have no more than what is assured.
+    per_client, altogether : units of one client, and of all.
+    assured : units that a client may have also of the reserve.
+    reserve : units above ``altogether`` for clients who have no more than what is assured.
     answer : to one unit more.
     """
 
     unit: str
-    each: float
+    per_client: float
     altogether: float
     assured: int = 0
-    kept: float = 0
+    reserve: float = 0
     answer: Refusal | str = WAITS
 
 
@@ -57,10 +57,10 @@ LOOKS = Share("threads that look at jobs for all who wait", 1, 1, 1, 1)
 ANY = Share("places to wait", inf, inf)
 
 
-def connections(altogether: int, each: int) -> Share:
+def connections(altogether: int, per_client: int) -> Share:
     """Open connections, some of which are kept for clients who have few."""
-    kept = altogether // _KEPT
-    return Share("open connections", each, altogether - kept, min(_FEW, each), kept, NO_ROOM)
+    reserve = altogether // _KEPT
+    return Share("open connections", per_client, altogether - reserve, min(_FEW, per_client), reserve, NO_ROOM)
 
 
 def shares(settings: Settings) -> Mapping[Resource, Share]:

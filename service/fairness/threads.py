@@ -19,14 +19,14 @@ class Threads:
     its own to end."""
 
     def __init__(self, share: Share = THREADS) -> None:
-        self._each = share.each
+        self._per_client = share.per_client
         self._all = CapacityLimiter(share.altogether)
         self._own: dict[str, CapacityLimiter] = {}
         self._using: Counter[str] = Counter()
 
     async def run(self, who: str, work: Callable[[], Result], abandon: bool = False) -> Result:
         """The result of some work of a client; ``abandon`` it if it is still at work when nobody waits any more."""
-        own = self._own.setdefault(who, CapacityLimiter(self._each))
+        own = self._own.setdefault(who, CapacityLimiter(self._per_client))
         self._using[who] += 1
         try:
             async with own:
@@ -46,8 +46,8 @@ def in_threads(work: Callable[..., Result]) -> Callable[..., Any]:
     """An endpoint that reads or writes jobs, in the threads that are for that; it takes ``request``."""
 
     @wraps(work)
-    async def endpoint(*, request: Request, **given: Any) -> Result:
-        return await threads_of(request).run(holding(request).who, lambda: work(request=request, **given))
+    async def endpoint(*, request: Request, **arguments: Any) -> Result:
+        return await threads_of(request).run(holding(request).who, lambda: work(request=request, **arguments))
 
     return endpoint
 

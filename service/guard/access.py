@@ -107,7 +107,7 @@ class Access:
             if given is not None:
                 await self._limits.refused(client_of_request(scope, None))
             raise Unauthorized(given is not None)
-        return caller, await self._limits.asked(caller.key or "", caller.rate_limit)
+        return caller, await self._limits.count(caller.key or "", caller.rate_limit)
 
 
 def _saying(rate: Rate, send: Send) -> Send:

@@ -204,9 +204,9 @@ class Keys:
 
     def __init__(self, file: Path) -> None:
         self._file = file
-        self._known: Mapping[str, KeyRecord] = {record.id: record for record in read(file)}
+        self._records: Mapping[str, KeyRecord] = {record.id: record for record in read(file)}
         self._stamp = self._stamped()
-        self._looked = time.monotonic()
+        self._last_look_s = time.monotonic()
         self._nobody = make("nobody", ("read",))[1]
         self._noted: set[tuple[str, str]] = set()
 
@@ -214,7 +214,7 @@ class Keys:
         """Whose key it is; None if it is no key, wrong or expired."""
         self._look()
         match = _KEY.fullmatch(key)
-        record = self._known.get(match[1], self._nobody) if match else self._nobody
+        record = self._records.get(match[1], self._nobody) if match else self._nobody
         # compared in every case, so that the time tells nothing
         right = hmac.compare_digest(_hash(record.salt, key), record.sha256)
         if not right:
@@ -227,25 +227,25 @@ class Keys:
 
     def _look(self) -> None:
         now = time.monotonic()
-        if now - self._looked < _LOOK_S:
+        if now - self._last_look_s < _LOOK_S:
             return
-        self._looked = now
+        self._last_look_s = now
         stamp = self._stamped()
         if stamp == self._stamp:
             return
         try:
-            known = {record.id: record for record in read(self._file)}
+            records = {record.id: record for record in read(self._file)}
         except BadKeyFile as error:
             # the keys that are known stay valid until the file is right again
             _LOG.warning("%s", error)
         else:
-            self._note_changes(known)
-            self._known = known
+            self._note_changes(records)
+            self._records = records
         self._stamp = stamp
 
-    def _note_changes(self, known: Mapping[str, KeyRecord]) -> None:
-        for identity in sorted(known.keys() | self._known.keys()):
-            before, now = self._known.get(identity), known.get(identity)
+    def _note_changes(self, records: Mapping[str, KeyRecord]) -> None:
+        for identity in sorted(records.keys() | self._records.keys()):
+            before, now = self._records.get(identity), records.get(identity)
             if before is None and now is not None:
                 _note("added", now)
             elif now is None and before is not None:

@@ -55,7 +55,7 @@ class RateLimits:
         self._refusals = parsed(settings.refusal_limit)
         self._limiter = SlidingWindowCounterRateLimiter(MemoryStorage())
 
-    async def asked(self, key: str, rate: str | None) -> Rate | None:
+    async def count(self, key: str, rate: str | None) -> Rate | None:
         """Count a request of a key, which may have a rate of its own; None where there is no limit.
 
         Raises

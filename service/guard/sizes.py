@@ -38,7 +38,7 @@ class SizeLimits:
             designs=settings.max_sweep_designs,
         )
 
-    def require(self, asked: Model) -> None:
+    def require(self, request: Model) -> None:
         """Check that a request is not larger than allowed.
 
         Raises
@@ -46,25 +46,25 @@ class SizeLimits:
         InvalidRequest
             naming every field that is too large.
         """
-        found = list(self._problems(asked, ()))
-        if found:
-            raise InvalidRequest(found)
+        problems = list(self._problems(request, ()))
+        if problems:
+            raise InvalidRequest(problems)
 
-    def _problems(self, asked: Model, at: Path) -> Iterator[FieldProblem]:
-        if isinstance(asked, SweepRequest):
-            if asked.total > self.designs:
-                field = (_COUNTED.get(asked.design, "axes"),)
-                message = f"a sweep may hold at most {self.designs} designs here; these are {asked.total}"
+    def _problems(self, request: Model, at: Path) -> Iterator[FieldProblem]:
+        if isinstance(request, SweepRequest):
+            if request.total > self.designs:
+                field = (_COUNTED.get(request.design, "axes"),)
+                message = f"a sweep may hold at most {self.designs} designs here; these are {request.total}"
                 yield FieldProblem(field, message)
-            yield from self._problems(asked.base, ("base",))
+            yield from self._problems(request.base, ("base",))
             return
-        if isinstance(asked, Scene):
-            yield from self._machine_problems(asked.machine, (*at, "machine"))
-        if isinstance(asked, ReportRequest):
-            for index, version in enumerate(asked.versions):
+        if isinstance(request, Scene):
+            yield from self._machine_problems(request.machine, (*at, "machine"))
+        if isinstance(request, ReportRequest):
+            for index, version in enumerate(request.versions):
                 if version.machine is not None:
                     yield from self._machine_problems(version.machine, ("versions", index, "machine"))
-        angles = getattr(asked, "angles", None)
+        angles = getattr(request, "angles", None)
         if isinstance(angles, Angles) and angles.count > self.angles:
             message = f"a revolution may hold at most {self.angles} samples here"
             yield FieldProblem((*at, "angles", "step_deg"), message)

@@ -48,7 +48,7 @@ def _preferred(header: str, offered: tuple[Name, ...]) -> Name | None:
 _known = lru_cache(_KEPT)(_preferred)
 
 
-def liked(request: Request, offered: Mapping[str, Offer]) -> Offer | None:
+def negotiate(request: Request, offered: Mapping[str, Offer]) -> Offer | None:
     """What the header Accept of a request likes best of what there is, by media type; None if it accepts nothing."""
     chosen = preferred(joined(request.scope, b"accept"), tuple(offered))
     return None if chosen is None else offered[chosen]

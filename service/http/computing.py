@@ -17,7 +17,7 @@ from service.computations import XLSX, Computation, Form
 from service.fairness.quotas import holding
 from service.fairness.threads import threads_of
 from service.guard.sizes import SizeLimits
-from service.http.accept import NotAcceptable, coding_of, liked
+from service.http.accept import NotAcceptable, coding_of, negotiate
 from service.http.file_names import file_name
 from service.http.request_body import announced, read_body
 from service.jobs.accepting import accepted, desk_of, idempotency_key, prefers_later
@@ -86,7 +86,7 @@ class Computing:
         self.limits.require(asked)
         return asked
 
-    async def answer(self, request: Request, asked_for: Computation) -> Response:
+    async def answer(self, request: Request, computation: Computation) -> Response:
         """The answer to the question in the body, or a job if the client prefers to be answered later.
 
         Raises
@@ -95,44 +95,44 @@ class Computing:
         OverShare, MissingInput, OutOfRange, OutOfMemory, Busy, TooSlow, WorkerDied, WorkersFailed, ClientGone
             all of which have a row in the tables that :mod:`service.app` joins, as those of jobs have.
         """
-        form = _form(request, asked_for)
+        form = _form(request, computation)
         # a key that is none is refused whether it counts here or not
-        key = idempotency_key(request) if asked_for.later else None
+        key = idempotency_key(request) if computation.later else None
         self._readiness.require()
-        workbook = announced(request, XLSX if asked_for.workbook else None) == XLSX
+        workbook = announced(request, XLSX if computation.workbook else None) == XLSX
         body = await self._body(request)
 
         def accept() -> Response:
-            question = self.checked(asked_for.asks, body).model_dump_json().encode()
-            return accepted(request, *desk_of(request).later(asked_for.name, question, key, body))
+            question = self.checked(computation.asks, body).model_dump_json().encode()
+            return accepted(request, *desk_of(request).later(computation.name, question, key, body))
 
         # a job is asked for and answered in JSON; other forms are answered at once, as RFC 7240 allows
-        if asked_for.later and prefers_later(request) and not workbook and form is asked_for.forms[0]:
+        if computation.later and prefers_later(request) and not workbook and form is computation.forms[0]:
             return await threads_of(request).run(holding(request).who, accept)
 
-        long = asked_for.long_by_kind(form, workbook)
-        task = Task(asked_for, form, body, self.limits, coding_of(request), workbook, long)
-        with self._tracing.span(asked_for.name), Waited(request):
+        long = computation.long_by_kind(form, workbook)
+        task = Task(computation, form, body, self.limits, coding_of(request), workbook, long)
+        with self._tracing.span(computation.name), Waited(request):
             outcome = await self._pool.run(task, holding(request).who)
         if self._pool.queued:
             # whose turn it is now is handed to the worker before this answer is written: it would wait for that
             await asyncio.sleep(0)
-        found = self._judged(outcome, asked_for.name)
-        varies = "Accept, Accept-Encoding" if len(asked_for.forms) > 1 else "Accept-Encoding"
+        reply = self._judged(outcome, computation.name)
+        varies = "Accept, Accept-Encoding" if len(computation.forms) > 1 else "Accept-Encoding"
         headers = {"Cache-Control": "no-store", **dict(form.headers), "Vary": varies}
-        if found.stem is not None:
-            headers["Content-Disposition"] = f"inline; {file_name(found.stem, form.suffix)}"
-        if found.coding is not None:
-            headers["Content-Encoding"] = found.coding
-        if found.file is None:
-            return Response(found.content, media_type=form.media_type, headers=headers)
+        if reply.stem is not None:
+            headers["Content-Disposition"] = f"inline; {file_name(reply.stem, form.suffix)}"
+        if reply.coding is not None:
+            headers["Content-Encoding"] = reply.coding
+        if reply.file is None:
+            return Response(reply.content, media_type=form.media_type, headers=headers)
         with ExitStack() as refused:
-            refused.enter_context(found.file)
-            holding(request).take("files", found.size)
+            refused.enter_context(reply.file)
+            holding(request).take("files", reply.size)
             refused.pop_all()
-        content = self._read(found.file)
+        content = self._read(reply.file)
         return StreamingResponse(
-            content, media_type=form.media_type, headers={**headers, "Content-Length": str(found.size)}
+            content, media_type=form.media_type, headers={**headers, "Content-Length": str(reply.size)}
         )
 
     async def _read(self, file: BinaryIO) -> AsyncIterator[bytes]:
@@ -154,15 +154,15 @@ class Computing:
         return outcome
 
 
-def _form(request: Request, asked_for: Computation) -> Form:
+def _form(request: Request, computation: Computation) -> Form:
     """The form that a client accepts best; of what there is in one form only, and of answers in JSON, that one."""
-    first, *others = asked_for.forms
+    first, *others = computation.forms
     if not others:
         return first
-    offered = {form.media_type: form for form in asked_for.forms}
-    form = liked(request, offered)
+    offered = {form.media_type: form for form in computation.forms}
+    form = negotiate(request, offered)
     if form is None:
-        if asked_for.answer is None:
+        if computation.answer is None:
             raise NotAcceptable(tuple(offered))
         # as it was answered before there were other forms
         return first

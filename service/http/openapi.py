@@ -18,7 +18,7 @@ from schemas.base.model import Model
 from schemas.sweep.request import SweepRequest
 from service.computations import COMPUTATIONS
 from service.guard.keys import PUBLIC, PUBLIC_FOLDERS
-from service.http.kept import Kept, Shelf
+from service.http.cached_document import CachedDocument, Shelf
 from service.http.operations import HEADERS, MODEL_REF, PARAMETERS, Described, headers, problems
 
 #: groups of operations, in the order in which they are shown
@@ -48,11 +48,11 @@ class Documented(FastAPI):
     keyed : whether a key is needed; else the document says that one is optional.
     """
 
-    def __init__(self, *, keyed: bool, **given: Any) -> None:
+    def __init__(self, *, keyed: bool, **options: Any) -> None:
         self._keyed = keyed
         self._written = Shelf(self._document)
         described = [{"name": name, "description": what} for name, what in _TAGS.items()]
-        super().__init__(**given, openapi_tags=described)
+        super().__init__(**options, openapi_tags=described)
 
     def openapi(self) -> dict[str, Any]:
         document = super().openapi()
@@ -83,13 +83,13 @@ class Documented(FastAPI):
         for response in operation["responses"].values():
             response["headers"] = {**response.get("headers", {}), **headers(*common)}
 
-    def _document(self, prefix: str) -> Kept:
+    def _document(self, prefix: str) -> CachedDocument:
         """The document as it is written for a prefix: hundreds of kilobytes, and most of a second of work."""
         servers = {"servers": [{"url": prefix}]} if prefix else {}
         content = json.dumps({**self.openapi(), **servers}, ensure_ascii=False).encode()
         # else it would be held twice
         self.openapi_schema = None
-        return Kept(content, "application/json")
+        return CachedDocument(content, "application/json")
 
     def setup(self) -> None:
         """Answer with the document."""

@@ -164,25 +164,30 @@ def request_body(model: type[Model], folder: str = "", workbook: bool = False) -
     return {"requestBody": {"required": True, "content": content}}
 
 
-def of_computation(one: Computation) -> tuple[Responses, Described]:
+def of_computation(computation: Computation) -> tuple[Responses, Described]:
     """What a computing route answers, and what else it says of itself."""
-    media_types = [form.media_type for form in one.forms]
-    about = request_body(one.asks, one.examples, one.workbook is not None)
+    media_types = [form.media_type for form in computation.forms]
+    about = request_body(computation.asks, computation.examples, computation.workbook is not None)
     about["parameters"] = [accept(*media_types)] if len(media_types) > 1 else []
     answers: Responses = {200: {"description": "the answer", "content": {}}}
-    if one.answer is not None:
-        answers[200]["content"] = {each: content_of(each) for each in media_types[1:]}
+    if computation.answer is not None:
+        answers[200]["content"] = {media_type: content_of(media_type) for media_type in media_types[1:]}
     else:
         # no answer but JSON: the request itself
-        own = {"application/json": {"schema": ref(one.asks)}}
-        answers[200]["content"] = {each: own.get(each, content_of(each)) for each in media_types}
-    if any(name == "Content-Disposition" for form in one.forms for name, _ in form.headers) or one.answer is None:
+        own = {"application/json": {"schema": ref(computation.asks)}}
+        answers[200]["content"] = {
+            media_type: own.get(media_type, content_of(media_type)) for media_type in media_types
+        }
+    if (
+        any(name == "Content-Disposition" for form in computation.forms for name, _ in form.headers)
+        or computation.answer is None
+    ):
         answers[200]["headers"] = headers("Content-Disposition")
     statuses = [*COMPUTE_PROBLEMS]
-    if one.answer is None and len(one.forms) > 1:
+    if computation.answer is None and len(computation.forms) > 1:
         # answers in JSON go to everybody; of other forms one has to be accepted
         statuses.append(406)
-    if one.later:
+    if computation.later:
         about["parameters"] += parameters("Prefer", "Idempotency-Key")
         answers |= on_disk("with `Prefer: respond-async`: the job is on disk and goes on by itself")
         statuses.append(409)

@@ -23,7 +23,7 @@ class UnknownParameter(ValueError):
         super().__init__("unknown parameter")
 
 
-def require_known(request: Request, known: Collection[str] = ()) -> None:
+def require_parameters(request: Request, allowed: Collection[str] = ()) -> None:
     """Go on only if the query has none but known parameters.
 
     Raises
@@ -34,7 +34,7 @@ def require_known(request: Request, known: Collection[str] = ()) -> None:
     if not query:
         return
     names = [name for name, _ in parse_qsl(query.decode("latin-1"), keep_blank_values=True)]
-    unknown = [name for name in names if name not in known]
+    unknown = [name for name in names if name not in allowed]
     if unknown:
         raise UnknownParameter(unknown)
 
@@ -43,4 +43,4 @@ async def of_the_route(request: Request) -> None:
     """The same at a route of the framework, which knows its parameters; probes are answered whatever they add."""
     route = request.scope.get("route")
     if isinstance(route, APIRoute) and route.include_in_schema and route.path not in PROBES:
-        require_known(request, {each.alias for each in route.dependant.query_params})
+        require_parameters(request, {each.alias for each in route.dependant.query_params})

@@ -111,6 +111,6 @@ def _limits(settings: Settings) -> Limits:
     return Limits(
         keep_s=settings.results_keep_days * _DAY_S or None,
         active=settings.max_jobs,
-        active_each=settings.max_jobs_each,
+        active_per_owner=settings.max_jobs_each,
         quota_bytes=round(settings.disk_quota_mb * 1e6) or None,
     )

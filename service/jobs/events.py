@@ -36,9 +36,9 @@ class _Look:
     """A look at some jobs, each with the prefix of who watches it, that is yet to be taken, or has been."""
 
     wanted: set[tuple[str, str]] = field(default_factory=set)
-    asked: Event = field(default_factory=Event)
+    call: Event = field(default_factory=Event)
     taken: Event = field(default_factory=Event)
-    found: Mapping[tuple[str, str], News] = field(default_factory=dict)
+    news: Mapping[tuple[str, str], News] = field(default_factory=dict)
     failure: Exception | None = None
 
 
@@ -52,13 +52,13 @@ class Watch:
 
     async def run(self) -> None:
         """Look again and again while anybody watches, until cancelled."""
-        known: Mapping[tuple[str, str], News] = {}
+        latest: Mapping[tuple[str, str], News] = {}
         while True:
-            await self._next.asked.wait()
+            await self._next.call.wait()
             await sleep(_POLL_S)
             look, self._next = self._next, _Look()
             try:
-                known = look.found = await to_thread.run_sync(self._seen, look.wanted, known, limiter=self._thread)
+                latest = look.news = await to_thread.run_sync(self._seen, look.wanted, latest, limiter=self._thread)
             except Exception as error:
                 # for the streams to judge; the next look may succeed
                 look.failure = error
@@ -73,25 +73,25 @@ class Watch:
         """
         look = self._next
         look.wanted.add((job, prefix))
-        look.asked.set()
+        look.call.set()
         await look.taken.wait()
         if look.failure is not None:
             raise look.failure
-        if (job, prefix) not in look.found:
+        if (job, prefix) not in look.news:
             raise UnknownJob(job)
-        return look.found[job, prefix]
+        return look.news[job, prefix]
 
     def _seen(
-        self, wanted: set[tuple[str, str]], known: Mapping[tuple[str, str], News]
+        self, wanted: set[tuple[str, str]], before: Mapping[tuple[str, str], News]
     ) -> Mapping[tuple[str, str], News]:
         there = {job.id: job for job in self._jobs.those({job for job, _ in wanted})}
-        found = {}
+        seen = {}
         for name, prefix in wanted:
-            job, old = there.get(name), known.get((name, prefix))
+            job, old = there.get(name), before.get((name, prefix))
             if job is not None:
                 unchanged = old is not None and old.job.version == job.version
-                found[name, prefix] = old if old is not None and unchanged else news(self._jobs, job, prefix)
-        return found
+                seen[name, prefix] = old if old is not None and unchanged else news(self._jobs, job, prefix)
+        return seen
 
 
 async def events(

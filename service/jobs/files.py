@@ -203,14 +203,14 @@ class JobFiles:
             return os.listdir(self.folder(job))
         return []
 
-    def tidy(self, job: str, found: Iterable[str], records: Iterable[Record]) -> int:
+    def tidy(self, job: str, names: Iterable[str], records: Iterable[Record]) -> int:
         """Remove those of some names that are no file of the job; how many that were."""
-        kept = list(records)
-        known = {_FLAG, *(self.piece(job, record).name for record in kept)}
+        stored = list(records)
+        expected = {_FLAG, *(self.piece(job, record).name for record in stored)}
         # a reader may be writing them once more, or about to tell the database their digests
-        older = {_rows(record) for record in kept if record.digest is None}
+        older = {_rows(record) for record in stored if record.digest is None}
         gone = 0
-        for name in set(found) - known:
+        for name in set(names) - expected:
             if _rows_of(name.removeprefix(HALF)) in older:
                 continue
             with suppress(OSError):
@@ -236,11 +236,11 @@ class JobFiles:
             return [entry.name for entry in os.scandir(self._root) if entry.is_dir(follow_symlinks=False)]
         return []
 
-    def remove_unknown(self, folders: Iterable[str], known: Container[str]) -> int:
+    def remove_unknown(self, folders: Iterable[str], jobs: Container[str]) -> int:
         """Remove those of some folders that belong to no job; how many that were."""
         gone = 0
         for job in folders:
-            if job not in known:
+            if job not in jobs:
                 with suppress(OSError):
                     shutil.rmtree(self.folder(job))
                     gone += 1

@@ -26,14 +26,14 @@ def _number(text: str) -> int | float:
     return int(number) if number.is_integer() else number
 
 
-def same(order: Order, known: str, request: bytes) -> bool:
+def same(order: Order, earlier: str, request: bytes) -> bool:
     """Whether a job that has a fingerprint and a request is the one that is ordered.
 
     Fingerprints of earlier versions hold the defaults that there were then. In their place the stored request, in which
     all of these stand, is read as one of today.
     """
-    if known.startswith(_MADE):
-        return known == order.fingerprint
+    if earlier.startswith(_MADE):
+        return earlier == order.fingerprint
     return _read_again(order.kind, request) == json.loads(order.request)
 
 

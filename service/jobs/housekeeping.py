@@ -49,7 +49,7 @@ class Housekeeping:
         if not self._files.belongs_to(self._retention.identity()):
             _LOG.warning("the folder of the results belongs to another database; nothing is removed from it")
             return
-        gone = self._files.remove_unknown(folders, self._retention.known())
+        gone = self._files.remove_unknown(folders, self._retention.job_ids())
         if gone:
             _LOG.warning("removed %d folders of jobs that there are not", gone)
 

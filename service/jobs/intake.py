@@ -56,7 +56,7 @@ class ResultWriter:
         ------
         CannotWrite
         """
-        needless = self._leases.finish_selection(chunk, covers, piece.kept, self._write(chunk, piece))
+        needless = self._leases.finish_selection(chunk, covers, piece.selection_rows, self._write(chunk, piece))
         if needless is not None:
             self._housekeeping.remove(chunk.job, needless)
 
@@ -83,9 +83,9 @@ class ResultWriter:
                 self._housekeeping.remove(chunk.job, outcome)
         return records, error
 
-    def _outcome(self, one: tuple[Chunk, ChunkResult]) -> Record | CannotWrite:
+    def _outcome(self, pair: tuple[Chunk, ChunkResult]) -> Record | CannotWrite:
         try:
-            return self._write(*one)
+            return self._write(*pair)
         except CannotWrite as error:
             return error
 

@@ -120,16 +120,16 @@ def _piece(table: "pa.Table") -> ChunkResult:
     return ChunkResult(table_bytes(table), table.num_rows - count(_ANSWERED) - invalid, invalid=invalid)
 
 
-def _answer(asked_for: Computation) -> Callable[[bytes, int, int, Proceed], ChunkResult]:
+def _answer(computation: Computation) -> Callable[[bytes, int, int, Proceed], ChunkResult]:
     def answer(request: bytes, start: int, stop: int, proceed: Proceed) -> ChunkResult:
         from optimizer.errors import NotComputable
         from service.common.validation import check, pointer, read_json
 
         try:
-            found = asked_for.function(check(asked_for.asks, read_json(request)))
+            result = computation.function(check(computation.asks, read_json(request)))
         except NotComputable as error:
             raise Unanswerable("; ".join(f"{pointer(path)}: {message}" for path, message in error.problems)) from None
-        return ChunkResult(json_bytes(found), 0)
+        return ChunkResult(json_bytes(result), 0)
 
     return answer
 
@@ -137,8 +137,8 @@ def _answer(asked_for: Computation) -> Callable[[bytes, int, int, Proceed], Chun
 KINDS: Mapping[str, Kind] = {
     "sweep": Kind(_sweep, _failed_rows, _later(_sweep_request)),
     **{
-        one.name: Kind(_answer(one), later=_later(lambda one=one: one.asks))  # type: ignore[misc]
-        for one in COMPUTATIONS.values()
-        if one.later
+        computation.name: Kind(_answer(computation), later=_later(lambda computation=computation: computation.asks))  # type: ignore[misc]
+        for computation in COMPUTATIONS.values()
+        if computation.later
     },
 }

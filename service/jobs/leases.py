@@ -146,29 +146,29 @@ class Leases:
             error = f"the {quota / 1e6:.1f} MB of its owner on disk are used up; remove sweeps, then resume this one"
             rows.end(connection, found, "failed", error, self._clock(), self._limits.keep_s)
 
-    def finish_selection(self, chunk: Chunk, covered: int, kept: int, file: Record) -> Record | None:
+    def finish_selection(self, chunk: Chunk, covered: int, remaining: int, file: Record) -> Record | None:
         """The file of the rows that were selected is on disk. It does not count if the job has ended, or another
         selection looked at as many.
 
         Parameters
         ----------
-        covered, kept : how many rows were looked at, and how many of them stay.
+        covered, remaining : how many rows were looked at, and how many of them stay.
 
         Returns
         -------
         the file that is not needed any more: that of the selection before, or this one if it does not count.
         """
         with self._database.write() as connection:
-            found = rows.find(connection, chunk.job, lock=True)
-            if found is None or not found.active or covered <= found.selected:
+            job = rows.find(connection, chunk.job, lock=True)
+            if job is None or not job.active or covered <= job.selected:
                 return file
             before = connection.execute(select(chunks.c.digest, chunks.c.bytes).where(_this(chunk))).one()
             about = {"digest": file.digest, "bytes": on_disk(file.bytes), "attempts": 0, "lease_owner": None}
-            state = "done" if covered == found.total else "waiting"
+            state = "done" if covered == job.total else "waiting"
             connection.execute(update(chunks).where(_this(chunk)).values(state=state, **about))
             size_now = jobs.c.bytes + on_disk(file.bytes) - before.bytes
-            rows.change(connection, chunk.job, selected=covered, kept=kept, bytes=size_now)
-            self._settle(connection, found)
+            rows.change(connection, chunk.job, selected=covered, kept=remaining, bytes=size_now)
+            self._settle(connection, job)
             return None if before.digest is None else Record(chunk.start, chunk.stop, before.digest, before.bytes)
 
     def refuse_selection(self, chunk: Chunk, reason: str) -> None:
@@ -264,7 +264,7 @@ def _this(chunk: Chunk) -> ColumnElement[bool]:
     return and_(chunks.c.job == chunk.job, chunks.c.start == chunk.start)
 
 
-def _may_be_given_out(attempted: bool) -> tuple[tuple[ColumnElement[bool], ColumnElement[bool]], ColumnElement[bool]]:
+def _available(attempted: bool) -> tuple[tuple[ColumnElement[bool], ColumnElement[bool]], ColumnElement[bool]]:
     """Chunks that nobody holds, those that were never given out apart from others, and whether they were tried."""
     over = or_(chunks.c.lease_until < bindparam("now"), chunks.c.lease_until > bindparam("latest"))
     # those of a service that is gone first: however long a sweep is, nobody waits for its first rows to the end
@@ -276,7 +276,7 @@ def _may_be_given_out(attempted: bool) -> tuple[tuple[ColumnElement[bool], Colum
 @cache
 def _waiting(attempted: bool) -> Select[Any]:
     """The jobs that have a chunk to give out, those first that shall have it."""
-    free, tried = _may_be_given_out(attempted)
+    free, tried = _available(attempted)
     held = (
         select(chunks.c.job, func.coalesce(jobs.c.owner, "").label("owner"))
         .join(jobs, jobs.c.id == chunks.c.job)
@@ -300,7 +300,7 @@ def _waiting(attempted: bool) -> Select[Any]:
 @cache
 def _free_of_job(attempted: bool) -> tuple[Select[Any], ...]:
     """Start, stop and attempts of chunks of a job that may be given out, at most so many."""
-    free, tried = _may_be_given_out(attempted)
+    free, tried = _available(attempted)
     wanted = select(chunks.c.start, chunks.c.stop, chunks.c.attempts).where(chunks.c.job == bindparam("job"), tried)
     return tuple(wanted.where(one).order_by(chunks.c.start).limit(bindparam("most")) for one in free)
 
@@ -325,9 +325,14 @@ def _made(connection: Connection, job: Job) -> list[tuple[int, int, int]]:
     return made
 
 
-def _mark_done(connection: Connection, one: Computed, now: float) -> bool:
+def _mark_done(connection: Connection, computed: Computed, now: float) -> bool:
     """Whether a chunk was not done before."""
-    this = and_(_this(one.chunk), chunks.c.stop == one.chunk.stop, chunks.c.state != "done")
-    about = {"failed": one.failed, "invalid": one.invalid, "digest": one.digest, "bytes": on_disk(one.bytes)}
+    this = and_(_this(computed.chunk), chunks.c.stop == computed.chunk.stop, chunks.c.state != "done")
+    about = {
+        "failed": computed.failed,
+        "invalid": computed.invalid,
+        "digest": computed.digest,
+        "bytes": on_disk(computed.bytes),
+    }
     done = update(chunks).where(this).values(state="done", finished=now, lease_owner=None, **about)
     return connection.execute(done).rowcount > 0

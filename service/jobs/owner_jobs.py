@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, BinaryIO
 
 from schemas.sweep.answers import SweepLinks, SweepState
 from schemas.sweep.request import SweepRequest
-from service.computations import given_bytes
+from service.computations import request_bytes
 from service.jobs import results
 from service.jobs.coordinator import Coordinator
 from service.jobs.database import DatabaseUnavailable
@@ -89,7 +89,7 @@ class OwnerJobs:
 
     # ---- from requests to jobs
 
-    def sweep(self, asked: SweepRequest, key: str | None = None, sent: bytes | None = None) -> tuple[Job, bool]:
+    def sweep(self, request: SweepRequest, key: str | None = None, sent: bytes | None = None) -> tuple[Job, bool]:
         """A new sweep, or the one that the key has started before; on disk when this returns.
 
         Parameters
@@ -107,21 +107,21 @@ class OwnerJobs:
         from optimizer.studies.sweep.plan import plan
         from optimizer.studies.sweep.table import REQUEST
 
-        found = plan(asked)
-        request = asked.model_dump_json().encode()
+        planned = plan(request)
+        content = request.model_dump_json().encode()
         # the request is kept once
-        about = {name: value for name, value in (found.schema.metadata or {}).items() if name != REQUEST}
+        about = {name: value for name, value in (planned.schema.metadata or {}).items() if name != REQUEST}
         return self._submit(
             Order(
                 kind="sweep",
-                request=request,
-                fingerprint=fingerprint("sweep", given_bytes(asked) if sent is None else sent),
-                total=found.total,
-                chunk_rows=found.chunk_rows,
-                columns=found.schema.with_metadata(about).serialize().to_pybytes(),
-                seed=found.seed,
-                selects=asked.top is not None or asked.pareto is not None,
-                expected_bytes=found.estimate.bytes,
+                request=content,
+                fingerprint=fingerprint("sweep", request_bytes(request) if sent is None else sent),
+                total=planned.total,
+                chunk_rows=planned.chunk_rows,
+                columns=planned.schema.with_metadata(about).serialize().to_pybytes(),
+                seed=planned.seed,
+                selects=request.top is not None or request.pareto is not None,
+                expected_bytes=planned.estimate.bytes,
                 owner=self._owner,
                 key=key,
             )
@@ -283,7 +283,7 @@ class OwnerJobs:
         complete = job.state == "done" and sum(piece.rows for piece in pieces) == job.total
         return Rows(results.batches(wanted, self._opener(job), schema, first, last), job.total, complete)
 
-    def kept(self, job: Job, schema: "pa.Schema", first: int = 0, last: int | None = None) -> Rows:
+    def selection(self, job: Job, schema: "pa.Schema", first: int = 0, last: int | None = None) -> Rows:
         """The rows that ``top`` or ``pareto`` of the request keep, of those that were there when they were selected.
 
         Raises
@@ -315,7 +315,7 @@ class OwnerJobs:
         for record in absent:
             self._repair(job, Damaged(record, "missing"))
         if absent:
-            raise RowsDamaged(_said(absent[0], "missing"))
+            raise RowsDamaged(_message(absent[0], "missing"))
 
     def _repair(self, job: Job, damage: Damaged) -> None:
         self._parts.coordinator.repair(job.id, damage)
@@ -330,7 +330,7 @@ class OwnerJobs:
                 return self._parts.files.opened(job.id, record)
             except Damaged as damage:
                 self._repair(job, damage)
-                raise RowsDamaged(_said(damage.record, damage.reason)) from damage
+                raise RowsDamaged(_message(damage.record, damage.reason)) from damage
 
         return opened
 
@@ -358,7 +358,7 @@ def _unselected(job: Job) -> str | None:
     return None
 
 
-def _said(record: Record, reason: str) -> str:
+def _message(record: Record, reason: str) -> str:
     what = f"The file of the rows {record.start} to {record.stop - 1}" if record.rows else "The file of the selection"
     return f"{what} is {reason}; it is made again."
 

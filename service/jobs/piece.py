@@ -22,7 +22,7 @@ class ChunkResult:
 
     content: bytes
     failed: int
-    kept: int = 0
+    selection_rows: int = 0
     invalid: int = 0
     faults: tuple[str, ...] = ()
 

@@ -20,10 +20,10 @@ class UnknownColumn(ValueError):
     """The result has no column of this name."""
 
 
-def chosen(schema: "pa.Schema", asked: Sequence[str]) -> "pa.Schema":
+def chosen(schema: "pa.Schema", columns: Sequence[str]) -> "pa.Schema":
     """The schema of some columns, in the order of the result; all of them if none is asked for.
 
-    Each of ``asked`` is a name, or several with commas between them.
+    Each of ``columns`` is a name, or several with commas between them.
 
     Raises
     ------
@@ -31,7 +31,7 @@ def chosen(schema: "pa.Schema", asked: Sequence[str]) -> "pa.Schema":
     """
     import pyarrow as pa
 
-    names = [name for part in asked for name in ([part] if part in schema.names else part.split(","))]
+    names = [name for part in columns for name in ([part] if part in schema.names else part.split(","))]
     for name in names:
         if name not in schema.names:
             raise UnknownColumn("the result has no such column" if len(name) > 100 else f"no column is named {name!r}")

@@ -64,7 +64,7 @@ class Retention:
                 connection.execute(delete(chunks).where(chunks.c.job == job))
                 connection.execute(delete(jobs).where(marked))
 
-    def known(self) -> set[str]:
+    def job_ids(self) -> set[str]:
         """All jobs, also those that are marked."""
         with self._database.read() as connection:
             return set(connection.scalars(select(jobs.c.id)))

@@ -24,13 +24,13 @@ class Limits:
     """What jobs may take, and how long they are kept.
 
     keep_s : how long the results of an ended job are kept, in seconds in which a service lives; None is for ever.
-    active, active_each : how many jobs may be queued or running, together and of one owner.
+    active, active_per_owner : how many jobs may be queued or running, together and of one owner.
     quota_bytes : on disk, for one owner; None is any number.
     """
 
     keep_s: float | None = None
     active: int = 1000
-    active_each: int = 1000
+    active_per_owner: int = 1000
     quota_bytes: int | None = None
 
 

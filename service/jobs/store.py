@@ -76,7 +76,7 @@ class Store:
         active = select(func.count()).select_from(jobs).where(jobs.c.state.in_(ACTIVE))
         for wanted, most in (
             (active, self._limits.active),
-            (active.where(room.of(order.owner)), self._limits.active_each),
+            (active.where(room.of(order.owner)), self._limits.active_per_owner),
         ):
             count = connection.scalar(wanted) or 0
             if count >= most:

@@ -7,7 +7,7 @@ from contextlib import suppress
 from dataclasses import replace
 from multiprocessing import parent_process
 
-from service.common.faults import kept
+from service.common.faults import error_log
 from service.common.time_slices import set_slice
 from service.jobs.kinds import KINDS
 from service.jobs.piece import ChunkResult, Stopped
@@ -33,7 +33,7 @@ def run(kind: str, request: bytes, start: int, stop: int, flag: str) -> ChunkRes
             raise Stopped
 
     proceed()
-    with kept() as faults:
+    with error_log() as faults:
         piece = KINDS[kind].compute(request, start, stop, proceed)
     return replace(piece, faults=tuple(faults))
 

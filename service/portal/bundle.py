@@ -51,11 +51,11 @@ def _write(folder: Path, name: str, written: dict[str, str], around: tuple[str, 
     text = (folder / name).read_text(encoding="utf-8")
     for _, needed in _IMPORT.findall(text):
         _write(folder, _beside(name, needed), written, (*around, name))
-    numbers = {each: number for number, each in enumerate(written)}
+    numbers = {module_name: number for number, module_name in enumerate(written)}
     exported = _EXPORT.findall(text)
     inside = _EXPORT.sub("", _COMMENT.sub("", text))
     inside = _IMPORT.sub(
-        lambda found: f"const {{ {found[1].replace(' as ', ': ')} }} = module{numbers[_beside(name, found[2])]};",
+        lambda match: f"const {{ {match[1].replace(' as ', ': ')} }} = module{numbers[_beside(name, match[2])]};",
         inside,
     )
     other = _OTHER.search(_NOTE.sub("", inside))

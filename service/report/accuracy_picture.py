@@ -36,7 +36,7 @@ def draw(title: str, answer: AccuracyAnswer) -> str:
     if resolution > 0.0:
         drawing.line([(_LEFT, y(resolution)), (_RIGHT, y(resolution))], MUTED, 1.0, "1 3")
     row_of_legend = _TOP + 6
-    for number, (method, rows) in enumerate(groupby(shown, key=lambda one: one[0].method)):
+    for number, (method, rows) in enumerate(groupby(shown, key=lambda pair: pair[0].method)):
         stroke, dash = SERIES[number % len(SERIES)], DASHES[number % len(DASHES)]
         points = []
         for row, (time, error) in rows:

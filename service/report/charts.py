@@ -169,12 +169,12 @@ def floor(radius: float) -> Ellipse:
     return Ellipse("floor", radius, radius, 0.0, INK, 1.0, "2 2")
 
 
-def _ellipse(one: Ellipse) -> list[Point]:
-    turn = complex(math.cos(math.radians(one.axis_deg)), math.sin(math.radians(one.axis_deg)))
+def _ellipse(ellipse: Ellipse) -> list[Point]:
+    turn = complex(math.cos(math.radians(ellipse.axis_deg)), math.sin(math.radians(ellipse.axis_deg)))
     results = []
     for step in range(181):
         angle = math.radians(2 * step)
-        tip = complex(one.major * math.cos(angle), one.minor * math.sin(angle)) * turn
+        tip = complex(ellipse.major * math.cos(angle), ellipse.minor * math.sin(angle)) * turn
         results.append((tip.real, tip.imag))
     return results
 

@@ -12,13 +12,15 @@ from service.report.charts import Line, chart
 MAX_ROWS = 8
 
 
-def indicators(machine: Machine, found: Gas) -> Iterator[Drawing]:
+def indicators(machine: Machine, gas: Gas) -> Iterator[Drawing]:
     """A diagram of each row: every chamber runs round a loop whose area is its work in a turn, but for its area."""
-    for row in found.rows[:MAX_ROWS]:
+    for row in gas.rows[:MAX_ROWS]:
         if not row.chambers:
             continue
         name = row_name(machine, row.throw, row.row)
-        lines = [Line(chamber_name(row, one), [*one.pressure_Pa, one.pressure_Pa[0]]) for one in row.chambers]
+        lines = [
+            Line(chamber_name(row, chamber), [*chamber.pressure_Pa, chamber.pressure_Pa[0]]) for chamber in row.chambers
+        ]
         travel = [*row.displacement_m, row.displacement_m[0]]
         yield chart(f"row {name}: pressure", "Pa", "travel from the outer dead centre, m", travel, lines)
 

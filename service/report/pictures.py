@@ -136,9 +136,9 @@ orders = Picture(("orders",), _orders)
 pin_loads = Picture(("pin_loads",), _pin_loads)
 
 
-def pins_svg(found: PinLoads) -> bytes:
+def pins_svg(loads: PinLoads) -> bytes:
     """The loads of the pins over a revolution, in UTF-8."""
-    return svg(pin_figure(found).drawings[0])
+    return svg(pin_figure(loads).drawings[0])
 
 
 def svg(drawing: Drawing) -> bytes:

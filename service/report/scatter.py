@@ -22,7 +22,7 @@ class Column(NamedTuple):
 def front(across: Sequence[float], upward: Sequence[float]) -> list[int]:
     """Designs that no other beats, both columns to be small: places in the columns, by the first of them."""
     results: list[int] = []
-    for place in sorted(range(len(across)), key=lambda one: (across[one], upward[one])):
+    for place in sorted(range(len(across)), key=lambda place: (across[place], upward[place])):
         if not results or upward[place] < upward[results[-1]]:
             results.append(place)
     return results

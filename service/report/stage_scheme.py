@@ -40,21 +40,21 @@ def stage_scheme(machine: Machine, stages: Sequence[Stage]) -> Drawing:
     return drawing
 
 
-def _stage(machine: Machine, one: Stage) -> Drawing:
-    drawing = Drawing(_SIDE, _HEIGHT, one.title)
-    drawing.text((0, 12), one.stage, size=12)
-    words = one.title.split()
+def _stage(machine: Machine, stage: Stage) -> Drawing:
+    drawing = Drawing(_SIDE, _HEIGHT, stage.title)
+    drawing.text((0, 12), stage.stage, size=12)
+    words = stage.title.split()
     # in two lines, of which the number takes a part of the first
     first = " ".join(words[: (len(words) + 1) // 2])
     drawing.text((24, 10), first, size=9)
     drawing.text((24, 21), " ".join(words[(len(words) + 1) // 2 :]), size=9)
     _layout(drawing, machine)
-    if one.stage == "VII":
-        _iron(drawing, one.iron)
-    elif one.stage == "VIII":
-        _summary(drawing, one)
+    if stage.stage == "VII":
+        _iron(drawing, stage.iron)
+    elif stage.stage == "VIII":
+        _summary(drawing, stage)
     else:
-        _vectors(drawing, machine, one)
+        _vectors(drawing, machine, stage)
     return drawing
 
 
@@ -73,48 +73,48 @@ def _layout(drawing: Drawing, machine: Machine) -> None:
         drawing.circle(tip, 2.6, INK, "white")
 
 
-def _vectors(drawing: Drawing, machine: Machine, one: Stage) -> None:
+def _vectors(drawing: Drawing, machine: Machine, stage: Stage) -> None:
     """Before and after, on one scale."""
-    left = () if one.left is None else one.left
-    largest = max([each.peak for each in (*one.acting, *left)], default=0.0)
+    left = () if stage.left is None else stage.left
+    largest = max([vector.peak for vector in (*stage.acting, *left)], default=0.0)
     sense = 1.0 if machine.rotation == "ccw" else -1.0
-    for each in one.acting:
-        _vector(drawing, each, largest, sense, BEFORE, "5 3")
-    for each in left:
-        _vector(drawing, each, largest, sense, AFTER, None)
+    for vector in stage.acting:
+        _vector(drawing, vector, largest, sense, BEFORE, "5 3")
+    for vector in left:
+        _vector(drawing, vector, largest, sense, AFTER, None)
     y = _BELOW
-    for name, result, stroke in (("without", one.acting, BEFORE), ("left", left, AFTER)):
-        for each in result:
-            drawing.text((0, y), f"{name}: {_said(each)}", size=8.5, fill=stroke)
+    for name, result, stroke in (("without", stage.acting, BEFORE), ("left", left, AFTER)):
+        for vector in result:
+            drawing.text((0, y), f"{name}: {_words(vector)}", size=8.5, fill=stroke)
             y += 11
-    times = f"order {one.acting[0].order}, " if one.acting else ""
-    drawing.text((0, y), f"{times}{one.frequency}", size=8.5, fill=MUTED)
+    times = f"order {stage.acting[0].order}, " if stage.acting else ""
+    drawing.text((0, y), f"{times}{stage.frequency}", size=8.5, fill=MUTED)
 
 
-def _vector(drawing: Drawing, one: Acting, largest: float, sense: float, stroke: str, dash: str | None) -> None:
+def _vector(drawing: Drawing, vector: Acting, largest: float, sense: float, stroke: str, dash: str | None) -> None:
     """A circle with an arrow that turns, a line to both sides, or an ellipse; of a moment, its plane is drawn so."""
-    if one.motion == "none" or one.direction_deg is None or largest == 0.0:
+    if vector.motion == "none" or vector.direction_deg is None or largest == 0.0:
         return
-    major, minor = (_REACH * size / largest for size in (one.peak, one.minor))
+    major, minor = (_REACH * size / largest for size in (vector.peak, vector.minor))
     if major < 2.0:
         drawing.circle(_CENTRE, 3.0, stroke)
         return
-    if one.motion == "fixed":
-        tips = [_at(major, one.direction_deg), _at(major, one.direction_deg + 180.0)]
+    if vector.motion == "fixed":
+        tips = [_at(major, vector.direction_deg), _at(major, vector.direction_deg + 180.0)]
         drawing.line(tips, stroke, 1.8, dash)
-        for tip, away in zip(tips, (one.direction_deg, one.direction_deg + 180.0), strict=True):
+        for tip, away in zip(tips, (vector.direction_deg, vector.direction_deg + 180.0), strict=True):
             _head(drawing, tip, away, stroke)
         return
-    turns = one.motion != "ellipse"
-    points = [_ellipse(major, major if turns else minor, one.direction_deg, 5.0 * step) for step in range(73)]
+    turns = vector.motion != "ellipse"
+    points = [_ellipse(major, major if turns else minor, vector.direction_deg, 5.0 * step) for step in range(73)]
     drawing.line(points, stroke, 1.0 if turns else 1.6, dash)
     if turns:
-        tip = _at(major, one.direction_deg)
+        tip = _at(major, vector.direction_deg)
         drawing.line([_CENTRE, tip], stroke, 1.8, dash)
-        _head(drawing, tip, one.direction_deg, stroke)
-        ahead = sense * (1.0 if one.motion == "with_shaft" else -1.0)
+        _head(drawing, tip, vector.direction_deg, stroke)
+        ahead = sense * (1.0 if vector.motion == "with_shaft" else -1.0)
         # which way it runs, a quarter of a turn on
-        _head(drawing, _at(major, one.direction_deg + 90.0 * ahead), one.direction_deg + 180.0 * ahead, stroke)
+        _head(drawing, _at(major, vector.direction_deg + 90.0 * ahead), vector.direction_deg + 180.0 * ahead, stroke)
 
 
 def _iron(drawing: Drawing, iron: Sequence[StageIron]) -> None:
@@ -140,20 +140,20 @@ def _iron(drawing: Drawing, iron: Sequence[StageIron]) -> None:
     drawing.text((0, y), words, size=8.5, fill=MUTED)
 
 
-def _summary(drawing: Drawing, one: Stage) -> None:
+def _summary(drawing: Drawing, stage: Stage) -> None:
     """All that is left, in words: forces and moments of both orders have no scale in common."""
     y = 32.0
     drawing.area([(0, 28), (_SIDE, 28), (_SIDE, 196), (0, 196)], "white", stroke=FAINT)
-    for each in one.acting if one.left is None else one.left:
-        drawing.text((6, y + 8), f"{each.quantity} of order {each.order}", size=9.5)
-        drawing.text((6, y + 20), _said(each), size=9, fill=BEFORE if one.left is None else AFTER)
-        if each.direction_deg is not None:
-            drawing.text((6, y + 32), f"at {digits(round(each.direction_deg, 1))}°", size=9, fill=MUTED)
+    for vector in stage.acting if stage.left is None else stage.left:
+        drawing.text((6, y + 8), f"{vector.quantity} of order {vector.order}", size=9.5)
+        drawing.text((6, y + 20), _words(vector), size=9, fill=BEFORE if stage.left is None else AFTER)
+        if vector.direction_deg is not None:
+            drawing.text((6, y + 32), f"at {digits(round(vector.direction_deg, 1))}°", size=9, fill=MUTED)
         y += 40.0
 
 
-def _said(one: Acting) -> str:
-    return "none" if one.motion == "none" else f"{digits(one.peak)} {one.unit}, {_WORDS[one.motion]}"
+def _words(vector: Acting) -> str:
+    return "none" if vector.motion == "none" else f"{digits(vector.peak)} {vector.unit}, {_WORDS[vector.motion]}"
 
 
 def _at(radius: float, angle_deg: float) -> Point:

@@ -9,7 +9,7 @@ from service.guard.access import require
 from service.http.computing import computing_of
 from service.http.direct import Endpoint
 from service.http.operations import of_computation
-from service.http.parameters import require_known
+from service.http.parameters import require_parameters
 
 
 def endpoints() -> dict[str, Endpoint]:
@@ -38,10 +38,10 @@ def router() -> APIRouter:
     return made
 
 
-def _endpoint(one: Computation) -> Endpoint:
+def _endpoint(computation: Computation) -> Endpoint:
     async def endpoint(request: Request) -> Response:
-        require(request, one.scope)
-        require_known(request)
-        return await computing_of(request).answer(request, one)
+        require(request, computation.scope)
+        require_parameters(request)
+        return await computing_of(request).answer(request, computation)
 
     return endpoint

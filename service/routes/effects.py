@@ -5,7 +5,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from schemas.answer.effects import EffectCatalogue
-from service.http.kept import Kept, Shelf
+from service.http.cached_document import CachedDocument, Shelf
 from service.http.operations import parameters, problems, unchanged
 
 router = APIRouter(tags=["counterweights"])
@@ -25,11 +25,11 @@ async def list_effects(request: Request) -> Response:
     return found.answer(request)
 
 
-def _listed(_: str) -> Kept:
+def _listed(_: str) -> CachedDocument:
     # the optimiser, which the process of the service needs for nothing else: it would be ready later
     from optimizer.outputs.descriptions import catalogue
 
-    return Kept(catalogue().model_dump_json().encode(), "application/json")
+    return CachedDocument(catalogue().model_dump_json().encode(), "application/json")
 
 
 _LISTS = Shelf(_listed)

@@ -12,7 +12,7 @@ from service.computations import XLSX
 from service.documents.examples import Examples, catalogue, load
 from service.documents.template import template
 from service.fairness.threads import in_threads
-from service.http.kept import Kept
+from service.http.cached_document import CachedDocument
 from service.http.operations import BINARY, parameters, problems, ref, unchanged
 
 router = APIRouter(tags=["examples"])
@@ -64,15 +64,15 @@ def read_template(
 
 
 @cache
-def _template(name: str) -> Kept:
-    return Kept(template(name), XLSX)
+def _template(name: str) -> CachedDocument:
+    return CachedDocument(template(name), XLSX)
 
 
 @cache
-def _listed(prefix: str) -> Kept:
-    return Kept(catalogue(prefix).model_dump_json().encode(), "application/json")
+def _listed(prefix: str) -> CachedDocument:
+    return CachedDocument(catalogue(prefix).model_dump_json().encode(), "application/json")
 
 
 @cache
-def _example(name: str) -> Kept:
-    return Kept(load(name), "application/json")
+def _example(name: str) -> CachedDocument:
+    return CachedDocument(load(name), "application/json")

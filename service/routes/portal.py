@@ -5,7 +5,7 @@ from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import Response
 
-from service.http.kept import ASKS_AGAIN, FOR_EVER, Kept, Shelf
+from service.http.cached_document import ASKS_AGAIN, FOR_EVER, CachedDocument, Shelf
 from service.portal.assets import asset, names, page, release
 
 router = APIRouter(include_in_schema=False)
@@ -35,12 +35,12 @@ async def file(request: Request, of: str, name: str) -> Response:
     return found.answer(request, FOR_EVER if of == release() else ASKS_AGAIN)
 
 
-def _file(name: str) -> Kept:
+def _file(name: str) -> CachedDocument:
     # computed from all files, once: here no client waits for it on the event loop
     release()
     found = asset(name)
-    return Kept(found.content, found.media_type)
+    return CachedDocument(found.content, found.media_type)
 
 
-_PAGES = Shelf[tuple[str, ...]](lambda origins: Kept(page(origins), "text/html"))
+_PAGES = Shelf[tuple[str, ...]](lambda origins: CachedDocument(page(origins), "text/html"))
 _FILES = Shelf(_file)

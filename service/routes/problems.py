@@ -8,8 +8,8 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from service.documents.problem_kinds import ProblemKind, kind_of
-from service.http.accept import liked
-from service.http.kept import Kept
+from service.http.accept import negotiate
+from service.http.cached_document import CachedDocument
 from service.http.operations import TEXT, accept, parameters, problems, unchanged
 
 router = APIRouter(tags=["problems"])
@@ -30,16 +30,16 @@ _POLICY = "default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'none'
 async def read_problem(request: Request, kind: str) -> Response:
     """The address of a kind is `type` of a problem; the page needs no key."""
     # who likes none of them is not refused: it is a page of explanations
-    form = liked(request, _FORMS) or _JSON
+    form = negotiate(request, _FORMS) or _JSON
     more = {"Content-Security-Policy": _POLICY} if form == _HTML else {}
     return _page(kind_of(kind), form).answer(request, Vary="Accept, Accept-Encoding", **more)
 
 
 @cache
-def _page(kind: ProblemKind, form: str) -> Kept:
+def _page(kind: ProblemKind, form: str) -> CachedDocument:
     if form == _JSON:
-        return Kept(kind.model_dump_json().encode(), form)
-    return Kept((_html(kind) if form == _HTML else _plain(kind)).encode(), form)
+        return CachedDocument(kind.model_dump_json().encode(), form)
+    return CachedDocument((_html(kind) if form == _HTML else _plain(kind)).encode(), form)
 
 
 def _plain(kind: ProblemKind) -> str:

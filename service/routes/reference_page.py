@@ -9,7 +9,7 @@ from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, Response
 
-from service.http.kept import Kept, Shelf
+from service.http.cached_document import CachedDocument, Shelf
 
 # the browser enforces that nothing is loaded from elsewhere
 _POLICY = "default-src 'self' 'unsafe-inline'; img-src 'self' data:"
@@ -21,7 +21,9 @@ _MEDIA_TYPES: Mapping[str, str] = {
 
 
 #: each file is read and compressed once: nobody waits for a disk while it is answered
-_ASSETS = Shelf[str](lambda name: Kept((files("fastapi_offline") / "static" / name).read_bytes(), _MEDIA_TYPES[name]))
+_ASSETS = Shelf[str](
+    lambda name: CachedDocument((files("fastapi_offline") / "static" / name).read_bytes(), _MEDIA_TYPES[name])
+)
 
 
 def install(app: FastAPI) -> None:

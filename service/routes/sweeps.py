@@ -12,11 +12,11 @@ from starlette.responses import JSONResponse, Response, StreamingResponse
 from schemas.sweep.answers import SweepEstimate, SweepState
 from schemas.sweep.request import SweepRequest
 from service.fairness.quotas import holding
-from service.fairness.single_flight import looked
+from service.fairness.single_flight import shared_look
 from service.fairness.threads import in_threads, threads_of
 from service.guard.access import needs
 from service.guard.keys import still_admitted
-from service.http.accept import liked
+from service.http.accept import negotiate
 from service.http.computing import Computes
 from service.http.operations import (
     COMPUTE_PROBLEMS,
@@ -115,7 +115,7 @@ async def list_sweeps(
         more = f"{where}/v1/sweeps?limit={limit}&before={jobs[limit - 1].id}" if len(jobs) > limit else None
         return SweepPage(sweeps=tuple(desk.state(job, where) for job in jobs[:limit]), next=more).model_dump_json()
 
-    return _json(await looked(request, (page.__qualname__, desk.view, where, limit, before), page))
+    return _json(await shared_look(request, (page.__qualname__, desk.view, where, limit, before), page))
 
 
 @router.get(
@@ -132,7 +132,7 @@ async def read_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa
     def state() -> str:
         return desk.state(desk.get(id), where).model_dump_json()
 
-    return _json(await looked(request, (state.__qualname__, desk.view, where, id), state))
+    return _json(await shared_look(request, (state.__qualname__, desk.view, where, id), state))
 
 
 @router.delete(
@@ -183,7 +183,7 @@ async def describe_sweep(request: Request, desk: Jobs, id: str) -> Response:  # 
         about = description(desk.schema(job)) if job.kind == "sweep" else {"kind": job.kind}
         return json.dumps(about, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
 
-    return _json(await looked(request, (described.__qualname__, desk.view, id), described))
+    return _json(await shared_look(request, (described.__qualname__, desk.view, id), described))
 
 
 @router.get(
@@ -220,10 +220,10 @@ def read_results(
     if job.kind != "sweep":
         return _streamed(request, _blocks(desk.answer(job)), "application/json", _NO_STORE)
     # who likes none of them is not refused
-    name = format or liked(request, _BY_MEDIA_TYPE) or "ndjson"
+    name = format or negotiate(request, _BY_MEDIA_TYPE) or "ndjson"
     schema = chosen(desk.schema(job), columns or ())
     last = None if limit is None else offset + limit
-    rows = (desk.kept if select == "kept" and job.selects else desk.rows)(job, schema, offset, last)
+    rows = (desk.selection if select == "kept" and job.selects else desk.rows)(job, schema, offset, last)
     if name == "xlsx":
         require_fits(max(0, (rows.count if last is None else min(last, rows.count)) - offset), len(schema))
     more = last if last is not None and last < rows.count else None
@@ -284,7 +284,7 @@ async def watch_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noq
     def look() -> News:
         return news(desk, desk.get(id), where)
 
-    first = await looked(request, (look.__qualname__, desk.view, where, id), look)
+    first = await shared_look(request, (look.__qualname__, desk.view, where, id), look)
     job = first.job
     seen = request.headers.get("last-event-id", "")
     last = int(seen) if seen.isascii() and seen.isdecimal() and len(seen) < 19 else None

@@ -108,35 +108,35 @@ def tolerance(answer: OptimizeAnswer) -> Tolerance:
     return Tolerance(share / 100.0, angle)
 
 
-def _mass(one: Counterweight | None) -> float:
-    return 0.0 if one is None else one.mass_kg
+def _mass(counterweight: Counterweight | None) -> float:
+    return 0.0 if counterweight is None else counterweight.mass_kg
 
 
-def lines(found: AsBuilt) -> Lines:
+def lines(comparison: AsBuilt) -> Lines:
     """Headings, and a line for each web."""
-    return [[*HEADS], *(line(one, found.tolerance) for one in found.pairs)]
+    return [[*HEADS], *(line(pair, comparison.tolerance) for pair in comparison.pairs)]
 
 
-def line(one: Pair, tolerance: Tolerance) -> list[Cell]:
+def line(pair: Pair, tolerance: Tolerance) -> list[Cell]:
     """Cells under :data:`HEADS`."""
-    best, built = one.masses
+    best, built = pair.masses
     off = None if tolerance.share is None else tolerance.share * best
-    angles = (_angle(one.optimum), _angle(one.built), one.turned_deg)
-    return [one.web, best, built, built - best, off, *angles, tolerance.angle_deg if best else None]
+    angles = (_angle(pair.optimum), _angle(pair.built), pair.turned_deg)
+    return [pair.web, best, built, built - best, off, *angles, tolerance.angle_deg if best else None]
 
 
-def _angle(one: Counterweight | None) -> float | None:
-    return one.angle_deg if one is not None and one.mass_kg else None
+def _angle(counterweight: Counterweight | None) -> float | None:
+    return counterweight.angle_deg if counterweight is not None and counterweight.mass_kg else None
 
 
-def residual(answer: OptimizeAnswer, found: AsBuilt) -> Lines:
+def residual(answer: OptimizeAnswer, comparison: AsBuilt) -> Lines:
     """Peaks without counterweights, at the optimum, as built; cells under :data:`RESIDUAL_HEADS`, heads left out."""
-    was, best, now = answer.residual.before, answer.residual.after, found.left
+    was, best, now = answer.residual.before, answer.residual.after, comparison.left
     rows: Lines = []
     for name, values in (
-        ("force, N", [one.force.peak_N if one else None for one in (was, best, now)]),
-        ("moment, N m", [one.moment.peak_Nm if one else None for one in (was, best, now)]),
-        ("total mass, kg", [0.0, answer.total_mass_kg, found.total_mass_kg]),
+        ("force, N", [peaks.force.peak_N if peaks else None for peaks in (was, best, now)]),
+        ("moment, N m", [peaks.moment.peak_Nm if peaks else None for peaks in (was, best, now)]),
+        ("total mass, kg", [0.0, answer.total_mass_kg, comparison.total_mass_kg]),
     ):
         before, optimum, built = values
         rows.append([name, before, optimum, built, None if optimum is None or built is None else built - optimum])

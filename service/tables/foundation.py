@@ -39,19 +39,19 @@ def lines(loads: Sequence[OrderOfFoundation]) -> Lines:
         heads += [f"{words}, N or N m", f"{words}, kN or kN m", f"{words}, phase, deg"]
     return [
         [*heads, "phases count from shaft angle, deg"],
-        *(_line(one, name, list(shown)) for one, name in _each(loads)),
+        *(_line(one, name, list(shown)) for one, name in _pairs(loads)),
     ]
 
 
-def _each(loads: Sequence[OrderOfFoundation]) -> Iterator[tuple[OrderOfFoundation, str]]:
-    for one in loads:
+def _pairs(loads: Sequence[OrderOfFoundation]) -> Iterator[tuple[OrderOfFoundation, str]]:
+    for order in loads:
         for name in _LOADS:
-            yield one, name
+            yield order, name
 
 
-def _line(one: OrderOfFoundation, name: str, shown: Sequence[str]) -> list[Cell]:
-    cells: list[Cell] = [one.order, _LOADS[name]]
-    for each in shown:
-        found = oscillation(getattr(one, each), name)
-        cells += [None] * 3 if found is None else [found[0], found[0] / _KILO, found[1]]
-    return [*cells, one.dead_centre_deg]
+def _line(order: OrderOfFoundation, name: str, shown: Sequence[str]) -> list[Cell]:
+    cells: list[Cell] = [order.order, _LOADS[name]]
+    for when in shown:
+        load = oscillation(getattr(order, when), name)
+        cells += [None] * 3 if load is None else [load[0], load[0] / _KILO, load[1]]
+    return [*cells, order.dead_centre_deg]

@@ -19,17 +19,17 @@ _SAME = 1e-9
 
 def order(answer: OptimizeAnswer) -> list[list[Cell]]:
     """A line for each casting that is to be made, the heaviest first; equal ones stand together."""
-    every = [one for one in answer.counterweights if one.mass_kg > 0 and not one.fixed]
+    every = [piece for piece in answer.counterweights if piece.mass_kg > 0 and not piece.fixed]
     sizes = _Sizes()
-    every.sort(key=lambda one: (-one.mass_kg, one.radius_m))
+    every.sort(key=lambda piece: (-piece.mass_kg, piece.radius_m))
     rows: list[list[Cell]] = []
     allowed = tolerance(answer)
     for (mass, radius), equal in groupby(every, key=sizes.of):
         pieces = list(equal)
         off = None if allowed.share is None else allowed.share * mass
-        for one in pieces:
-            angles = (one.angle_from_crank_deg, one.angle_deg)
-            rows.append([mass, len(pieces), radius, one.web, *angles, off, allowed.angle_deg])
+        for piece in pieces:
+            angles = (piece.angle_from_crank_deg, piece.angle_deg)
+            rows.append([mass, len(pieces), radius, piece.web, *angles, off, allowed.angle_deg])
     return rows
 
 
@@ -53,8 +53,8 @@ class _Sizes:
     def __init__(self) -> None:
         self._last = (0.0, 0.0)
 
-    def of(self, one: Counterweight) -> tuple[float, float]:
+    def of(self, piece: Counterweight) -> tuple[float, float]:
         mass, radius = self._last
-        if abs(one.mass_kg - mass) > _SAME * one.mass_kg or one.radius_m != radius:
-            self._last = (one.mass_kg, one.radius_m)
+        if abs(piece.mass_kg - mass) > _SAME * piece.mass_kg or piece.radius_m != radius:
+            self._last = (piece.mass_kg, piece.radius_m)
         return self._last

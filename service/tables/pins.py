@@ -4,21 +4,21 @@ from schemas.scroll.pin_loads import PinLoads
 from service.tables.lines import Lines, as_csv
 
 
-def lines(found: PinLoads, every: int = 1) -> Lines:
+def lines(loads: PinLoads, every: int = 1) -> Lines:
     """A line for each shaft angle, or for every so many of them; a column for each pin."""
-    heads = ["shaft angle, deg", *(f"Q {pin.index}, N" for pin in found.pins)]
-    if found.drive_bearing is not None:
+    heads = ["shaft angle, deg", *(f"Q {pin.index}, N" for pin in loads.pins)]
+    if loads.drive_bearing is not None:
         heads.append("drive bearing, N")
-    columns = [found.angle_deg, *(pin.load_N for pin in found.pins)]
-    if found.drive_bearing is not None:
-        columns.append(found.drive_bearing.load_N)
-    columns.append(found.rotation_torque_Nm)
+    columns = [loads.angle_deg, *(pin.load_N for pin in loads.pins)]
+    if loads.drive_bearing is not None:
+        columns.append(loads.drive_bearing.load_N)
+    columns.append(loads.rotation_torque_Nm)
     return [[*heads, "rotation torque, N m"], *map(list, zip(*(column[::every] for column in columns), strict=True))]
 
 
-def pins_csv(found: PinLoads) -> bytes:
+def pins_csv(loads: PinLoads) -> bytes:
     """The same as CSV."""
-    return as_csv(lines(found))
+    return as_csv(lines(loads))
 
 
 def dead_points(phase_deg: float) -> tuple[float, float]:

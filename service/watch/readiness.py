@@ -58,7 +58,7 @@ class Readiness:
         """Look after everything that is needed, until cancelled."""
         while True:
             for name, check in self._checks.items():
-                found = await self._looked(check)
+                found = await self._probe(check)
                 known = self._missing.pop(name, None)
                 if found is not None:
                     self._missing[name] = found
@@ -66,7 +66,7 @@ class Readiness:
                     _LOG.warning("%s: %s", name, found or "all is well again")
             await sleep(_LOOK_S)
 
-    async def _looked(self, check: Callable[[], None]) -> NotReady | None:
+    async def _probe(self, check: Callable[[], None]) -> NotReady | None:
         try:
             with fail_after(_PATIENCE_S):
                 await self._threads.run("readiness", check, abandon=True)

@@ -66,7 +66,7 @@ class Entrance:
         self.refused: set[_Refused] = set()
         self._listening = listening
         self._rounds = rounds
-        self._said = -math.inf
+        self._last_warning_s = -math.inf
         self._open = False
         self._spares = Spares(_SPARES)
         self._connecting: set[asyncio.Task[Any]] = set()
@@ -138,9 +138,9 @@ class Entrance:
     def give_back(self) -> None:
         """A connection that took the place of a spare file has ended; the next may come."""
         # its socket is closed in this turn of the loop
-        self.loop.call_soon(self._given_back)
+        self.loop.call_soon(self._go_on_with_spares)
 
-    def _given_back(self) -> None:
+    def _go_on_with_spares(self) -> None:
         self._spares.give_back()
         self._go_on()
 
@@ -150,8 +150,8 @@ class Entrance:
         self.loop.call_later(_WAIT_S, self._go_on)
 
     def _say(self, error: OSError) -> None:
-        if self.loop.time() - self._said > _SAY_AGAIN_S:
-            self._said = self.loop.time()
+        if self.loop.time() - self._last_warning_s > _SAY_AGAIN_S:
+            self._last_warning_s = self.loop.time()
             _LOG.error("connections may ask for health alone, as no file can be opened: %s", error.strerror)
 
     def _go_on(self) -> None:
@@ -165,7 +165,7 @@ class _Refused:
     def __init__(self, entrance: Entrance, connection: socket.socket, address: str) -> None:
         self._entrance, self._connection, self._address = entrance, connection, address
         self._protocol: Connection | None = None
-        self._told = False
+        self._notice_sent = False
         self._timer = entrance.loop.call_later(self._patience_s, self._give_up)
         # by its number: the selector quotes a socket that it does not know, which takes three calls of the system
         self._number = connection.fileno()
@@ -182,7 +182,7 @@ class _Refused:
 
     def _look(self) -> None:
         try:
-            if self._told:
+            if self._notice_sent:
                 # who closes on unread bytes takes the answer from the client
                 begun, over = b"", not self._connection.recv(_PIECE_BYTES)
             else:
@@ -194,7 +194,7 @@ class _Refused:
             begun, over = b"", True
         if over:
             self.end()
-        elif not self._told:
+        elif not self._notice_sent:
             if any(probe.startswith(begun[: len(probe)]) for probe in _PROBING):
                 self._let_ask()
             else:
@@ -208,7 +208,7 @@ class _Refused:
         self._entrance.connect(self._connection, protocol)
 
     def _tell(self) -> None:
-        self._told = True
+        self._notice_sent = True
         with suppress(OSError):
             # nothing may have come
             self._connection.recv(_PIECE_BYTES)
@@ -219,7 +219,7 @@ class _Refused:
     def _give_up(self) -> None:
         """Another one takes its place, or it says nothing."""
         if self._protocol is None:
-            if not self._told:
+            if not self._notice_sent:
                 self._tell()
             self.end()
         elif self._protocol.transport is None:

@@ -32,19 +32,19 @@ class Client:
         self.sent_all = False
         self.gone = False
         self._flow = flow
-        self._told: Leave | None = None
+        self._on_leave: Leave | None = None
 
     def leave(self) -> None:
         """It has gone."""
         self.gone = True
-        if self._told is not None:
-            self._told()
+        if self._on_leave is not None:
+            self._on_leave()
 
     def tell(self, leave: Leave | None) -> None:
         """Have something called when it goes, or nothing any more."""
         # what is not read does not end
         self._flow.resume_reading()
-        self._told = leave
+        self._on_leave = leave
 
 
 def client_of(request: Request) -> Client | None:

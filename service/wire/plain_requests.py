@@ -63,16 +63,16 @@ class Heads:
     """The heads of one connection: a client that asks again most often says the same again, which is read once."""
 
     def __init__(self) -> None:
-        self._said = b""
+        self._bytes = b""
         self._head: Head | None = None
 
     def plain(self, received: bytes) -> tuple[Head, int] | None:
         """As :func:`plain_head`."""
-        if self._head is not None and received.startswith(self._said):
-            return self._head, len(self._said)
+        if self._head is not None and received.startswith(self._bytes):
+            return self._head, len(self._bytes)
         found = plain_head(received)
         if found is not None and found[1] <= _SHORT:
-            self._head, self._said = found[0], received[: found[1]]
+            self._head, self._bytes = found[0], received[: found[1]]
         return found
 
 

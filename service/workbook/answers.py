@@ -27,14 +27,14 @@ def answered(request: OptimizeRequest, answer: OptimizeAnswer) -> bytes:
         sheets[BUILT] = [*as_built.lines(built), [], [*as_built.RESIDUAL_HEADS], *as_built.residual(answer, built)]
     if answer.foundation_loads:
         sheets[FOUNDATION] = foundation.lines(answer.foundation_loads)
-    return workbook({**_asked(request), **sheets, ANSWER: [["field", "value"], *fields]})
+    return workbook({**_request_sheets(request), **sheets, ANSWER: [["field", "value"], *fields]})
 
 
 def requested(request: OptimizeRequest, _: object) -> bytes:
     """The request alone."""
-    return workbook(_asked(request))
+    return workbook(_request_sheets(request))
 
 
-def _asked(request: OptimizeRequest) -> Sheets:
-    given: dict[str, Any] = request.model_dump(mode="json", exclude_unset=True)
-    return written(given)
+def _request_sheets(request: OptimizeRequest) -> Sheets:
+    fields: dict[str, Any] = request.model_dump(mode="json", exclude_unset=True)
+    return written(fields)

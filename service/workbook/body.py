@@ -27,14 +27,14 @@ def read_workbook(content: bytes) -> Read:
 
 
 @contextmanager
-def cells_named(found: Read) -> Iterator[None]:
+def cells_named(workbook: Read) -> Iterator[None]:
     """Within it, what is wrong with a field is said with the cell that the field stands in."""
     try:
         yield
     except (InvalidRequest, NotComputable) as error:
-        error.problems = _named(found, error.problems)
+        error.problems = _named(workbook, error.problems)
         raise
 
 
-def _named(found: Read, problems: Sequence[FieldProblem]) -> list[FieldProblem]:
-    return [FieldProblem(one.path, f"{found.where(one)}: {one.message}") for one in problems]
+def _named(workbook: Read, problems: Sequence[FieldProblem]) -> list[FieldProblem]:
+    return [FieldProblem(problem.path, f"{workbook.where(problem)}: {problem.message}") for problem in problems]

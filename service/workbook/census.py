@@ -74,7 +74,7 @@ def census(content: bytes, most_bytes: int) -> Census:
                 raise UnreadableWorkbook(f"it holds more than {most_bytes / 1e6:g} MB or {MOST_PARTS} files")
             relations = _Relations()
             # the list of the sheets first, so that what follows can be named; what is read ends where the part says
-            for part in sorted(parts, key=lambda each: "workbook.xml" not in each.filename):
+            for part in sorted(parts, key=lambda part: "workbook.xml" not in part.filename):
                 _Part(basename(part.filename), counted, relations).count(archive.read(part))
                 counted.titles |= relations.titles()
     except UnreadableWorkbook:

@@ -143,7 +143,7 @@ def read(sheets: Sheets) -> Read:
         elif name not in (ANSWER, COUNTERWEIGHTS, FOUNDATION, BUILT):
             names = ", ".join(REQUEST)
             reader.wrong.append(f"{name[:_LONGEST_TITLE]}: no sheet of a machine; these are {names}")
-    return reader.found()
+    return reader.result()
 
 
 @dataclass
@@ -219,7 +219,7 @@ class _Reader:
         # a spreadsheet makes a number of a name such as 1
         return _text(value) if name == "name" else value
 
-    def found(self) -> Read:
+    def result(self) -> Read:
         lines: dict[Path, tuple[str, int]] = {}
         machine = self.body.setdefault("machine", {}) if self.tables else {}
         for sheet in _TABLES:

@@ -21,7 +21,7 @@ _PIECE_BYTES = 65_536
 _AS_IT_IS = socket.MSG_DONTWAIT | socket.MSG_CMSG_CLOEXEC
 
 
-def say(to: socket.socket, said: object, file: BinaryIO | None = None) -> None:
+def say(to: socket.socket, item: object, file: BinaryIO | None = None) -> None:
     """Send an object whole, and with its first bytes a file.
 
     Raises
@@ -29,7 +29,7 @@ def say(to: socket.socket, said: object, file: BinaryIO | None = None) -> None:
     OSError
         if nobody listens any more.
     """
-    content = pickle.dumps(said)
+    content = pickle.dumps(item)
     message = _LENGTH.pack(len(content)) + content
     sent = socket.send_fds(to, [message], [] if file is None else [file.fileno()])
     to.sendall(memoryview(message)[sent:])
@@ -49,7 +49,7 @@ class Listener:
         self._file: BinaryIO | None = None
         self._gone = False
 
-    async def heard(self) -> tuple[Any, BinaryIO | None]:
+    async def receive(self) -> tuple[Any, BinaryIO | None]:
         """The next object, and the file that came with it; what is said after it must wait until this one was heard.
 
         Raises

@@ -83,8 +83,8 @@ class Pool:
         short, long, waiting = (self.shares[name] for name in ("short", "long", "waiting"))
         self._short, self._long = FairQueue(short, waiting), FairQueue(long, waiting)
         # who has no turn while all have one is not to wait for a start
-        self._kept = int(short.altogether + short.kept + long.altogether)
-        self._threads = CapacityLimiter(2 * self._kept)
+        self._most_workers = int(short.altogether + short.reserve + long.altogether)
+        self._threads = CapacityLimiter(2 * self._most_workers)
         self._idle: list[Worker] = []
         # and the turns of the short ones in which they compute, or did
         self._busy: dict[Worker, Turn] = {}
@@ -117,9 +117,9 @@ class Pool:
         ------
         WorkersFailed
         """
-        while len(self._idle) < self._kept and not self._closed:
+        while len(self._idle) < self._most_workers and not self._closed:
             self._idle.append(self._start())
-        self._least = self._kept
+        self._least = self._most_workers
 
     def close(self) -> None:
         """End every worker; what is computed or waits comes to :class:`WorkersFailed`."""
@@ -289,7 +289,7 @@ class Pool:
         raise WorkersFailed("The service ends.")
 
     def _spare(self, worker: Worker) -> None:
-        if len(self._idle) < self._kept and not self._closed:
+        if len(self._idle) < self._most_workers and not self._closed:
             self._idle.append(worker)
         else:
             worker.end()
@@ -297,7 +297,7 @@ class Pool:
     async def _keep(self, worker: Worker, outcome: Outcome | Long, long: bool) -> None:
         # one that was begun anew elsewhere is still computed here
         spent = isinstance(outcome, Crashed) or worker.computed_s is None
-        if spent or getattr(outcome, "resident", 0) > self.memory_mb * _MB / 2 or len(self._idle) >= self._kept:
+        if spent or getattr(outcome, "resident", 0) > self.memory_mb * _MB / 2 or len(self._idle) >= self._most_workers:
             # fresh ones hold no more than they need, and there are no more of them than needed
             await self._in_thread(worker.end)
             self._replace()
@@ -306,6 +306,6 @@ class Pool:
         typical = self._typical_s[long]
         self._typical_s[long] += 0.1 * (getattr(outcome, "seconds", typical) - typical)
 
-    async def _in_thread(self, work: Callable[..., Result], *given: object) -> Result:
+    async def _in_thread(self, work: Callable[..., Result], *arguments: object) -> Result:
         # whoever leaves a thread behind ends its worker, and with it the thread
-        return await to_thread.run_sync(work, *given, limiter=self._threads, abandon_on_cancel=True)
+        return await to_thread.run_sync(work, *arguments, limiter=self._threads, abandon_on_cancel=True)

@@ -84,13 +84,13 @@ class Worker:
         """Have a task computed."""
         self.computed_s, self._priority = None, priority
         try:
-            self._connection.sendall(task.said(priority))
+            self._connection.sendall(task.serialize(priority))
         except OSError as error:
             raise Dead from error
 
     async def outcome(self) -> Outcome | Long:
         try:
-            reply, file = await self._says.heard()
+            reply, file = await self._says.receive()
         except EOFError as error:
             raise Dead from error
         self.computed_s, self._before_s = reply.computed_s, reply.altogether_s

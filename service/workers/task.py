@@ -44,13 +44,13 @@ class Task:
     workbook: bool = False
     long: bool = False
 
-    def said(self, priority: Priority) -> bytes:
+    def serialize(self, priority: Priority) -> bytes:
         """The task as it goes to a worker."""
-        order = _said(self.computation, self.form, self.limits, self.coding, self.workbook, self.long)
+        order = _serialize(self.computation, self.form, self.limits, self.coding, self.workbook, self.long)
         return b"".join((_HEAD.pack(priority, len(order), len(self.body)), order, self.body))
 
     @classmethod
-    def heard(cls, stream: BinaryIO) -> tuple["Task", Priority]:
+    def receive(cls, stream: BinaryIO) -> tuple["Task", Priority]:
         """The next task in a stream, and its priority.
 
         Raises
@@ -59,18 +59,18 @@ class Task:
             if nobody asks any more.
         """
         priority, order, body = _HEAD.unpack(_read(stream, _HEAD.size))
-        computation, form, limits, coding, workbook, long = _heard(_read(stream, order))
+        computation, form, limits, coding, workbook, long = _deserialize(_read(stream, order))
         return cls(computation, form, _read(stream, body), limits, coding, workbook, long), Priority(priority)
 
 
 # pickled and read once: dozens of names cost more than to check a request
 @lru_cache(_KEPT)
-def _said(*order: object) -> bytes:
+def _serialize(*order: object) -> bytes:
     return pickle.dumps(order)
 
 
 @lru_cache(_KEPT)
-def _heard(order: bytes) -> tuple[Computation, Form, SizeLimits, Coding | None, bool, bool]:
+def _deserialize(order: bytes) -> tuple[Computation, Form, SizeLimits, Coding | None, bool, bool]:
     found: tuple[Computation, Form, SizeLimits, Coding | None, bool, bool] = pickle.loads(order)
     return found
 

@@ -22,7 +22,7 @@ from typing import BinaryIO
 
 from optimizer.errors import NotComputable
 from service.common.coding import SMALL_BYTES, Coding, coded
-from service.common.faults import kept
+from service.common.faults import error_log
 from service.common.private import make_folder
 from service.common.time_slices import SHORT_S, set_slice
 from service.common.validation import InvalidRequest, UnreadableBody, check, read_json
@@ -145,14 +145,14 @@ def serve(connection: socket.socket, memory_bytes: int, folder: Path | None) -> 
     preload = sys.modules.get("service.workers.preload")
     try:
         connection.sendall(pickle.dumps(getattr(preload, "failure", None)))
-        with connection.makefile("rb") as tasks:
-            task, priority = Task.heard(tasks)
+        with connection.makefile("rb") as stream:
+            task, priority = Task.receive(stream)
             while True:
                 # it begins as nice as this one is, which only waits for it
                 with ThreadPoolExecutor(1) as thread:
-                    answer = partial(_answer, tasks, connection, folder)
+                    answer = partial(_answer, stream, connection, folder)
                     while (following := thread.submit(answer, task, priority).result()) is None:
-                        task, priority = Task.heard(tasks)
+                        task, priority = Task.receive(stream)
                     task, priority = following
     except (EOFError, BrokenPipeError, ConnectionResetError):
         return
@@ -164,7 +164,7 @@ def niceness(priority: Priority, pid: int) -> int:
 
 
 def _answer(
-    tasks: BinaryIO, connection: socket.socket, folder: Path | None, task: Task, priority: Priority
+    stream: BinaryIO, connection: socket.socket, folder: Path | None, task: Task, priority: Priority
 ) -> tuple[Task, Priority] | None:
     """Answer tasks, one that was read before and those that come; until one comes for which this thread is too nice.
 
@@ -181,7 +181,7 @@ def _answer(
         del task, outcome
         if os.getpriority(os.PRIO_PROCESS, 0) > niceness(Priority.FIRST, os.getpid()):
             return None
-        task, priority = Task.heard(tasks)
+        task, priority = Task.receive(stream)
     return task, priority
 
 
@@ -224,13 +224,13 @@ def perform(task: Task) -> Outcome | Long:
     try:
         body, said = _read(task)
         with said:
-            asked = check(task.computation.asks, body)
-            task.limits.require(asked)
-            if not task.long and long_by_size(asked, task.computation.answer is None):
+            stream = check(task.computation.asks, body)
+            task.limits.require(stream)
+            if not task.long and long_by_size(stream, task.computation.answer is None):
                 return Long()
-            with kept() as faults:
-                found = task.computation.function(asked)
-        content = task.form.content(asked, found)
+            with error_log() as faults:
+                found = task.computation.function(stream)
+        content = task.form.content(stream, found)
         coding = None if task.form.compressed or len(content) <= SMALL_BYTES else task.coding
         if coding is not None:
             content = coded(content, coding)
@@ -264,9 +264,9 @@ def _frames(error: BaseException) -> Iterator[str]:
     yield type(error).__qualname__
 
 
-def _certified(found: object) -> Certified | None:
-    proof = getattr(found, "certificate", None)
-    timing = getattr(found, "timing", None)
+def _certified(answer: object) -> Certified | None:
+    proof = getattr(answer, "certificate", None)
+    timing = getattr(answer, "timing", None)
     if proof is None or timing is None:
         return None
     gap = math.inf if proof.relative_gap is None else proof.relative_gap

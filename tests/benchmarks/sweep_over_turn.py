@@ -29,8 +29,8 @@ _ELSE = "axes, table, Parquet"
 _LACKING = ("loads", "pin_loads")
 #: part of the work -> functions that do it; what they call belongs to the innermost part
 PARTS: dict[str, tuple[str, ...]] = {
-    "design as a request, mechanics": ("optimizer.studies.sweep.one_by_one:prepare",),
-    "counterweights, proof": ("optimizer.studies.sweep.one_by_one:solve",),
+    "design as a request, mechanics": ("optimizer.studies.sweep.singles:prepare",),
+    "counterweights, proof": ("optimizer.studies.sweep.singles:solve",),
     "columns of outputs": ("optimizer.studies.sweep.rows:columns",),
 }
 

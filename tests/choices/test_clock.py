@@ -151,7 +151,7 @@ def test_a_tree_that_rounding_leaves_open_does_not_say_that_time_was_over(monkey
     least = 0.9 * problem.limits.reach
     relaxed = optima(problem.alone(), 1e-6, False, SOLVER).unbalance[0]
     at_rest = float(problem.at_rest)
-    asked = search.Asked(1e-9 * at_rest, 0.0, at_rest, _LONG)
+    asked = search.SearchGoal(1e-9 * at_rest, 0.0, at_rest, _LONG)
     monkeypatch.setattr(tree, "_bounded", lambda *_: (0.0, []))
     found = search.search(problem, least, relaxed, 0.0, asked, own_solver())
     assert (found.ended, found.nodes) == ("rounding", 1)

@@ -42,8 +42,8 @@ def test_it_keeps_the_limits_and_is_never_worse(limits: dict[str, float]) -> Non
 
     def found() -> tuple[float, Incumbent]:
         incumbent = Incumbent(problem, options, EQUAL * float(problem.at_rest))
-        start(incumbent, best.found.unbalance[:1])
-        neighbourhoods(incumbent, best.found.unbalance[0], 1, lambda: False, Clock(3600.0))
+        start(incumbent, best.optima.unbalance[:1])
+        neighbourhoods(incumbent, best.optima.unbalance[0], 1, lambda: False, Clock(3600.0))
         before, looks = incumbent.least, count(0.0)
         # a second passes from look to look: one round
         quarters(incumbent, lambda: False, Clock(1.5, lambda: next(looks)))

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from optimizer.choices.discrete import branch, halves, pairs, search, sums
 from optimizer.choices.discrete.clock import Clock, Pace
 from optimizer.choices.discrete.options import EQUAL, Incumbent, Options
-from optimizer.choices.discrete.search import EXHAUSTED, TREE, Found
+from optimizer.choices.discrete.search import EXHAUSTED, TREE, BestSet
 from optimizer.program.limits import Limits
 from optimizer.program.methods.optima import optima
 from optimizer.program.rows import combined, statement, weighted_peak
@@ -21,7 +21,7 @@ from tests.program.cases import COMBINATIONS, SOLVER, random_statement
 _LONG = 3600.0
 
 
-def found_of(problem: Statement, options: Options, relative_gap: float = 1e-12, time_limit_s: float = _LONG) -> Found:
+def found_of(problem: Statement, options: Options, relative_gap: float = 1e-12, time_limit_s: float = _LONG) -> BestSet:
     relaxed = optima(problem.alone(), 1e-6, False, SOLVER)
     size = float(yardstick(problem.alone())[0])
     return search.search(
@@ -49,12 +49,12 @@ def check(problem: Statement, options: Options, method: str) -> None:
     assert found.method == (TREE if method == "tree" else EXHAUSTED)
     assert found.ended is None
     if not len(sets):
-        assert not found.kept
+        assert not found.feasible
         assert found.lower_bound == np.inf
         return
     size, best = float(yardstick(problem.alone())[0]), float(np.min(values))
     u = options.of(options.unbalance, found.chosen)
-    assert found.kept
+    assert found.feasible
     assert found.proven
     assert best - 1e-12 * size <= float(problem.objective(u)) <= best + 1.001 * EQUAL * size
     assert best - 1e-12 * size <= found.lower_bound + 1e-12 * size
@@ -157,7 +157,7 @@ def test_webs_that_change_nothing_stay_empty(webs: int, fitted: int | None, part
     problem = statement(combined([weighted_peak(moment, 1.0)], "sum"), [], limits)
     options = options_of(problem, [1.0, 2.0, 4.0], [0.0, 120.0, 240.0], fitted, parts)
     found = found_of(problem, options)
-    assert found.kept
+    assert found.feasible
     assert not np.any(found.chosen)
     assert found.lower_bound == pytest.approx(float(problem.objective(np.zeros(webs, complex))), rel=1e-12)
     if method == "halves":
@@ -171,7 +171,7 @@ def test_a_search_that_is_out_of_time_says_so() -> None:
     found = found_of(problem, options, 1e-12, 0.0)
     size = float(yardstick(problem.alone())[0])
     assert found.ended == "time"
-    assert found.kept
+    assert found.feasible
     assert not found.proven
     value = float(problem.objective(options.of(options.unbalance, found.chosen)))
     assert optima(problem.alone(), 1e-6, False, SOLVER).lower_bound[0] <= found.lower_bound + 1e-12 * size

@@ -89,7 +89,9 @@ def test_memory_suffices_for_the_computations_that_it_allows() -> None:
         )
     )
     # two above them, for clients that had little lately
-    assert ((solves + shares(Settings())["short"].kept) * Settings().solve_memory_mb + 300) * 1_000_000 < limit * 2**30
+    assert (
+        (solves + shares(Settings())["short"].reserve) * Settings().solve_memory_mb + 300
+    ) * 1_000_000 < limit * 2**30
 
 
 def test_it_waits_longer_for_the_end_than_the_service_needs() -> None:

@@ -118,7 +118,7 @@ def test_memory_suffices_for_the_computations_that_it_allows() -> None:
     limit = int(CONTAINER["resources"]["limits"]["memory"].removesuffix("Gi")) * 2**30
     set_here = ALL["ConfigMap"]["data"]
     # two above them, for clients that had little lately; docs/operation.md: 300 MB for the service, each sweep worker
-    solves = int(set_here["COUNTERWEIGHT_CONCURRENT_SOLVES"]) + shares(Settings())["short"].kept
+    solves = int(set_here["COUNTERWEIGHT_CONCURRENT_SOLVES"]) + shares(Settings())["short"].reserve
     others = int(set_here["COUNTERWEIGHT_SWEEP_WORKERS"]) + 1
     assert (solves * Settings().solve_memory_mb + others * 300) * 1_000_000 < limit
 

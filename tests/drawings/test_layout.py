@@ -12,7 +12,7 @@ from schemas.request.layout import LayoutRequest
 from schemas.request.requests import OptimizeRequest
 from service.common.validation import check
 from service.documents.examples import bodies
-from service.drawings.layout import CrankMachine, known, layout_of
+from service.drawings.layout import CrankMachine, layout_of, partial_layout
 from service.drawings.views import views
 
 EXAMPLES = {name: body["machine"] for name, body in bodies().items()}
@@ -26,12 +26,12 @@ def machine(*throws: Any, **more: Any) -> dict[str, Any]:
 
 
 def reasons(typed: dict[str, Any]) -> dict[str, str]:
-    return {"/".join(map(str, one.path[1:])): one.message for one in known(typed)[1]}
+    return {"/".join(map(str, one.path[1:])): one.message for one in partial_layout(typed)[1]}
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_whole_machines_are_known_whole(name: str) -> None:
-    found, why = known({**NOTHING, "machine": EXAMPLES[name]})
+    found, why = partial_layout({**NOTHING, "machine": EXAMPLES[name]})
     assert why == []
     assert found == layout_of(OptimizeRequest.model_validate({"machine": EXAMPLES[name]}).machine, ())
 
@@ -46,7 +46,7 @@ def test_the_plane_of_moments_is_that_of_the_answer(name: str, plane: float | No
 
 def test_a_part_that_lacks_something_is_left_out_and_named() -> None:
     typed = machine(THROW, {"position_m": 0.3, "crank_radius_m": "wide"}, "x")
-    found, _ = known(typed)
+    found, _ = partial_layout(typed)
     assert found is not None
     assert isinstance(found.machine, CrankMachine)
     # places keep their numbers
@@ -61,7 +61,7 @@ def test_a_part_that_lacks_something_is_left_out_and_named() -> None:
 def test_what_may_be_missing_goes_alone() -> None:
     web = {"name": "a", "position_m": 0, "counterweight_radius_m": "?", "sector": {"centre_deg": 90}}
     typed = machine({**THROW, "rows": [{"axis_deg": "up"}, {"axis_deg": 90}]}, webs=[web], rotation="left")
-    found, _ = known(typed)
+    found, _ = partial_layout(typed)
     assert found is not None
     assert isinstance(found.machine, CrankMachine)
     assert [row and row.axis_deg for row in found.machine.cranks[0][1].rows] == [None, 90]
@@ -95,7 +95,7 @@ def test_weights_are_seen_where_they_have_mass_radius_and_web() -> None:
     weights = [{"web": name, "mass_kg": mass, "angle_deg": 0} for name, mass in (("a", 60), ("b", 1e-5), ("c", 0))]
     elsewhere = {"web": "of a balance shaft", "mass_kg": 3, "angle_deg": 0, "radius_m": 0.1}
     fitted = [{"web": "b", "mass_kg": "2 kg", "angle_deg": 5, "radius_m": "300 mm"}]
-    found, why = known(machine(THROW, webs=webs) | {"counterweights": [*weights, elsewhere], "fitted": fitted})
+    found, why = partial_layout(machine(THROW, webs=webs) | {"counterweights": [*weights, elsewhere], "fitted": fitted})
     assert found is not None
     assert why == []
     assert [(one.web.name, one.radius_m) for one in found.best] == [("a", 0.2)]

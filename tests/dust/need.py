@@ -84,13 +84,13 @@ def is_needed_at(request: ParetoRequest, front: ParetoFront, point: ParetoPoint,
         return False
     here = np.array([point.weighted_force_peak_N, point.weighted_moment_peak_Nm]) / float(scene.omega_squared)
     most = np.where([each.name == web for each in machine.webs], 0.0, whole.both.limits.max_mass)
-    program = whole.within(most, whole.known).along(here, unit)
+    program = whole.within(most, whole.cap).along(here, unit)
     # t is nothing at the point
     target = _SHARPEST - whole.parameter(0.0, here, unit)
-    found = optima(program.alone(), _SHARPEST, False, Solver()).one()
+    found = optima(program.alone(), _SHARPEST, False, Solver()).single()
     if isinstance(found, Unreachable) or found.lower_bound > target:
         return True
-    found = optima(program.alone(), target - found.lower_bound + _SHARPEST, True, Solver()).one()
+    found = optima(program.alone(), target - found.lower_bound + _SHARPEST, True, Solver()).single()
     assert not isinstance(found, Unreachable)
     return found.mass_target >= target and found.mass_lower_bound > point.total_mass_kg / (1.0 - MASS_GAP)
 

@@ -68,7 +68,7 @@ def strictly(compute: Callable[[], str]) -> str:
     Exception
         whatever it raises, and every warning; AssertionError for a fault that the optimiser logs.
     """
-    with warnings.catch_warnings(), faults.kept() as found:
+    with warnings.catch_warnings(), faults.error_log() as found:
         warnings.simplefilter("error")
         try:
             became = compute()

@@ -135,7 +135,7 @@ def check(root: Path, told: Told, url: str | None = None) -> tuple[int, int]:
     work(house, Told(), clock=lambda: later)
     Housekeeping(house.store, house.retention, house.files).tidy()
     orphans = 0
-    known = house.retention.known()
+    known = house.retention.job_ids()
     for job in known:
         found = house.store.get(job)
         right = synthetic.rows(0, TOTAL)

@@ -245,14 +245,14 @@ def _leftovers(house: House, client: Client) -> list[str]:
             if time.monotonic() > until:
                 return [f"file of nobody: {name}" for name in left]
             time.sleep(0.5)
-        known = house.retention.known()
+        known = house.retention.job_ids()
     finally:
         house.database.close()
     return [f"{job}: the database knows it alone" for job in known - (client.known.keys() - client.gone)]
 
 
 def _files_of_nobody(house: House) -> list[str]:
-    known = house.retention.known()
+    known = house.retention.job_ids()
     left = [f"folder {job}" for job in set(house.files.folders()) - known]
     for job in known:
         expected = {house.files.piece(job, record).name for record in house.store.pieces(job)}

@@ -179,7 +179,7 @@ def test_delete_makes_room_on_a_full_disk(tmp_path: Path) -> None:
         with pytest.raises(DatabaseUnavailable, match="full"):
             house.store.resume(house.submit())
         assert jobs.end(job) is None
-        assert house.retention.known() == set()
+        assert house.retention.job_ids() == set()
         assert not house.files.folder(job).exists()
         house.database.close()
 
@@ -287,7 +287,7 @@ def test_a_selection_is_bounded_in_size_and_time(house: House, monkeypatch: pyte
     files = [(house.files.piece("a" * 32, record), record)]
     columns = rows.schema.serialize().to_pybytes()
     piece = selection.select(data, columns, files, "/nowhere")
-    assert piece.kept == 3
+    assert piece.selection_rows == 3
     with pytest.raises(Unanswerable, match="takes longer than 0 s"):
         selection.select(data, columns, files, "/nowhere", 0.0)
     monkeypatch.setattr(selection, "_CELLS", len(rows.schema))

@@ -73,7 +73,7 @@ def test_a_selection_is_read_though_it_is_replaced_meanwhile(house: House, jobs:
     assert (second.start, selection.start) == (10, 20)
     old = written(house, selection, synthetic.rows(0, 1))
     assert house.leases.finish_selection(selection, 10, 1, old) is None
-    rows = jobs.kept(jobs.get(job), synthetic.SCHEMA)
+    rows = jobs.selection(jobs.get(job), synthetic.SCHEMA)
     assert (rows.count, rows.complete) == (1, False)
 
     finished(house, second)

@@ -95,7 +95,7 @@ def test_a_database_of_the_first_release_goes_on(settings: Settings) -> None:
                 assert pa.Table.from_batches(rows.batches).equals(expected)
         best = jobs.get(BEST)
         assert (best.selected, best.kept) == (400, 3)
-        kept = pa.Table.from_batches(jobs.kept(best, jobs.schema(best)).batches)
+        kept = pa.Table.from_batches(jobs.selection(best, jobs.schema(best)).batches)
         values = sorted(value for value in expected["force_peak_N"].to_pylist() if value is not None)
         assert kept["force_peak_N"].to_pylist() == values[:3]
         # what was read has a digest now, and is verified from now on

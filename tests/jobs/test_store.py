@@ -224,7 +224,7 @@ def test_pages_newest_first(any_house: House) -> None:
 
 
 def test_too_many_jobs(any_house: House) -> None:
-    store = Store(any_house.database, Limits(active=3, active_each=2))
+    store = Store(any_house.database, Limits(active=3, active_per_owner=2))
     for _ in range(2):
         store.submit(Order("k", b"{}", "d", owner="one"))
     with pytest.raises(TooManyJobs):

@@ -5,7 +5,7 @@ from functools import partial
 from service.fairness.connection_limits import ConnectionLimits
 from service.fairness.table import PROBES, connections
 
-_PROBING_EACH, _PROBING = int(PROBES.each), int(PROBES.altogether)
+_PROBING_EACH, _PROBING = int(PROBES.per_client), int(PROBES.altogether)
 
 
 def test_an_address_has_its_share() -> None:

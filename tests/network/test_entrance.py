@@ -113,7 +113,9 @@ def test_with_room_there_is_an_answer_and_then_room_again() -> None:
 
 def test_of_those_without_room_who_came_first_makes_place() -> None:
     async def silent(house: House) -> None:
-        held = [await asyncio.open_connection(*house.listening.getsockname()[:2]) for _ in range(int(PROBES.each) + 2)]
+        held = [
+            await asyncio.open_connection(*house.listening.getsockname()[:2]) for _ in range(int(PROBES.per_client) + 2)
+        ]
         # the first two are told, the others may still ask
         assert [(await read(reader)).status for reader, _ in held[:2]] == [503, 503]
         held[2][1].write(request("GET", "/readyz"))

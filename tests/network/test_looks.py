@@ -116,7 +116,7 @@ def test_after_its_looks_a_client_is_forgotten() -> None:
             await asyncio.gather(*(looks.at(f"client {k}", 0, lambda: None) for _ in range(3)))
         while looks._own:
             await asyncio.sleep(0.01)
-        return len(looks._own), len(looks._asked)
+        return len(looks._own), len(looks._tasks)
 
     assert run(left) == (0, 0)
 

@@ -22,7 +22,7 @@ def ends() -> Iterator[tuple[socket.socket, socket.socket]]:
 
 async def heard(ours: socket.socket) -> tuple[Any, BinaryIO | None]:
     """What comes next."""
-    return await Listener(ours).heard()
+    return await Listener(ours).receive()
 
 
 def whole(said: object) -> bytes:
@@ -39,7 +39,7 @@ def test_objects_come_as_they_were_said(ends: tuple[socket.socket, socket.socket
     listener = Listener(ours)
     for said in (None, "short", {"a": bytes(50_000)}):
         say(theirs, said)
-        assert anyio.run(listener.heard) == (said, None)
+        assert anyio.run(listener.receive) == (said, None)
 
 
 def test_an_object_that_comes_in_pieces_is_waited_for(ends: tuple[socket.socket, socket.socket]) -> None:
@@ -103,10 +103,10 @@ def test_who_stops_waiting_leaves_what_comes_to_the_next(ends: tuple[socket.sock
         for piece in (b"", message[:5], message[5:12]):
             theirs.sendall(piece)
             with anyio.move_on_after(0.01):
-                await listener.heard()
+                await listener.receive()
                 raise AssertionError
         theirs.sendall(message[12:])
-        return await listener.heard()
+        return await listener.receive()
 
     assert anyio.run(two) == ("for the next", None)
 
@@ -121,10 +121,10 @@ def test_what_was_said_before_the_end_is_heard(ends: tuple[socket.socket, socket
     assert not anyio.run(gone)
     say(theirs, "farewell")
     theirs.close()
-    assert anyio.run(listener.heard) == ("farewell", None)
+    assert anyio.run(listener.receive) == ("farewell", None)
     assert anyio.run(gone)
     with pytest.raises(EOFError):
-        anyio.run(listener.heard)
+        anyio.run(listener.receive)
 
 
 def test_a_socket_is_closed_where_it_is_read(ends: tuple[socket.socket, socket.socket]) -> None:
@@ -133,7 +133,7 @@ def test_a_socket_is_closed_where_it_is_read(ends: tuple[socket.socket, socket.s
     async def ended_in_a_thread() -> None:
         listener = Listener(ours)
         say(theirs, 1)
-        await listener.heard()
+        await listener.receive()
         await anyio.to_thread.run_sync(listener.end)
         await anyio.wait_all_tasks_blocked()
         assert ours.fileno() == -1
@@ -141,6 +141,6 @@ def test_a_socket_is_closed_where_it_is_read(ends: tuple[socket.socket, socket.s
         again, other = socket.socketpair()
         with again, other:
             say(other, 2)
-            assert await Listener(again).heard() == (2, None)
+            assert await Listener(again).receive() == (2, None)
 
     anyio.run(ended_in_a_thread)

@@ -24,7 +24,7 @@ def test_a_service_whose_workers_are_all_stopped_is_not_ready() -> None:
         asyncio.run(_until(target, 200))
         workers = target.workers()
         # a short one, those above, a long one
-        assert len(workers) == 1 + shares(Settings())["short"].kept + 1
+        assert len(workers) == 1 + shares(Settings())["short"].reserve + 1
         _stopped(target, workers)
 
 

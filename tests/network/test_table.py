@@ -21,10 +21,10 @@ def amount(share: Share, value: float) -> str:
 
 def row(share: Share) -> str:
     assured = amount(share, share.assured)
-    if share.kept not in (0, inf):
-        assured += f", of {share.kept:g} more"
+    if share.reserve not in (0, inf):
+        assured += f", of {share.reserve:g} more"
     answer = " ".join(map(str, share.answer)) if isinstance(share.answer, Refusal) else share.answer
-    cells = (share.unit, amount(share, share.each), amount(share, share.altogether), assured, answer)
+    cells = (share.unit, amount(share, share.per_client), amount(share, share.altogether), assured, answer)
     return f"| {' | '.join(cells)} |".replace("|  |", "| |")
 
 

@@ -22,13 +22,13 @@ OTHERS = (
 
 def test_tasks_come_as_they_were_said() -> None:
     said = [(task, priority) for task in (PLAIN, *OTHERS, PLAIN) for priority in Priority]
-    stream = io.BytesIO(b"".join(task.said(priority) for task, priority in said))
-    assert [Task.heard(stream) for _ in said] == said
+    stream = io.BytesIO(b"".join(task.serialize(priority) for task, priority in said))
+    assert [Task.receive(stream) for _ in said] == said
 
 
 @pytest.mark.parametrize("left", [0, 5, 20, 1000])
 def test_what_ends_early_is_an_end(left: int) -> None:
-    whole = replace(PLAIN, body=b"x" * 2000).said(Priority.FIRST)
+    whole = replace(PLAIN, body=b"x" * 2000).serialize(Priority.FIRST)
     assert len(whole) > 2000
     with pytest.raises(EOFError):
-        Task.heard(io.BytesIO(whole[:left]))
+        Task.receive(io.BytesIO(whole[:left]))

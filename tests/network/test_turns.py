@@ -14,7 +14,7 @@ from service.fairness.queue import Full
 from service.fairness.table import Share, shares
 from service.settings import Settings
 
-ABOVE = int(shares(Settings())["short"].kept)
+ABOVE = int(shares(Settings())["short"].reserve)
 
 
 class Clock:

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import optimizer
-from optimizer.formulation.formulate import RESPONSES, Weighable, given_ceilings
+from optimizer.formulation.formulate import RESPONSES, Weighable, objective_ceilings
 from optimizer.formulation.goals import cone_program
 from optimizer.formulation.limits import limits
 from optimizer.formulation.simulation import Prepared
@@ -144,7 +144,7 @@ def test_a_response_is_weighed_limited_and_certified(monkeypatch: pytest.MonkeyP
         # half-way from what it is to what it can be
         limit = 0.5 * (float(scene.responses[2].to(free.unbalance).peak) + least.objective) * scene.omega_squared
         request = _register(monkeypatch, limit)
-        assert [(each.response, most) for each, most in given_ceilings(request.objective)] == [("couple", limit)]
+        assert [(each.response, most) for each, most in objective_ceilings(request.objective)] == [("couple", limit)]
     scene, program, found = _solved(request)
     assert program.names.terms[2].response == "couple"
     mass = np.asarray(program.mass(found.unbalance))

@@ -55,7 +55,7 @@ def _solved(request: OptimizeRequest) -> tuple[Certified, list[str], dict[str, P
         Solver(),
     )
     touched = [name for name, limit in WEB_LIMITS.items() if limit.touched(machine, best.mass_kg, best.angle_deg)[0, 0]]
-    prices = mapped(shadow_prices(best.program, best.unbalance, best.found.multipliers), lambda array: array[0])
+    prices = mapped(shadow_prices(best.program, best.unbalance, best.optima.multipliers), lambda array: array[0])
     each = of_limits(machine, prices)
     return best, touched, {one.limit: one._replace(price=one.price * scene.omega_squared) for one in each}
 

@@ -126,7 +126,7 @@ def test_peaks_that_are_left_open_are_told_and_those_that_are_closed_are_not(mon
     assert "peak_not_closed" not in _codes(analyze(asked))
     opened = parts.first_open
 
-    def nothing_closer(known: parts.Known, looked: parts.Asked, best: parts.Best) -> parts.Parts:
+    def nothing_closer(known: parts.Cubics, looked: parts.Members, best: parts.Best) -> parts.Parts:
         return parts.still_open(opened(known, looked, best), looked, best, 0)
 
     # in steps, the first of which may be another

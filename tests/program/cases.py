@@ -27,7 +27,7 @@ COMBINATIONS = tuple(
 
 def optimum(problem: Statement, relative_gap: float, least_mass: bool) -> Solution | Unreachable:
     """Of one program, the only one of a batch."""
-    return optima(problem.alone(), relative_gap, least_mass, SOLVER).one()
+    return optima(problem.alone(), relative_gap, least_mass, SOLVER).single()
 
 
 def random_limits(rng: np.random.Generator, webs: int, sectors: bool, budget: bool) -> Limits:

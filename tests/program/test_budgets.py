@@ -54,7 +54,7 @@ def test_objective_and_mass_agree_with_clarabel(share: float) -> None:
     """Independent: neither point is below the bound of the other."""
     problem, solver = budgeted(7, share, True, webs=100), Solver()
     size = float(yardstick(problem))
-    found = optima(problem.alone(), GAP, True, solver).one()
+    found = optima(problem.alone(), GAP, True, solver).single()
     other = solver.smallest_objective(problem, 1e-10 * size)
     assert found.objective >= other.lower_bound - 1e-9 * size
     assert other.objective >= found.lower_bound - 1e-9 * size

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.certificate import mass_lower_bound, objective_lower_bound
-from optimizer.program.cuts.optimum import Found, Unkept, over_turn
+from optimizer.program.cuts.optimum import CertifiedOptimum, Unkept, over_turn
 from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.solution import CEILING_ROUNDING
 from optimizer.responses.curve import floor
@@ -22,9 +22,9 @@ from tests.responses.fourier import FourierCurves
 ANGLES = np.deg2rad(np.arange(0.0, 360.0, 0.1))
 
 
-def found(program: Problem, gap: float = 1e-6, least_mass: bool = False) -> Found:
+def found(program: Problem, gap: float = 1e-6, least_mass: bool = False) -> CertifiedOptimum:
     outcome = over_turn(program, gap, least_mass)
-    assert isinstance(outcome, Found)
+    assert isinstance(outcome, CertifiedOptimum)
     return outcome
 
 
@@ -210,7 +210,7 @@ def test_ceilings_below_the_floors_are_out_of_reach() -> None:
     assert outcome.closest.values.excess >= outcome.proof.bound
 
 
-def priorities(seed: int, allowance: float) -> tuple[Problem, Found]:
+def priorities(seed: int, allowance: float) -> tuple[Problem, CertifiedOptimum]:
     rng = np.random.default_rng(seed)
     every = quantities(rng, 3, 4)
     first = Goal("external", (force_and_moment(rng, 4),), allowance=allowance)

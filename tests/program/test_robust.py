@@ -12,7 +12,7 @@ from optimizer.numerics.arrays import Complex
 from optimizer.program.cuts.cut import Scatter
 from optimizer.program.cuts.dominance import Group
 from optimizer.program.cuts.misplacement import largest_last_goals
-from optimizer.program.cuts.optimum import Found, Unkept, over_turn
+from optimizer.program.cuts.optimum import CertifiedOptimum, Unkept, over_turn
 from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.limits import Limits
 from optimizer.program.misplacement import Norms, angle_corners, mass_corners, worst_by_angle, worst_by_mass
@@ -41,9 +41,9 @@ def several(seed: int, cases: int = 3, webs: int = 4, limits: Limits | None = No
     return Problem((), (goal,), (), (), random_limits(rng, webs, bool(seed % 2), False) if limits is None else limits)
 
 
-def best(program: Problem, least_mass: bool = False, gap: float = 1e-6) -> Found:
+def best(program: Problem, least_mass: bool = False, gap: float = 1e-6) -> CertifiedOptimum:
     found = over_turn(program, gap, least_mass)
-    assert isinstance(found, Found)
+    assert isinstance(found, CertifiedOptimum)
     return found
 
 

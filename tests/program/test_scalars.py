@@ -12,7 +12,7 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.certificate import objective_lower_bound
 from optimizer.program.cuts.cut import EXACT, Quantity, Scatter
 from optimizer.program.cuts.dominance import Group, Weighed
-from optimizer.program.cuts.optimum import Found, Unkept, over_turn
+from optimizer.program.cuts.optimum import CertifiedOptimum, Unkept, over_turn
 from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.methods.implied_bounds import bounded
 from optimizer.responses.curve import TurnResponse
@@ -58,7 +58,7 @@ def test_the_optimum_of_a_scalar_is_that_of_a_linear_program(seed: int) -> None:
     """Independent: |Re d + Re(h u)| <= t at 360 angles and no limits that bind, by scipy's simplex."""
     asked = program(seed, beside=False, binding=False)
     best = over_turn(asked, 1e-6, False)
-    assert isinstance(best, Found)
+    assert isinstance(best, CertifiedOptimum)
     response = asked.quantities[0].response
     turned = np.exp(1j * ANGLES[:, None] * response.turning) * response.influence
     rows, constant = np.hstack([turned.real, -turned.imag]), response.at(ANGLES).real
@@ -77,7 +77,7 @@ def test_the_optimum_of_a_scalar_is_that_of_a_linear_program(seed: int) -> None:
 def test_bounds_are_never_above_what_another_point_comes_to(seed: int, least_mass: bool) -> None:
     asked = program(seed)
     best = over_turn(asked, 1e-5, least_mass)
-    assert isinstance(best, Found)
+    assert isinstance(best, CertifiedOptimum)
     rng = np.random.default_rng(seed + 1)
     rest = float(asked.yardsticks[0])
     for scale in (0.0, 1e-3, 0.1, 1.0):
@@ -95,11 +95,11 @@ def test_bounds_are_never_above_what_another_point_comes_to(seed: int, least_mas
 def test_a_ceiling_on_a_scalar_is_kept_and_proven(seed: int) -> None:
     """A little above the smallest peak it is kept, and costs no less than the bound; below it, it is out of reach."""
     free = over_turn(program(seed, beside=False), 1e-7, False)
-    assert isinstance(free, Found)
+    assert isinstance(free, CertifiedOptimum)
     least, asked = free.goals[-1], program(seed)
     other = (Goal("force", (Group(weighed=(Weighed(1, 1.0),)),)),)
     kept = over_turn(replace(asked, goals=other, limited=((0, 1.2 * least.value),)), 1e-6, True)
-    assert isinstance(kept, Found)
+    assert isinstance(kept, CertifiedOptimum)
     assert sampled(asked.quantities[0], kept.point.unbalance) <= 1.2 * least.value * (1.0 + 1e-9)
     assert kept.goals[-1].value - kept.goals[-1].lower_bound <= 1e-6 * float(asked.alone(0).yardsticks[0])
     below = over_turn(replace(asked, goals=other, limited=((0, 0.999 * least.lower_bound),)), 1e-6, True)
@@ -112,7 +112,7 @@ def test_multipliers_that_are_not_real_prove_no_more() -> None:
     asked = program(5, beside=False)
     posed = asked.outer(asked.first)
     best = over_turn(asked, 1e-6, False)
-    assert isinstance(best, Found)
+    assert isinstance(best, CertifiedOptimum)
     for _ in range(20):
         given = replace(best.proof.multipliers, term=best.proof.multipliers.row * np.exp(2j * np.pi * rng.uniform()))
         if given.term.size == posed.row.size:

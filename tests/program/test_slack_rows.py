@@ -56,7 +56,7 @@ def test_least_masses_of_even_layouts_are_proven_without_another_solver(most: fl
     square = np.broadcast_to(shaft.omega**2, (ORDERS,))
     asked = responses(shaft, rotating(shaft).plus(reciprocating(shaft, 1)), Objective())
     best = certified(request.machine, request.objective, asked, square, Task.of(request).demand, own_solver())
-    assert set(best.found.method) == {INTERIOR_POINT}
+    assert set(best.optima.method) == {INTERIOR_POINT}
     assert set(best.status) == {"optimal"}
     # the same program as both stages leave it: some of its masses are not proven
     program = cone_program(request.machine, request.objective, asked, square)

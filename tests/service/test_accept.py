@@ -3,7 +3,7 @@
 import pytest
 from starlette.requests import Request
 
-from service.http.accept import coding_of, liked, preferred
+from service.http.accept import coding_of, negotiate, preferred
 from service.jobs.formats import FORMATS
 
 _FORMS = ("text/html", "application/pdf")
@@ -74,4 +74,4 @@ def test_the_coding_of_an_answer(accepted: list[str], coding: str | None) -> Non
 )
 def test_the_format_of_rows(accept: list[str], name: str | None) -> None:
     request = Request({"type": "http", "headers": [(b"accept", each.encode()) for each in accept]})
-    assert liked(request, {known.media_type.split(";")[0]: each for each, known in FORMATS.items()}) == name
+    assert negotiate(request, {known.media_type.split(";")[0]: each for each, known in FORMATS.items()}) == name

@@ -12,7 +12,7 @@ from starlette.testclient import TestClient
 from service.common.coding import Coding, coded
 from service.computations import COMPUTATIONS, Computation
 from service.guard.sizes import SizeLimits
-from service.http.kept import Kept
+from service.http.cached_document import CachedDocument
 from service.settings import Settings
 from service.workers.task import Task
 from service.workers.worker import Answer, perform
@@ -95,5 +95,5 @@ def test_documents_are_kept_by_who_has_them(client: TestClient, path: str) -> No
 
 def test_a_document_has_another_tag_when_it_changes() -> None:
     request = Request({"type": "http", "headers": []})
-    tags = {Kept(content, "text/plain").answer(request).headers["etag"] for content in (b"one", b"two")}
+    tags = {CachedDocument(content, "text/plain").answer(request).headers["etag"] for content in (b"one", b"two")}
     assert len(tags) == 2

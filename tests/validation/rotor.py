@@ -59,7 +59,7 @@ def _found() -> Solution:
     ]
     free, ones = np.ones(4, bool), np.ones(4)
     limits = Limits(ones, _MOST * ones, free, ones + 0j, 0.0 * ones, ones, np.asarray(np.inf))
-    found = optima(statement([rows], [], limits).alone(), 1e-7, False, Solver()).one()
+    found = optima(statement([rows], [], limits).alone(), 1e-7, False, Solver()).single()
     assert isinstance(found, Solution)
     return found
 

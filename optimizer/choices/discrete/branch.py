@@ -174,32 +174,32 @@ class _Work:
         left, bound, closed = self.left(np.array([node.bits for node in nodes])), np.array(inherited), np.inf
         which = np.arange(len(nodes))
 
-        def kept(left: np.ndarray, multipliers: Multipliers) -> tuple[np.ndarray, np.ndarray, Real]:
+        def pruning(left: np.ndarray, multipliers: Multipliers) -> tuple[np.ndarray, np.ndarray, Real]:
             """Nodes of ``which`` that stay open, what is left of all, and what is proven of each option."""
             nonlocal closed
-            found, target = proven(statement, options, left, multipliers), self.incumbent.least - self.gap
-            bound[which] = np.maximum(bound[which], found.bound)
-            out = left & (np.maximum(found.forced, bound[which][:, None, None]) >= target)
+            proof, target = proven(statement, options, left, multipliers), self.incumbent.least - self.gap
+            bound[which] = np.maximum(bound[which], proof.bound)
+            out = left & (np.maximum(proof.forced, bound[which][:, None, None]) >= target)
             if np.any(out):
-                closed = min(closed, float(np.min(np.maximum(found.forced, bound[which][:, None, None])[out])))
+                closed = min(closed, float(np.min(np.maximum(proof.forced, bound[which][:, None, None])[out])))
             left = left & ~out
             stays = np.all(np.any(left, axis=-1), axis=-1)
-            return stays, left, found.forced
+            return stays, left, proof.forced
 
         if nodes[0].multipliers is not None:
             multipliers = _side_by_side([node.multipliers for node in nodes if node.multipliers is not None])
             multipliers = self._raised(left, multipliers)
-            stays, left, _ = kept(left, multipliers)
+            stays, left, _ = pruning(left, multipliers)
             which, left = which[stays], left[stays]
         if not which.size:
             return closed, []
-        whole, each, slot = self.apart
-        base, program = relaxed(whole, each, left[:, slot])
-        found = both_stages(program, np.full(which.size, 1e-9), np.zeros(which.size), False)
-        near = on_first(options, np.nan_to_num(base + found.smallest))
+        whole, parts_of, slot = self.apart
+        base, program = relaxed(whole, parts_of, left[:, slot])
+        relaxation = both_stages(program, np.full(which.size, 1e-9), np.zeros(which.size), False)
+        near = on_first(options, np.nan_to_num(base + relaxation.smallest))
         self.incumbent.offer(np.argmin(np.where(left, np.abs(options.unbalance - near[..., None]), np.inf), axis=-1))
-        multipliers = self._raised(left, found.multipliers)
-        stays, left, forced = kept(left, multipliers)
+        multipliers = self._raised(left, relaxation.multipliers)
+        stays, left, forced = pruning(left, multipliers)
         which, left, near, multipliers = which[stays], left[stays], near[stays], multipliers.chosen(stays)
         lowest, cost = costs(left, forced[stays])
         few = at_most(cost, self.incumbent.least - self.gap - lowest) <= _SETS
@@ -250,7 +250,7 @@ class _Work:
             return None
         # the one that most of the relaxed unbalances are nearest to
         wanted = options.of(options.part, np.argmin(off, axis=-1))
-        part = max(sorted(free), key=lambda one: int(np.sum(wanted == one)))
+        part = max(sorted(free), key=lambda number: int(np.sum(wanted == number)))
         return _Split(node, np.packbits(left & (options.part != part), axis=-1), part)
 
     def _first(self, left: np.ndarray, near: Complex, off: Real) -> np.ndarray:
@@ -294,9 +294,9 @@ class _Work:
                 yield child._replace(multipliers=node.multipliers)
 
 
-def _side_by_side(each: list[Multipliers]) -> Multipliers:
+def _side_by_side(proofs: list[Multipliers]) -> Multipliers:
     return Multipliers(
-        np.array([one.term for one in each]),
-        np.array([one.row for one in each]),
-        np.array([one.ceiling for one in each]),
+        np.array([proof.term for proof in proofs]),
+        np.array([proof.row for proof in proofs]),
+        np.array([proof.ceiling for proof in proofs]),
     )

@@ -23,14 +23,14 @@ class Pace:
     by how long those before took."""
 
     def __init__(self, clock: Clock) -> None:
-        self._clock, self._left, self._each = clock, clock.left_s, 0.0
+        self._clock, self._left, self._per_item = clock, clock.left_s, 0.0
 
     def took(self, count: int) -> None:
         """So many were done since this was called last, or since the beginning."""
         left = self._clock.left_s
-        self._each, self._left = (self._left - left) / count, left
+        self._per_item, self._left = (self._left - left) / count, left
 
     def most(self, size: int) -> int:
         """Of so many those that there is time for, one at least."""
         left = max(self._left, 0.0)
-        return size if size * self._each <= left else max(1, int(left / self._each))
+        return size if size * self._per_item <= left else max(1, int(left / self._per_item))

@@ -25,8 +25,8 @@ _BITS = 62
 class Halves(NamedTuple):
     """All sums of the slots, those of one half of them beside those of the other."""
 
-    one: Half
-    other: Half
+    first: Half
+    second: Half
     lever: Real  # (J, s) what the coordinates of the sums do to the terms
     terms: Complex  # (J,) of slots that take one option
     fixed: np.ndarray  # (K,) the first option of every slot
@@ -36,7 +36,7 @@ class Halves(NamedTuple):
     def sets(self, i: np.ndarray, j: np.ndarray) -> np.ndarray:
         """The options (M, K) of pairs of sums, by their places (M,) in either half."""
         sets = np.tile(self.fixed, (i.size, 1))
-        for sides, half, place in zip(self.sides, (self.one, self.other), (i, j), strict=True):
+        for sides, half, place in zip(self.sides, (self.first, self.second), (i, j), strict=True):
             for side, codes in zip(sides, half.codes(place), strict=True):
                 code = codes
                 for k in reversed(side):
@@ -124,7 +124,7 @@ def _compared(split: Halves, incumbent: Incumbent, most_pairs: int, clock: Clock
     def offered(i: np.ndarray, j: np.ndarray) -> None:
         incumbent.offer(split.sets(i, j))
 
-    pairs = Pairs(incumbent.statement, split.one, split.other, split.lever, split.terms, incumbent, offered)
+    pairs = Pairs(incumbent.statement, split.first, split.second, split.lever, split.terms, incumbent, offered)
     # without coordinates all pairs are in one place, and none is nearer than another
     if not np.isfinite(incumbent.level) or pairs.count <= _FEW or not split.lever.shape[-1]:
         return pairs.count <= most_pairs and pairs.all(clock)

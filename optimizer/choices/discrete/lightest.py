@@ -152,7 +152,7 @@ def _compared(
     most_pairs: int = _PAIRS,
 ) -> bool:
     """Whether all pairs of sums that are no heavier than so much were offered where they are near the level."""
-    one, other = split.one, split.other
+    one, other = split.first, split.second
     if not one.size or not other.size:
         return True
 

@@ -44,8 +44,8 @@ class Pairs:
     """Sums of one half beside those of the other."""
 
     statement: Statement
-    one: Half
-    other: Half
+    first: Half
+    second: Half
     lever: Real  # (J, s), what the coordinates do to the terms
     terms: Complex  # (J,) of what is fixed
     incumbent: Incumbent
@@ -53,12 +53,12 @@ class Pairs:
 
     @property
     def count(self) -> int:
-        return self.one.size * self.other.size
+        return self.first.size * self.second.size
 
     @cached_property
     def rounding(self) -> float:
         """What objectives from sums may be off by."""
-        size = self.one.largest + self.other.largest
+        size = self.first.largest + self.second.largest
         each = np.sum(np.abs(self.lever) @ size) + np.sum(np.abs(self.terms)) + np.max(np.abs(self.statement.floor))
         return _ROUNDING * float(each)
 
@@ -69,7 +69,7 @@ class Pairs:
 
     def evaluated(self, i: np.ndarray, j: np.ndarray) -> None:
         """Offer those of some pairs that are no worse than the best."""
-        sums = self.terms + (self.one.at(i) + self.other.at(j)) @ self.lever.T
+        sums = self.terms + (self.first.at(i) + self.second.at(j)) @ self.lever.T
         sizes = np.abs(self.statement.norms.counting(sums))
         near = self.statement.objective_of(sizes) <= self.incumbent.level + self.rounding
         if np.any(near):
@@ -77,12 +77,12 @@ class Pairs:
 
     def all(self, clock: Clock) -> bool:
         """Every pair; whether the time was enough."""
-        step = max(1, self.at_once // self.one.size)
-        for start in range(0, self.other.size, step):
+        step = max(1, self.at_once // self.first.size)
+        for start in range(0, self.second.size, step):
             if start and clock.spent():
                 return False
-            part = np.arange(start, min(start + step, self.other.size))
-            i, j = np.meshgrid(np.arange(self.one.size), part, indexing="ij")
+            part = np.arange(start, min(start + step, self.second.size))
+            i, j = np.meshgrid(np.arange(self.first.size), part, indexing="ij")
             self.evaluated(i.ravel(), j.ravel())
         return True
 
@@ -91,15 +91,15 @@ class Pairs:
         ball = self._ball()
         if ball is None:
             return True
-        several, whole = min(self.one.size, self.other.size), True
-        looks = _LOOKS * (self.one.size + self.other.size + most)
+        several, whole = min(self.first.size, self.second.size), True
+        looks = _LOOKS * (self.first.size + self.second.size + most)
         for share in _SAMPLES:
             if share < 1.0 and share * several < _FEWEST:
                 continue
             # what is found of a sample is no proof
             whole = self._compared(ball, share, most, share * looks, clock)
             reach = self._radius(ball)
-            if reach is not None and share < 1.0 and self.count * ball.beside_each(self.one.size, reach) > looks:
+            if reach is not None and share < 1.0 and self.count * ball.share_beside(self.first.size, reach) > looks:
                 return False
         return whole
 
@@ -108,7 +108,7 @@ class Pairs:
         # the compiler is loaded when it is first needed
         from optimizer.choices.discrete.kernel.near_sums import ALL, gridded, near
 
-        count, found, at_once = share * self.one.size, 0, min(_FIRST, self.at_once)
+        count, found, at_once = share * self.first.size, 0, min(_FIRST, self.at_once)
         taken = ALL if share == 1.0 else np.uint64(int(share * 2**64))
         reach = self._radius(ball)
         for slab in ball.slabs(count, reach):
@@ -117,18 +117,18 @@ class Pairs:
             if reach is None:
                 return True
             grid = ball.grid(slab, reach, count)
-            first, sums, places = gridded(*ball.one.lists, grid.wide, *grid.cut, taken)
-            while start[0] < len(ball.other.outer):
+            first, sums, places = gridded(*ball.first.lists, grid.wide, *grid.cut, taken)
+            while start[0] < len(ball.second.outer):
                 reach = self._radius(ball)
                 if reach is None:
                     return True
                 met, start, looked = near(
-                    first, sums, *ball.other.lists, grid.slab, *grid.cut, taken, start, reach**2,
+                    first, sums, *ball.second.lists, grid.slab, *grid.cut, taken, start, reach**2,
                     np.array([at_once, _LOOKED]),
                 )  # fmt: skip
                 looks, found, at_once = looks - looked, found + met.shape[1], min(2 * at_once, self.at_once)
                 if met.shape[1]:
-                    self.evaluated(ball.one.place(*places[:, met[0]]), ball.other.place(met[1], met[2]))
+                    self.evaluated(ball.first.place(*places[:, met[0]]), ball.second.place(met[1], met[2]))
                 if found > most or looks < 0 or clock.spent():
                     return False
         return True
@@ -170,8 +170,8 @@ class Pairs:
         def points(z: Complex) -> Real:
             return _real((_real(z) if apart else z) @ scale.T)
 
-        one = [points(sums.z) for sums in self.one]
-        other = [-points(sums.z) for sums in self.other]
+        one = [points(sums.z) for sums in self.first]
+        other = [-points(sums.z) for sums in self.second]
         other[0] = other[0] - _real(centre)
         # the widest first, by which they are told apart best
         wide = sum(np.ptp(part, axis=0) for part in (*one, *other))
@@ -225,41 +225,41 @@ class _Grid(NamedTuple):
 class _Ball:
     """Points of both halves, of which those of a good pair are near to one another."""
 
-    one: _Points
-    other: _Points
+    first: _Points
+    second: _Points
     unit: Real  # (rows,) of the rows of the objective
     beside: float  # square of what no sum can change
 
     @cached_property
     def off(self) -> float:
         """What distances may be off by."""
-        size = sum(float(np.max(np.abs(part), initial=0.0)) for part in (*self.one.lists, *self.other.lists))
-        return _OFF * size * self.one.outer.shape[1]
+        size = sum(float(np.max(np.abs(part), initial=0.0)) for part in (*self.first.lists, *self.second.lists))
+        return _OFF * size * self.first.outer.shape[1]
 
     def slabs(self, count: float, reach: float | None) -> Iterator[Real]:
         """Parts of the first coordinate of about as many sums each."""
         chance = np.random.default_rng(_SEED)
-        outer, inner = (chance.choice(part[:, 0], _SAMPLE) for part in self.one.lists)
+        outer, inner = (chance.choice(part[:, 0], _SAMPLE) for part in self.first.lists)
         edges = np.quantile(outer + inner, np.linspace(0.0, 1.0, self._how_many(count, reach) + 1))
         edges[0], edges[-1] = -np.inf, np.inf
         yield from np.stack([edges[:-1], edges[1:]], axis=-1)
 
     def _how_many(self, count: float, reach: float | None) -> int:
         """Slabs of so many sums together, none too narrow for what is near."""
-        low, high = self.one.box
+        low, high = self.first.box
         most = np.inf if not reach else (high[0] - low[0]) / (_WIDE * reach)
         return max(1, int(min(count / _SLAB, most)))
 
-    def beside_each(self, count: float, reach: float) -> float:
+    def share_beside(self, count: float, reach: float) -> float:
         """Share of the sums, about, that is looked at for one of the other half."""
-        (low, *_), (high, *_), slabs = *self.one.box, self._how_many(count, reach)
+        (low, *_), (high, *_), slabs = *self.first.box, self._how_many(count, reach)
         grid = self.grid(low + np.array([0.0, (high - low) / slabs]), reach, count)
         return float(np.prod(np.minimum(_LINES / grid.cells, 1.0))) / slabs
 
     def grid(self, slab: Real, reach: float, count: float) -> _Grid:
         """A slab with cells for about so many sums of the first half."""
-        wide, d = slab + np.array([-reach, reach]), self.one.outer.shape[1]
-        low, high = self.one.box
+        wide, d = slab + np.array([-reach, reach]), self.first.outer.shape[1]
+        low, high = self.first.box
         low[0], high[0] = max(low[0], wide[0]), min(high[0], wide[1])
         # a slab is narrow already, the others are as wide as ever
         axes = np.array([1, 2] if d > 2 else [0, d - 1])

@@ -87,28 +87,28 @@ def quarters(incumbent: Incumbent, enough: Callable[[], bool], clock: Clock) -> 
             left = _PATIENCE
 
 
-def _paired(one: _Quarter, other: _Quarter, about: Real) -> _Pairs:
+def _paired(left: _Quarter, right: _Quarter, about: Real) -> _Pairs:
     """Sums of two quarters that come near to a place."""
-    here, there = _met(one.points, about[:, None] - other.points)
-    return _Pairs((one, other), (here, there), one.points[:, here] + other.points[:, there])
+    here, there = _met(left.points, about[:, None] - right.points)
+    return _Pairs((left, right), (here, there), left.points[:, here] + right.points[:, there])
 
 
-def _met(one: Real, other: Real) -> tuple[np.ndarray, np.ndarray]:
+def _met(left: Real, right: Real) -> tuple[np.ndarray, np.ndarray]:
     """Which points (d, n) and (d, m) are in the same cell of a grid: about as many pairs as are kept."""
-    none, d = np.zeros(0, np.int64), one.shape[0]
-    if not (one.size and other.size):
+    none, d = np.zeros(0, np.int64), left.shape[0]
+    if not (left.size and right.size):
         return none, none
-    low = np.maximum(np.min(one, axis=-1), np.min(other, axis=-1))[:, None]
-    span = np.minimum(np.max(one, axis=-1), np.max(other, axis=-1))[:, None] - low
+    low = np.maximum(np.min(left, axis=-1), np.min(right, axis=-1))[:, None]
+    span = np.minimum(np.max(left, axis=-1), np.max(right, axis=-1))[:, None] - low
     if not np.all(span > 0):
         return none, none
-    here, there = (np.flatnonzero(np.all((points >= low) & (points <= low + span), axis=0)) for points in (one, other))
-    one, other = one[:, here] - low, other[:, there] - low
+    here, there = (np.flatnonzero(np.all((points >= low) & (points <= low + span), axis=0)) for points in (left, right))
+    left, right = left[:, here] - low, right[:, there] - low
     # as if points were spread evenly, and then as they are
     side = float((_PAIRS * np.prod(span) / max(here.size * there.size, 1)) ** (1.0 / d))
     for _ in range(_SIDES):
         stride = np.cumprod(np.append(1.0, np.floor(span[:-1] / side) + 1.0))
-        mine, theirs = (stride @ np.floor(points / side) for points in (one, other))
+        mine, theirs = (stride @ np.floor(points / side) for points in (left, right))
         order, orders = np.argsort(mine, kind="stable"), np.argsort(theirs, kind="stable")
         # places that are sought in their order are quickly found
         mine, theirs = mine[order], theirs[orders]

@@ -33,11 +33,11 @@ _SEARCHES = ((0, 1), (0, 1_200.0), (6, np.inf))
 
 
 @dataclass(frozen=True)
-class Found:
+class BestSet:
     """The best set that was found."""
 
     chosen: np.ndarray  # (K,), the set; where none that keeps the ceilings was found, the one closest to them
-    kept: bool  # whether it keeps the ceilings
+    feasible: bool  # whether it keeps the ceilings
     lower_bound: float  # of every set within the limits; inf where it is proven that none is
     nodes: int  # of the tree
     method: str
@@ -45,14 +45,14 @@ class Found:
     ended: str | None = None  # "time", "size" or "rounding" where that ended the search before the asked gap
 
 
-class Known(NamedTuple):
-    """What is known before a search."""
+class Prior(NamedTuple):
+    """What a search begins with."""
 
     sets: Sequence[Complex] = ()  # (W,) kg m each
     below: Statement | None = None  # of few rows in one group and nowhere above the one searched; None is that one
 
 
-_NOTHING = Known()
+_NOTHING = Prior()
 
 
 def search(
@@ -63,8 +63,8 @@ def search(
     relative_gap: float,
     yardstick: float,
     time_limit_s: float,
-    known: Known = _NOTHING,
-) -> Found:
+    prior: Prior = _NOTHING,
+) -> BestSet:
     """The set of options with the smallest objective; of equals the lightest.
 
     What is found depends on the clock only where the time ends it.
@@ -75,11 +75,11 @@ def search(
     relaxed : (W,) kg m, its optimum without options.
     at_least : lower bound of that optimum.
     relative_gap : asked gap, in units of the yardstick; one of EQUAL or less compares all equals as well.
-    known : sets to begin with, and what a tree is of.
+    prior : sets to begin with, and what a tree is of.
     """
     clock, half = Clock(time_limit_s), Clock(0.5 * time_limit_s)
 
-    points, below = np.stack([relaxed, *known.sets]), known.below or statement
+    points, below = np.stack([relaxed, *prior.sets]), prior.below or statement
     if options.alike is not None:
         points = options.alike.means(points)
     relaxed, resolution = points[0], EQUAL * yardstick
@@ -89,11 +89,11 @@ def search(
     if incumbent.chosen is None:
         # first of all a set that keeps the ceilings
         within = _within(statement, options, relaxed, every, clock, below)
-        if not within.kept:
+        if not within.feasible:
             return within
         incumbent.offer(within.chosen[None])
     if exhaust(options, every, incumbent, _most_sums(incumbent), _PAIRS, clock):
-        return _found(incumbent, incumbent.least, 0, EXHAUSTED, True)
+        return _best(incumbent, incumbent.least, 0, EXHAUSTED, True)
     gap = relative_gap * yardstick if relative_gap > EQUAL else -resolution
     nodes, floor = 0, at_least
 
@@ -102,7 +102,7 @@ def search(
 
     light: Clock | None = None
     # over the turn and where all equals count nothing is made lighter
-    sizes = light_sizes(statement, options, relaxed) if known.below is None and gap > 0 else None
+    sizes = light_sizes(statement, options, relaxed) if prior.below is None and gap > 0 else None
     for patience, most_nodes in _SEARCHES:
         neighbourhoods(incumbent, relaxed, patience, enough, half)
         tree = branch(options, incumbent, at_least, gap, lambda bound: False, clock, most_nodes, below)
@@ -119,13 +119,13 @@ def search(
         if closed or clock.spent():
             break
     ended = None if closed else _ended(tree)
-    found = _found(incumbent, bound, nodes, TREE, closed and gap < 0, ended)
-    if closed and gap > 0 and known.below is None:
+    best = _best(incumbent, bound, nodes, TREE, closed and gap < 0, ended)
+    if closed and gap > 0 and prior.below is None:
         # all within the asked gap are as good, and what is light is cheap
         share = _LIGHTER_OF_PARTS if options.limits_parts else _LIGHTER
         light = Clock(min(clock.left_s, share * time_limit_s))
-        return replace(found, chosen=lightest_near(incumbent, found.chosen, (bound, bound + gap), light, sizes))
-    return found
+        return replace(best, chosen=lightest_near(incumbent, best.chosen, (bound, bound + gap), light, sizes))
+    return best
 
 
 def _ended(tree: Tree) -> str:
@@ -137,12 +137,12 @@ def _most_sums(incumbent: Incumbent) -> int:
     return _SUMS if incumbent.coordinates[0].shape[-1] < _COORDINATES else min(_SUMS, _FEW_SUMS)
 
 
-def _found(
+def _best(
     incumbent: Incumbent, bound: float, nodes: int, method: str, proven: bool, ended: str | None = None
-) -> Found:
+) -> BestSet:
     if incumbent.chosen is None:
         raise AssertionError("nothing on any slot keeps budget and counts")
-    return Found(incumbent.chosen, True, bound, nodes, method, proven, ended)
+    return BestSet(incumbent.chosen, True, bound, nodes, method, proven, ended)
 
 
 def _within(
@@ -152,17 +152,17 @@ def _within(
     every: list[np.ndarray],
     clock: Clock,
     below: Statement,
-) -> Found:
+) -> BestSet:
     """The first set that keeps the ceilings, or the proof that there is none."""
     incumbent = Incumbent(statement.excess(), options, 0.0)
 
-    def kept() -> bool:
+    def feasible() -> bool:
         return incumbent.least <= CEILING_TOLERANCE
 
     start(incumbent, relaxed[None])
-    neighbourhoods(incumbent, relaxed, _SEARCHES[-1][0], kept, clock)
+    neighbourhoods(incumbent, relaxed, _SEARCHES[-1][0], feasible, clock)
     bound, nodes, method, ended = -np.inf, 0, EXHAUSTED, None
-    if not kept():
+    if not feasible():
         if exhaust(options, every, incumbent, _most_sums(incumbent), _PAIRS, clock):
             bound = incumbent.least
         else:
@@ -171,15 +171,15 @@ def _within(
                 incumbent,
                 -np.inf,
                 0.0,
-                lambda bound: kept() or bound > CEILING_TOLERANCE,
+                lambda bound: feasible() or bound > CEILING_TOLERANCE,
                 clock,
                 below=below.excess(),
             )
             bound, nodes, method = tree.lower_bound, tree.nodes, TREE
             ended = _ended(tree)
-    found = _found(incumbent, -np.inf, nodes, method, False, ended)
-    if kept():
-        return found
+    best = _best(incumbent, -np.inf, nodes, method, False, ended)
+    if feasible():
+        return best
     if min(bound, incumbent.least) > CEILING_TOLERANCE:
-        return replace(found, kept=False, lower_bound=np.inf, ended=None)
-    return replace(found, kept=False)
+        return replace(best, feasible=False, lower_bound=np.inf, ended=None)
+    return replace(best, feasible=False)

@@ -75,21 +75,21 @@ class Places:
         off = wrapped(angle - self.centre)
         return self.centre + np.clip(off, -self.half, self.half)
 
-    def lowest(self, slope: Complex, each: Real) -> tuple[Real, Complex]:
+    def lowest(self, slope: Complex, price: Real) -> tuple[Real, Complex]:
         """Least of Re(conj(slope_k) u_k) + each_k |u_k| of every web (N, K), and where it is, kg m.
 
         Along a ray it is linear, so it is at its ends; the ray is the one nearest to against the slope.
         """
         wanted = np.angle(-slope)
         angle = self.nearest(wanted)
-        rate = each - np.abs(slope) * np.cos(wanted - angle)
+        rate = price - np.abs(slope) * np.cos(wanted - angle)
         size = np.where(self.out, 0.0, np.where(rate < 0, self.most, np.where(self.fitted, self.least, 0.0)))
         return rate * size, size * np.exp(1j * angle)
 
-    def when_fitted(self, slope: Complex, each: Real) -> Real:
+    def when_fitted(self, slope: Complex, price: Real) -> Real:
         """The same of webs that are undecided, if something is fitted (N, K)."""
         wanted = np.angle(-slope)
-        rate = each - np.abs(slope) * np.cos(wanted - self.nearest(wanted))
+        rate = price - np.abs(slope) * np.cos(wanted - self.nearest(wanted))
         return rate * np.where(rate < 0, self.most, self.least)
 
     def whole(self, some: np.ndarray) -> np.ndarray:

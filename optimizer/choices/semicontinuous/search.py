@@ -21,11 +21,11 @@ _EQUAL = 1e-9
 
 
 @dataclass(frozen=True)
-class Found:
+class BestWeights:
     """The best counterweights that were found."""
 
     unbalance: Complex  # (K,) kg m; where none that keeps the ceilings was found, those closest to them
-    kept: bool  # whether they keep the ceilings
+    feasible: bool  # whether they keep the ceilings
     lower_bound: float  # of all that are within the limits; inf where it is proven that none are
     nodes: int
     ended: str | None = None  # "time", "size" or "rounding" where that ended the search before the asked gap
@@ -33,8 +33,8 @@ class Found:
     proven: bool = False  # equals are not told apart
 
 
-class Asked(NamedTuple):
-    """What is asked of a search, in units of the objective."""
+class SearchGoal(NamedTuple):
+    """What a search is to reach, in units of the objective."""
 
     gap: float
     yardstick: float
@@ -47,11 +47,11 @@ def search(
     least: Real,
     continuous: Complex,
     at_least: float,
-    asked: Asked,
+    goal: SearchGoal,
     solver: Solver,
-    known: Sequence[Complex] = (),
+    points: Sequence[Complex] = (),
     below: Statement | None = None,
-) -> Found:
+) -> BestWeights:
     """The counterweights with the smallest objective, and of those with the same webs the lightest.
 
     Parameters
@@ -60,32 +60,32 @@ def search(
     least : (K,) kg m, the least unbalance that is fitted on every web; 0 where there is none.
     continuous : (K,) kg m, its optimum whatever the least.
     at_least : lower bound of that optimum.
-    known : (K,) kg m each, points to begin with.
+    points : (K,) kg m each, points to begin with.
     below : nowhere above the statement and with no tighter ceilings, which bounds are of; by default that one.
     """
-    clock, gap = Clock(asked.time_limit_s), asked.gap
+    clock, gap = Clock(goal.time_limit_s), goal.gap
 
     places = root(least, statement.limits)
-    incumbent = Incumbent(statement, places, _EQUAL * asked.yardstick, solver)
+    incumbent = Incumbent(statement, places, _EQUAL * goal.yardstick, solver)
     # nothing on any web keeps every limit but ceilings
     incumbent.offer(np.zeros((1, least.size), complex))
     sharing(incumbent, continuous, clock)
-    if known:
-        incumbent.offer(np.stack(known))
+    if points:
+        incumbent.offer(np.stack(points))
     first = incumbent.unbalance
     if first is None:
         within = _within(statement, places, continuous, clock, solver, below or statement)
-        if not within.kept:
+        if not within.feasible:
             return within
         first = within.unbalance
         incumbent.offer(first[None])
     tree = branch(incumbent, at_least, gap, lambda bound: False, clock, below or statement)
     bound = min(max(at_least, tree.lower_bound), incumbent.least)
-    share = min(asked.share, max(bound + gap - incumbent.least, 0.0))
+    share = min(goal.share, max(bound + gap - incumbent.least, 0.0))
     best = first if incumbent.unbalance is None else incumbent.unbalance
     lightest = lightened(incumbent, best, share, clock)
     closed = incumbent.least - bound <= gap
-    return Found(lightest, True, bound, tree.nodes, _ended(tree, closed))
+    return BestWeights(lightest, True, bound, tree.nodes, _ended(tree, closed))
 
 
 def _ended(tree: Tree, closed: bool) -> str | None:
@@ -101,19 +101,19 @@ def _within(
     clock: Clock,
     solver: Solver,
     below: Statement,
-) -> Found:
+) -> BestWeights:
     """The first counterweights that keep the ceilings, or the proof that there are none."""
     incumbent = Incumbent(statement.excess(), places, 0.0, solver)
 
-    def kept() -> bool:
+    def feasible() -> bool:
         return incumbent.least <= CEILING_TOLERANCE
 
     sharing(incumbent, continuous, clock)
     tree = Tree(-np.inf, 0, False, False)
-    if not kept():
+    if not feasible():
         loose = below.excess()
-        tree = branch(incumbent, -np.inf, 0.0, lambda bound: kept() or bound > CEILING_TOLERANCE, clock, loose)
+        tree = branch(incumbent, -np.inf, 0.0, lambda bound: feasible() or bound > CEILING_TOLERANCE, clock, loose)
     u = np.zeros(places.least.shape, complex) if incumbent.unbalance is None else incumbent.unbalance
     none = min(tree.lower_bound, incumbent.least) > CEILING_TOLERANCE
-    ended = None if kept() or none else _ended(tree, False)
-    return Found(u, kept(), np.inf if none else -np.inf, tree.nodes, ended)
+    ended = None if feasible() or none else _ended(tree, False)
+    return BestWeights(u, feasible(), np.inf if none else -np.inf, tree.nodes, ended)

@@ -15,7 +15,7 @@ from optimizer.numerics.compiling import inner, inner_with_arrays, kernel
 #: of each reading
 _WITHOUT_GAS = np.array([reading in WITHOUT_GAS for reading in READINGS])
 #: angles of each place, as numpy's integer like all else that is handed on
-_ONE = np.int64(1)
+_SINGLE = np.int64(1)
 #: so many rows at places cost less than to look which places are alike
 _FEW = 64
 #: rows times places that are expanded at once, which bounds the memory
@@ -111,7 +111,7 @@ def series_of_curves(rows, sums, middle, curve, piece, angle, half, order):  # t
     half : (0,) for coefficients at points.
     """
     bounded, count, terms = half.size > 0, curve.size, 1 if half.size > 0 else order + 1
-    found, off = np.zeros((count, terms), np.complex128), np.zeros(count if bounded else 0)
+    cubic, off = np.zeros((count, terms), np.complex128), np.zeros(count if bounded else 0)
     of_design = max(sums.weights.shape[0] // middle.shape[0], 1)
     number, first = _alike(sums.weights.shape[1], curve // of_design, piece, angle, half)
     wanted, pressed = _wanted(sums, curve)
@@ -130,7 +130,7 @@ def series_of_curves(rows, sums, middle, curve, piece, angle, half, order):  # t
         for reading in range(wanted.size):
             if not wanted[reading]:
                 continue
-            series, radius = row_series(rows, functions, design, _ONE, reading)
+            series, radius = row_series(rows, functions, design, _SINGLE, reading)
             for n in range(count):
                 q = number[n] - start
                 if sums.reading[curve[n]] != reading or q < 0 or q >= stop - start:
@@ -138,13 +138,13 @@ def series_of_curves(rows, sums, middle, curve, piece, angle, half, order):  # t
                 for r in range(sums.weights.shape[1]):
                     weight = sums.weights[curve[n], r]
                     for k in range(terms):
-                        found[n, k] += weight * _vector(series, k, q, r)
+                        cubic[n, k] += weight * _vector(series, k, q, r)
                     if bounded:
                         off[n] += abs(weight) * radius[q, r, 0]
     if not bounded:
         for n in range(count):
-            found[n, 0] += sums.constant[curve[n]]
-    return found, off
+            cubic[n, 0] += sums.constant[curve[n]]
+    return cubic, off
 
 
 @inner_with_arrays

@@ -5,7 +5,7 @@ Shapes: N designs, R rows, P angles of each, Q places: the angles of all designs
 
 import numpy as np
 
-from optimizer.mechanics.kernel.rows import COS, INERTIA, KEPT, SECANT, SIN, SIN_2, SIN_SQUARED
+from optimizer.mechanics.kernel.rows import COS, FUNCTIONS, INERTIA, SECANT, SIN, SIN_2, SIN_SQUARED
 from optimizer.mechanics.kernel.taylor import ALL, LANES, Series, constant, copied, product, scaled, summed
 from optimizer.numerics.compiling import inner, kernel
 
@@ -26,10 +26,10 @@ PISTON, ROD, ROD_WITHOUT_GAS, ROD_AT_REST, SIDE, TANGENTIAL, RADIAL, ON_SHAFT, O
 #: of these the gas is no part
 WITHOUT_GAS = ("rod_without_gas", "on_frame")
 #: functions beside those that are kept
-_ALL_ONE, _FACTOR, _FORCE, _OF_INERTIA, _OF_GAS = np.arange(KEPT, KEPT + 5)
-_PRESSURES = KEPT + 5
+_UNITY, _FACTOR, _FORCE, _OF_INERTIA, _OF_GAS = np.arange(FUNCTIONS, FUNCTIONS + 5)
+_PRESSURES = FUNCTIONS + 5
 #: numbers of every lane
-_RATIO, _SIGN, _ZERO, _ONE, _MASS, _FRICTION, _AREA, _F, _VALUE, _OFF = np.arange(10)
+_RATIO, _SIGN, _ZERO, _UNIT, _MASS, _FRICTION, _AREA, _F, _VALUE, _OFF = np.arange(10)
 _NUMBERS = 10
 _NUMBER, _ANGLE, _DESIGN = np.arange(3)
 
@@ -47,21 +47,21 @@ def row_series(rows, functions, design, angles, reading):  # type: ignore[no-unt
     number, first = design.size, terms - 1 if bounded else 0
     middle = np.empty((parts, terms - first, number, count, angles))
     radius = np.zeros((number if bounded else 0, count, angles))
-    shape = (_PRESSURES + kept - KEPT, terms, LANES)
+    shape = (_PRESSURES + kept - FUNCTIONS, terms, LANES)
     series, lane = Series(np.zeros(shape), np.zeros(shape), bounded), np.zeros((_NUMBERS, LANES))
-    lane[_ONE] = 1.0
+    lane[_UNIT] = 1.0
     # of every lane: its place in the result, and its design
     where = np.zeros((3, LANES), np.int64)
     moves = reading != ROD_AT_REST and reading != GAS
     rubs = moves and reading != ON_FRAME
-    pressed = reading != ROD_WITHOUT_GAS and reading != ON_FRAME and kept > KEPT
+    pressed = reading != ROD_WITHOUT_GAS and reading != ON_FRAME and kept > FUNCTIONS
     # where designs have all of this in common, one after the other is made of it
     turns = number if places == angles else 1
     for r in range(count):
         for start in range(0, places, LANES):
             lanes = min(LANES, places - start)
-            for f in range(kept if pressed else KEPT):
-                to = f if f < KEPT else f - KEPT + _PRESSURES
+            for f in range(kept if pressed else FUNCTIONS):
+                to = f if f < FUNCTIONS else f - FUNCTIONS + _PRESSURES
                 for k in range(terms):
                     copied(functions.middle[r, f, k, start:], series.middle[to, k], lanes)
                     if bounded:
@@ -73,7 +73,7 @@ def row_series(rows, functions, design, angles, reading):  # type: ignore[no-unt
                 lane[_RATIO, p], lane[_SIGN, p] = motion[1], -motion[3]
             for part in range(parts):
                 factor, inertia = _read(series, reading, part, lane, lanes, first)
-                gas = _FORCE if factor == _ALL_ONE else _OF_GAS
+                gas = _FORCE if factor == _UNITY else _OF_GAS
                 for turn in range(turns):
                     for p in range(lanes):
                         n = design[turn] if turns > 1 else where[_DESIGN, p]
@@ -82,7 +82,7 @@ def row_series(rows, functions, design, angles, reading):  # type: ignore[no-unt
                         lane[_FRICTION, p] = rows.scale[one, r, 1] * functions.way[r, start + p]
                     if pressed and (turn == 0 or rows.area.shape[0] > 1):
                         constant(series, lane[_ZERO], _FORCE, lanes)
-                        for c in range(kept - KEPT):
+                        for c in range(kept - FUNCTIONS):
                             for p in range(lanes):
                                 n = design[turn] if turns > 1 else where[_DESIGN, p]
                                 lane[_AREA, p] = rows.area[n if rows.area.shape[0] > 1 else 0, r, c]
@@ -118,9 +118,9 @@ def row_series(rows, functions, design, angles, reading):  # type: ignore[no-unt
 
 
 @inner
-def _with_part(known, off, part):  # type: ignore[no-untyped-def]
+def _with_part(first, off, part):  # type: ignore[no-untyped-def]
     """How far a vector may be off, by the first of its parts or with the second."""
-    return off if part == 0 else np.sqrt(known * known + off * off)
+    return off if part == 0 else np.sqrt(first * first + off * off)
 
 
 @inner
@@ -143,8 +143,8 @@ def _read(series, reading, part, lane, lanes, first):  # type: ignore[no-untyped
     """
     ratio, f = lane[_RATIO], lane[_F]
     if reading in (PISTON, GAS):
-        constant(series, lane[_ONE], _ALL_ONE, lanes)
-        return _ALL_ONE, INERTIA
+        constant(series, lane[_UNIT], _UNITY, lanes)
+        return _UNITY, INERTIA
     if reading == ON_FRAME:
         factor = COS if part == 0 else SIN
     elif reading in (ROD, ROD_WITHOUT_GAS, ROD_AT_REST):

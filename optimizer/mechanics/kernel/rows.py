@@ -31,9 +31,9 @@ from optimizer.numerics.compiling import inner, kernel
 #: functions of one row; as numpy's integers, for each Python literal that is handed on is a type of its own, for which
 #: all that takes it is compiled anew. The first are what readings are made of, and after them the pressures
 INERTIA, COS, SIN, SIN_2, SIN_SQUARED, SECANT = np.arange(6)
-KEPT = 6
-_COS_2, _COS_4, _SIN_4, _UPRIGHT, _COS_BETA, _TRAVEL, _A, _B, _C = np.arange(KEPT, KEPT + 9)
-_PRESSURES = KEPT + 9
+FUNCTIONS = 6
+_COS_2, _COS_4, _SIN_4, _UPRIGHT, _COS_BETA, _TRAVEL, _A, _B, _C = np.arange(FUNCTIONS, FUNCTIONS + 9)
+_PRESSURES = FUNCTIONS + 9
 #: where cranks stand: at the angle that says which process counts, at the place or the first end of the interval, and
 #: at its other end
 _INSIDE, _FIRST, _LAST = np.arange(3)
@@ -41,7 +41,7 @@ _SINE, _COSINE, _RISE, _FALL = np.arange(4)
 #: cos and sin of a multiple of the angle: of the place or the middles of their ranges, and at both ends of the interval
 _COS_AT, _SIN_AT, _COS_OFF, _SIN_OFF, _COS_FIRST, _SIN_FIRST, _COS_LAST, _SIN_LAST = np.arange(8)
 #: numbers of every lane
-_RATIO, _SHORT, _SQUARE, _ZERO, _ONE, _ROOT, _OVER_ROOT, _OVER_CUBE, _OVER, _F, _G, _H = np.arange(12)
+_RATIO, _SHORT, _SQUARE, _ZERO, _UNIT, _ROOT, _OVER_ROOT, _OVER_CUBE, _OVER, _F, _G, _H = np.arange(12)
 _OWN, _WITHIN = np.arange(12, 14)
 _NUMBERS = 14
 #: of the process in which a chamber is: first pressure [Pa], exponent, clearance and first volume over crank radius
@@ -75,7 +75,7 @@ class Rows(NamedTuple):
     area : (A, R, C) m^2, with the sign of its force in rod tension.
     gas : (D, R, C, 8) suction and discharge pressure [Pa], relative clearance, exponents of expansion and compression,
         volumes over crank radius times area at which suction and discharge open, whether it is closed.
-    given : (R, C) which of the traces gives the pressure of a chamber, or -1.
+    trace : (R, C) which of the traces gives the pressure of a chamber, or -1.
     exact : kinematics, or cut off after the second order.
     traces : the pressures that are given.
     """
@@ -84,7 +84,7 @@ class Rows(NamedTuple):
     scale: Real
     area: Real
     gas: Real
-    given: np.ndarray
+    trace: np.ndarray
     exact: bool
     traces: Tables
 
@@ -124,14 +124,14 @@ def row_functions(rows, places, order, pressed):  # type: ignore[no-untyped-def]
     bounded = places.half.size > 0
     designs, count = rows.motion.shape[:2]
     number, chambers = places.centre.size, rows.gas.shape[2] if pressed else 0
-    middle = np.empty((count, KEPT + chambers, order + 1, number))
-    radius = np.empty((count, KEPT + chambers if bounded else 0, order + 1, number))
+    middle = np.empty((count, FUNCTIONS + chambers, order + 1, number))
+    radius = np.empty((count, FUNCTIONS + chambers if bounded else 0, order + 1, number))
     way = np.empty((count, number))
     shape = (_PRESSURES + chambers, order + 1, LANES)
     series = Series(np.zeros(shape), np.zeros(shape), bounded)
     cranks, lane, process = np.zeros((3, 4, LANES)), np.zeros((_NUMBERS, LANES)), np.zeros((4, LANES))
     trig = np.zeros((8, LANES))
-    lane[_ONE], lane[_ROOT], lane[_OVER], lane[_OVER_ROOT], lane[_OVER_CUBE] = 1.0, 0.5, -1.0, -0.5, -1.5
+    lane[_UNIT], lane[_ROOT], lane[_OVER], lane[_OVER_ROOT], lane[_OVER_CUBE] = 1.0, 0.5, -1.0, -0.5, -1.5
     for r in range(count):
         for first in range(0, number, LANES):
             lanes = min(LANES, number - first)
@@ -159,16 +159,16 @@ def row_functions(rows, places, order, pressed):  # type: ignore[no-untyped-def]
             _move(series, lane, cranks, trig, lanes)
             _accelerate(series, lane, rows.exact, lanes)
             for c in range(chambers):
-                out, trace = _PRESSURES + c, rows.given[r, c]
+                out, trace = _PRESSURES + c, rows.trace[r, c]
                 if trace < 0:
                     for p in range(lanes):
                         one = places.design[first + p] if designs > 1 else 0
                         _decide(rows.gas[one, r, c], lane, rows.exact, c % 2, cranks[_INSIDE], process, p)
                     _cycle(series, lane, rows.exact, process, c % 2, cranks, out, lanes)
                 else:
-                    _given(series, rows.traces, places, trace, first, lane, out, lanes)
-            for f in range(KEPT + chambers):
-                made = f if f < KEPT else f - KEPT + _PRESSURES
+                    _trace_pressure(series, rows.traces, places, trace, first, lane, out, lanes)
+            for f in range(FUNCTIONS + chambers):
+                made = f if f < FUNCTIONS else f - FUNCTIONS + _PRESSURES
                 for k in range(order + 1):
                     copied(series.middle[made, k], middle[r, f, k, first:], lanes)
                     if bounded:
@@ -279,11 +279,11 @@ def _accelerate(series, lane, exact, lanes):  # type: ignore[no-untyped-def]
             found[p] = ratio[p] * (short[p] * cos_2[p] + square[p] * cos[p] ** 4)
     power(series, _UPRIGHT, lane[_OVER_CUBE], _B, lanes)
     product(series, _A, _B, _C, lanes, ALL)
-    summed(series, COS, _C, lane[_ONE], INERTIA, lanes)
+    summed(series, COS, _C, lane[_UNIT], INERTIA, lanes)
 
 
 @inner
-def _given(series, traces, places, trace, first, lane, out, lanes):  # type: ignore[no-untyped-def]
+def _trace_pressure(series, traces, places, trace, first, lane, out, lanes):  # type: ignore[no-untyped-def]
     """A pressure as a trace has it, Pa: linear from the entry of its table before the angle that says which counts."""
     pressure, slope = lane[_F], lane[_G]
     for p in range(lanes):
@@ -351,7 +351,7 @@ def _cycle(series, lane, exact, process, side, cranks, out, lanes):  # type: ign
 def _travel(series, lane, exact, side, cranks, lanes):  # type: ignore[no-untyped-def]
     """Own travel of a chamber of one side over the crank radius."""
     middle, _, bounded = series
-    ratio, short, one, f, g, h = lane[_RATIO], lane[_SHORT], lane[_ONE], lane[_F], lane[_G], lane[_H]
+    ratio, short, one, f, g, h = lane[_RATIO], lane[_SHORT], lane[_UNIT], lane[_F], lane[_G], lane[_H]
     if middle.shape[1] > 1:
         if not exact:
             sign = 1.0 if side == 0 else -1.0

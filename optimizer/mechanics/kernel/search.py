@@ -23,39 +23,39 @@ _VALUE, _CUBIC, _BOUND, _NONE = np.int64(0), np.int64(3), np.int64(4), np.int64(
 
 
 @kernel
-def search(known, asked, best, rows, sums, middle):  # type: ignore[no-untyped-def]
-    """Narrow all peaks until each is known; the curves (G,) where they are best, without offsets."""
-    parts, cuts = first_open(known, asked, best), np.int64(0)
+def search(cubics, members, best, rows, sums, middle):  # type: ignore[no-untyped-def]
+    """Narrow all peaks until each bracket is narrow enough; the curves (G,) where they are best, without offsets."""
+    parts, cuts = first_open(cubics, members, best), np.int64(0)
     while parts.member.size > 0:
-        fine, coarse, cuts = narrowed(parts, asked, best, cuts)
+        fine, coarse, cuts = narrowed(parts, members, best, cuts)
         if coarse.member.size > 0:
-            _expand(coarse, asked, best, rows, sums, middle)
+            _expand(coarse, members, best, rows, sums, middle)
             fine = Parts(
                 np.concatenate((fine.member, coarse.member)),
                 np.concatenate((fine.piece, coarse.piece)),
                 np.concatenate((fine.place, coarse.place)),
                 np.concatenate((fine.cubic, coarse.cubic)),
             )
-        parts = still_open(fine, asked, best, MOST_PARTS if cuts < MOST_CUTS else _NONE)
-    curve = asked.curve[best.member]
+        parts = still_open(fine, members, best, MOST_PARTS if cuts < MOST_CUTS else _NONE)
+    curve = members.curve[best.member]
     return series_of_curves(rows, sums, middle, curve, best.piece, best.angle, np.empty(0), _VALUE)[0][:, 0].copy()
 
 
 @inner_with_arrays
-def _expand(parts, asked, best, rows, sums, middle):  # type: ignore[no-untyped-def]
+def _expand(parts, members, best, rows, sums, middle):  # type: ignore[no-untyped-def]
     """Parts (n,) by polynomials of their own, and where that does not help enough by bounds of their own."""
     count, place = parts.member.size, parts.place
-    curve, centre, half = asked.curve[parts.member], place[:, _CENTRE].copy(), place[:, _HALF].copy()
+    curve, centre, half = members.curve[parts.member], place[:, _CENTRE].copy(), place[:, _HALF].copy()
     cubic, _ = series_of_curves(rows, sums, middle, curve, parts.piece, centre, np.empty(0), _CUBIC)
     steep, some = np.empty(count, np.int64), 0
     for n in range(count):
         member, wide = parts.member[n], half[n]
-        group = asked.group[member]
+        group = members.group[member]
         for k in range(4):
             parts.cubic[n, k] = cubic[n, k] * wide ** float(k)
-        parts.cubic[n, 0] += asked.offset[member]
+        parts.cubic[n, 0] += members.offset[member]
         place[n, _REST] = place[n, _FOURTH] * wide**4.0
-        if place[n, _REST] > ENOUGH * max(asked.share[group] * abs(best.lower[group]), asked.rounding[group]):
+        if place[n, _REST] > ENOUGH * max(members.share[group] * abs(best.lower[group]), members.rounding[group]):
             steep[some] = n
             some += 1
     if some > 0:

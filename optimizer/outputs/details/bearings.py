@@ -9,7 +9,7 @@ from optimizer.mechanics.shaft_curves import ShaftCurves, shaft_curves
 from optimizer.mechanics.whole_turn import TurnCurves
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.output import Columns
-from optimizer.outputs.peaks import FLOOR_TOLERANCE, of_shaft, one_by_one
+from optimizer.outputs.peaks import FLOOR_TOLERANCE, of_shaft, separate_groups
 from optimizer.responses.curve import floors
 from schemas.answer.outputs import labels
 from schemas.machine.drive import Bearing
@@ -36,7 +36,7 @@ def _floors(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
     """Smallest circles around the loads, and what the largest of all bending moments comes to at least."""
     count, square = len(_bearings(scene)), scene.layout.omega[..., None] ** 2
     result = scene.shaft_curves
-    group = one_by_one(count, result.webs.shape[-2] - count)
+    group = separate_groups(count, result.webs.shape[-2] - count)
     circles = [[each.circle for each in floors(one, FLOOR_TOLERANCE, None, group)] for one in _alone(result)]
     radius = np.array([[circle.radius for circle in one] for one in circles]) * square
     fixed = np.array([[circle.centre for circle in one[:count]] for one in circles])
@@ -53,9 +53,9 @@ def _bearing_curves(scene: Prepared) -> ShaftCurves:
     return shaft_curves(scene.results["whole_turn"], scene.layout, scene.bearing_influence)
 
 
-def _alone(found: ShaftCurves) -> Iterator[TurnCurves]:
+def _alone(shaft: ShaftCurves) -> Iterator[TurnCurves]:
     """The curves of each design by itself: parts of a quadrature and steps of a search are its own."""
-    return (found.curves.of_design(k) for k in range(len(found.curves.weights)))
+    return (shaft.curves.of_design(k) for k in range(len(shaft.curves.weights)))
 
 
 def _named(scene: Prepared, name: str, by_bearing: dict[int, Real]) -> dict[str, Real]:

@@ -29,7 +29,7 @@ _AMPLE = 1e-8
 #: room that makes a point without counterweights one to start from
 _ROOMY = 1e-3
 #: gap of the smallest excess that is good enough
-_TOLD = 1e-12
+_PRINTED = 1e-12
 #: the smallest objective is sought this much more sharply than optima are told apart, where another stage follows;
 #: the second where the mass is so steep that the first leaves it open
 _SHARPNESS = (1e-2, 1e-4)
@@ -59,7 +59,7 @@ class Reached(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Found:
+class CertifiedOptimum:
     """Counterweights with their proof; the last goal is the objective."""
 
     point: Point
@@ -79,14 +79,14 @@ class Found:
         """Of the objective."""
         return self.goals[-1].proof
 
-    def counting(self, value: float) -> "Found":
+    def counting(self, value: float) -> "CertifiedOptimum":
         """With the mass proven for all that come to no more than this value: that of counterweights which rounding has
         put above what was counted as an optimum."""
         if self.mass_proof is None or value <= self.mass_target:
             return self
         return replace(self, mass_proof=self.mass_proof.up_to(value - self.mass_target), mass_target=value)
 
-    def within(self, limits: Limits) -> "Found":
+    def within(self, limits: Limits) -> "CertifiedOptimum":
         """With limits that say the same by other radii: those of what is cut from plates."""
         goals = tuple(each._replace(proof=each.proof.within(limits)) for each in self.goals)
         of_mass = self.mass_proof
@@ -121,7 +121,7 @@ def over_turn(
     relative_gap: float,
     least_mass: bool,
     time_limit_s: float = TIME_LIMIT_S,
-) -> Found | Unkept:
+) -> CertifiedOptimum | Unkept:
     """Certified optimum of a program over the turn: its goals one after the other, then the least mass.
 
     Parameters
@@ -147,29 +147,29 @@ def over_turn(
     if not least_mass:
         course.keep(last, course.smallest(last, _ENOUGH * relative_gap * size), 0.0)
         course.margin[-1] = _TARGET_MARGIN * _SHARPNESS[0] * relative_gap * size
-        return course.found(None, np.inf, course.goals[last].lower_bound + (1.0 - _RESERVE) * relative_gap * size)
+        return course.optimum(None, np.inf, course.goals[last].lower_bound + (1.0 - _RESERVE) * relative_gap * size)
     allowed = program.goals[last].allowance * size
     # a little is kept for the rounding of masses and angles
     share = (1.0 - _RESERVE) * min(OPTIMUM_SHARE, relative_gap) * size
     proof: Proof | None = None
-    tried: list[Found] = []
+    tried: list[CertifiedOptimum] = []
     for sharpness in _SHARPNESS:
         proof = course.smallest(last, sharpness * share, proof)
         course.keep(last, proof, max(share, allowed))
         reached = course.goals[last]
         target = (max(reached.value, reached.most) if allowed > share else reached.value) + share
         mass_proof = course.lightest(target, _TARGET_MARGIN * sharpness * share)
-        tried.append(course.found(mass_proof, target))
+        tried.append(course.optimum(mass_proof, target))
         if tried[-1].mass_gap <= _LIGHT or course.timed_out or allowed > share:
             break
     # what is sought more sharply may be found less so
-    best = min(tried, key=lambda found: found.mass_gap)
+    best = min(tried, key=lambda optimum: optimum.mass_gap)
     return replace(best, rounds=course.rounds, certify_s=course.certify_s, timed_out=course.timed_out)
 
 
 def next_goal(
     program: Problem, before: Sequence[Reached], u: Complex, relative_gap: float, time_limit_s: float
-) -> Found:
+) -> CertifiedOptimum:
     """Certified optimum of the last goal of a program under levels of the others that are given.
 
     Parameters
@@ -177,14 +177,14 @@ def next_goal(
     before : all goals but the last, with the most that they may come to.
     u : (K,) kg m, within the limits, that keeps these levels and the ceilings.
     """
-    inside = Point(u, program.values(u, _TOLD), program.mass(u))
+    inside = Point(u, program.values(u, _PRINTED), program.mass(u))
     nearest = Stage(inside, None, 0, 0.0, False)
     raised, until = inside.values.excess > -_AMPLE, time.thread_time() + time_limit_s
     course = _Course(program, Pool(program.first, program.scatter), nearest, raised, False, until)
     course.goals = list(before)
     last = len(before)
     course.keep(last, course.smallest(last, _ENOUGH * relative_gap * float(program.units[last])), 0.0)
-    return course.found(None, np.inf)
+    return course.optimum(None, np.inf)
 
 
 class _Course:
@@ -236,7 +236,7 @@ class _Course:
         reserved[-1] = 0.0
         return self._run(Levels(margins, most - reserved, np.append(most[:-1], target)), _MASS_GAP)
 
-    def found(self, mass_proof: Proof | None, target: float, loosest: float = -np.inf) -> Found:
+    def optimum(self, mass_proof: Proof | None, target: float, loosest: float = -np.inf) -> CertifiedOptimum:
         """What the course has come to.
 
         Parameters
@@ -246,7 +246,7 @@ class _Course:
         """
         most = self._most(len(self.goals))
         bound = None if mass_proof is None else mass_proof.bound
-        point = settled_turn(self.program, self.so_far.begun, self.inside, most, bound, _TOLD)
+        point = settled_turn(self.program, self.so_far.begun, self.inside, most, bound, _PRINTED)
         most[-1] = max(most[-1], loosest)
         empty_webs = EmptyWebs(
             self.so_far,
@@ -258,9 +258,9 @@ class _Course:
             self.raised,
             self.until,
             _MASS_GAP,
-            _TOLD,
+            _PRINTED,
         )
-        return Found(
+        return CertifiedOptimum(
             empty_webs.leave(point),
             tuple(self.goals),
             mass_proof,
@@ -298,7 +298,7 @@ def _nearest(program: Problem, pool: Pool, until: float) -> Stage:
     excess = _bounded(excess, still, np.zeros(0))
     none = np.zeros(0)
     found = Search(excess, pool, Levels(none, none, none), still, False, until).run(
-        _TOLD, lambda value, bound: bound > CEILING_ROUNDING or value <= -max(_AMPLE, 0.5 * -bound)
+        _PRINTED, lambda value, bound: bound > CEILING_ROUNDING or value <= -max(_AMPLE, 0.5 * -bound)
     )
     return found._replace(point=_again(program, found.point))
 
@@ -306,7 +306,7 @@ def _nearest(program: Problem, pool: Pool, until: float) -> Stage:
 def _again(program: Problem, point: Point) -> Point:
     """A point with what it comes to in another program."""
     known = None if np.any(point.unbalance) else program.at_rest
-    return replace(point, values=known or program.values(point.unbalance, _TOLD))
+    return replace(point, values=known or program.values(point.unbalance, _PRINTED))
 
 
 def semicontinuous_limits(program: Problem, least: Real, most: Real) -> Limits:

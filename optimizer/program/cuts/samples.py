@@ -217,10 +217,10 @@ class Samples:
         ----------
         matters : (quantities,) above which more places than one count.
         """
-        found: list[list[Reached]] = [[] for _ in self.quantities]
+        peaks: list[list[Reached]] = [[] for _ in self.quantities]
         for q, quantity in enumerate(self.quantities):
             if quantity.measure == "rms":
-                found[q] = [quantity.rms(u, scatter)]
+                peaks[q] = [quantity.rms(u, scatter)]
         for some, curves in self._curves:
             more = [scatter.of(self.quantities[q].response.influence, u) for q in some]
             maxima = curves.maxima(self._squares(some, u), np.maximum(matters[some] - more, 0.0) ** 2)
@@ -231,11 +231,11 @@ class Samples:
                 value = value + np.sum(worst_masses(moved, parts) * parts, axis=-1)
                 moved = value + self._added(some, u, angle, maxima.curve)
             size = np.abs(moved.real if self.quantities[some[0]].response.scalar else moved)
-            for n, *each in zip(*(part.tolist() for part in (maxima.curve, angle, value, size)), strict=True):
-                at, there, lower = each
+            for n, *values in zip(*(part.tolist() for part in (maxima.curve, angle, value, size)), strict=True):
+                at, there, lower = values
                 quantity = self.quantities[some[n]]
-                found[some[n]].append(quantity.peak(u, scatter, lower, lower, quantity.cut(at, there)))
-        return tuple(tuple(sorted(each, key=lambda one: -one.lower)) for each in found)
+                peaks[some[n]].append(quantity.peak(u, scatter, lower, lower, quantity.cut(at, there)))
+        return tuple(tuple(sorted(reached, key=lambda peak: -peak.lower)) for reached in peaks)
 
     def _squares(self, some: list[int], u: Complex) -> _Squares:
         """Of quantities that are looked at together, with an unbalance (K,) kg m."""

@@ -142,22 +142,25 @@ class Search:
         promised = none = _Promise(np.inf, best.unbalance)
         while attempts and rounds < _MOST_ROUNDS and not self._late():
             rounds += 1
-            found = self._solved(statement, attempts[0])
-            if found is None:
+            solution = self._solved(statement, attempts[0])
+            if solution is None:
                 attempts = attempts[1:]
                 continue
-            u, proven = found
-            for one in proven:
-                proof = one if proof is None or one.bound > proof.bound else proof
+            u, proven = solution
+            for candidate in proven:
+                proof = candidate if proof is None or candidate.bound > proof.bound else proof
             self._spare(enough * (best.mass if self.of_mass else 1.0))
             bound = -np.inf if proof is None else proof.bound
             matters, mass = self._matters(statement, u), self._mass(u)
             # what is seen at some angles is no more than the truth: while that is too much no bracket is needed
             seen, places = self.program.seen(u, matters)
             figure = self._promise(Point(u, seen, mass))
-            promised = min(promised, _Promise(figure, u), key=lambda one: one.figure)
+            promised = min(promised, _Promise(figure, u), key=lambda promise: promise.figure)
             gap = figure - bound
-            lost = self.free and self._stated_goals(statement, u)[-1] - max(one.bound for one in proven) > _LOST * gap
+            lost = (
+                self.free
+                and self._stated_goals(statement, u)[-1] - max(candidate.bound for candidate in proven) > _LOST * gap
+            )
             if gap > self._wanted(enough, best) and not stop(figure, bound) and self._added_cuts(places, u, matters):
                 if lost:
                     # not cuts are missing but digits of the multipliers
@@ -174,7 +177,7 @@ class Search:
             gap = self.figure(best) - bound
             if gap <= self._wanted(enough, best) or stop(self.figure(best), bound):
                 break
-            if not self._added_cuts([(each,) for each in point.values.reached], u, matters):
+            if not self._added_cuts([(reached,) for reached in point.values.reached], u, matters):
                 proof = self._closed(proof, statement)
                 self.missed = _MISSED * np.maximum(point.values.goals[: self.aimed.size] - self.aimed, 0.0)
                 attempts = attempts[1:]

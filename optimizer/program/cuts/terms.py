@@ -18,7 +18,7 @@ class Terms:
         self.floor: list[float] = []
         self.group: list[int] = []
         self.rows: list[str] = []
-        self.known: set[str] = set()
+        self.labels: set[str] = set()
         self.scalar: list[bool] = []
 
     def add(self, group: int, row: Row) -> None:
@@ -41,7 +41,7 @@ class Terms:
         # of a root mean square the cuts have no angle
         called = f"{name} {len(self.rows)}" if cut.angle_deg is None else f"{name} at {cut.angle_deg!r} deg"
         called = called if quantity.scenario is None else f"{called} in {quantity.scenario}"
-        if called in self.known:
+        if called in self.labels:
             # beside a jump both limits are of one angle
             called = f"{called}, {len(self.rows)}"
         self._end(group, called, weighed.offset + weighed.weight * cut.floor)
@@ -50,4 +50,4 @@ class Terms:
         self.floor.append(floor)
         self.group.append(group)
         self.rows.append(name)
-        self.known.add(name)
+        self.labels.add(name)

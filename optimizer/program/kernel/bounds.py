@@ -10,7 +10,7 @@ from optimizer.program.kernel.compiling import in_place
 
 _EPS = float(np.finfo(float).eps)
 #: roundings, as in :mod:`optimizer.program.certificate`
-EACH, DEAR = 16, 1e-10
+PER_PRODUCT, DEAR = 16, 1e-10
 
 
 @in_place
@@ -36,7 +36,7 @@ def bounds(  # type: ignore[no-untyped-def]
     term_work,
     web_work,
     order,
-    found,
+    result,
     dear,
 ):
     """Bounds of N programs from M = P N proofs, proof m of program m % N.
@@ -50,18 +50,18 @@ def bounds(  # type: ignore[no-untyped-def]
     owner : (J,) row of a term.
     constant, influence, floor : (N, J + I), (N, J + I, K), (N, R).
     row_work, term_work, web_work, order : (R,), (J + I,) complex, (2, K) and (2, K) integers, to be written to.
-    found, dear : (M,) the bound, and whether its slopes call for a finer sum than this one.
+    result, dear : (M,) the bound, and whether its slopes call for a finer sum than this one.
     """
     number, terms, webs = influence.shape
     rows, own, lam, y, gain, masses = floor.shape[1], owner.size, row_work, term_work, web_work[0], web_work[1]
-    for m in range(found.size):
+    for m in range(result.size):
         n = m % number
         price = 0.0
         for r in range(rows):
             lam[r] = 0.0 if row[m, r] < 0.0 else row[m, r]
             price += lam[r]
-        known = price > 0.0 and price < np.inf
-        factor = 1.0 / price if known and mass_cost == 0.0 else 1.0
+        finite = price > 0.0 and price < np.inf
+        factor = 1.0 / price if finite and mass_cost == 0.0 else 1.0
         for j in range(own):
             size, most = abs(term[m, j]), lam[owner[j]]
             shrink = most / size if size > most else 1.0
@@ -86,7 +86,7 @@ def bounds(  # type: ignore[no-untyped-def]
             for j in range(terms):
                 slope += complex(influence[n, j, k] * y[j].real, influence[n, j, k] * y[j].imag)
                 large += abs(influence[n, j, k]) * abs(y[j])
-            rounding = _EPS * (EACH + terms) * large
+            rounding = _EPS * (PER_PRODUCT + terms) * large
             off += radius[n, k] * min(max_mass[n, k], budget[n]) * rounding
             support = abs(slope)
             if not free[n, k]:
@@ -101,9 +101,9 @@ def bounds(  # type: ignore[no-untyped-def]
         for k in range(webs):
             gained += gain[k] * masses[k]
         charge = price * target[n] if mass_cost > 0.0 else 0.0
-        off = _EPS * (EACH + own + 2 * (terms - own) + rows) * (size + abs(charge))
-        bound = fixed - charge - gained * (1.0 + _EPS * (EACH + 2 * webs)) - off
+        off = _EPS * (PER_PRODUCT + own + 2 * (terms - own) + rows) * (size + abs(charge))
+        bound = fixed - charge - gained * (1.0 + _EPS * (PER_PRODUCT + 2 * webs)) - off
         if mass_cost > 0.0:
-            found[m] = max(bound, 0.0)
+            result[m] = max(bound, 0.0)
         else:
-            found[m] = bound if known else -np.inf
+            result[m] = bound if finite else -np.inf

@@ -50,8 +50,8 @@ LANES = 16
 
 
 @inlined
-def _larger(one, other):  # type: ignore[no-untyped-def]
-    return one if one > other else other
+def _larger(first, second):  # type: ignore[no-untyped-def]
+    return first if first > second else second
 
 
 @inlined
@@ -204,12 +204,12 @@ def _solve(least_mass, own, matrix, step):  # type: ignore[no-untyped-def]
         square = price * price
         yx, yy, gx, gy = own[t + Y1X], own[t + Y1Y], own[t + G1X], own[t + G1Y]
         wx, wy, hx, hy = own[t + Y2X], own[t + Y2Y], own[t + G2X], own[t + G2Y]
-        one, other = yx * gx + yy * gy - own[t + R1], wx * hx + wy * hy - own[t + R2]
-        step[t] = price * own[t + R1X] - square * gx + yx * one
-        step[t + LANES] = price * own[t + R1Y] - square * gy + yy * one
-        step[t + 2 * LANES] = price * own[t + R2X] - square * hx + wx * other
-        step[t + 3 * LANES] = price * own[t + R2Y] - square * hy + wy * other
-        step[t + 4 * LANES] = own[t + R_LEFT] - one - other
+        first, second = yx * gx + yy * gy - own[t + R1], wx * hx + wy * hy - own[t + R2]
+        step[t] = price * own[t + R1X] - square * gx + yx * first
+        step[t + LANES] = price * own[t + R1Y] - square * gy + yy * first
+        step[t + 2 * LANES] = price * own[t + R2X] - square * hx + wx * second
+        step[t + 3 * LANES] = price * own[t + R2Y] - square * hy + wy * second
+        step[t + 4 * LANES] = own[t + R_LEFT] - first - second
     unknowns = 5 if least_mass else 4
     for i in range(unknowns):
         for j in range(i):

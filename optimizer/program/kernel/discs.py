@@ -39,7 +39,7 @@ from optimizer.program.kernel.disc_steps import (
     go,
     look,
 )
-from optimizer.program.kernel.stages import BLOCK, CENTRALITY, KEPT_BACK, OPEN
+from optimizer.program.kernel.stages import BLOCK, CENTRALITY, OPEN, RESERVE
 
 _MOST_STEPS = 25
 #: least share of the way to the boundary that a step goes; the rest is the gap at most
@@ -204,7 +204,7 @@ def _aim(mass, share, gap, end, program, where):  # type: ignore[no-untyped-def]
             y += program[j * webs + k] * end[webs + k]
         value += np.sqrt(x * x + y * y)
     # what the first stage leaves open is kept back, so that the lightest is an optimum for certain
-    most = value + share * (1.0 - KEPT_BACK) - OPEN * gap
+    most = value + share * (1.0 - RESERVE) - OPEN * gap
     program[3 * webs + 4] = most
     # every multiplier at the price of the objective
     price = CENTRALITY / max(most - where[4 * webs + 4] - where[4 * webs + 5], 1e-300)

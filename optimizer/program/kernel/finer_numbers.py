@@ -39,8 +39,8 @@ class Precision:
         """What the compiled functions use of numpy."""
 
         def filled(value: float) -> Callable[..., Any]:
-            one = self.number(value)
-            return lambda shape, dtype=self.dtype: np.full(shape, one if dtype == self.dtype else value, dtype=dtype)
+            number = self.number(value)
+            return lambda shape, dtype=self.dtype: np.full(shape, number if dtype == self.dtype else value, dtype=dtype)
 
         return SimpleNamespace(
             zeros=filled(0.0),
@@ -86,7 +86,7 @@ def finest(webs: int) -> Precision | None:
 
     Coarser ones are not tried before: interpreted, they take half as long, and what they settle finer ones do.
     """
-    return next((each for each in reversed(PRECISIONS) if 0 < webs <= each.most_webs), None)
+    return next((precision for precision in reversed(PRECISIONS) if 0 < webs <= precision.most_webs), None)
 
 
 def interpreted(
@@ -117,7 +117,7 @@ def interpreted(
 
 def _literal(value: Any, number: Callable[[float], Any]) -> Any:
     if type(value) is tuple:
-        return tuple(_literal(each, number) for each in value)
+        return tuple(_literal(part, number) for part in value)
     return number(value) if type(value) is float else value
 
 
@@ -130,7 +130,7 @@ def solve_in(precision: Precision) -> Callable[..., Any]:
         with precision.arithmetic():
             # the data in those numbers as well, or their products are rounded before anything is added to them
             data = data._make(a if a.dtype == np.int64 else precision.array(a) for a in data)
-            found = solve(data, least_mass, *(precision.array(each) for each in rest))
-        return tuple(np.asarray(values, dtype=float) for values in found)
+            solution = solve(data, least_mass, *(precision.array(array) for array in rest))
+        return tuple(np.asarray(values, dtype=float) for values in solution)
 
     return solved

@@ -26,7 +26,7 @@ from optimizer.program.kernel.newton import (
     second_order,
     take_step,
 )
-from optimizer.program.kernel.stages import BLOCK, KEPT_BACK, OPEN
+from optimizer.program.kernel.stages import BLOCK, OPEN, RESERVE
 from optimizer.program.kernel.starts import restart, start
 
 #: share of the way to the boundary that a step goes
@@ -77,32 +77,32 @@ def _from_lane(packed, t, row):  # type: ignore[no-untyped-def]
 
 
 @inner
-def load(programs, task, n, one, t):  # type: ignore[no-untyped-def]
+def load(programs, task, n, batch, t):  # type: ignore[no-untyped-def]
     """Program n into lane t."""
     cones, webs = programs.influence.shape[1:]
-    lanes = one.target.size
+    lanes = batch.target.size
     for r in range(programs.floor.shape[1]):
-        one.floor[r, t] = programs.floor[n, r]
+        batch.floor[r, t] = programs.floor[n, r]
     for i in range(programs.cap.shape[1]):
-        one.cap[i, t] = programs.cap[n, i]
-    one.target[t] = task.target[n]
+        batch.cap[i, t] = programs.cap[n, i]
+    batch.target[t] = task.target[n]
     for i in range(cones):
         for c in range(2):
-            one.constant[c, i * lanes + t] = programs.constant[n, i, c]
+            batch.constant[c, i * lanes + t] = programs.constant[n, i, c]
         for k in range(webs):
-            one.influence[i, k * lanes + t] = programs.influence[n, i, k]
+            batch.influence[i, k * lanes + t] = programs.influence[n, i, k]
     for k in range(webs):
         at = k * lanes + t
         for c in range(2):
-            one.centre[c, at] = programs.centre[n, k, c]
-        one.sine[at], one.cosine[at] = programs.sine[n, k], programs.cosine[n, k]
-        one.present[0, at] = 1.0
-        one.present[1, at] = one.present[2, at] = programs.sector[n, k]
-        one.mass[at], one.budget[at] = task.cost[n, k], programs.budget[n, k]
+            batch.centre[c, at] = programs.centre[n, k, c]
+        batch.sine[at], batch.cosine[at] = programs.sine[n, k], programs.cosine[n, k]
+        batch.present[0, at] = 1.0
+        batch.present[1, at] = batch.present[2, at] = programs.sector[n, k]
+        batch.mass[at], batch.budget[at] = task.cost[n, k], programs.budget[n, k]
 
 
 @in_place
-def run(least_mass, programs, task, one, course, packed, best, work):  # type: ignore[no-untyped-def]
+def run(least_mass, programs, task, batch, course, packed, best, work):  # type: ignore[no-untyped-def]
     """A stage of every program: steps until the gap is at most the tolerance, or no longer falls."""
     number, cones, webs = programs.influence.shape
     rows = programs.floor.shape[1]
@@ -126,29 +126,29 @@ def run(least_mass, programs, task, one, course, packed, best, work):  # type: i
                 program[t] = waiting
                 waiting += 1
                 n = program[t]
-                load(programs, task, n, one, t)
+                load(programs, task, n, batch, t)
                 if least_mass:
                     _to_lane(task.way[n], packed, t)
-                    restart(one, state, t)
+                    restart(batch, state, t)
                 else:
-                    start(one, state, t)
+                    start(batch, state, t)
                     _from_lane(packed, t, task.way[n])
                 barrier[t], costs[t] = 1.0 * webs * 2 + cones + rows + 1, 0.0
                 for k in range(t, webs * lanes, lanes):
-                    barrier[t] += 2.0 * one.present[1, k]
-                    costs[t] = max(costs[t], one.mass[k])
+                    barrier[t] += 2.0 * batch.present[1, k]
+                    costs[t] = max(costs[t], batch.mass[k])
                 done[t], cautious[t], steps[t], stalled[t], reached[t] = 0.0, 0.0, 0.0, 0.0, np.inf
                 tolerance[t], middle[t] = task.tolerance[n], task.middle[n]
         if solved == number:
             return
-        residuals(least_mass, one, state, work)
+        residuals(least_mass, batch, state, work)
         gap = work.gap
         for t in range(lanes):
             scale = 1.0
             if least_mass:
                 scale = 0.0
                 for k in range(t, webs * lanes, lanes):
-                    scale += one.mass[k] * state.v[0, k]
+                    scale += batch.mass[k] * state.v[0, k]
                 scale = max(scale, 1e-3)
             merit = gap[t] / scale + work.primal[t]
             better[t] = 0.0
@@ -168,13 +168,13 @@ def run(least_mass, programs, task, one, course, packed, best, work):  # type: i
             for t in range(lanes):
                 best[i, t] = packed[i, t] if better[t] > 0.0 else best[i, t]
 
-        factor(least_mass, one, state, work)
+        factor(least_mass, batch, state, work)
         # predictor
         work.nu[:] = 0.0
         work.keep[:] = 1.0
         first_order(work)
-        direction(least_mass, one, state, work)
-        longest_step(one, state, work, 1.0 / _STEP)
+        direction(least_mass, batch, state, work)
+        longest_step(batch, state, work, 1.0 / _STEP)
         for t in range(lanes):
             sigma[t] = (1.0 - min(work.step[t], 1.0)) ** 3
             if middle[t] > 0.0 and gap[t] * sigma[t] < 0.3 * middle[t]:
@@ -187,8 +187,8 @@ def run(least_mass, programs, task, one, course, packed, best, work):  # type: i
             work.nu[t], work.keep[t] = gap[t] / barrier[t] * sigma[t], 1.0 - sigma[t]
         # corrector
         second_order(wanted, work)
-        direction(least_mass, one, state, work)
-        longest_step(one, state, work, 1.0 / _STEP)
+        direction(least_mass, batch, state, work)
+        longest_step(batch, state, work, 1.0 / _STEP)
         for t in range(lanes):
             work.step[t] *= _STEP
             cautious[t] = 1.0 if work.step[t] < 0.1 else 0.0
@@ -198,7 +198,7 @@ def run(least_mass, programs, task, one, course, packed, best, work):  # type: i
             if not (np.isfinite(total) and work.step[t] > 1e-8):
                 done[t], work.step[t] = 1.0, 0.0
             steps[t] += 1.0
-        take_step(one, state, work)
+        take_step(batch, state, work)
 
 
 def solve(
@@ -224,12 +224,12 @@ def solve(
     v, p = np.zeros((2, number, 3, webs)), np.zeros((2, number, cones, 2))
     prices, mass_unit = np.zeros((2, number, rows)), np.ones(number)
     size, lanes = state_size(webs, cones, rows), min(_LANES, number)
-    one, course = new_lanes(programs.row, webs, cones, rows, lanes), new_course(lanes)
+    batch, course = new_lanes(programs.row, webs, cones, rows, lanes), new_course(lanes)
     packed, best, work = np.ones((size, lanes)), np.ones((size, lanes)), new_work(webs, cones, terms, rows, lanes)
     for begin in range(0, number, BLOCK):
         end = min(begin + BLOCK, number)
         count = end - begin
-        block = Programs(programs.row, *(each[begin:end] for each in programs[1:]))
+        block = Programs(programs.row, *(array[begin:end] for array in programs[1:]))
         task = Task(
             np.zeros(count),
             np.zeros((count, webs)),
@@ -244,7 +244,7 @@ def solve(
                 _aim(block, task, share[begin:end], mass_unit[begin:end])
                 task.tolerance[:] = mass_tolerance
                 task.middle[:] = 0.0
-            run(stage > 0, block, task, one, course, packed, best, work)
+            run(stage > 0, block, task, batch, course, packed, best, work)
             _keep(task.best, v[stage, begin:end], p[stage, begin:end], prices[stage, begin:end])
     return v, p, prices, mass_unit
 
@@ -270,7 +270,7 @@ def _aim(programs, task, share, mass_unit):  # type: ignore[no-untyped-def]
                     value += np.sqrt(best.s[1, webs + i] ** 2 + best.s[2, webs + i] ** 2)
             target = max(target, value)
         # what the first stage leaves open is kept back, so that the lightest is an optimum for certain
-        task.target[n] = target + share[n] * (1.0 - KEPT_BACK) - OPEN * task.reached[n]
+        task.target[n] = target + share[n] * (1.0 - RESERVE) - OPEN * task.reached[n]
 
 
 def _keep(best: Real, v: Real, p: Real, price: Real) -> None:

@@ -80,9 +80,9 @@ class Work(NamedTuple):
     d: Real  # (3, C L) second-order parts
     ds: Real  # (3, C L)
     dz: Real  # (3, C L)
-    each: Real  # (C L,) a value for every cone
+    per_cone: Real  # (C L,) a value for every cone
     e: Real  # (3, K L) right sides, then steps of the webs
-    kept: Real  # (3, K L) steps of the webs where no multiplier of the peaks and the budget changes
+    own: Real  # (3, K L) steps of the webs where no multiplier of the peaks and the budget changes
     response: Real  # (3, K L) what such changes add to them
     edges: Real  # (2, K L)
     fq: Real  # (3, K L)
@@ -213,11 +213,11 @@ def spread(values, every):  # type: ignore[no-untyped-def]
 
 
 @inner
-def add_products(one, other, total):  # type: ignore[no-untyped-def]
+def add_products(first, second, total):  # type: ignore[no-untyped-def]
     lanes = total.size
-    for k in range(one.size // lanes):
+    for k in range(first.size // lanes):
         for t in range(lanes):
-            total[t] += one[k * lanes + t] * other[k * lanes + t]
+            total[t] += first[k * lanes + t] * second[k * lanes + t]
 
 
 @inner
@@ -243,6 +243,6 @@ def move(step, change, value):  # type: ignore[no-untyped-def]
 
 
 @inner
-def product(wanted, one, other, found):  # type: ignore[no-untyped-def]
-    for k in range(found.size):
-        found[k] = wanted[k] * one[k] * other[k]
+def product(wanted, first, second, result):  # type: ignore[no-untyped-def]
+    for k in range(result.size):
+        result[k] = wanted[k] * first[k] * second[k]

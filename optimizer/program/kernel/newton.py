@@ -41,36 +41,38 @@ from optimizer.program.kernel.webs import (
 
 
 @inner
-def residuals(least_mass, one, state, work):  # type: ignore[no-untyped-def]
+def residuals(least_mass, batch, state, work):  # type: ignore[no-untyped-def]
     """Residuals of the conditions of optimality, their sizes, and the gap, which is the sum of the products."""
-    rows, lanes = one.floor.shape
-    terms, at_cones = one.row.size, one.sine.size
+    rows, lanes = batch.floor.shape
+    terms, at_cones = batch.row.size, batch.sine.size
     s, z, rp, rp_row = state.s, state.z, work.rp, work.rp_row
-    cones = one.influence.shape[0]
-    level = one.target if least_mass else state.rest[2]
+    cones = batch.influence.shape[0]
+    level = batch.target if least_mass else state.rest[2]
     for i in range(work.a.shape[1]):
         work.a[0, i], work.a[1, i] = z[1, at_cones + i], z[2, at_cones + i]
-    webs_of(one.influence, work.a, work.u)
-    spread(state.rest[1], work.each)
-    web_residuals(work.each, one.mass, one.budget, one.sine, one.cosine, one.centre, work.u, z, state.zq, work.rd)
+    webs_of(batch.influence, work.a, work.u)
+    spread(state.rest[1], work.per_cone)
+    web_residuals(
+        work.per_cone, batch.mass, batch.budget, batch.sine, batch.cosine, batch.centre, work.u, z, state.zq, work.rd
+    )
     work.dual[:] = 0.0
     raise_to_size(work.rd[0], work.dual)
     for i in range(work.a.shape[1]):
-        work.a[0, i], work.a[1, i] = one.constant[0, i], one.constant[1, i]
-    turned(state.v, one.sine, one.centre, work.u)
-    peaks_of(one.influence, work.u, work.a)
+        work.a[0, i], work.a[1, i] = batch.constant[0, i], batch.constant[1, i]
+    turned(state.v, batch.sine, batch.centre, work.u)
+    peaks_of(batch.influence, work.u, work.a)
     for r in range(rows):
         for t in range(lanes):
-            rp_row[r, t] = state.rho[r, t] + one.floor[r, t] - level[t]
+            rp_row[r, t] = state.rho[r, t] + batch.floor[r, t] - level[t]
     for i in range(work.a.shape[1]):
         rp[0, i] = 0.0
         rp[1, i], rp[2, i] = s[1, at_cones + i] - work.a[0, i], s[2, at_cones + i] - work.a[1, i]
     for i in range(cones):
         for t in range(lanes):
             if i < terms:
-                rp_row[one.row[i], t] += s[0, at_cones + i * lanes + t]
+                rp_row[batch.row[i], t] += s[0, at_cones + i * lanes + t]
             else:
-                rp[0, i * lanes + t] = s[0, at_cones + i * lanes + t] - one.cap[i - terms, t]
+                rp[0, i * lanes + t] = s[0, at_cones + i * lanes + t] - batch.cap[i - terms, t]
     work.primal[:] = 0.0
     for c in range(3):
         raise_to_size(rp[c], work.primal)
@@ -124,13 +126,13 @@ def _add_influence(influence, xx, xy, yy, where, m):  # type: ignore[no-untyped-
 
 
 @inner
-def factor(least_mass, one, state, work):  # type: ignore[no-untyped-def]
+def factor(least_mass, batch, state, work):  # type: ignore[no-untyped-def]
     """The matrix of the step, factored; and what a level that rises by one asks of the rows."""
-    rows, lanes = one.floor.shape
-    cones, terms, at_cones = one.influence.shape[0], one.row.size, one.sine.size
+    rows, lanes = batch.floor.shape
+    cones, terms, at_cones = batch.influence.shape[0], batch.row.size, batch.sine.size
     w, eta, block, m, least, where = work.w, work.eta, work.block, work.m, work.least, work.where
     scaling(state.s, state.z, w, eta, work.lam)
-    eliminate_webs(w, eta, state.q, state.zq, one.present[1], one.sine, one.cosine, one.centre, block)
+    eliminate_webs(w, eta, state.q, state.zq, batch.present[1], batch.sine, batch.cosine, batch.centre, block)
     m[:] = 0.0
     at_row = m.shape[0] - rows
     at_budget = at_row - 1
@@ -139,21 +141,21 @@ def factor(least_mass, one, state, work):  # type: ignore[no-untyped-def]
             least[at_row + r, t] = m[at_row + r, at_row + r, t] = state.rho[r, t] / state.z_rho[r, t]
     for i in range(cones):
         at, begin, end = where[i], at_cones + i * lanes, at_cones + (i + 1) * lanes
-        first = at_row + one.row[i] if i < terms else at - 1
+        first = at_row + batch.row[i] if i < terms else at - 1
         _add_cone(first, at, eta[begin:end], w[0, begin:end], w[1, begin:end], w[2, begin:end], m)
-    _add_influence(one.influence, block[6], block[7], block[8], where, m)
+    _add_influence(batch.influence, block[6], block[7], block[8], where, m)
     # H^-1 (budget e_x): its own x, and what it is in the peaks
     e = work.e
     e[:] = 0.0
-    for k in range(one.budget.size):
-        e[0, k] = one.budget[k]
-    web_steps(block, one.cosine, e, work.edges)
+    for k in range(batch.budget.size):
+        e[0, k] = batch.budget[k]
+    web_steps(block, batch.cosine, e, work.edges)
     for t in range(lanes):
         least[at_budget, t] = m[at_budget, at_budget, t] = state.rest[0, t] / state.rest[1, t]
-    add_products(one.budget, e[0], m[at_budget, at_budget])
-    turned(e, one.sine, one.centre, work.u)
+    add_products(batch.budget, e[0], m[at_budget, at_budget])
+    turned(e, batch.sine, batch.centre, work.u)
     work.a[:] = 0.0
-    peaks_of(one.influence, work.u, work.a)
+    peaks_of(batch.influence, work.u, work.a)
     for i in range(cones):
         for t in range(lanes):
             m[at_budget, where[i], t] = work.a[0, i * lanes + t]
@@ -176,10 +178,10 @@ def first_order(work):  # type: ignore[no-untyped-def]
 @inner
 def second_order(wanted, work):  # type: ignore[no-untyped-def]
     """What the products miss in the direction found last where ``wanted`` (L,) is 1; nothing where it is 0."""
-    spread(wanted, work.each)
-    corrector(work.each, work.w, work.eta, work.ds, work.dz, work.d)
+    spread(wanted, work.per_cone)
+    corrector(work.per_cone, work.w, work.eta, work.ds, work.dz, work.d)
     for c in range(3):
-        product(work.each, work.dq[c], work.dzq[c], work.cq[c])
+        product(work.per_cone, work.dq[c], work.dzq[c], work.cq[c])
     for r in range(work.c_rho.shape[0]):
         product(wanted, work.d_rho[r], work.dz_rho[r], work.c_rho[r])
     product(wanted, work.d_rest[0], work.d_rest[1], work.c_rest[0])
@@ -201,10 +203,10 @@ def _size_of_terms(begin, terms_end, w, eta, f, dz, ds):  # type: ignore[no-unty
 
 
 @inner
-def _solve(least_mass, one, work):  # type: ignore[no-untyped-def]
+def _solve(least_mass, batch, work):  # type: ignore[no-untyped-def]
     """The steps of the multipliers of the peaks, the rows and the budget, and of the level."""
     right, d_level = work.right, work.d_rest[2]
-    rows, lanes = one.floor.shape
+    rows, lanes = batch.floor.shape
     at_row = right.shape[0] - rows
     forward(work.m, 0, right)
     d_level[:] = 0.0
@@ -226,10 +228,10 @@ def _solve(least_mass, one, work):  # type: ignore[no-untyped-def]
 
 
 @inner
-def direction(least_mass, one, state, work):  # type: ignore[no-untyped-def]
+def direction(least_mass, batch, state, work):  # type: ignore[no-untyped-def]
     """The step towards products ``nu`` that removes the share ``keep`` of the residuals."""
-    rows, lanes = one.floor.shape
-    cones, terms, at_cones = one.influence.shape[0], one.row.size, one.sine.size
+    rows, lanes = batch.floor.shape
+    cones, terms, at_cones = batch.influence.shape[0], batch.row.size, batch.sine.size
     ds, dz, ws, rp, right, where, keep, e = (
         work.ds,
         work.dz,
@@ -242,20 +244,20 @@ def direction(least_mass, one, state, work):  # type: ignore[no-untyped-def]
     )
     at_row = right.shape[0] - rows
     at_budget = at_row - 1
-    spread(work.nu, work.each)
-    targets(work.each, work.d, work.w, work.eta, work.lam, state.s, state.z, work.f, ws)
+    spread(work.nu, work.per_cone)
+    targets(work.per_cone, work.d, work.w, work.eta, work.lam, state.s, state.z, work.f, ws)
     for c in range(3):
-        web_targets(work.each, one.present[c], work.cq[c], state.q[c], state.zq[c], work.fq[c])
-    spread(keep, work.each)
-    web_right_sides(work.each, work.rd, work.f, work.fq, one.sine, one.cosine, e)
-    for k in range(one.sine.size):
-        work.kept[0, k], work.kept[1, k], work.kept[2, k] = e[0, k], e[1, k], e[2, k]
-    web_steps(work.block, one.cosine, work.kept, work.edges)
-    turned(work.kept, one.sine, one.centre, work.u)
+        web_targets(work.per_cone, batch.present[c], work.cq[c], state.q[c], state.zq[c], work.fq[c])
+    spread(keep, work.per_cone)
+    web_right_sides(work.per_cone, work.rd, work.f, work.fq, batch.sine, batch.cosine, e)
+    for k in range(batch.sine.size):
+        work.own[0, k], work.own[1, k], work.own[2, k] = e[0, k], e[1, k], e[2, k]
+    web_steps(work.block, batch.cosine, work.own, work.edges)
+    turned(work.own, batch.sine, batch.centre, work.u)
     work.a[:] = 0.0
-    peaks_of(one.influence, work.u, work.a)
+    peaks_of(batch.influence, work.u, work.a)
     right[:] = 0.0
-    add_products(one.budget, work.kept[0], right[at_budget])
+    add_products(batch.budget, work.own[0], right[at_budget])
     for t in range(lanes):
         target = (work.nu[t] - work.c_rest[0, t]) / state.rest[1, t]
         right[at_budget, t] = state.rest[0, t] - target - right[at_budget, t]
@@ -265,55 +267,55 @@ def direction(least_mass, one, state, work):  # type: ignore[no-untyped-def]
             right[at_row + r, t] = target + keep[t] * work.rp_row[r, t]
     for i in range(cones):
         at, begin, end = where[i], i * lanes, (i + 1) * lanes
-        first = at_row + one.row[i] if i < terms else at - 1
+        first = at_row + batch.row[i] if i < terms else at - 1
         for t in range(lanes):
             right[at, t] = -work.a[0, begin + t]
             right[at + 1, t] = -work.a[1, begin + t]
         _add_targets(ws[0, at_cones + begin : at_cones + end], rp[0, begin:end], keep, right[first])
         _add_targets(ws[1, at_cones + begin : at_cones + end], rp[1, begin:end], keep, right[at])
         _add_targets(ws[2, at_cones + begin : at_cones + end], rp[2, begin:end], keep, right[at + 1])
-    _solve(least_mass, one, work)
+    _solve(least_mass, batch, work)
     # back to the webs
     for i in range(cones):
         at, begin = where[i], i * lanes
-        first = at_row + one.row[i] if i < terms else at - 1
+        first = at_row + batch.row[i] if i < terms else at - 1
         for t in range(lanes):
             work.a[0, begin + t], work.a[1, begin + t] = right[at, t], right[at + 1, t]
         for t in range(lanes):
             dz[0, at_cones + begin + t] = right[first, t]
             dz[1, at_cones + begin + t], dz[2, at_cones + begin + t] = right[at, t], right[at + 1, t]
-    webs_of(one.influence, work.a, work.u)
-    spread(work.d_rest[1], work.each)
-    with_peaks(work.each, one.budget, one.sine, one.centre, work.u, work.response)
+    webs_of(batch.influence, work.a, work.u)
+    spread(work.d_rest[1], work.per_cone)
+    with_peaks(work.per_cone, batch.budget, batch.sine, batch.centre, work.u, work.response)
     for c in range(3):
-        for k in range(one.sine.size):
+        for k in range(batch.sine.size):
             e[c, k] += work.response[c, k]
-    web_steps(work.block, one.cosine, work.response, work.edges)
-    web_steps(work.block, one.cosine, e, work.edges)
-    lengths(work.kept, work.response, state.v, state.q, e, work.edges)
-    web_slacks(e, work.edges, one.sine, ds, work.dq)
+    web_steps(work.block, batch.cosine, work.response, work.edges)
+    web_steps(work.block, batch.cosine, e, work.edges)
+    lengths(work.own, work.response, state.v, state.q, e, work.edges)
+    web_slacks(e, work.edges, batch.sine, ds, work.dq)
     for c in range(3):
         web_multipliers(work.fq[c], state.zq[c], state.q[c], work.dq[c], work.dzq[c])
-    multiplier_steps(one.sine.size, work.w, work.eta, work.f, ds, dz)
+    multiplier_steps(batch.sine.size, work.w, work.eta, work.f, ds, dz)
     d_left = work.d_rest[0]
     d_left[:] = 0.0
-    add_products(one.budget, work.dq[0], d_left)
+    add_products(batch.budget, work.dq[0], d_left)
     # the vectors of the peaks from the webs, which keeps them consistent
-    turned(e, one.sine, one.centre, work.u)
+    turned(e, batch.sine, batch.centre, work.u)
     work.a[:] = 0.0
-    peaks_of(one.influence, work.u, work.a)
-    spread(keep, work.each)
+    peaks_of(batch.influence, work.u, work.a)
+    spread(keep, work.per_cone)
     for i in range(work.a.shape[1]):
-        ds[0, at_cones + i] = -work.each[i] * rp[0, i]
-        ds[1, at_cones + i] = work.a[0, i] - work.each[i] * rp[1, i]
-        ds[2, at_cones + i] = work.a[1, i] - work.each[i] * rp[2, i]
+        ds[0, at_cones + i] = -work.per_cone[i] * rp[0, i]
+        ds[1, at_cones + i] = work.a[0, i] - work.per_cone[i] * rp[1, i]
+        ds[2, at_cones + i] = work.a[1, i] - work.per_cone[i] * rp[2, i]
     _size_of_terms(at_cones, at_cones + terms * lanes, work.w, work.eta, work.f, dz, ds)
     for r in range(rows):
         for t in range(lanes):
             work.d_rho[r, t] = work.d_rest[2, t] - keep[t] * work.rp_row[r, t]
     for i in range(terms):
         for t in range(lanes):
-            work.d_rho[one.row[i], t] -= ds[0, at_cones + i * lanes + t]
+            work.d_rho[batch.row[i], t] -= ds[0, at_cones + i * lanes + t]
 
 
 @inner
@@ -325,21 +327,21 @@ def _until_zero(present, value, change, step):  # type: ignore[no-untyped-def]
 
 
 @inner
-def longest_step(one, state, work, longest):  # type: ignore[no-untyped-def]
+def longest_step(batch, state, work, longest):  # type: ignore[no-untyped-def]
     """The longest step in the direction that stays inside, at most ``longest``, into ``work.step``."""
-    step, each = work.step, work.each
-    webs = each[: one.sine.size]
+    step, cones = work.step, work.per_cone
+    webs = cones[: batch.sine.size]
     step[:] = longest
-    cone_steps(state.s, work.ds, each)
-    lower(each, step)
-    cone_steps(state.z, work.dz, each)
-    lower(each, step)
+    cone_steps(state.s, work.ds, cones)
+    lower(cones, step)
+    cone_steps(state.z, work.dz, cones)
+    lower(cones, step)
     for c in range(3):
-        _until_zero(one.present[c], state.q[c], work.dq[c], webs)
+        _until_zero(batch.present[c], state.q[c], work.dq[c], webs)
         lower(webs, step)
-        _until_zero(one.present[c], state.zq[c], work.dzq[c], webs)
+        _until_zero(batch.present[c], state.zq[c], work.dzq[c], webs)
         lower(webs, step)
-    lane = each[: step.size]
+    lane = cones[: step.size]
     always = work.always
     for r in range(state.rho.shape[0]):
         _until_zero(always, state.rho[r], work.d_rho[r], lane)
@@ -352,19 +354,19 @@ def longest_step(one, state, work, longest):  # type: ignore[no-untyped-def]
 
 
 @inner
-def take_step(one, state, work):  # type: ignore[no-untyped-def]
+def take_step(batch, state, work):  # type: ignore[no-untyped-def]
     """Add the direction times ``work.step``."""
-    step, each = work.step, work.each
-    spread(step, each)
+    step, cones = work.step, work.per_cone
+    spread(step, cones)
     for c in range(3):
-        move(each, work.ds[c], state.s[c])
-        move(each, work.dz[c], state.z[c])
-        move(each, work.e[c], state.v[c])
-        move(each, work.dzq[c], state.zq[c])
+        move(cones, work.ds[c], state.s[c])
+        move(cones, work.dz[c], state.z[c])
+        move(cones, work.e[c], state.v[c])
+        move(cones, work.dzq[c], state.zq[c])
         # without edges their slacks stay 1
-        product(each, one.present[c], work.dq[c], work.kept[c])
-        for k in range(one.sine.size):
-            state.q[c, k] += work.kept[c, k]
+        product(cones, batch.present[c], work.dq[c], work.own[c])
+        for k in range(batch.sine.size):
+            state.q[c, k] += work.own[c, k]
         move(step, work.d_rest[c], state.rest[c])
     for r in range(state.rho.shape[0]):
         move(step, work.d_rho[r], state.rho[r])

@@ -64,7 +64,7 @@ def put(u, dust, touched, radius, max_mass, free, centre, cosine, sine, room, se
 @in_place
 def settle(  # type: ignore[no-untyped-def]
     u,
-    found,
+    figures,
     target,
     heaviest,
     rounding,
@@ -91,7 +91,7 @@ def settle(  # type: ignore[no-untyped-def]
 
     Parameters
     ----------
-    u, found : (N, K) kg m, and (4, N) as :func:`optimizer.program.kernel.values.values` tells.
+    u, figures : (N, K) kg m, and (4, N) as :func:`optimizer.program.kernel.values.values` tells.
     target, heaviest : (N,) largest objective and mass that are no worse.
     rounding : of an excess over the ceilings.
     rungs : (n, 3) share of the largest mass that is next to nothing, share of a limit that is next to it, and which
@@ -120,11 +120,13 @@ def settle(  # type: ignore[no-untyped-def]
                 objective, mass, excess, off = value(
                     new, owner, constant[n], influence[n], floor[n], cap[n], size[n], radius[n], rows
                 )
-                kept = objective <= max(target[n], found[0, n]) + off
-                kept = kept and excess <= max(found[2, n], rounding) and mass <= max(found[1, n], heaviest[n])
-                if not kept:
+                no_worse = objective <= max(target[n], figures[0, n]) + off
+                no_worse = (
+                    no_worse and excess <= max(figures[2, n], rounding) and mass <= max(figures[1, n], heaviest[n])
+                )
+                if not no_worse:
                     continue
                 for k in range(webs):
                     u[n, k] = new[k]
-                found[0, n], found[1, n], found[2, n], found[3, n] = objective, mass, excess, off
+                figures[0, n], figures[1, n], figures[2, n], figures[3, n] = objective, mass, excess, off
             rung = after

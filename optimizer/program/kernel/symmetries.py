@@ -104,8 +104,8 @@ def _scaled(influence, relative, level):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _close(one, other):  # type: ignore[no-untyped-def]
-    return one == other or abs(one - other) <= _SAME * abs(one)
+def _close(first, second):  # type: ignore[no-untyped-def]
+    return first == second or abs(first - second) <= _SAME * abs(first)
 
 
 @inner
@@ -199,14 +199,14 @@ def _done(influence, u):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _worse(constant, influence, radius, u, found):  # type: ignore[no-untyped-def]
+def _worse(constant, influence, radius, u, candidate):  # type: ignore[no-untyped-def]
     """Whether a term is larger than it was, or the mass, by more than rounding."""
     for q in range(constant.size):
-        allowed = _ROUNDING * (_done(influence[q], found) + abs(constant[q]))
-        if not _size(constant[q], influence[q], found) <= _size(constant[q], influence[q], u) + allowed:
+        allowed = _ROUNDING * (_done(influence[q], candidate) + abs(constant[q]))
+        if not _size(constant[q], influence[q], candidate) <= _size(constant[q], influence[q], u) + allowed:
             return True
     mass, before = 0.0, 0.0
     for k in range(u.size):
-        mass += abs(found[k]) / radius[k]
+        mass += abs(candidate[k]) / radius[k]
         before += abs(u[k]) / radius[k]
     return not mass <= before * (1.0 + _ROUNDING)

@@ -50,11 +50,11 @@ def value(u, owner, constant, influence, floor, cap, size, radius, rows):  # typ
 
 
 @in_place
-def values(u, owner, constant, influence, floor, cap, size, radius, rows, found):  # type: ignore[no-untyped-def]
+def values(u, owner, constant, influence, floor, cap, size, radius, rows, figures):  # type: ignore[no-untyped-def]
     """The same (4, M) of M = P N points of N programs, point m of program m % N, which all have a leading axis."""
     number = influence.shape[0]
-    for m in range(found.shape[1]):
+    for m in range(figures.shape[1]):
         n = m % number
-        found[0, m], found[1, m], found[2, m], found[3, m] = value(
+        figures[0, m], figures[1, m], figures[2, m], figures[3, m] = value(
             u[m], owner, constant[n], influence[n], floor[n], cap[n], size[n], radius[n], rows
         )

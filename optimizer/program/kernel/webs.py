@@ -142,7 +142,7 @@ def with_peaks(dzb, budget, sine, centre, p, e):  # type: ignore[no-untyped-def]
 
 
 @inner
-def lengths(kept, response, v, q, e, edges):  # type: ignore[no-untyped-def]
+def lengths(own, response, v, q, e, edges):  # type: ignore[no-untyped-def]
     """Steps e (3, K L) of the webs and of their edges (2, K L), as long as the multipliers have taken them to be.
 
     A web between its limits that a budget or the mass has a price for gives way along itself by 1e9 times the rounding
@@ -150,7 +150,7 @@ def lengths(kept, response, v, q, e, edges):  # type: ignore[no-untyped-def]
     its length.
     """
     for k in range(v.shape[1]):
-        longer = (kept[0, k] + response[0, k] - e[0, k]) / v[0, k]
+        longer = (own[0, k] + response[0, k] - e[0, k]) / v[0, k]
         for c in range(3):
             e[c, k] += longer * v[c, k]
         edges[0, k] += longer * q[1, k]

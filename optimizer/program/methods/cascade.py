@@ -114,7 +114,7 @@ def _by_all(
         return quick.lightest
     found = solver.smallest_objective(statement, _SHARPNESS * target.share, quick.smallest)
     if statement.row.size == 1 and statement.limits.radius.size and found.gap > target.demand:
-        found = _by_one_web(statement, found)
+        found = _single_web(statement, found)
     if target.least_mass and found.below_ceilings:
         found = solver.least_mass(statement, found, target.share, _MASS_GAP, quick.lightest)
     precision = finest(statement.limits.radius.size) if finer and suits_kernel(statement) else None
@@ -125,7 +125,7 @@ def _by_all(
     return fine.lightest if fine.certified else _better_of(found, fine.lightest, target.share)
 
 
-def _by_one_web(statement: Statement, found: Solution) -> Solution:
+def _single_web(statement: Statement, solution: Solution) -> Solution:
     """The better of a point and of what each web comes to alone, exact of the only term.
 
     Where one web does 1e10 times as much with a kilogram as another, no units suit both in a solver.
@@ -133,8 +133,8 @@ def _by_one_web(statement: Statement, found: Solution) -> Solution:
     constant, influence = statement.norms.constant[0], statement.norms.influence[0]
     does = influence != 0
     alone = statement.limits.into(np.diag(np.where(does, -constant / np.where(does, influence, 1.0), 0.0)))
-    best = found.moved_to(statement, alone[np.argmin(statement.objective(alone))])
-    return best if best.below_ceilings and best.objective < found.objective else found
+    best = solution.moved_to(statement, alone[np.argmin(statement.objective(alone))])
+    return best if best.below_ceilings and best.objective < solution.objective else solution
 
 
 def _better_of(first: Solution, second: Solution, share: float) -> Solution:
@@ -150,9 +150,9 @@ def _better_of(first: Solution, second: Solution, share: float) -> Solution:
     if not first.below_ceilings:
         chosen = proof = second
     elif max(first.objective, second.objective) - bound > share:
-        chosen = proof = min(both, key=lambda one: one.objective)
+        chosen = proof = min(both, key=lambda solution: solution.objective)
     else:
-        pairs = ((one, of) for one in both for of in both if of is one or one.objective <= of.mass_target)
+        pairs = ((one_of, of) for one_of in both for of in both if of is one_of or one_of.objective <= of.mass_target)
         chosen, proof = min(pairs, key=lambda pair: pair[0].mass - pair[1].mass_lower_bound)
     return replace(
         chosen.bounded(bound, first.multipliers),

@@ -164,7 +164,7 @@ def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, s
     began = time.perf_counter()
     lower_bound, proof = best_proof(statement, (solved.proof, *resting_multipliers(statement)))
     certify_s = time.perf_counter() - began
-    rest, first, light = points_at(statement, np.array([np.zeros(smallest.shape), smallest, lightest])).each
+    rest, first, light = points_at(statement, np.array([np.zeros(smallest.shape), smallest, lightest])).items
     best = _better(rest, first)
     target = np.maximum(best.objective, lower_bound + TARGET * share - best.rounding)
     counted, chosen = np.maximum(best.objective, lower_bound) + share, best

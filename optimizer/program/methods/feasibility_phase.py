@@ -24,7 +24,7 @@ AMPLE = 1e-8
 #: by which they are raised otherwise: what is left of their tolerance is for rounding
 _RAISED = CEILING_TOLERANCE - CEILING_ROUNDING
 #: gap of the smallest excess that is good enough
-_TOLD = 1e-13
+_PRINTED = 1e-13
 
 
 @dataclass(frozen=True)
@@ -47,11 +47,11 @@ def smallest_excess(statement: Statement, solver: Solver) -> Solution:
         finer = interior_point(program, asked, EXTENDED).smallest
         better, other = (finer, found) if finer.objective < found.objective else (found, finer)
         found = better.bounded(other.lower_bound, other.multipliers)
-    return found if _tells(found) else solver.smallest_objective(program, _TOLD, found, _tells)
+    return found if _tells(found) else solver.smallest_objective(program, _PRINTED, found, _tells)
 
 
 def _tells(excess: Solution) -> bool:
-    return excess.lower_bound > CEILING_ROUNDING or excess.objective <= -AMPLE or excess.gap <= _TOLD
+    return excess.lower_bound > CEILING_ROUNDING or excess.objective <= -AMPLE or excess.gap <= _PRINTED
 
 
 def at_rest(statement: Statement, target: Target, solution: Solution) -> Solution | None:

@@ -49,7 +49,7 @@ class Optima(Solutions):
         bound = mass_bound_up_to(self.mass_lower_bound, price, more)
         return replace(self, mass_lower_bound=bound, mass_target=np.maximum(self.mass_target, objective))
 
-    def one(self, n: int = 0) -> Solution | Unreachable:
+    def single(self, n: int = 0) -> Solution | Unreachable:
         """One of them."""
         u, spent = self.unbalance[n], float(self.certify_s[n])
         if self.unreachable[n]:

@@ -13,7 +13,7 @@ from optimizer.program.statement import Statement
 #: unbalances that differ by less than this share are nearly the same, as in ``optimizer.program.methods.rounding``
 NEARLY = 1e-4
 #: openings that differ by less are one size where that leaves an optimum, rad: 1e-3 degrees, and less
-_ONE_SIZE = (1.75e-5, 1e-7, 1e-9, 1e-11)
+_NEARNESS = (1.75e-5, 1e-7, 1e-9, 1e-11)
 #: openings that differ by less than this share are the same: what rounding leaves
 SAME_SIZE = 1e-12
 
@@ -26,14 +26,14 @@ class Cut(NamedTuple):
     mass: float  # kg, of all together
 
 
-def one_size(whole: Statement, plates: Plates, cut: Cut) -> Iterator[Cut]:
+def equal_sizes(whole: Statement, plates: Plates, cut: Cut) -> Iterator[Cut]:
     """The same with openings that nearly agree put to the largest or the mean of them, those that differ more first.
 
     What nearly goes as far as it can goes so far, or else to the mean too. Other counterweights make up for it; the
     last is the cut as it is.
     """
     size, limits, held = np.abs(cut.unbalance), whole.limits, at_limits(whole, cut)
-    for near in _ONE_SIZE:
+    for near in _NEARNESS:
         near_full = np.where(cut.angle >= plates.most - near, plates.most, cut.angle)
         order = np.lexsort((near_full, plates.kinds))
         apart = (np.diff(near_full[order]) > near) | (np.diff(plates.kinds[order]) != 0)
@@ -62,7 +62,7 @@ def one_size(whole: Statement, plates: Plates, cut: Cut) -> Iterator[Cut]:
 def unlike(plates: Plates, angle: Real) -> bool:
     """Whether plates of one kind are opened (P,) rad so nearly alike that they should be alike."""
     apart = np.abs(angle[:, None] - angle)
-    near = (apart <= _ONE_SIZE[0]) & (plates.kinds[:, None] == plates.kinds) & (angle[:, None] > 0) & (angle > 0)
+    near = (apart <= _NEARNESS[0]) & (plates.kinds[:, None] == plates.kinds) & (angle[:, None] > 0) & (angle > 0)
     return bool(np.any(near & (apart > SAME_SIZE * angle)))
 
 

@@ -43,7 +43,7 @@ class Outlines(NamedTuple):
 
 
 @kernel
-def outlines(known, number, held):  # type: ignore[no-untyped-def]
+def outlines(cubics, number, held):  # type: ignore[no-untyped-def]
     """Outlines of curves (J,), by their pieces that have a width (P',).
 
     Between two places a cubic is no farther from its chord than an eighth of the square of their distance times its
@@ -56,7 +56,7 @@ def outlines(known, number, held):  # type: ignore[no-untyped-def]
     curve, place, count = np.empty(3 * curves, np.int64), np.empty(3 * curves, np.int64), 0
     for j in range(curves):
         for p in range(held.size):
-            cubic = known.cubic[number[j], held[p]]
+            cubic = cubics.cubic[number[j], held[p]]
             for s in range(share):
                 at = PLACES[s]
                 square = at * at
@@ -70,16 +70,16 @@ def outlines(known, number, held):  # type: ignore[no-untyped-def]
             farthest = 0.0
             for s in range(share):
                 farthest = max(farthest, length(values[j, p * share + s] - centre[j]))
-            cubic = known.cubic[number[j], held[p]]
+            cubic = cubics.cubic[number[j], held[p]]
             bend = 2.0 * abs(cubic[2]) + 6.0 * abs(cubic[3])
-            rest = max(rest, known.rest[number[j], held[p]])
-            most = max(most, farthest + 0.125 * BETWEEN**2 * bend + known.rest[number[j], held[p]])
+            rest = max(rest, cubics.rest[number[j], held[p]])
+            most = max(most, farthest + 0.125 * BETWEEN**2 * bend + cubics.rest[number[j], held[p]])
         lower[j], upper[j] = radius[j] - rest, most
     return Outlines(held, values, centre, radius, lower, upper, curve[:count].copy(), place[:count].copy())
 
 
 @kernel
-def farthest(known, number, outline, chosen, centre):  # type: ignore[no-untyped-def]
+def farthest(cubics, number, outline, chosen, centre):  # type: ignore[no-untyped-def]
     """Where some outlines (n,) are about as far from centres (n,) as anywhere: of which, pieces, angles (m,) rad."""
     share, pieces = PLACES.size, outline.piece
     most = outline.values.shape[1]
@@ -95,9 +95,9 @@ def farthest(known, number, outline, chosen, centre):  # type: ignore[no-untyped
             if distance[k] < (1.0 - _ALIKE) * largest or distance[k] < beside:
                 continue
             curve, there = number[chosen[n]], pieces[k // share]
-            at = _farthest(known.cubic[curve, there], centre[n], PLACES[k % share])
+            at = _farthest(cubics.cubic[curve, there], centre[n], PLACES[k % share])
             which[count], piece[count] = n, there
-            angle[count] = known.centre[curve, there] + known.half[curve, there] * at
+            angle[count] = cubics.centre[curve, there] + cubics.half[curve, there] * at
             count += 1
     return which[:count].copy(), piece[:count].copy(), angle[:count].copy()
 

@@ -29,7 +29,7 @@ _OF_SQUARES, _OF_CUBICS = to_bernstein(6), to_bernstein(3)
 _CENTRE, _HALF, _REST, _FOURTH = range(4)
 
 
-class Known(NamedTuple):
+class Cubics(NamedTuple):
     """Pieces (J, P) of curves: as in :class:`optimizer.responses.piecewise_cubics.Pieces`, all complex."""
 
     centre: Real
@@ -38,8 +38,8 @@ class Known(NamedTuple):
     rest: Real
 
 
-class Asked(NamedTuple):
-    """What is asked of M members, in G groups of which only the largest peak counts."""
+class Members(NamedTuple):
+    """M members of which peaks are sought, in G groups of which only the largest peak counts."""
 
     curve: np.ndarray  # (M,)
     group: np.ndarray  # (M,)
@@ -85,15 +85,15 @@ def _place(parts, n, centre, half, rest, fourth):  # type: ignore[no-untyped-def
 
 
 @inner
-def _allowed(asked, best, group):  # type: ignore[no-untyped-def]
+def _allowed(members, best, group):  # type: ignore[no-untyped-def]
     """How wide a bracket may be."""
-    return max(asked.share[group] * abs(best.lower[group]), asked.rounding[group])
+    return max(members.share[group] * abs(best.lower[group]), members.rounding[group])
 
 
 @inner
-def _open_above(asked, best, group):  # type: ignore[no-untyped-def]
+def _open_above(members, best, group):  # type: ignore[no-untyped-def]
     """What has to be exceeded to be looked at closer."""
-    return best.lower[group] + _allowed(asked, best, group)
+    return best.lower[group] + _allowed(members, best, group)
 
 
 @inner
@@ -153,74 +153,74 @@ def _extremes(cubic, sign):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def first_open(known, asked, best):  # type: ignore[no-untyped-def]
+def first_open(cubics, members, best):  # type: ignore[no-untyped-def]
     """The pieces that may hold a peak above the best value at a centre, by how far a cubic may be from it."""
-    members, pieces = asked.curve.size, known.half.shape[1]
-    most = np.empty((members, pieces))
-    for m in range(members):
-        curve, group = asked.curve[m], asked.group[m]
+    number, pieces = members.curve.size, cubics.half.shape[1]
+    most = np.empty((number, pieces))
+    for m in range(number):
+        curve, group = members.curve[m], members.group[m]
         for p in range(pieces):
             most[m, p] = -np.inf
-            if known.half[curve, p] > 0.0:
-                middle = _size(known.cubic[curve, p, 0] + asked.offset[m], asked.sign[group])
+            if cubics.half[curve, p] > 0.0:
+                middle = _size(cubics.cubic[curve, p, 0] + members.offset[m], members.sign[group])
                 # how far the curve may be from the middle of a piece
-                most[m, p] = middle + known.rest[curve, p]
+                most[m, p] = middle + cubics.rest[curve, p]
                 for i in range(1, 4):
-                    most[m, p] += _length(known.cubic[curve, p, i])
-                _keep(best, group, middle - known.rest[curve, p], known.centre[curve, p], p, m)
+                    most[m, p] += _length(cubics.cubic[curve, p, i])
+                _keep(best, group, middle - cubics.rest[curve, p], cubics.centre[curve, p], p, m)
     count = 0
-    for m in range(members):
-        above = _open_above(asked, best, asked.group[m])
+    for m in range(number):
+        above = _open_above(members, best, members.group[m])
         for p in range(pieces):
             if most[m, p] > above:
                 count += 1
             else:
-                _tell(best, asked.group[m], most[m, p])
+                _tell(best, members.group[m], most[m, p])
     parts, n = _none(count), 0
-    for m in range(members):
-        curve, above = asked.curve[m], _open_above(asked, best, asked.group[m])
+    for m in range(number):
+        curve, above = members.curve[m], _open_above(members, best, members.group[m])
         for p in range(pieces):
             if most[m, p] > above:
-                half, rest = known.half[curve, p], known.rest[curve, p]
+                half, rest = cubics.half[curve, p], cubics.rest[curve, p]
                 parts.member[n], parts.piece[n] = m, p
-                _place(parts, n, known.centre[curve, p], half, rest, rest / half**4)
+                _place(parts, n, cubics.centre[curve, p], half, rest, rest / half**4)
                 for i in range(4):
-                    parts.cubic[n, i] = known.cubic[curve, p, i]
-                parts.cubic[n, 0] += asked.offset[m]
+                    parts.cubic[n, i] = cubics.cubic[curve, p, i]
+                parts.cubic[n, 0] += members.offset[m]
                 n += 1
-    return still_open(parts, asked, best, MOST_PARTS)
+    return still_open(parts, members, best, MOST_PARTS)
 
 
 @kernel
-def still_open(parts, asked, best, most_parts):  # type: ignore[no-untyped-def]
+def still_open(parts, members, best, most_parts):  # type: ignore[no-untyped-def]
     """Those that may hold a peak above the best found, theirs included, unless there are too many."""
     number = parts.member.size
     most = np.empty(number)
     for n in range(number):
         place, member = parts.place[n], parts.member[n]
-        largest, first, last = _extremes(parts.cubic[n], asked.sign[asked.group[member]])
+        largest, first, last = _extremes(parts.cubic[n], members.sign[members.group[member]])
         most[n] = largest + place[_REST]
         angle = place[_CENTRE] - place[_HALF] if first >= last else place[_CENTRE] + place[_HALF]
-        _keep(best, asked.group[member], max(first, last) - place[_REST], angle, parts.piece[n], member)
+        _keep(best, members.group[member], max(first, last) - place[_REST], angle, parts.piece[n], member)
     open_, count = np.empty(number, np.bool_), 0
     for n in range(number):
-        open_[n] = most[n] > _open_above(asked, best, asked.group[parts.member[n]])
+        open_[n] = most[n] > _open_above(members, best, members.group[parts.member[n]])
         count += open_[n]
     if count > most_parts:
         count = 0
         for n in range(number):
             open_[n] = False
-    kept, k = _none(count), 0
+    survivors, k = _none(count), 0
     for n in range(number):
         if open_[n]:
-            kept.member[k], kept.piece[k] = parts.member[n], parts.piece[n]
+            survivors.member[k], survivors.piece[k] = parts.member[n], parts.piece[n]
             for i in range(4):
-                kept.place[k, i], kept.cubic[k, i] = parts.place[n, i], parts.cubic[n, i]
+                survivors.place[k, i], survivors.cubic[k, i] = parts.place[n, i], parts.cubic[n, i]
             k += 1
         else:
             rounding = _ANGLE_ROUNDING * abs(parts.cubic[n, 1]) / parts.place[n, _HALF]
-            _tell(best, asked.group[parts.member[n]], most[n] + rounding)
-    return kept
+            _tell(best, members.group[parts.member[n]], most[n] + rounding)
+    return survivors
 
 
 @inner_with_arrays
@@ -230,25 +230,25 @@ def _cut(parts, chosen, places, shift):  # type: ignore[no-untyped-def]
     count = 0
     for n in range(chosen.size):
         count += chosen[n]
-    found, k = _none(share * count), 0
+    children, k = _none(share * count), 0
     for n in range(chosen.size):
         if chosen[n]:
             for p in range(share):
                 place = parts.place[n]
-                found.member[k], found.piece[k] = parts.member[n], parts.piece[n]
+                children.member[k], children.piece[k] = parts.member[n], parts.piece[n]
                 centre, half = place[_CENTRE] + place[_HALF] * places[p], place[_HALF] / share
-                _place(found, k, centre, half, place[_REST], place[_FOURTH])
+                _place(children, k, centre, half, place[_REST], place[_FOURTH])
                 for i in range(4):
                     value = 0j
                     for j in range(i, 4):
                         value += parts.cubic[n, j] * shift[p, j, i]
-                    found.cubic[k, i] = value
+                    children.cubic[k, i] = value
                 k += 1
-    return found
+    return children
 
 
 @kernel
-def narrowed(parts, asked, best, cuts):  # type: ignore[no-untyped-def]
+def narrowed(parts, members, best, cuts):  # type: ignore[no-untyped-def]
     """Cut what may hold peaks until none is left or some would have to be expanded anew: (cut, to be expanded, cuts).
 
     Most of the latter are let go by what is known: an expansion costs far more.
@@ -256,13 +256,13 @@ def narrowed(parts, asked, best, cuts):  # type: ignore[no-untyped-def]
     while parts.member.size > 0 and cuts < MOST_CUTS:
         coarse, any_coarse = np.empty(parts.member.size, np.bool_), False
         for n in range(coarse.size):
-            group = asked.group[parts.member[n]]
-            coarse[n] = parts.place[n, _REST] > ENOUGH * _allowed(asked, best, group)
+            group = members.group[parts.member[n]]
+            coarse[n] = parts.place[n, _REST] > ENOUGH * _allowed(members, best, group)
             any_coarse = any_coarse or coarse[n]
         fine = _cut(parts, ~coarse, _FINE_PLACES, _TO_FINE)
         cuts += 1
         if any_coarse:
             coarser = _cut(parts, coarse, _FINER_PLACES, _TO_FINER)
-            return fine, still_open(coarser, asked, best, coarser.member.size), cuts
-        parts = still_open(fine, asked, best, MOST_PARTS if cuts < MOST_CUTS else 0)
+            return fine, still_open(coarser, members, best, coarser.member.size), cuts
+        parts = still_open(fine, members, best, MOST_PARTS if cuts < MOST_CUTS else 0)
     return parts, _none(0), cuts

@@ -59,7 +59,7 @@ class Made(NamedTuple):
     mass: Real  # (K,) kg, fixed weights apart
     objective: float  # as it is answered
     bound: float | None
-    kept: bool
+    feasible: bool
     status: str | None
 
 
@@ -82,9 +82,9 @@ class Rung:
     skipped: str | None = None
 
     @property
-    def kept(self) -> bool:
+    def feasible(self) -> bool:
         """Whether there are counterweights, and they keep the limits."""
-        return self.made is not None and self.made.kept
+        return self.made is not None and self.made.feasible
 
 
 class Ladder(NamedTuple):
@@ -219,7 +219,7 @@ class _Ways:
         """What is known of all rows together, and each against it."""
         found = [rung.made for rung in rungs if rung.made is not None]
         rest = float(self.program.at_rest) * self.scene.omega_squared
-        objective = min((each.objective for each in found if each.kept), default=np.nan)
+        objective = min((each.objective for each in found if each.feasible), default=np.nan)
         bound = max((each.bound for each in found if each.bound is not None), default=-np.inf)
         if not bound <= objective + EQUAL * rest:
             _LOG.error("a lower bound is above the value of an answer: %.17g above %.17g", bound, objective)
@@ -235,7 +235,7 @@ class _Ways:
             resolution=max((objective - bound) / rest, EQUAL),
         )
         candidates = [
-            None if each is None or not rung.kept else (each.time_ms, each.relative_error)
+            None if each is None or not rung.feasible else (each.time_ms, each.relative_error)
             for rung, each in zip(rungs, figures, strict=True)
         ]
         fastest = frontier(candidates, reference.resolution)
@@ -310,7 +310,7 @@ def _row(rung: Rung, figures: _Figures | None, on_frontier: bool) -> ChoiceRow:
         method=rung.method,
         setting=rung.setting,
         status=None if rung.made is None else rung.made.status,
-        limits_kept=rung.kept,
+        limits_kept=rung.feasible,
         on_frontier=on_frontier,
         runs=0 if rung.made is None else len(rung.times_s),
         skipped=rung.skipped,

@@ -14,7 +14,7 @@ from typing import TypeVar
 import numpy as np
 
 from optimizer.program.ceilings import CEILING_TOLERANCE
-from optimizer.studies.accuracy.methods import Found, Method, Run, Task
+from optimizer.studies.accuracy.methods import Attempt, Method, Run, Task
 
 Answer = TypeVar("Answer")
 
@@ -53,7 +53,7 @@ class Trial:
     @property
     def worst(self) -> Judged:
         """The run with the largest objective; broken ceilings are worse than any objective."""
-        return max(self.judged, key=lambda one: (one.excess > CEILING_TOLERANCE, one.objective))
+        return max(self.judged, key=lambda run: (run.excess > CEILING_TOLERANCE, run.objective))
 
 
 @dataclass(frozen=True)
@@ -86,7 +86,7 @@ def time_rounds(task: Task, trials: Sequence[Trial], repeats: int, clock: Clock)
             start = time.perf_counter()
             outcome = trial.run(task, trial.worst.position, SOLVE_S)
             elapsed = time.perf_counter() - start
-            if isinstance(outcome, Found):
+            if isinstance(outcome, Attempt):
                 trial.times_s.append(elapsed)
 
 
@@ -111,14 +111,14 @@ def _tried(task: Task, method: Method, clock: Clock) -> Trial:
     return trial
 
 
-def _judge(task: Task, position: float, found: Found) -> Judged:
+def _judge(task: Task, position: float, weights: Attempt) -> Judged:
     statement = task.statement
     return Judged(
         position,
-        objective=float(statement.objective(found.unbalance)),
-        excess=float(np.max(statement.ceilings.excess(found.unbalance), initial=-np.inf)),
-        claimed=found.claimed,
-        bound=found.prove(),
+        objective=float(statement.objective(weights.unbalance)),
+        excess=float(np.max(statement.ceilings.excess(weights.unbalance), initial=-np.inf)),
+        claimed=weights.claimed,
+        bound=weights.prove(),
     )
 
 

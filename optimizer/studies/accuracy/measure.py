@@ -89,7 +89,7 @@ def _of_any_mass(request: AccuracyRequest, scene: Prepared, solver: Solver) -> d
     reference: Reference | None = None
     rows: tuple[AccuracyRow, ...] = ()
     rest = float(statement.objective(np.zeros(statement.limits.radius.shape, complex)))
-    best = optima(statement.alone(), _SHARPEST, False, solver).one()
+    best = optima(statement.alone(), _SHARPEST, False, solver).single()
     if isinstance(best, Unreachable):
         status = "infeasible"
     elif rest == 0.0 or not np.any(usable):

@@ -41,7 +41,7 @@ class Task:
 
 
 @dataclass(frozen=True)
-class Found:
+class Attempt:
     """Counterweights that a method found, unjudged."""
 
     unbalance: Complex  # (K,) kg m
@@ -50,7 +50,7 @@ class Found:
 
 
 #: one run for a position of the grid and a limit of time in seconds; or why there is no answer
-Run = Callable[[Task, float, float], Found | str]
+Run = Callable[[Task, float, float], Attempt | str]
 
 
 @dataclass(frozen=True)
@@ -110,18 +110,18 @@ def methods() -> Iterator[Method]:
 def _service(relative_gap: float) -> Run:
     solver = Solver()
 
-    def run(task: Task, position: float, time_limit_s: float) -> Found | str:
-        outcome = optima(task.statement.alone(), relative_gap, False, solver).one()
+    def run(task: Task, position: float, time_limit_s: float) -> Attempt | str:
+        outcome = optima(task.statement.alone(), relative_gap, False, solver).single()
         if isinstance(outcome, Unreachable):
             return "no counterweights keep the ceilings"
         bound = outcome.lower_bound
-        return Found(outcome.unbalance, outcome.objective, lambda: bound)
+        return Attempt(outcome.unbalance, outcome.objective, lambda: bound)
 
     return run
 
 
 def _interior_point(relative_gap: float, precision: Precision | None) -> Run:
-    def run(task: Task, position: float, time_limit_s: float) -> Found | str:
+    def run(task: Task, position: float, time_limit_s: float) -> Attempt | str:
         webs = task.statement.limits.radius.size
         if precision is not None and webs > precision.most_webs:
             return f"too large: {webs} webs, at most {precision.most_webs} are tried"
@@ -135,7 +135,7 @@ def _interior_point(relative_gap: float, precision: Precision | None) -> Run:
 def _batch(relative_gap: float) -> Run:
     batch: Statement | None = None
 
-    def run(task: Task, position: float, time_limit_s: float) -> Found | str:
+    def run(task: Task, position: float, time_limit_s: float) -> Attempt | str:
         nonlocal batch
         # put together in the first run; the rounds time what solves it
         batch = batch or _lighter(task.statement, np.linspace(1.0, 0.9, BATCH))
@@ -162,9 +162,9 @@ def _lighter(statement: Statement, share: Real) -> Statement:
     )
 
 
-def _first(found: BothStages) -> Found:
-    bound = float(found.lower_bound[0])
-    return Found(found.unbalance[0], float(found.objective[0]), lambda: bound)
+def _first(stages: BothStages) -> Attempt:
+    bound = float(stages.lower_bound[0])
+    return Attempt(stages.unbalance[0], float(stages.objective[0]), lambda: bound)
 
 
 def _rest(batch: Statement) -> Real:
@@ -174,7 +174,7 @@ def _rest(batch: Statement) -> Real:
 def _cone_program(tolerance: float) -> Run:
     programs = CompiledPrograms()
 
-    def run(task: Task, position: float, time_limit_s: float) -> Found | str:
+    def run(task: Task, position: float, time_limit_s: float) -> Attempt | str:
         statement = task.statement
         data, scaling = matrices.scaled(statement, tolerance)
         with programs.lend(data.shape) as program:
@@ -199,7 +199,7 @@ def _polygonal(sides: int) -> Run:
     return lambda task, position, limit: _proving(task, polygonal(task.statement, sides, position, limit))
 
 
-def _proving(task: Task, point: matrices.Point | NoPoint) -> Found | str:
+def _proving(task: Task, point: matrices.Point | NoPoint) -> Attempt | str:
     if isinstance(point, NoPoint):
         return point.reason
 
@@ -207,7 +207,7 @@ def _proving(task: Task, point: matrices.Point | NoPoint) -> Found | str:
         candidates = objective_multipliers(task.statement, point.unbalance, point.multipliers)
         return max(float(objective_lower_bound(task.statement, each)) for each in candidates)
 
-    return Found(point.unbalance, point.claimed, prove)
+    return Attempt(point.unbalance, point.claimed, prove)
 
 
 def _sampled_entries(angles: int, task: Task) -> int:

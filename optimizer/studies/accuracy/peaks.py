@@ -39,7 +39,7 @@ Quantity = Literal["peak_bearing_load", "peak_bending_moment", "peak_torque"]
 Curves = Callable[[WholeTurn], TurnCurves]
 
 
-class Found(NamedTuple):
+class Peak(NamedTuple):
     """A peak: what was attained, and what nothing is above."""
 
     lower: float
@@ -54,7 +54,7 @@ class Way:
     method: Literal["bracket", "pieces", "samples"]
     setting: str
     angles: int | None
-    peak: Callable[[], Found]
+    peak: Callable[[], Peak]
 
 
 def peaks_ladder(machine: Machine, layout: Layout, repeats: int) -> tuple[PeakRow, ...]:
@@ -133,29 +133,29 @@ def _ways(quantity: Quantity, whole: WholeTurn, curves: Curves, offset: complex)
             yield Way(quantity, "samples", f"{step:g} deg", angles, peak)
 
 
-def _bracketed(fresh: Callable[[], TurnCurves], offset: complex, tolerance: float) -> Found:
+def _bracketed(fresh: Callable[[], TurnCurves], offset: complex, tolerance: float) -> Peak:
     pieces = fresh().pieces
     count = len(pieces.half)
     one_peak = np.zeros(count, dtype=np.intp)
     # of the torque, a scalar, the offset is real
     shift = np.full(count, offset.real)
     bracket = pieces.peaks(shift, tolerance, None, one_peak)
-    return Found(float(bracket.lower[0]), float(bracket.upper[0]))
+    return Peak(float(bracket.lower[0]), float(bracket.upper[0]))
 
 
-def _in_pieces(fresh: Callable[[], TurnCurves], offset: complex, count: int) -> Found:
+def _in_pieces(fresh: Callable[[], TurnCurves], offset: complex, count: int) -> Peak:
     return _largest(fresh().in_pieces(np.linspace(-1.0, 1.0, count)) + offset)
 
 
-def _sampled(fresh: Callable[[], TurnCurves], offset: complex, angles: int) -> Found:
+def _sampled(fresh: Callable[[], TurnCurves], offset: complex, angles: int) -> Peak:
     made = fresh()
     turns = made.whole.turns
     return _largest(made.at(np.linspace(0.0, TURN * turns, angles, endpoint=False)) + offset)
 
 
-def _largest(values: Complex) -> Found:
-    return Found(float(np.max(np.abs(values))), None)
+def _largest(values: Complex) -> Peak:
+    return Peak(float(np.max(np.abs(values))), None)
 
 
-def _gap(found: Found) -> float | None:
-    return None if found.upper is None or found.lower <= 0.0 else (found.upper - found.lower) / found.lower
+def _gap(peak: Peak) -> float | None:
+    return None if peak.upper is None or peak.lower <= 0.0 else (peak.upper - peak.lower) / peak.lower

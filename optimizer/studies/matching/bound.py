@@ -50,19 +50,19 @@ def best_plane(problem: Problem, minorants: Minorants, value: float, near: float
     value : of the best assignment known.
     near : a bound so near to it is good enough.
     """
-    results = [_ascended(problem, one, value, near) for one in minorants.each()]
-    return max(results, key=lambda one: one.least)
+    results = [_ascended(problem, minorant, value, near) for minorant in minorants.singles()]
+    return max(results, key=lambda cut: cut.least)
 
 
-def _ascended(problem: Problem, one: Minorants, value: float, near: float) -> Plane:
-    """Of one minorant: its smallest value over all mixtures of assignments, whose gradient is the slope of the plane.
+def _ascended(problem: Problem, minorant: Minorants, value: float, near: float) -> Plane:
+    """Of a minorant: its smallest value over all mixtures of assignments, whose gradient is the slope of the plane.
 
     Lengths are smoothed, |v_j| ~ (|v_j|^2 / s_j + s_j) / 2 with s_j the last length, and the mixtures grow by the
     assignment that the gradient asks for (column generation); each round proves something by itself.
     """
-    constant, slope, weight = float(one.constant[0]), one.slope[0], one.weight[0]
+    constant, slope, weight = float(minorant.constant[0]), minorant.slope[0], minorant.weight[0]
     best, corner = plane(problem, constant, slope)
-    middle = np.concatenate([np.full(each.mass.size, np.mean(each.mass)) for each in problem.classes])
+    middle = np.concatenate([np.full(places.mass.size, np.mean(places.mass)) for places in problem.classes])
     corners = np.stack([problem.vectors(middle), corner])
     v = corners[0]
     smooth = _SMOOTH * float(np.max(np.abs(corners)))
@@ -71,7 +71,7 @@ def _ascended(problem: Problem, one: Minorants, value: float, near: float) -> Pl
         if not np.all(length > 0):
             break
         tried, corner = plane(problem, constant, slope + weight * v / length)
-        best = max(best, tried, key=lambda each: each.least)
+        best = max(best, tried, key=lambda cut: cut.least)
         mixed = constant + float(np.real(np.vdot(slope, v)) + weight @ np.abs(v))
         if value - best.least <= near or mixed - best.least <= _CLOSE * abs(value - best.least):
             break

@@ -22,8 +22,8 @@ _PROGRAMS = 16
 _CANDIDATES = 2_000
 
 
-class _Known(NamedTuple):
-    """An assignment that was looked at."""
+class _Evaluation(NamedTuple):
+    """An assignment with what it comes to."""
 
     value: float  # over omega squared; inf where that was not found out
     bound: float
@@ -43,22 +43,22 @@ class _Search:
     """The assignments that are known, and the minorants of all."""
 
     def __init__(self, problem: Problem, chosen: Chosen) -> None:
-        self.problem, self.chosen, self._known = problem, chosen, dict[bytes, _Known]()
+        self.problem, self.chosen, self._evaluations = problem, chosen, dict[bytes, _Evaluation]()
         self.below = Minorants(np.zeros(0), np.zeros((0, problem.start.size), complex), np.zeros((0, problem.row.size)))
         self.solve(problem.listed[None])
 
     @property
-    def best(self) -> _Known:
-        return min(self._known.values(), key=lambda one: one.value)
+    def best(self) -> _Evaluation:
+        return min(self._evaluations.values(), key=lambda evaluation: evaluation.value)
 
     @property
     def least(self) -> float:
         """The smallest bound of those that are known."""
-        return min(one.bound for one in self._known.values())
+        return min(one.bound for one in self._evaluations.values())
 
     @property
-    def listed(self) -> _Known:
-        return self._known[self._key(self.problem.listed)]
+    def listed(self) -> _Evaluation:
+        return self._evaluations[self._key(self.problem.listed)]
 
     @property
     def late(self) -> bool:
@@ -66,10 +66,10 @@ class _Search:
 
     def solve(self, mass: Real) -> None:
         """Solve assignments (N, T), and add what they prove of all."""
-        result = self.chosen.at(mass, self.best.value if self._known else np.inf)
+        result = self.chosen.at(mass, self.best.value if self._evaluations else np.inf)
         each = zip(result.value.tolist(), result.lower_bound.tolist(), mass, result.fitted, strict=True)
         for one in each:
-            self._known[self._key(one[2])] = _Known(*one)
+            self._evaluations[self._key(one[2])] = _Evaluation(*one)
         self.below = self.below.plus(result.below)
 
     def values(self, mass: Real) -> Real:
@@ -79,7 +79,7 @@ class _Search:
     def unknown(self, mass: Real) -> Real:
         """Those of some assignments (N, T) that are not known yet, each once."""
         new = {self._key(one): one for one in mass}
-        return np.array([one for key, one in new.items() if key not in self._known])
+        return np.array([one for key, one in new.items() if key not in self._evaluations])
 
     def _key(self, mass: Real) -> bytes:
         return self.problem.row_masses(mass).tobytes()

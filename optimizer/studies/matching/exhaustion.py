@@ -37,10 +37,10 @@ class Half(NamedTuple):
         return {c: each[k] for c, each, k in zip(self.classes, self.masses, which, strict=True)}
 
 
-def _arranged(each: Places) -> Real | None:
+def _arranged(places: Places) -> Real | None:
     """All different arrangements of a class (N, rows), masses row by row; None where there are too many."""
-    masses, times = np.unique(each.mass, return_counts=True)
-    result = arrangements(times, int(np.sum(each.row >= 0)), _SUMS)
+    masses, times = np.unique(places.mass, return_counts=True)
+    result = arrangements(times, int(np.sum(places.row >= 0)), _SUMS)
     return None if result is None else masses[result]
 
 
@@ -123,47 +123,47 @@ def _assignment(problem: Problem, by_class: dict[int, Real]) -> Real:
 
 
 def _pairs(
-    problem: Problem, minorants: Minorants, value: float, cut: Plane, one: Complex, other: Complex
+    problem: Problem, minorants: Minorants, value: float, cut: Plane, left: Complex, right: Complex
 ) -> tuple[np.ndarray, np.ndarray] | None:
     """Pairs of sums, numbers of the first and of the second, among which all are that come below the value."""
-    if len(one) * len(other) <= _CHUNK:
-        return tuple(np.indices((len(one), len(other))).reshape(2, -1))  # type: ignore[return-value]
+    if len(left) * len(right) <= _CHUNK:
+        return tuple(np.indices((len(left), len(right))).reshape(2, -1))  # type: ignore[return-value]
     # a margin for the rounding of what is compared
     margin = problem.rounding
-    near = _beyond_plane(value + margin, cut, one, other)
+    near = _beyond_plane(value + margin, cut, left, right)
     if near is not None:
         return near
-    for each in minorants.each():
-        within = _in_ball(problem, each, value + margin, one, other)
+    for minorant in minorants.singles():
+        within = _in_ball(problem, minorant, value + margin, left, right)
         if within is not None:
             return within
     return None
 
 
-def _beyond_plane(value: float, cut: Plane, one: Complex, other: Complex) -> tuple[np.ndarray, np.ndarray] | None:
+def _beyond_plane(value: float, cut: Plane, left: Complex, right: Complex) -> tuple[np.ndarray, np.ndarray] | None:
     """Pairs whose plane is no higher than the value."""
-    height, rest = np.real(one @ np.conj(cut.slope)), cut.constant + np.real(other @ np.conj(cut.slope))
+    height, rest = np.real(left @ np.conj(cut.slope)), cut.constant + np.real(right @ np.conj(cut.slope))
     order = np.argsort(height, kind="stable")
     count = np.searchsorted(height[order], value - rest, side="right")
     if np.sum(count, dtype=float) > _PAIRS:
         return None
-    second = np.repeat(np.arange(len(other)), count)
+    second = np.repeat(np.arange(len(right)), count)
     place = np.arange(second.size) - np.repeat(np.cumsum(count) - count, count)
     return order[place], second
 
 
 def _in_ball(
-    problem: Problem, each: Minorants, value: float, one: Complex, other: Complex
+    problem: Problem, minorant: Minorants, value: float, left: Complex, right: Complex
 ) -> tuple[np.ndarray, np.ndarray] | None:
     """Pairs whose weighted vectors together are no longer than the value leaves to their lengths."""
     from scipy.spatial import cKDTree
 
-    weight = each.weight[0]
-    flat, _ = plane(problem, float(each.constant[0]), each.slope[0])
+    weight = minorant.weight[0]
+    flat, _ = plane(problem, float(minorant.constant[0]), minorant.slope[0])
     radius = value - flat.least
     if radius < 0 or not np.any(weight > 0):
         return None
-    first, second = (_real(part[:, weight > 0] * weight[weight > 0]) for part in (one, -other))
+    first, second = (_real(part[:, weight > 0] * weight[weight > 0]) for part in (left, -right))
     tree = cKDTree(first)
     # counting takes long where much is near: a few tell
     few = second[:: max(1, len(second) // _SAMPLE)]

@@ -44,11 +44,11 @@ def as_fitted(problem: Problem, near: float, seconds: float, has_nuts: bool) -> 
     peaks, listed = problem.peaks, problem.listed
     # not as they are listed, so that the order of the list changes nothing
     begun = np.concatenate([np.sort(listed[part]) for part in problem.slices])
-    known = [begun]
+    starts = [begun]
     if has_nuts and len(problem.classes) > 1:
         bare = as_fitted(replace(problem, classes=problem.classes[:-1]), near, _BARE * seconds, False)
-        known.append(np.concatenate([bare.mass, problem.classes[-1].mass]))
-    mass = min([searched(problem, peaks, np.array(known))[0], listed], key=lambda one: _value(problem, one))
+        starts.append(np.concatenate([bare.mass, problem.classes[-1].mass]))
+    mass = min([searched(problem, peaks, np.array(starts))[0], listed], key=lambda start: _value(problem, start))
     value = _value(problem, mass)
     cut = best_plane(problem, peaks, value, near)
     bound, all_counted = cut.least, False
@@ -92,26 +92,26 @@ def _improved(problem: Problem, cut: Plane, mass: Real, enough: float, spent: Ca
     value, before = _value(problem, mass), np.inf
     while enough < value < before and not spent():
         before = value
-        for each, part in zip(problem.classes, problem.slices, strict=True):
+        for group, part in zip(problem.classes, problem.slices, strict=True):
             # of more than so many places some
-            places = np.sort(chance.permutation(each.mass.size)[:MOST])
+            places = np.sort(chance.permutation(group.mass.size)[:MOST])
             free = part.start + places
-            alone = _alone(problem, each, mass, places, free)
+            alone = _alone(problem, group, mass, places, free)
             low = plane(alone, cut.constant, cut.slope)[0]
             result = exhausted(alone, low, value, max(enough - low.least, 0.0), spent, _SETS)
             if result.mass is not None:
                 tried = mass.copy()
                 tried[free] = result.mass
-                mass = min((mass, tried), key=lambda one: _value(problem, one))
+                mass = min((mass, tried), key=lambda assignment: _value(problem, assignment))
                 value = _value(problem, mass)
     return mass, value
 
 
-def _alone(problem: Problem, each: Places, mass: Real, places: np.ndarray, free: np.ndarray) -> Problem:
+def _alone(problem: Problem, group: Places, mass: Real, places: np.ndarray, free: np.ndarray) -> Problem:
     """The problem with only these places of a class free, all other parts where they are."""
     held = mass.copy()
     held[free] = 0.0
-    names = tuple(each.names[k] for k in places.tolist())
-    some = Places(each.kind, names, mass[free], each.row[places])
+    names = tuple(group.names[k] for k in places.tolist())
+    some = Places(group.kind, names, mass[free], group.row[places])
     sizes = problem.start_size + problem.size_of_row @ problem.row_masses(held)
     return replace(problem, start=problem.vectors(held), classes=(some,), start_size=sizes)

@@ -113,28 +113,30 @@ def _every(n: int) -> np.ndarray:
     return np.array(list(permutations(range(n))))
 
 
-def _together(one: _Orders, other: _Orders, about: Real) -> _Pairs:
+def _together(left: _Orders, right: _Orders, about: Real) -> _Pairs:
     """Orders of two groups of places that come near to a point."""
-    which = _met(one.points, about - other.points)
-    return _Pairs((one, other), which, one.points[which[0]] + other.points[which[1]])
+    which = _met(left.points, about - right.points)
+    return _Pairs((left, right), which, left.points[which[0]] + right.points[which[1]])
 
 
-def _nearest(one: _Pairs, other: _Pairs, wanted: Real, mass: Real) -> Real:
+def _nearest(left: _Pairs, right: _Pairs, wanted: Real, mass: Real) -> Real:
     """Assignments (N, T) that come nearest to what is wanted."""
-    i, j = _met(one.points, wanted - other.points)
-    apart = np.sum((one.points[i] + other.points[j] - wanted) ** 2, axis=1)
+    i, j = _met(left.points, wanted - right.points)
+    apart = np.sum((left.points[i] + right.points[j] - wanted) ** 2, axis=1)
     best = np.argpartition(apart, _OFFERED)[:_OFFERED] if apart.size > _OFFERED else np.arange(apart.size)
     tried = np.tile(mass, (best.size, 1))
-    one.put(tried, i[best])
-    other.put(tried, j[best])
+    left.put(tried, i[best])
+    right.put(tried, j[best])
     return tried
 
 
-def _met(one: Real, other: Real) -> np.ndarray:
+def _met(left: Real, right: Real) -> np.ndarray:
     """Which points are near to one another (2, k): about as many as are kept, if they scatter as normal ones do."""
-    scatter = _SPREAD * np.hypot(np.std(one, axis=0), np.std(other, axis=0))
+    scatter = _SPREAD * np.hypot(np.std(left, axis=0), np.std(right, axis=0))
     wide, most = scatter > 0, 2 * _PAIRS
-    few = len(one) * len(other) <= most or not np.any(wide)
-    side = np.inf if few else float((_PAIRS / (len(one) * len(other)) * np.prod(scatter[wide])) ** (1.0 / np.sum(wide)))
-    result: np.ndarray = met(np.ascontiguousarray(one), np.ascontiguousarray(other), side, most)
+    few = len(left) * len(right) <= most or not np.any(wide)
+    side = (
+        np.inf if few else float((_PAIRS / (len(left) * len(right)) * np.prod(scatter[wide])) ** (1.0 / np.sum(wide)))
+    )
+    result: np.ndarray = met(np.ascontiguousarray(left), np.ascontiguousarray(right), side, most)
     return result

@@ -8,7 +8,7 @@ import numpy as np
 
 from optimizer.analyze import analyze
 from optimizer.errors import refuse
-from optimizer.formulation.counterweights import as_given, too_heavy, unbalance
+from optimizer.formulation.counterweights import mass_and_angle, too_heavy, unbalance
 from optimizer.formulation.formulate import responses
 from optimizer.formulation.goals import cone_program
 from optimizer.mechanics.fixed_weights import beside
@@ -43,7 +43,7 @@ _LEFT = (
 def match(request: MatchRequest) -> MatchAnswer:
     """The rows that weighed parts go on, each once, so that the weighted peaks are small; with a certified bound."""
     start = time.perf_counter()
-    fitted, angle = as_given(request.machine, request.counterweights)
+    fitted, angle = mass_and_angle(request.machine, request.counterweights)
     # what is cut from a plate has the radius that its mass gives it
     cut = fitted_masses(request.machine, fitted)
     if not request.choose_counterweights:
@@ -75,12 +75,12 @@ def match(request: MatchRequest) -> MatchAnswer:
     )
 
 
-def _answer(request: MatchRequest, problem: Problem, found: WithChosen) -> dict[str, Any]:
+def _answer(request: MatchRequest, problem: Problem, result: WithChosen) -> dict[str, Any]:
     """Names for masses, and every figure evaluated anew by the mechanics."""
-    machine, best = request.machine, found.best
-    before = _evaluated(request, with_masses(machine, problem.row_masses(problem.listed)), found.listed)
+    machine, best = request.machine, result.best
+    before = _evaluated(request, with_masses(machine, problem.row_masses(problem.listed)), result.listed)
     heavier = with_masses(machine, problem.row_masses(best.mass))
-    after = _evaluated(request, heavier, found.fitted)
+    after = _evaluated(request, heavier, result.fitted)
     omega_squared = (machine.speed_rpm * np.pi / 30.0) ** 2
     value, size = after.objective, before.at_rest if request.choose_counterweights else before.objective
     judged = verdict(
@@ -154,7 +154,7 @@ def _evaluated(request: MatchRequest, machine: ReciprocatingMachine, chosen: Fit
         close = {"relative_gap": min(request.accuracy.relative_gap, 1e-6)}
         answer = optimize(OptimizeRequest(machine=machine, objective=goal, accuracy=Accuracy(**close)))
     else:
-        given = tuple(GivenCounterweight(**one) for one in _given(request, chosen))
+        given = tuple(GivenCounterweight(**one) for one in _counterweights(request, chosen))
         answer = analyze(AnalyzeRequest(machine=machine, counterweights=given))
     fitted = answer.counterweights
     mass, angle = np.array([one.mass_kg for one in fitted]), np.array([one.angle_deg for one in fitted])
@@ -175,10 +175,10 @@ def _evaluated(request: MatchRequest, machine: ReciprocatingMachine, chosen: Fit
     )
 
 
-def _given(request: MatchRequest, chosen: Fitted | None) -> Iterator[dict[str, Any]]:
+def _counterweights(request: MatchRequest, chosen: Fitted | None) -> Iterator[dict[str, Any]]:
     """Counterweights that are on the machine, those that were chosen or those of the request."""
     if chosen is None:
-        yield from (one.model_dump() for one in request.counterweights)
+        yield from (counterweight.model_dump() for counterweight in request.counterweights)
         return
     for web, mass, angle in zip(request.machine.webs, chosen.mass.tolist(), chosen.angle.tolist(), strict=True):
         if mass > 0.0 and web.fixed is None:

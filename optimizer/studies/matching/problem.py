@@ -39,7 +39,7 @@ class Minorants:
         """These and others."""
         return Minorants(*(np.concatenate([getattr(self, n), getattr(other, n)]) for n in vars(self)))
 
-    def each(self) -> "list[Minorants]":
+    def singles(self) -> "list[Minorants]":
         """One by one, and of several their mean."""
         ones = [Minorants(*(getattr(self, n)[k : k + 1] for n in vars(self))) for k in range(self.constant.size)]
         mean = Minorants(*(np.mean(getattr(self, n), axis=0, keepdims=True) for n in vars(self)))
@@ -128,7 +128,7 @@ def stated(request: MatchRequest, machine: Machine, fitted: Real, angle_deg: Rea
     u = unbalance(fitted, angle_deg, plan.webs.radius)
     wanted, across = weights(machine, goal), goal.direction_weights
     base = responses(plan, rotating(plan).plus(reciprocating(plan, 1)), goal)
-    one = responses(plan, reciprocating(_of_one_kilogram(plan), 1), goal)
+    one = responses(plan, reciprocating(_per_kilogram(plan), 1), goal)
     weighed = [k for k, each in enumerate(base) if wanted[each.name] > 0]
     p, q = 0.5 * (across.x + across.y), 0.5 * (across.x - across.y)
     start, of_row, start_size, size_of_row, terms, row = [], [], [], [], [], []
@@ -167,7 +167,7 @@ def _vectors(f: Complex | Real, b: Complex | Real, p: float, q: float) -> Comple
     return np.stack([p * f + q * b, q * f + p * b], axis=-1)
 
 
-def _of_one_kilogram(plan: Layout) -> Layout:
+def _per_kilogram(plan: Layout) -> Layout:
     """The machine as often as it has rows, with one kilogram on one row each."""
     rows = plan.reciprocating.mass.shape[-1]
     many = spread(plan, (rows,))

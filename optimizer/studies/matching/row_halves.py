@@ -54,7 +54,7 @@ class _Coordinates(NamedTuple):
     up: Real  # (C,)
     scatter: Real  # (C,) about their standard deviation over all assignments
     narrow: Real  # (C,) the same of the half that scatters less
-    told: Real  # (A,) width of the window over it, of all axes there are, for the slack of the best known
+    share: Real  # (A,) width of the window over it, of all axes there are, for the slack of the best known
 
 
 def exhausted(
@@ -123,7 +123,7 @@ class _Class:
 
     def first_level(self, value: float) -> float:
         """What about as many pairs as there are sets are below, if sums scatter as normal ones do; at most a value."""
-        told, size = np.minimum(self.coordinates.told / _SPREAD, 1.0), self._quarters.size
+        told, size = np.minimum(self.coordinates.share / _SPREAD, 1.0), self._quarters.size
         pairs = _factorial(size[0] + size[1]) * _factorial(size[2] + size[3]) * float(np.prod(told))
         slack, most = value - self._cut.least, _PAIRS * self.least.size
         while self.below(self._cut.least + slack) * pairs > most:
@@ -190,10 +190,10 @@ class _Class:
         return bool(np.max(weight @ (apart @ heaviest)) <= rounding)
 
 
-def _apart(one: Complex, other: Complex) -> Real:
+def _apart(left: Complex, right: Complex) -> Real:
     """How far numbers (J, N) are from others, but for a turn of each row."""
-    turn = np.sum(one * np.conj(other), axis=1, keepdims=True)
-    return np.abs(one - np.exp(1j * np.angle(turn)) * other)
+    turn = np.sum(left * np.conj(right), axis=1, keepdims=True)
+    return np.abs(left - np.exp(1j * np.angle(turn)) * right)
 
 
 @lru_cache(maxsize=MOST)

@@ -16,17 +16,17 @@ _PAIRS = 400
 _SEED = 17
 
 
-def searched(problem: Problem, minorants: Minorants, known: Real) -> Real:
+def searched(problem: Problem, minorants: Minorants, seeds: Real) -> Real:
     """Assignments (S, T), masses at places, that no swap of two parts makes better; the best first.
 
     Parameters
     ----------
-    known : (N, T) assignments to begin with.
+    seeds : (N, T) assignments to begin with.
     """
     pairs = _pairs(problem)
     numbers = max(pairs.shape[1] * problem.start.size, 1)
-    starts = int(np.clip(_NUMBERS // numbers, len(known) + 1, _STARTS))
-    mass = np.concatenate([known, *_starts(problem, starts - len(known))])
+    starts = int(np.clip(_NUMBERS // numbers, len(seeds) + 1, _STARTS))
+    mass = np.concatenate([seeds, *_starts(problem, starts - len(seeds))])
     if pairs.shape[1]:
         mass = _swapped(problem, minorants, mass, pairs, int(np.clip(_WORK // (numbers * starts), 4, _ROUNDS)))
     mass = mass[np.argsort(minorants.at(problem.vectors(mass)), kind="stable")]

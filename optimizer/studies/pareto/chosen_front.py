@@ -258,8 +258,8 @@ def _larger(weights: Real) -> _Goal:
 
 def _undominated(optima: Sequence[_Optimum]) -> list[_Optimum]:
     """Those that no other equals or beats in both peaks, in the order of rising force."""
-    kept: list[_Optimum] = []
-    for each in sorted(optima, key=lambda one: (float(one.peaks[0]), float(one.peaks[1]))):
-        if not kept or each.peaks[1] < kept[-1].peaks[1]:
-            kept.append(each)
-    return kept
+    front: list[_Optimum] = []
+    for optimum in sorted(optima, key=lambda optimum: (float(optimum.peaks[0]), float(optimum.peaks[1]))):
+        if not front or optimum.peaks[1] < front[-1].peaks[1]:
+            front.append(optimum)
+    return front

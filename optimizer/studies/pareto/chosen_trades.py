@@ -73,7 +73,7 @@ def chosen_trades(
     results = [search.point(share @ at, size, (len(points) - n)) for n, share in enumerate(points)]
     decided = all(isinstance(each, _Chosen) or _none_proven(each) for each in results)
     kept = _best([each for each in results if isinstance(each, _Chosen)])
-    told = [search.told(each, size) for each in kept]
+    told = [search.traded_point(each, size) for each in kept]
     close = np.all(np.diag(at) - bound <= max(task.relative_gap, OPTIMUM_SHARE) * size)
     exact = decided and close and all(point.status == "optimal" for point in told)
     rest = search.values(search.nothing)
@@ -126,7 +126,7 @@ class _Search:
             if isinstance(result, Infeasible):
                 return result
             alone[i] = result
-            gross = np.maximum(gross, self.traded.one_by_one(result.solution.unbalance) * self.square)
+            gross = np.maximum(gross, self.traded.gross(result.solution.unbalance) * self.square)
         size = sizes(self.traded.at_rest * self.square, gross)
         for i, name in enumerate(self.names):
             if name == "mass":
@@ -162,7 +162,7 @@ class _Search:
         lowest = np.nan if bound is None else bound
         return replace(result, corner=np.where(self._mass, np.nan if budget is None else budget, lowest * anchor))
 
-    def told(self, chosen: _Chosen, size: Real) -> TradedPoint:
+    def traded_point(self, chosen: _Chosen, size: Real) -> TradedPoint:
         """A point with its proof."""
         best = chosen.solution
         proof, after = best.certificate, self.scene.first_order(best.shown.on_crank)
@@ -178,7 +178,7 @@ class _Search:
             total_mass_kg=best.shown.total_mass_kg,
             counterweights=best.shown.counterweights,
             certificate=TradedCertificate(
-                corner=tuple(finite_or_null(each) if proven else None for each in chosen.corner),
+                corner=tuple(finite_or_null(value) if proven else None for value in chosen.corner),
                 relative_gap=max(gap, 0.0) if proven else None,
                 mass_lower_bound_kg=None,
                 mass_relative_gap=None,
@@ -193,12 +193,12 @@ class _Search:
         """Which response is the mass (D,)."""
         return np.array([name == "mass" for name in self.names])
 
-    def _lightest(self, known: Sequence[_Chosen], size: float, seconds: float) -> tuple[Real, float]:
+    def _lightest(self, choices: Sequence[_Chosen], size: float, seconds: float) -> tuple[Real, float]:
         """What the lightest that keep the ceilings come to (D,), and the mass that is proven to be needed."""
         if self.traded.excess(self.nothing) <= 0.0:
             return self.values(self.nothing), self.fixed
         place = int(np.flatnonzero(self._mass)[0])
-        best, least = min(known, key=lambda each: float(each.values[place])), self.fixed
+        best, least = min(choices, key=lambda choice: float(choice.values[place])), self.fixed
         first = next(name for name in self.names if name != "mass")
         until = thread_time() + seconds
         for _ in range(_BUDGETS):
@@ -249,15 +249,19 @@ def _none_proven(none: Infeasible) -> bool:
     return none.status == "infeasible"
 
 
-def _best(found: Sequence[_Chosen]) -> list[_Chosen]:
+def _best(choices: Sequence[_Chosen]) -> list[_Chosen]:
     """Those that no other equals or beats in every response, of two responses in the order of the rising first."""
-    kept: list[_Chosen] = []
-    for n, each in enumerate(found):
-        others = [one.values for k, one in enumerate(found) if k != n]
-        beaten = any(np.all(one <= each.values) and np.any(one < each.values) for one in others)
+    front: list[_Chosen] = []
+    for n, choice in enumerate(choices):
+        others = [rival.values for k, rival in enumerate(choices) if k != n]
+        beaten = any(np.all(values <= choice.values) and np.any(values < choice.values) for values in others)
         # of several that are the same, the one of which most is proven
-        same = [one for one in found if np.all(one.values == each.values)]
-        sharpest = max(same, key=lambda one: float(np.nan_to_num(np.min(one.corner / np.maximum(one.values, 1e-300)))))
-        if not beaten and each is sharpest:
-            kept.append(each)
-    return sorted(kept, key=lambda one: tuple(one.values.tolist())) if kept and kept[0].values.size == 2 else kept
+        same = [rival for rival in choices if np.all(rival.values == choice.values)]
+        sharpest = max(
+            same, key=lambda rival: float(np.nan_to_num(np.min(rival.corner / np.maximum(rival.values, 1e-300))))
+        )
+        if not beaten and choice is sharpest:
+            front.append(choice)
+    return (
+        sorted(front, key=lambda point: tuple(point.values.tolist())) if front and front[0].values.size == 2 else front
+    )

@@ -45,7 +45,7 @@ class _Best:
 
 
 def count_front(
-    request: ParetoRequest, asked: CountTrade, machine: Machine, scene: Prepared, solver: Solver
+    request: ParetoRequest, trade: CountTrade, machine: Machine, scene: Prepared, solver: Solver
 ) -> CountFront:
     """The front under one limit of the total mass; all its searches together end at the time asked."""
     whole = replace(Task.of(request), machine=machine)
@@ -55,8 +55,8 @@ def count_front(
         raise MissingInput(lacking)
 
     def point(number: int | None, seconds: float) -> CountPoint:
-        within = machine if number is None else at_most(machine, asked.of, number)
-        return _point(replace(whole, machine=within, time_limit_s=max(seconds, 1e-3)), scene, asked, number, solver)
+        within = machine if number is None else at_most(machine, trade.of, number)
+        return _point(replace(whole, machine=within, time_limit_s=max(seconds, 1e-3)), scene, trade, number, solver)
 
     # what is limited by no number says how many are of any use; it may take half of the time, and the others the other
     points = [point(None, half)]
@@ -65,12 +65,12 @@ def count_front(
         used = last.at_most
         fewer = np.unique(np.round(np.linspace(0, used, min(request.points, used + 1))).astype(int)).tolist()[:-1]
         points = [*(point(number, until - time.monotonic()) for number in fewer), last]
-    exact = all(one.status in ("optimal", "infeasible") for one in points)
-    none = all(one.status == "infeasible" for one in points)
+    exact = all(point.status in ("optimal", "infeasible") for point in points)
+    none = all(point.status == "infeasible" for point in points)
     return CountFront(
         max_total_mass_kg=machine.max_total_mass_kg,
-        of=asked.of,
-        least=asked.least,
+        of=trade.of,
+        least=trade.least,
         status="infeasible" if none else "optimal" if exact else "inaccurate",
         points=tuple(points),
     )
@@ -93,8 +93,8 @@ def _most(machine: Machine, of: Counted) -> int:
     return int(np.max(options.part, initial=-1)) + 1
 
 
-def _point(task: Task, scene: Prepared, asked: CountTrade, number: int | None, solver: Solver) -> CountPoint:
-    best = (_smallest if asked.least == "objective" else _lightest)(task, scene, solver)
+def _point(task: Task, scene: Prepared, trade: CountTrade, number: int | None, solver: Solver) -> CountPoint:
+    best = (_smallest if trade.least == "objective" else _lightest)(task, scene, solver)
     result = best.status != "infeasible"
     machine = task.machine
     u = unbalance(best.mass_kg, best.angle_deg, stacked([web.radius_m for web in machine.webs]))
@@ -103,8 +103,8 @@ def _point(task: Task, scene: Prepared, asked: CountTrade, number: int | None, s
     sizes = part_numbers(best.mass_kg[_chosen(machine)]) if result else None
     if number is None:
         # where no number limits it, so many as it takes
-        used = weights if asked.of in PIECES else sizes
-        number = _most(machine, asked.of) if used is None else used
+        used = weights if trade.of in PIECES else sizes
+        number = _most(machine, trade.of) if used is None else used
     return CountPoint(
         at_most=number,
         status=best.status,

@@ -121,7 +121,7 @@ def _smallest(trade: Trade, solver: Solver) -> tuple[Trade, list[Solution]] | Un
             return result
         u = np.array([one.unbalance for one in result[1]])
         peaks = np.max([*trade.peaks(u), _size(trade, u)], axis=0)
-        if np.all(peaks <= within.known):
+        if np.all(peaks <= within.cap):
             break
         within = trade.within(np.maximum(within.both.limits.max_mass, trade.reach(_ROOM * peaks)), _ROOM * peaks)
     return result
@@ -130,7 +130,7 @@ def _smallest(trade: Trade, solver: Solver) -> tuple[Trade, list[Solution]] | Un
 def _alone(trade: Trade, solver: Solver) -> tuple[Trade, list[Solution]] | Unreachable:
     results: list[Solution] = []
     for program in trade.alone:
-        one = optima(program.alone(), _SHARPNESS, True, solver).one()
+        one = optima(program.alone(), _SHARPNESS, True, solver).single()
         if isinstance(one, Unreachable):
             return one
         results.append(one)
@@ -141,21 +141,21 @@ def _of_ends(trade: Trade, alone: list[Solution]) -> tuple[Multipliers, Multipli
     """Proofs of the smallest peaks, as of the program of both."""
     force, moment = alone
     usable = normalised(trade.alone[0], force.multipliers)[0], normalised(trade.alone[1], moment.multipliers)[0]
-    return trade.of_one(0, usable[0]), trade.of_one(1, usable[1])
+    return trade.widened(0, usable[0]), trade.widened(1, usable[1])
 
 
 def _closest(
     trade: Trade, alone: list[Solution], ideal: Real, proofs: tuple[Multipliers, Multipliers], least_mass: bool
 ) -> Point:
     """Of the counterweights that make a peak smallest those that come closest to keeping the ceilings."""
-    which = min((0, 1), key=lambda each: alone[each].excess)
+    which = min((0, 1), key=lambda peak: alone[peak].excess)
     result = alone[which]
     # its mass is the least of those that make this peak as small, whatever the other
     limit = np.where(np.arange(2) == which, result.mass_target, trade.peaks(result.unbalance))
     of_mass = None
     if least_mass and result.mass_multipliers is not None:
-        of_mass = trade.of_one(which, result.mass_multipliers.admissible(trade.alone[which]))
-    return Point(result, ideal, proofs[which], of_mass, np.minimum(limit, trade.known))
+        of_mass = trade.widened(which, result.mass_multipliers.admissible(trade.alone[which]))
+    return Point(result, ideal, proofs[which], of_mass, np.minimum(limit, trade.cap))
 
 
 def _between(
@@ -197,7 +197,7 @@ def _size(trade: Trade, u: Complex) -> Real:
     ----------
     u : (2, K) kg m, the lightest counterweights that make each peak smallest.
     """
-    gross = np.max(trade.one_by_one(u), axis=0)
+    gross = np.max(trade.gross(u), axis=0)
     size = np.where(trade.at_rest > OPTIMUM_SHARE * gross, trade.at_rest, gross)
     return np.where(size > SMALLEST, size, 1.0)
 
@@ -212,7 +212,7 @@ def _meet(trade: Trade, anchor: Real, unit: Real, least_mass: bool, share: float
     program = trade.along(anchor, unit)
 
     def within(part: float) -> Solution:
-        result = optima(program.alone(), part * share, least_mass, solver).one()
+        result = optima(program.alone(), part * share, least_mass, solver).single()
         if isinstance(result, Unreachable):
             raise _Undecided
         return result
@@ -227,17 +227,17 @@ def _meet(trade: Trade, anchor: Real, unit: Real, least_mass: bool, share: float
     of_mass = best.mass_multipliers if least_mass else None
     return Point(
         best,
-        np.minimum(anchor + trade.parameter(_bound(program, best), anchor, unit) * unit, trade.known),
+        np.minimum(anchor + trade.parameter(_bound(program, best), anchor, unit) * unit, trade.cap),
         trade.per_peak(usable, unit),
         None if of_mass is None else trade.per_peak(of_mass.admissible(program), unit),
-        np.minimum(anchor + trade.parameter(best.mass_target, anchor, unit) * unit, trade.known),
+        np.minimum(anchor + trade.parameter(best.mass_target, anchor, unit) * unit, trade.cap),
     )
 
 
-def _bound(statement: Statement, found: Solution) -> float:
+def _bound(statement: Statement, solution: Solution) -> float:
     """What is proven of all that counts as keeping the ceilings: one bound is held against many points."""
     tolerance = np.full(statement.ceilings.cap.shape, CEILING_TOLERANCE)
-    return found.lower_bound - float(ceiling_allowance(statement, found.multipliers, tolerance))
+    return solution.lower_bound - float(ceiling_allowance(statement, solution.multipliers, tolerance))
 
 
 def _mass_gap(solution: Solution) -> float:
@@ -274,10 +274,10 @@ def _end(
         if rise <= share * size[other]:
             break
         anchor = np.where(np.arange(2) == other, point.corner, anchor)
-    corner, proof = max(corners, key=lambda each: float(each[0][other]))
+    corner, proof = max(corners, key=lambda pair: float(pair[0][other]))
     # the end cannot be lower than this; the step that comes closest is it
     target = np.where(np.arange(2) == first, ideal, corner)
-    return _End(min(peaks, key=lambda each: float(np.max((each - target) / size))), corner, proof)
+    return _End(min(peaks, key=lambda pair: float(np.max((pair - target) / size))), corner, proof)
 
 
 def _points(

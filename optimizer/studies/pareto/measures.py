@@ -56,14 +56,14 @@ class Measures:
 
     def values(self, u: Complex) -> Real:
         """What each comes to with counterweights (K,) kg m, (D,); of what is known by a bracket the upper end."""
-        return self.each.values(u, _CLOSE).goals
+        return self.separate.values(u, _CLOSE).goals
 
     def excess(self, u: Complex) -> float:
         """The largest relative excess over a ceiling; -inf without."""
-        return self.each.values(u, _CLOSE).excess
+        return self.separate.values(u, _CLOSE).excess
 
     @cached_property
-    def each(self) -> Problem:
+    def separate(self) -> Problem:
         """The program with a goal for each, that are not put in any order."""
         pairs = zip(self.names, self.groups, strict=True)
         return replace(self.program, goals=tuple(Goal(name, (group,)) for name, group in pairs))
@@ -73,7 +73,7 @@ class Measures:
         """Their values without counterweights (D,)."""
         return self.values(np.zeros(self.program.limits.radius.shape, dtype=complex))
 
-    def one_by_one(self, u: Complex) -> Real:
+    def gross(self, u: Complex) -> Real:
         """What every counterweight by itself adds to each at most, summed (D,)."""
         return np.array([self._most(group, np.abs(u)) for group in self.groups])
 

@@ -141,12 +141,12 @@ def _of_choices(request: ParetoRequest, machine: Machine, scene: Prepared, solve
     )
 
 
-def _certified(request: ParetoRequest, machine: Machine, scene: Prepared, found: Front) -> ParetoFront:
-    points = [_point(request, machine, scene, found, each) for each in found.points]
-    kept = undominated(points)
+def _certified(request: ParetoRequest, machine: Machine, scene: Prepared, curve: Front) -> ParetoFront:
+    points = [_point(request, machine, scene, curve, point) for point in curve.points]
+    shown = undominated(points)
     square = scene.omega_squared
-    ideal, scale = found.ideal * square, found.size * square
-    first, last = kept[0], kept[-1]
+    ideal, scale = curve.ideal * square, curve.size * square
+    first, last = shown[0], shown[-1]
     ends = Ends(
         smallest_force_N=first.weighted_force_peak_N,
         smallest_force_lower_bound_N=float(ideal[0]),
@@ -154,36 +154,36 @@ def _certified(request: ParetoRequest, machine: Machine, scene: Prepared, found:
         smallest_moment_Nm=last.weighted_moment_peak_Nm,
         smallest_moment_lower_bound_Nm=float(ideal[1]),
         force_at_smallest_moment_N=last.weighted_force_peak_N,
-        multipliers=_of_ends(found, square) if request.multipliers else None,
+        multipliers=_of_ends(curve, square) if request.multipliers else None,
     )
     excess = max(
         (ends.smallest_force_N - ends.smallest_force_lower_bound_N) / scale[0],
         (ends.smallest_moment_Nm - ends.smallest_moment_lower_bound_Nm) / scale[1],
     )
     exact = (
-        not found.undecided
+        not curve.undecided
         and excess <= request.accuracy.relative_gap
-        and all(point.status == "optimal" for point in kept)
+        and all(point.status == "optimal" for point in shown)
     )
     return ParetoFront(
         max_total_mass_kg=machine.max_total_mass_kg,
         status="optimal" if exact else "inaccurate",
-        points=tuple(kept),
-        reason=_reason(request, found, kept),
-        knee=knee(kept),
+        points=tuple(shown),
+        reason=_reason(request, curve, shown),
+        knee=knee(shown),
         ends=ends,
         scale=Scale(force_N=float(scale[0]), moment_Nm=float(scale[1])),
-        implied_max_mass_kg=implied_max_mass(machine, found.trade.both.limits.max_mass[None])[0],
+        implied_max_mass_kg=implied_max_mass(machine, curve.trade.both.limits.max_mass[None])[0],
     )
 
 
-def _point(request: ParetoRequest, machine: Machine, scene: Prepared, found: Front, point: Point) -> ParetoPoint:
-    solution, square, traded = point.solution, scene.omega_squared, found.trade
+def _point(request: ParetoRequest, machine: Machine, scene: Prepared, curve: Front, point: Point) -> ParetoPoint:
+    solution, square, traded = point.solution, scene.omega_squared, curve.trade
     limits = traded.both.limits
-    found_there = solution.unbalance
+    unbalance_there = solution.unbalance
     if request.objective.symmetric:
-        found_there = symmetric(traded.both.alone(), found_there[None])[0]
-    masses, angles = masses_and_angles(machine, found_there, limits)
+        unbalance_there = symmetric(traded.both.alone(), unbalance_there[None])[0]
+    masses, angles = masses_and_angles(machine, unbalance_there, limits)
     u = unbalance(masses, angles, limits.radius)
     on_crank = beside(machine, masses, angles)
     fitted, together = counterweights(machine, *on_crank), unbalance(*on_crank, limits.radius)
@@ -194,10 +194,10 @@ def _point(request: ParetoRequest, machine: Machine, scene: Prepared, found: Fro
             value=peaks,
             lower_bound=point.corner,
             rounding=traded.rounding(u),
-            yardstick=found.size,
+            yardstick=curve.size,
             excess=np.max(traded.both.ceilings.excess(u), axis=-1, initial=-np.inf),
             mass=np.asarray(np.sum(masses)),
-            mass_resolution=mass_resolution(traded.both, found.size),
+            mass_resolution=mass_resolution(traded.both, curve.size),
             mass_lower_bound=np.asarray(solution.mass_lower_bound) if request.objective.least_mass else None,
         ),
         request.accuracy.relative_gap,
@@ -220,7 +220,7 @@ def _point(request: ParetoRequest, machine: Machine, scene: Prepared, found: Fro
             force_N=finite_or_null(proven[0]),
             moment_Nm=finite_or_null(proven[1]),
             relative_gap=finite_or_null(judged.relative_gap),
-            yardstick=Scale(force_N=float(found.size[0] * square), moment_Nm=float(found.size[1] * square)),
+            yardstick=Scale(force_N=float(curve.size[0] * square), moment_Nm=float(curve.size[1] * square)),
             mass_lower_bound_kg=finite_or_null(judged.mass_lower_bound + fixed)
             if request.objective.least_mass
             else None,
@@ -244,10 +244,10 @@ def _of_point(traded: Trade, point: Point, omega_squared: float) -> Multipliers:
     )
 
 
-def _of_ends(found: Front, omega_squared: float) -> EndMultipliers:
+def _of_ends(curve: Front, omega_squared: float) -> EndMultipliers:
     """The proofs of both smallest peaks."""
-    both = found.trade.both
-    force, moment = (named(both, physical(both, each, "objective", omega_squared)) for each in found.ideal_proofs)
+    both = curve.trade.both
+    force, moment = (named(both, physical(both, proof, "objective", omega_squared)) for proof in curve.ideal_proofs)
     return EndMultipliers(smallest_force=force, smallest_moment=moment)
 
 
@@ -256,11 +256,11 @@ def undominated(points: Sequence[ParetoPoint]) -> list[ParetoPoint]:
 
     Points that are nearer to each other than their gaps can be out of order; no tolerance is applied.
     """
-    kept: list[ParetoPoint] = []
-    for point in sorted(points, key=lambda one: (one.weighted_force_peak_N, one.weighted_moment_peak_Nm)):
-        if not kept or point.weighted_moment_peak_Nm < kept[-1].weighted_moment_peak_Nm:
-            kept.append(point)
-    return kept
+    best: list[ParetoPoint] = []
+    for point in sorted(points, key=lambda point: (point.weighted_force_peak_N, point.weighted_moment_peak_Nm)):
+        if not best or point.weighted_moment_peak_Nm < best[-1].weighted_moment_peak_Nm:
+            best.append(point)
+    return best
 
 
 def knee(points: Sequence[ParetoPoint]) -> int | None:
@@ -275,12 +275,12 @@ def knee(points: Sequence[ParetoPoint]) -> int | None:
     return deepest if depth[deepest] > _STRAIGHT else None
 
 
-def _reason(request: ParetoRequest, found: Front, kept: Sequence[ParetoPoint]) -> Reason | None:
-    if found.undecided:
+def _reason(request: ParetoRequest, curve: Front, shown: Sequence[ParetoPoint]) -> Reason | None:
+    if curve.undecided:
         return "undecided"
-    if len(found.points) == 1:
+    if len(curve.points) == 1:
         return "reached_together"
-    return "resolution" if len(kept) < request.points else None
+    return "resolution" if len(shown) < request.points else None
 
 
 def _infeasible(request: ParetoRequest, machine: Machine, scene: Prepared, solver: Solver) -> ParetoFront:

@@ -31,13 +31,13 @@ class Trade:
 
     both: Statement
     alone: tuple[Statement, Statement]
-    known: Real = field(default_factory=lambda: np.full(2, np.inf))
+    cap: Real = field(default_factory=lambda: np.full(2, np.inf))
 
     def peaks(self, u: Complex) -> Real:
         """Weighted peak force [kg m] and moment [kg m^2] with counterweights u (..., K), (..., 2)."""
         return self.both.rows(np.abs(self.both.norms.at(u)))
 
-    def one_by_one(self, u: Complex) -> Real:
+    def gross(self, u: Complex) -> Real:
         """Sum of what every counterweight by itself adds to each peak at most, (..., 2)."""
         sizes = np.sum(np.abs(self.both.norms.influence) * np.abs(u)[..., None, :], axis=-1)
         return np.sum(self.both.membership * sizes[..., None, :], axis=-1)
@@ -51,12 +51,13 @@ class Trade:
         """Peaks without counterweights (2,)."""
         return self.peaks(np.zeros(self.both.limits.radius.shape, complex))
 
-    def within(self, max_mass: Real, known: Real) -> "Trade":
+    def within(self, max_mass: Real, cap: Real) -> "Trade":
         """The same with other limits of the webs (K,), kg."""
         both, force, moment = (
-            replace(each, limits=replace(each.limits, max_mass=max_mass)) for each in (self.both, *self.alone)
+            replace(statement, limits=replace(statement.limits, max_mass=max_mass))
+            for statement in (self.both, *self.alone)
         )
-        return Trade(both, (force, moment), known)
+        return Trade(both, (force, moment), cap)
 
     def reach(self, peaks: Real) -> Real:
         """Limits of the webs (K,) [kg] within which lies all that no peak of is above these (2,), all finite.
@@ -96,7 +97,7 @@ class Trade:
         """Multipliers of :meth:`along`, rows summing to 1 or in kg, as those of :attr:`both`, per unit of a peak."""
         return Multipliers(multipliers.term / unit[self.both.row], multipliers.row / unit, multipliers.ceiling)
 
-    def of_one(self, which: int, multipliers: Multipliers) -> Multipliers:
+    def widened(self, which: int, multipliers: Multipliers) -> Multipliers:
         """Admissible multipliers of the program of peak ``which`` alone as those of :attr:`both`."""
         term = np.zeros_like(self.both.norms.constant)
         term[self.both.row == which] = multipliers.term

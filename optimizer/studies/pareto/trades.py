@@ -19,7 +19,7 @@ from optimizer.mechanics.fixed_weights import beside, fixed_masses
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.requirements import missing
 from optimizer.program.certificate import ceiling_allowance
-from optimizer.program.cuts.optimum import METHOD, Found, Unkept, over_turn
+from optimizer.program.cuts.optimum import METHOD, CertifiedOptimum, Unkept, over_turn
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.program.verdict import Claim, mass_resolution, verdict
@@ -84,7 +84,7 @@ def traded_front(
     else:
         unit = np.maximum(span, _NARROW * size)
         points = [front.point(place @ ends, unit) for place in places]
-    told = _told(points)
+    told = _with_rivals(points)
     close = np.all(smallest[:, 0] - smallest[:, 1] <= max(request.accuracy.relative_gap, OPTIMUM_SHARE) * size)
     square, there = front.square, front.there
     return TradedFront(
@@ -119,7 +119,7 @@ def _ends(traded: Measures) -> tuple[Real, Real, Real] | None:
             if isinstance(result, Unkept):
                 return None
             ends.append(traded.values(result.point.unbalance))
-            gross = np.maximum(gross, traded.one_by_one(result.point.unbalance))
+            gross = np.maximum(gross, traded.gross(result.point.unbalance))
             smallest.append((result.goals[0].value, result.goals[0].proof.bound))
         known = sizes(traded.at_rest, gross)
         if np.all(known == size):
@@ -157,7 +157,7 @@ class _Front:
         asked = self.request.accuracy.relative_gap
         share = min(1.0, float(np.min(self.size / unit)))
         result = over_turn(self.traded.along(anchor, unit), share * asked, least)
-        assert isinstance(result, Found)  # the ends have kept the ceilings
+        assert isinstance(result, CertifiedOptimum)  # the ends have kept the ceilings
         masses, angles = masses_and_angles(self.machine, result.point.unbalance, result.limits)
         u = unbalance(masses, angles, result.limits.radius)
         values, excess = self.traded.values(u), self.traded.excess(u)
@@ -199,18 +199,18 @@ class _Front:
             ),
         )
 
-    def _bound(self, found: Found, u: Complex, excess: float) -> tuple[float, float]:
+    def _bound(self, optimum: CertifiedOptimum, u: Complex, excess: float) -> tuple[float, float]:
         """What is proven of t for all that exceed no ceiling by more than u does, and the rounding of its value."""
-        proof = found.proof
+        proof = optimum.proof
         over = np.full(proof.statement.ceilings.size.shape, max(excess, 0.0))
         allowance = float(ceiling_allowance(proof.statement, proof.multipliers, over))
         rounding = float(proof.statement.rounding(u)) + proof.charge * np.finfo(float).eps
         return proof.bound - allowance, rounding
 
 
-def _told(points: Sequence[TradedPoint]) -> list[TradedPoint]:
+def _with_rivals(points: Sequence[TradedPoint]) -> list[TradedPoint]:
     """The points with what beats them, of two responses in the order of the rising first."""
-    ordered = sorted(points, key=lambda one: one.values) if points and len(points[0].values) == 2 else list(points)
+    ordered = sorted(points, key=lambda point: point.values) if points and len(points[0].values) == 2 else list(points)
     values = np.array([point.values for point in ordered])
     return [point.model_copy(update={"beaten_by": next(_beating(values, n), None)}) for n, point in enumerate(ordered)]
 

@@ -86,7 +86,7 @@ class _Judge:
     def of(cls, request: OptimizeRequest) -> "_Judge":
         effects = effects_of_objective(request.objective)
         scene, task = prepare(request, ("residual",), () if request.cases else effects), Task.of(request)
-        program = Robust(task, scene, task.demand).asked().program
+        program = Robust(task, scene, task.demand).goals().program
         return cls(request.machine, program, scene.omega_squared)
 
     def values(self, weights: _Set) -> tuple[float, float]:
@@ -98,7 +98,7 @@ class _Judge:
     def objective(self, weights: _Set) -> float:
         return self.values(weights)[0]
 
-    def told(self, weights: _Set) -> Weights:
+    def weights(self, weights: _Set) -> Weights:
         """As it is answered."""
         mass, angle = beside(self.machine, *weights)
         (objective, excess), total = self.values(weights), float(np.sum(mass))
@@ -121,7 +121,7 @@ def _rounding(request: RoundRequest, solver: Solver) -> RoundAnswer:
     answer = optimize(_among(asked, near), solver)
     if answer.certificate is None:
         return _answer(answer, None)
-    plain, certificate = judge.told(_Set(*nearest(near))), answer.certificate
+    plain, certificate = judge.weights(_Set(*nearest(near))), answer.certificate
     better = plain.limits_kept and plain.objective < certificate.objective
     if better and len(judge.program.goals) == 1:
         # the time ended the search before it came to what is nearest
@@ -131,10 +131,10 @@ def _rounding(request: RoundRequest, solver: Solver) -> RoundAnswer:
     return _answer(answer, _cost(request, judge, free, answer, plain))
 
 
-def _answer(found: OptimizeAnswer, rounding: Rounding | None) -> RoundAnswer:
-    fields = {name: getattr(found, name) for name in type(found).model_fields}
+def _answer(answer: OptimizeAnswer, rounding: Rounding | None) -> RoundAnswer:
+    fields = {name: getattr(answer, name) for name in type(answer).model_fields}
     if rounding is not None:
-        fields["status_reason"] = f"{_ALONE} {found.status_reason}"
+        fields["status_reason"] = f"{_ALONE} {answer.status_reason}"
     return RoundAnswer.model_construct(**fields, rounding=rounding)
 
 
@@ -180,7 +180,7 @@ def _cost(
     there = np.where(best.mass > 0.0, best.angle, optimum.angle)
     rise = value - least
     return Rounding(
-        optimum=judge.told(optimum),
+        optimum=judge.weights(optimum),
         nearest=plain,
         objective_rise=rise,
         relative_rise=rise / least if least > 0.0 else None,

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from optimizer.formulation.counterweights import as_given, unbalance
+from optimizer.formulation.counterweights import mass_and_angle, unbalance
 from optimizer.formulation.formulate import responses, shape_facts
 from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import beside, laden
@@ -63,9 +63,9 @@ def columns_of(request: OptimizeRequest, best: Certified, multipliers: bool) -> 
     return columns, unbalance(mass, angle, stacked([web.radius_m for web in request.machine.webs]))
 
 
-def given(request: AnalyzeRequest, count: int) -> tuple[Columns, Complex]:
+def fixed_columns(request: AnalyzeRequest, count: int) -> tuple[Columns, Complex]:
     """Total mass, and the unbalance of the counterweights (count, webs) kg m."""
-    mass, angle = as_given(request.machine, request.counterweights)
+    mass, angle = mass_and_angle(request.machine, request.counterweights)
     radius = stacked([web.radius_m for web in request.machine.webs])
     shape = (count, radius.shape[-1])
     columns: Columns = {

@@ -11,22 +11,24 @@ from schemas.sweep.crank_orders import CrankOrders
 
 
 @lru_cache(maxsize=4)
-def orders(given: CrankOrders) -> Real:
+def orders(request: CrankOrders) -> Real:
     """Angles (N, throws) deg of the first of all orders that are one machine, in rising order."""
-    times = np.array(given.times)
-    if given.alike:
+    times = np.array(request.times)
+    if request.alike:
         # the first of them begins with the first angle
-        rest = arrangements(times - np.eye(times.size, dtype=np.int64)[0], int(np.sum(times)) - 1, given.looked_through)
+        rest = arrangements(
+            times - np.eye(times.size, dtype=np.int64)[0], int(np.sum(times)) - 1, request.sequence_count
+        )
         result = None if rest is None else np.concatenate([np.zeros((len(rest), 1), dtype=np.int64), rest], axis=1)
     else:
-        result = arrangements(times, int(np.sum(times)), given.looked_through)
+        result = arrangements(times, int(np.sum(times)), request.sequence_count)
     assert result is not None  # there are no more than are looked through
     own = _code(result, times.size)
-    for symmetry in given.symmetries:
+    for symmetry in request.symmetries:
         image = np.array(symmetry.image)[result]
         first = own <= _code(image[:, ::-1] if symmetry.reversed else image, times.size)
         result, own = result[first], own[first]
-    angles: Real = np.array(given.angles_deg)[result]
+    angles: Real = np.array(request.angles_deg)[result]
     return angles
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import pyarrow as pa
 
 from optimizer.errors import MissingInput
-from optimizer.formulation.formulate import given_ceilings
+from optimizer.formulation.formulate import objective_ceilings
 from optimizer.outputs.registry import missing_inputs
 from optimizer.outputs.requirements import missing
 from optimizer.studies.sweep.table import result_schema
@@ -131,7 +131,7 @@ def plan(request: SweepRequest) -> Plan:
 
 def _require_inputs(request: SweepRequest) -> None:
     """Refuse what no design can give: a field that is null in the base and that no axis fills."""
-    filled = with_fields(request.base, {target.path: 1.0 for target in request.targets} | dict(_nothing_asked(request)))
+    filled = with_fields(request.base, {target.path: 1.0 for target in request.targets} | dict(_idle_values(request)))
     problems: dict[Path, FieldProblem] = {}
     for path, message in missing_inputs(filled.machine, filled.outputs):
         problems.setdefault(path, FieldProblem(("base", *path), message))
@@ -142,7 +142,7 @@ def _require_inputs(request: SweepRequest) -> None:
         raise MissingInput(problems.values())
 
 
-def _nothing_asked(request: SweepRequest) -> Iterator[tuple[Path, float | None]]:
+def _idle_values(request: SweepRequest) -> Iterator[tuple[Path, float | None]]:
     """Fields that look at the whole turn, where an axis holds the value by which they ask for nothing."""
     # crank orders have targets without axes, and vary no objective
     for axis, target in zip(request.axes, request.targets, strict=False):
@@ -174,7 +174,7 @@ def _seconds_per_design(request: SweepRequest) -> float:
         seconds += _TURN_S + _CUTS_S * curves_over_turn(request)
     elif request.searched and isinstance(request.base, OptimizeRequest):
         seconds += min(_SEARCH_S, request.base.accuracy.time_limit_s)
-    elif request.one_by_one:
+    elif request.separate:
         seconds += _ALONE_S
     elif isinstance(request.base, OptimizeRequest):
         seconds += (_DISC_S if _plain_discs(request.base) else _PROGRAM_S) * max(len(request.base.machine.webs), 1)
@@ -186,4 +186,4 @@ def _plain_discs(request: OptimizeRequest) -> bool:
     limits them further."""
     machine, objective = request.machine, request.objective
     free = machine.max_total_mass_kg is None and all(web.sector is None for web in machine.webs)
-    return free and objective.combine == "sum" and not given_ceilings(objective)
+    return free and objective.combine == "sum" and not objective_ceilings(objective)

@@ -17,16 +17,16 @@ def multipliers_as_text(request: OptimizeRequest, best: Certified) -> np.ndarray
     """
     least_mass = request.objective.least_mass
     texts = np.full(best.omega_squared.shape, None, dtype=object)
-    limit = (best.found.mass_target * best.omega_squared).tolist()
+    limit = (best.optima.mass_target * best.omega_squared).tolist()
     implied = implied_max_mass(request.machine, best.program.limits.max_mass)
     proofs = named_proofs(
         best.program,
-        best.found,
-        physical_proofs(best.program, best.found, best.omega_squared),
+        best.optima,
+        physical_proofs(best.program, best.optima, best.omega_squared),
         best.omega_squared,
         least_mass,
     )
-    for n, (proof, unreachable) in enumerate(zip(proofs, best.found.unreachable, strict=True)):
+    for n, (proof, unreachable) in enumerate(zip(proofs, best.optima.unreachable, strict=True)):
         texts[n] = DesignMultipliers(
             objective=proof.objective,
             mass=proof.mass,

@@ -51,7 +51,7 @@ class _Collecting:
 
     def __init__(self, compared: Sequence[str], schema: pa.Schema, most: int | None) -> None:
         self._compared = tuple(compared)
-        self._kept: pa.Table = schema.empty_table()
+        self._best: pa.Table = schema.empty_table()
         self._fresh: list[pa.Table] = []
         self._waiting = 0
         self._most = most
@@ -67,15 +67,15 @@ class _Collecting:
             table = table.filter(pc.is_valid(table[name]))
         self._fresh.append(table)
         self._waiting += table.num_rows
-        if self._waiting >= max(_FEWEST, self._kept.num_rows):
+        if self._waiting >= max(_FEWEST, self._best.num_rows):
             self._compare()
 
     def _compare(self) -> None:
         if self._fresh:
             # copied, so that what is no longer wanted does not stay in memory with it
-            self._kept = self._chosen(pa.concat_tables([self._kept, *self._fresh])).combine_chunks()
+            self._best = self._chosen(pa.concat_tables([self._best, *self._fresh])).combine_chunks()
             self._fresh, self._waiting = [], 0
-        if self._most is not None and self._kept.num_rows > self._most:
+        if self._most is not None and self._best.num_rows > self._most:
             raise TooManyRows(f"more than {self._most} rows")
 
     def _chosen(self, table: pa.Table) -> pa.Table:
@@ -97,7 +97,7 @@ class Top(_Collecting):
     def table(self) -> pa.Table:
         """The rows kept, best first."""
         self._compare()
-        return self._kept
+        return self._best
 
 
 class ParetoFilter(_Collecting):
@@ -116,7 +116,7 @@ class ParetoFilter(_Collecting):
     def table(self) -> pa.Table:
         """The rows kept, in order of their index."""
         self._compare()
-        return self._kept.sort_by("index")
+        return self._best.sort_by("index")
 
 
 def reducer(

@@ -14,9 +14,9 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.registry import columns, input_rules
 from optimizer.outputs.requirements import missing
 from optimizer.program.reference.solver import Solver
-from optimizer.studies.sweep.counterweights import given, optimal, shape_keys
+from optimizer.studies.sweep.counterweights import fixed_columns, optimal, shape_keys
 from optimizer.studies.sweep.designs import axis_values
-from optimizer.studies.sweep.one_by_one import optimal_one_by_one
+from optimizer.studies.sweep.singles import single_optima
 from optimizer.studies.sweep.work import work_per_design
 from schemas.base.rules import Path, Rule, all_rules
 from schemas.base.target import pointer
@@ -44,9 +44,9 @@ class Rows:
         self._labels = {"index", *(pointer(target.path) for target in request.targets)}
         self._faults: dict[str, tuple[list[int], Exception]] = {}
 
-    def put(self, designs: Designs, found: dict[str, Any]) -> None:
+    def put(self, designs: Designs, columns: dict[str, Any]) -> None:
         """Columns of some designs; those that the result does not have are left out."""
-        for name, column in found.items():
+        for name, column in columns.items():
             if name in self.columns:
                 self.columns[name][designs] = column
 
@@ -119,7 +119,7 @@ class Group(Generic[Base]):
             contents[target.path] = None if np.isnan(chosen[0]) else chosen
         return with_fields(self._base, contents)
 
-    def one(self, design: int) -> Base:
+    def single(self, design: int) -> Base:
         """One design as a request of numbers."""
         contents: dict[Path, Any] = {}
         for target, column in zip(self._targets, self._values, strict=True):
@@ -136,8 +136,8 @@ def _fill(request: SweepRequest, values: Sequence[Real], table: Rows, solver: So
     """Fills rows of some designs that have the same fields null."""
     base = request.base
     if isinstance(base, AnalyzeRequest):
-        return partial(_fill_given, table, Group(request, base, values))
-    fill = _fill_one_by_one if request.one_by_one else _fill_optima
+        return partial(_fill_analyzed, table, Group(request, base, values))
+    fill = _fill_singles if request.separate else _fill_optima
     return partial(fill, table, solver, Group(request, base, values))
 
 
@@ -155,19 +155,19 @@ def _fill_or_fail(table: Rows, fill: Callable[[Designs], None], designs: Designs
             _fill_or_fail(table, fill, half)
 
 
-def _fill_given(table: Rows, group: Group[AnalyzeRequest], designs: Designs) -> None:
+def _fill_analyzed(table: Rows, group: Group[AnalyzeRequest], designs: Designs) -> None:
     """Rows of designs whose counterweights are given."""
     designs = _refuse(table, designs, all_rules(group.of(designs)))
     designs = _with_inputs(table, group, designs, set())
     if designs.size:
-        found, unbalance = given(on_webs(group.of(designs)), designs.size)
-        table.put(designs, found)
+        columns, unbalance = fixed_columns(on_webs(group.of(designs)), designs.size)
+        table.put(designs, columns)
         _fill_outputs(table, group, designs, unbalance)
 
 
 def _over_the_turn(group: Group[OptimizeRequest], designs: Designs) -> dict[int, OptimizeRequest]:
     """Those designs whose objective looks at the whole turn, each by itself."""
-    alone = ((design, group.one(design)) for design in (designs.tolist() if group.turns else ()))
+    alone = ((design, group.single(design)) for design in (designs.tolist() if group.turns else ()))
     return {design: one for design, one in alone if one.objective.over_the_turn}
 
 
@@ -186,20 +186,18 @@ def _fill_optima(table: Rows, solver: Solver, group: Group[OptimizeRequest], des
         return
     cut = np.isin(designs, list(turning))
     if np.any(cut):
-        found, unbalance = optimal_one_by_one(
-            [turning[int(design)] for design in designs[cut]], solver, group.multipliers
-        )
+        found, unbalance = single_optima([turning[int(design)] for design in designs[cut]], solver, group.multipliers)
         table.put(designs[cut], found)
         _fill_outputs(table, group, designs[cut], unbalance)
     if not np.all(cut):
         _fill_first_order(table, solver, group, designs[~cut])
 
 
-def _fill_one_by_one(table: Rows, solver: Solver, group: Group[OptimizeRequest], designs: Designs) -> None:
+def _fill_singles(table: Rows, solver: Solver, group: Group[OptimizeRequest], designs: Designs) -> None:
     """Rows of designs that are searched, cut from plates or alike: as single answers are."""
-    found: dict[int, Complex] = {}
+    unbalances: dict[int, Complex] = {}
     for design in designs.tolist():
-        alone, at = group.one(design), np.array([design])
+        alone, at = group.single(design), np.array([design])
         if not _refuse(table, at, all_rules(alone)).size:
             continue
         lacking = next(missing(alone.machine, alone.objective), None) if alone.objective.over_the_turn else None
@@ -208,14 +206,14 @@ def _fill_one_by_one(table: Rows, solver: Solver, group: Group[OptimizeRequest],
         if not _with_inputs(table, group, at, {design} if alone.objective.of_the_shaft else set()).size:
             continue
         try:
-            columns, unbalance = optimal_one_by_one([alone], solver, group.multipliers)
+            columns, unbalance = single_optima([alone], solver, group.multipliers)
         except OutOfRange as refusal:
             table.refuse(at, Rule(True, *refusal.problems[0]))
             continue
         table.put(at, columns)
-        found[design] = unbalance[0]
-    if found:
-        _fill_outputs(table, group, np.array(list(found)), np.array(list(found.values())))
+        unbalances[design] = unbalance[0]
+    if unbalances:
+        _fill_outputs(table, group, np.array(list(unbalances)), np.array(list(unbalances.values())))
 
 
 def _fill_first_order(table: Rows, solver: Solver, group: Group[OptimizeRequest], designs: Designs) -> None:

@@ -26,19 +26,21 @@ def alternatives(answer: OptimizeAnswer) -> Iterator[Chapter]:
     yield Chapter("Cheaper choices", (Paragraph(_WORDS), table("", _HEADS, rows)))
 
 
-def _row(one: Alternative, best: float) -> tuple[Cell | float | None, ...]:
-    above = one.objective / best - 1.0 if best > 0 else 0.0
-    counted, bound = one.minimised != "mass", one.lower_bound
+def _row(choice: Alternative, best: float) -> tuple[Cell | float | None, ...]:
+    above = choice.objective / best - 1.0 if best > 0 else 0.0
+    counted, bound = choice.minimised != "mass", choice.lower_bound
     return (
-        _LEAST[one.minimised],
-        _percent(one.allowance),
+        _LEAST[choice.minimised],
+        _percent(choice.allowance),
         _percent(above),
-        one.total_mass_kg,
-        Number(one.pieces, str(one.pieces)),
-        Number(one.sizes, str(one.sizes)),
+        choice.total_mass_kg,
+        Number(choice.pieces, str(choice.pieces)),
+        Number(choice.sizes, str(choice.sizes)),
         Number(bound, f"{bound:.0f}") if counted and bound is not None else bound,
         ", ".join(
-            f"{each.web}: {each.mass_kg:g} kg at {each.angle_deg:g}°" for each in one.counterweights if each.mass_kg
+            f"{weight.web}: {weight.mass_kg:g} kg at {weight.angle_deg:g}°"
+            for weight in choice.counterweights
+            if weight.mass_kg
         ),
     )
 

@@ -25,17 +25,17 @@ from service.tables.as_built import as_built
 
 #: chapters of the outputs, in the order in which they stand
 CHAPTERS: Mapping[str, Callable[[Machine, Any], Chapter]] = {
-    "orders": lambda _machine, found: orders(found),
-    "foundation_loads": lambda _machine, found: foundation_loads(found),
-    "hodograph": lambda _machine, found: balance.hodograph(found),
-    "internal_moment": lambda _machine, found: Chapter(
+    "orders": lambda _machine, output: orders(output),
+    "foundation_loads": lambda _machine, output: foundation_loads(output),
+    "hodograph": lambda _machine, output: balance.hodograph(output),
+    "internal_moment": lambda _machine, output: Chapter(
         "Moment inside the shaft",
         (
             facts(
                 "",
                 [
-                    ("largest first-order moment without counterweights, N m", found.before_Nm),
-                    ("with counterweights, N m", found.after_Nm),
+                    ("largest first-order moment without counterweights, N m", output.before_Nm),
+                    ("with counterweights, N m", output.after_Nm),
                 ],
             ),
         ),
@@ -43,7 +43,7 @@ CHAPTERS: Mapping[str, Callable[[Machine, Any], Chapter]] = {
     **OVER_THE_TURN,
     "loads": loads,
     "roll": roll,
-    "pin_loads": lambda _machine, found: pin_loads(found),
+    "pin_loads": lambda _machine, output: pin_loads(output),
 }
 
 

@@ -141,10 +141,10 @@ def _as_built(plan: Layout) -> str:
     return " As built: dashed, without a ground." if plan.built else ""
 
 
-def stages(machine: Machine, found: Sequence[Stage] | None, missing: Sequence[FieldProblem]) -> Chapter:
+def stages(machine: Machine, results: Sequence[Stage] | None, missing: Sequence[FieldProblem]) -> Chapter:
     """The eight balancing stages, or what the machine lacks for them."""
     title = "The eight balancing stages"
-    if found is None:
+    if results is None:
         fields = "; ".join(f"{pointer(path)}: {message}" for path, message in missing[:5])
         return Chapter(title, (Paragraph(f"Not computed, because the machine does not give what they need. {fields}"),))
     values = table(
@@ -152,43 +152,43 @@ def stages(machine: Machine, found: Sequence[Stage] | None, missing: Sequence[Fi
         ["stage", "<subject", "#value", "#remaining", "unit", "can be balanced"],
         [
             (
-                one.stage,
-                one.title,
-                one.value,
-                settled(one.remaining, one.value or 0.0),
-                one.unit,
-                _VERDICT[one.balanceable],
+                stage.stage,
+                stage.title,
+                stage.value,
+                settled(stage.remaining, stage.value or 0.0),
+                stage.unit,
+                _VERDICT[stage.balanceable],
             )
-            for one in found
+            for stage in results
         ],
     )
     where = table(
         "Direction and frequency",
         ["stage", "<plane", "frequency"],
-        [(one.stage, one.plane, one.frequency) for one in found],
+        [(stage.stage, stage.plane, stage.frequency) for stage in results],
     )
     formulas = table(
         "Formulas, with d the angle of a crank, g that of a row axis, and sums over all masses",
         ["stage", "<quantity", "<formula"],
-        [(one.stage, one.quantity, formula(one.formula)) for one in found],
+        [(stage.stage, stage.quantity, formula(stage.formula)) for stage in results],
     )
     drawn = Figure(
-        (stage_scheme(machine, found),),
+        (stage_scheme(machine, results),),
         "Scheme of the stages, from the front at shaft angle 0, each with a scale of its own: cranks black, row axes "
         "dash-dotted, forces orange and dashed without counterweights, blue what they leave. What turns is a circle "
         "with an arrow, what keeps its direction a line; of a moment the line is the trace of its plane.",
     )
-    return Chapter(title, (drawn, values, where, formulas, *_rules(found), Paragraph(_SOURCES)))
+    return Chapter(title, (drawn, values, where, formulas, *_rules(results), Paragraph(_SOURCES)))
 
 
-def _rules(found: Sequence[Stage]) -> Iterator[Block]:
+def _rules(results: Sequence[Stage]) -> Iterator[Block]:
     rows = [
         (
-            one.stage, rule.name, rule.transferred_share, rule.total_mass_radius_kg_m, rule.peak, one.unit,
+            stage.stage, rule.name, rule.transferred_share, rule.total_mass_radius_kg_m, rule.peak, stage.unit,
             rule.source,
         )
-        for one in found
-        for rule in one.rules_of_thumb
+        for stage in results
+        for rule in stage.rules_of_thumb
     ]  # fmt: skip
     if rows:
         heads = [
@@ -324,14 +324,14 @@ def first_order(
     )
 
 
-def hodograph(found: Hodographs) -> Chapter:
+def hodograph(output: Hodographs) -> Chapter:
     """Between which values force and moment run over the turn; the answer itself holds every sample."""
     rows = [
         (name, settled(min(force), max(force)), max(force), settled(min(moment), max(moment)), max(moment))
-        for name, one in (("without counterweights", found.before), ("with counterweights", found.after))
-        if one is not None
-        for force in [list(map(math.hypot, one.force_x_N, one.force_y_N))]
-        for moment in [list(map(math.hypot, one.moment_x_Nm, one.moment_y_Nm))]
+        for name, curve in (("without counterweights", output.before), ("with counterweights", output.after))
+        if curve is not None
+        for force in [list(map(math.hypot, curve.force_x_N, curve.force_y_N))]
+        for moment in [list(map(math.hypot, curve.moment_x_Nm, curve.moment_y_Nm))]
     ]
     heads = ["", "#smallest force, N", "#largest force, N", "#smallest moment, N m", "#largest moment, N m"]
-    return Chapter("Hodograph", (table(f"Over {len(found.angle_deg)} shaft angles", heads, rows),))
+    return Chapter("Hodograph", (table(f"Over {len(output.angle_deg)} shaft angles", heads, rows),))

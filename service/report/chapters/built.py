@@ -29,10 +29,10 @@ def as_fitted(built: AsBuilt) -> Iterator[Block]:
     yield Paragraph(_words(built.tolerance))
 
 
-def _cells(one: Pair, cells: Sequence[Cell]) -> Iterator[str | Number | float | None]:
+def _cells(pair: Pair, cells: Sequence[Cell]) -> Iterator[str | Number | float | None]:
     """Under the headings of the table; a tolerance to two digits, as nobody measures more."""
-    place = one.built or one.optimum
-    yield one.web
+    place = pair.built or pair.optimum
+    yield pair.web
     yield from (None, None) if place is None else (place.position_m, place.radius_m)
     for head, cell in zip(HEADS[1:], cells[1:], strict=True):
         value = cell if isinstance(cell, float) else None

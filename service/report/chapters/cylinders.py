@@ -8,7 +8,7 @@ from service.report.blocks import Block, table
 _ACTING = {"double": "both sides", "head": "head side", "crank": "crank side", None: "sides with gas data"}
 
 
-def cylinders(given: list[tuple[str, Cylinder]]) -> Iterator[Block]:
+def cylinders(named: list[tuple[str, Cylinder]]) -> Iterator[Block]:
     """Tables of cylinders by the names that they are told by."""
     yield table(
         "Cylinders",
@@ -18,16 +18,16 @@ def cylinders(given: list[tuple[str, Cylinder]]) -> Iterator[Block]:
         ],
         [
             (
-                name, _ACTING[one.acting], one.bore_m, one.piston_rod_diameter_m, one.head_area_m2, one.crank_area_m2,
-                one.ambient_pressure_Pa,
+                name, _ACTING[cylinder.acting], cylinder.bore_m, cylinder.piston_rod_diameter_m, cylinder.head_area_m2,
+                cylinder.crank_area_m2, cylinder.ambient_pressure_Pa,
             )
-            for name, one in given
+            for name, cylinder in named
         ],
     )  # fmt: skip
     states = [
         (name, side, state)
-        for name, one in given
-        for side, state in (("both", one), ("head", one.head), ("crank", one.crank))
+        for name, cylinder in named
+        for side, state in (("both", cylinder), ("head", cylinder.head), ("crank", cylinder.crank))
         if state is not None
     ]
     gas = [
@@ -38,17 +38,17 @@ def cylinders(given: list[tuple[str, Cylinder]]) -> Iterator[Block]:
         for name, side, state in states
     ]  # fmt: skip
     # what is indicated needs none of it
-    known = [row for row in gas if any(value is not None for value in row[2:])]
-    if known:
+    stated = [row for row in gas if any(value is not None for value in row[2:])]
+    if stated:
         heads = [
             "row", "side", "#suction, Pa", "#discharge, Pa", "#relative clearance", "#expansion exponent",
             "#compression exponent",
         ]  # fmt: skip
-        yield table("Gas", heads, known)
-    yield from _pressures(given)
+        yield table("Gas", heads, stated)
+    yield from _pressures(named)
 
 
-def _pressures(given: list[tuple[str, Cylinder]]) -> Iterator[Block]:
+def _pressures(named: list[tuple[str, Cylinder]]) -> Iterator[Block]:
     """Indicated pressures: how many entries, over how many turns, from where to where."""
     rows = [
         (
@@ -56,8 +56,8 @@ def _pressures(given: list[tuple[str, Cylinder]]) -> Iterator[Block]:
             "the first" if indicated.dead_centre_deg is None else indicated.dead_centre_deg,
             len(trace.angle_deg), min(trace.pressure_Pa), max(trace.pressure_Pa),
         )
-        for name, one in given
-        if (indicated := one.pressure) is not None
+        for name, cylinder in named
+        if (indicated := cylinder.pressure) is not None
         for side, trace in (("head", indicated.head), ("crank", indicated.crank))
         if trace is not None
     ]  # fmt: skip

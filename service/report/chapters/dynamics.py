@@ -63,10 +63,10 @@ def _lines(machine: Machine, rows: Sequence[Row], values: Callable[[Row], Sequen
     return [Line(row_name(machine, row.throw, row.row), values(row)) for row in rows]
 
 
-def _kinematics(machine: Machine, found: Kinematics) -> Chapter:
+def _kinematics(machine: Machine, motion: Kinematics) -> Chapter:
     parts = [
         (f"{row_name(machine, row.throw, row.row)}: {quantity}", values)
-        for row in found.rows
+        for row in motion.rows
         for quantity, values in (
             ("displacement, m", row.displacement_m),
             ("velocity, m/s", row.velocity_m_s),
@@ -74,15 +74,15 @@ def _kinematics(machine: Machine, found: Kinematics) -> Chapter:
         )
     ]
     series: tuple[tuple[str, str, list[Line]], ...] = (
-        ("displacement from outer dead centre", "m", _lines(machine, found.rows, lambda row: row.displacement_m)),
-        ("velocity towards the shaft", "m/s", _lines(machine, found.rows, lambda row: row.velocity_m_s)),
-        ("acceleration towards the shaft", "m/s²", _lines(machine, found.rows, lambda row: row.acceleration_m_s2)),
+        ("displacement from outer dead centre", "m", _lines(machine, motion.rows, lambda row: row.displacement_m)),
+        ("velocity towards the shaft", "m/s", _lines(machine, motion.rows, lambda row: row.velocity_m_s)),
+        ("acceleration towards the shaft", "m/s²", _lines(machine, motion.rows, lambda row: row.acceleration_m_s2)),
     )
-    figures = [figure(title, unit, found.angle_deg, lines, f"{title.capitalize()}.") for title, unit, lines in series]
-    return Chapter("Motion", (extremes(_EXTREMES, found.angle_deg, parts), *figures))
+    figures = [figure(title, unit, motion.angle_deg, lines, f"{title.capitalize()}.") for title, unit, lines in series]
+    return Chapter("Motion", (extremes(_EXTREMES, motion.angle_deg, parts), *figures))
 
 
-def _gas(machine: Machine, found: Gas) -> Chapter:
+def _gas(machine: Machine, gas: Gas) -> Chapter:
     chambers = [
         (
             row_name(machine, row.throw, row.row),
@@ -93,23 +93,23 @@ def _gas(machine: Machine, found: Gas) -> Chapter:
             chamber.discharge_opens_deg,
             chamber.indicated_work_J,
         )
-        for row in found.rows
+        for row in gas.rows
         for chamber in row.chambers
     ]
     pressures = [
         Line(f"{row_name(machine, row.throw, row.row)} {chamber_name(row, chamber)}", chamber.pressure_Pa)
-        for row in found.rows
+        for row in gas.rows
         for chamber in row.chambers
     ]
-    powers = [(row_name(machine, row.throw, row.row), row.indicated_power_W) for row in found.rows]
-    forces = _lines(machine, found.rows, lambda row: row.force_N)
+    powers = [(row_name(machine, row.throw, row.row), row.indicated_power_W) for row in gas.rows]
+    forces = _lines(machine, gas.rows, lambda row: row.force_N)
     heads = [
         "row", "side", "#lowest, Pa", "#highest, Pa", "#suction opens, deg", "#discharge opens, deg",
         "#indicated work per revolution, J",
     ]  # fmt: skip
     words = "Indicator diagrams: absolute pressure over the travel of the piston."
-    if len(found.rows) > MAX_ROWS:
-        words += f" Drawn are the first {MAX_ROWS} of {len(found.rows)} rows."
+    if len(gas.rows) > MAX_ROWS:
+        words += f" Drawn are the first {MAX_ROWS} of {len(gas.rows)} rows."
     return Chapter(
         "Gas",
         (
@@ -117,25 +117,25 @@ def _gas(machine: Machine, found: Gas) -> Chapter:
             table(
                 "Indicated power",
                 ["row", "#indicated power, W"],
-                [*powers, ("machine", found.indicated_power_W)],
+                [*powers, ("machine", gas.indicated_power_W)],
             ),
-            extremes("Gas force on the piston, N", found.angle_deg, forces),
-            *(Figure((one,), words if k == 0 else "") for k, one in enumerate(indicators(machine, found))),
-            figure("pressure", "Pa", found.angle_deg, pressures, "Absolute pressure in the chambers."),
-            figure("gas force", "N", found.angle_deg, forces, f"Gas force on the pistons. {_SIGNS}", tabled=True),
+            extremes("Gas force on the piston, N", gas.angle_deg, forces),
+            *(Figure((drawing,), words if k == 0 else "") for k, drawing in enumerate(indicators(machine, gas))),
+            figure("pressure", "Pa", gas.angle_deg, pressures, "Absolute pressure in the chambers."),
+            figure("gas force", "N", gas.angle_deg, forces, f"Gas force on the pistons. {_SIGNS}", tabled=True),
         ),
     )
 
 
-def _piston_force(machine: Machine, found: PistonForce) -> Chapter:
-    named = [(row_name(machine, row.throw, row.row), _parts(row)) for row in found.rows]
+def _piston_force(machine: Machine, forces: PistonForce) -> Chapter:
+    named = [(row_name(machine, row.throw, row.row), _parts(row)) for row in forces.rows]
     series = [(f"{name}: {part.name}", part.values) for name, parts in named for part in parts]
-    total = _lines(machine, found.rows, lambda row: row.total_N)
+    total = _lines(machine, forces.rows, lambda row: row.total_N)
     words = f"Sum of gas, inertia and friction. {_SIGNS}"
-    figures = [figure("piston force", "N", found.angle_deg, total, words, tabled=True)]
+    figures = [figure("piston force", "N", forces.angle_deg, total, words, tabled=True)]
     for name, parts in named if len(named) <= _MAX_APART else ():
-        figures.append(figure(f"row {name}", "N", found.angle_deg, parts, f"Forces on the piston of row {name}."))
-    return Chapter("Piston forces", (extremes(f"{_EXTREMES}, N", found.angle_deg, series), *figures))
+        figures.append(figure(f"row {name}", "N", forces.angle_deg, parts, f"Forces on the piston of row {name}."))
+    return Chapter("Piston forces", (extremes(f"{_EXTREMES}, N", forces.angle_deg, series), *figures))
 
 
 def _parts(row: RowPistonForce) -> list[Line]:
@@ -147,8 +147,8 @@ def _parts(row: RowPistonForce) -> list[Line]:
     ]
 
 
-def _rod_loads(machine: Machine, found: RodLoads) -> Chapter:
-    dry = {(row.throw, row.row) for row in found.rows if not _has_gas(machine, row.throw, row.row)}
+def _rod_loads(machine: Machine, loads: RodLoads) -> Chapter:
+    dry = {(row.throw, row.row) for row in loads.rows if not _has_gas(machine, row.throw, row.row)}
     cases = [
         (
             row_name(machine, row.throw, row.row),
@@ -160,36 +160,36 @@ def _rod_loads(machine: Machine, found: RodLoads) -> Chapter:
             case.compression_N,
             case.compression_deg,
         )
-        for row in found.rows
+        for row in loads.rows
         for case in row.cases
         # without gas there is one case: what turns and moves to and fro
         if (row.throw, row.row) not in dry or case.case == "running"
     ]
     # of inertia alone the largest forces tell all: the curves are cosines and their products
-    inertia = len(dry) == len(found.rows)
+    inertia = len(dry) == len(loads.rows)
     others = [
         (f"{row_name(machine, row.throw, row.row)}: {quantity}", values)
-        for row in found.rows
+        for row in loads.rows
         for quantity, values in (("side", row.side_N), ("tangential", row.tangential_N), ("radial", row.radial_N))
         if quantity == "side" or not inertia
     ]
     heads = ["row", "load case", "#tension, N", "#at, deg", "#compression, N", "#at, deg"]
     series: tuple[tuple[str, str, list[Line]], ...] = (
-        ("rod force", "Force in the connecting rods.", _lines(machine, found.rows, lambda row: row.rod_N)),
-        ("side force", "Force on the crosshead guides.", _lines(machine, found.rows, lambda row: row.side_N)),
+        ("rod force", "Force in the connecting rods.", _lines(machine, loads.rows, lambda row: row.rod_N)),
+        ("side force", "Force on the crosshead guides.", _lines(machine, loads.rows, lambda row: row.side_N)),
         ("tangential force", "Tangential force on the crank pins.",
-         _lines(machine, found.rows, lambda row: row.tangential_N)),
-        ("radial force", "Radial force on the crank pins.", _lines(machine, found.rows, lambda row: row.radial_N)),
+         _lines(machine, loads.rows, lambda row: row.tangential_N)),
+        ("radial force", "Radial force on the crank pins.", _lines(machine, loads.rows, lambda row: row.radial_N)),
     )  # fmt: skip
     return Chapter(
         "Rod loads",
         (
             *((Paragraph(_DRY, "warning"),) if dry else ()),
-            facts("", [("largest rod force of the machine, N", found.governing_load_N)]),
+            facts("", [("largest rod force of the machine, N", loads.governing_load_N)]),
             table("Rod force by load case", heads, cases),
-            extremes(f"Forces on guide{'' if inertia else ' and crank pin'}, N", found.angle_deg, others),
+            extremes(f"Forces on guide{'' if inertia else ' and crank pin'}, N", loads.angle_deg, others),
             *(
-                figure(title, "N", found.angle_deg, lines, f"{caption} {_SIGNS}")
+                figure(title, "N", loads.angle_deg, lines, f"{caption} {_SIGNS}")
                 for title, caption, lines in (() if inertia else series)
             ),
         ),
@@ -202,24 +202,24 @@ def _has_gas(machine: Machine, throw: int, row: int) -> bool:
     return place is not None and (place.cylinder is not None or bool(place.cylinders))
 
 
-def _torque(machine: Machine, found: Torque) -> Chapter:
-    rows = [(row_name(machine, row.throw, row.row), row.mean_torque_Nm) for row in found.rows]
-    by_row = _lines(machine, found.rows, lambda row: row.torque_Nm)
-    total = Line("machine", found.torque_Nm)
-    mean = Line("mean", [found.mean_torque_Nm] * len(found.angle_deg))
-    tangential = [] if found.tangential_N is None else [Line("tangential force, N", found.tangential_N)]
+def _torque(machine: Machine, torque: Torque) -> Chapter:
+    rows = [(row_name(machine, row.throw, row.row), row.mean_torque_Nm) for row in torque.rows]
+    by_row = _lines(machine, torque.rows, lambda row: row.torque_Nm)
+    total = Line("machine", torque.torque_Nm)
+    mean = Line("mean", [torque.mean_torque_Nm] * len(torque.angle_deg))
+    tangential = [] if torque.tangential_N is None else [Line("tangential force, N", torque.tangential_N)]
     # inertia alone gives and takes: without gas and friction there is no mean, and no power
-    driven = any(mean for _, mean in rows) or bool(found.rotating_friction_Nm or found.friction_power_W)
+    driven = any(mean for _, mean in rows) or bool(torque.rotating_friction_Nm or torque.friction_power_W)
     means = [
-        ("mean torque, N m", found.mean_torque_Nm),
-        ("estimate of its error, N m", found.mean_torque_error_Nm),
-        ("rotating friction, N m", found.rotating_friction_Nm),
-        ("indicated power, W", found.indicated_power_W),
-        ("friction power, W", found.friction_power_W),
-        ("shaft power, W", found.shaft_power_W),
+        ("mean torque, N m", torque.mean_torque_Nm),
+        ("estimate of its error, N m", torque.mean_torque_error_Nm),
+        ("rotating friction, N m", torque.rotating_friction_Nm),
+        ("indicated power, W", torque.indicated_power_W),
+        ("friction power, W", torque.friction_power_W),
+        ("shaft power, W", torque.shaft_power_W),
     ]
     lines = [total, mean, *(by_row if len(by_row) <= MAX_LINES - 2 else ())]
-    drawn = figure("torque", "N m", found.angle_deg, lines, f"Torque of the shaft. {_SIGNS}")
+    drawn = figure("torque", "N m", torque.angle_deg, lines, f"Torque of the shaft. {_SIGNS}")
     return Chapter(
         "Torque",
         (
@@ -228,82 +228,82 @@ def _torque(machine: Machine, found: Torque) -> Chapter:
                 "",
                 [
                     *(means if driven else ()),
-                    ("largest torque over the cycle, N m", found.peak_Nm),
-                    ("fluctuation energy ΔE, J", found.fluctuation_energy_J),
-                    *([("estimate of its error, J", found.fluctuation_energy_error_J)] if driven else ()),
+                    ("largest torque over the cycle, N m", torque.peak_Nm),
+                    ("fluctuation energy ΔE, J", torque.fluctuation_energy_J),
+                    *([("estimate of its error, J", torque.fluctuation_energy_error_J)] if driven else ()),
                 ],
             ),
             *((table("Mean torque of the rows", ["row", "#mean torque, N m"], rows),) if driven else ()),
-            extremes(f"{_EXTREMES}: torque of rows and machine, N m", found.angle_deg, [*by_row, total, *tangential]),
-            replace(drawn, samples=Samples("torque", "N m", found.angle_deg, [*by_row, total, *tangential])),
+            extremes(f"{_EXTREMES}: torque of rows and machine, N m", torque.angle_deg, [*by_row, total, *tangential]),
+            replace(drawn, samples=Samples("torque", "N m", torque.angle_deg, [*by_row, total, *tangential])),
         ),
     )
 
 
-def _flywheel(_machine: Machine, found: Flywheel) -> Chapter:
+def _flywheel(_machine: Machine, flywheel: Flywheel) -> Chapter:
     rows: list[tuple[str, float | str]] = [
-        ("fluctuation energy ΔE, J", found.fluctuation_energy_J),
-        ("irregularity δ", found.irregularity),
-        ("polar moment of inertia J of all that turns, kg m2", found.inertia_J_kg_m2),
-        ("MD2 = 4 J, kg m2", found.inertia_MD2_kg_m2),
+        ("fluctuation energy ΔE, J", flywheel.fluctuation_energy_J),
+        ("irregularity δ", flywheel.irregularity),
+        ("polar moment of inertia J of all that turns, kg m2", flywheel.inertia_J_kg_m2),
+        ("MD2 = 4 J, kg m2", flywheel.inertia_MD2_kg_m2),
     ]
     return Chapter("Flywheel", (Equation(formula("J = ΔE/(omega^2 delta)")), facts("", rows)))
 
 
-def _overturning(machine: Machine, found: Overturning) -> Chapter:
-    rows = _lines(machine, found.rows, lambda row: row.couple_Nm)
-    lines = [Line("machine", found.couple_Nm), *(rows if 1 < len(rows) < MAX_LINES else ())]
+def _overturning(machine: Machine, couple: Overturning) -> Chapter:
+    rows = _lines(machine, couple.rows, lambda row: row.couple_Nm)
+    lines = [Line("machine", couple.couple_Nm), *(rows if 1 < len(rows) < MAX_LINES else ())]
     words = "Side forces of the crossheads turn the frame with the rotation; the couple equals the torque of the rows."
     return Chapter(
         "Overturning couple",
         (
             Paragraph(words),
-            facts("", [("largest couple over the cycle, N m", found.peak_Nm)]),
-            extremes(f"{_EXTREMES}, N m", found.angle_deg, [*rows, Line("machine", found.couple_Nm)]),
-            figure("overturning couple", "N m", found.angle_deg, lines, "Overturning couple on the frame."),
+            facts("", [("largest couple over the cycle, N m", couple.peak_Nm)]),
+            extremes(f"{_EXTREMES}, N m", couple.angle_deg, [*rows, Line("machine", couple.couple_Nm)]),
+            figure("overturning couple", "N m", couple.angle_deg, lines, "Overturning couple on the frame."),
         ),
     )
 
 
-def _main_bearings(machine: Machine, found: MainBearings) -> Chapter:
+def _main_bearings(machine: Machine, loads: MainBearings) -> Chapter:
     rows = [
         (
-            one.name,
-            one.position_m,
-            one.before.peak_N,
-            angle(one.before.peak_angle_deg),
-            one.after.peak_N if one.after else None,
-            angle(one.after.peak_angle_deg if one.after else None),
+            bearing.name,
+            bearing.position_m,
+            bearing.before.peak_N,
+            angle(bearing.before.peak_angle_deg),
+            bearing.after.peak_N if bearing.after else None,
+            angle(bearing.after.peak_angle_deg if bearing.after else None),
         )
-        for one in found.bearings
+        for bearing in loads.bearings
     ]
     heads = [
         "bearing", "#plane z, m", "#peak without counterweights, N", "#at, deg", "#peak with counterweights, N",
         "#at, deg",
     ]  # fmt: skip
     smooth = [
-        (one.name, one.before.rms_N, one.after.rms_N if one.after else None, one.before.floor_N)
-        for one in found.bearings
+        (bearing.name, bearing.before.rms_N, bearing.after.rms_N if bearing.after else None, bearing.before.floor_N)
+        for bearing in loads.bearings
     ]
     smooth_heads = ["bearing", "#rms without, N", "#rms with, N", "#floor of the peak, N"]
     shaft = {"simple_spans": "every span simply supported", "continuous": "a continuous shaft on rigid bearings"}
-    lines = [Line(f"{one.name}", _magnitude(one.after or one.before)) for one in found.bearings]
-    which = "with counterweights" if any(one.after for one in found.bearings) else "without counterweights"
-    bending = [Line("without counterweights", found.bending.before_Nm)]
-    if found.bending.after_Nm is not None:
-        bending.append(Line("with counterweights", found.bending.after_Nm))
-    planes = found.bending.position_m
+    lines = [Line(f"{bearing.name}", _magnitude(bearing.after or bearing.before)) for bearing in loads.bearings]
+    which = "with counterweights" if any(bearing.after for bearing in loads.bearings) else "without counterweights"
+    bending = [Line("without counterweights", loads.bending.before_Nm)]
+    if loads.bending.after_Nm is not None:
+        bending.append(Line("with counterweights", loads.bending.after_Nm))
+    planes = loads.bending.position_m
     largest = [(line.name, *max(zip(line.values, planes, strict=True), key=itemgetter(0))) for line in bending]
-    drawn = chart("bending moment", "N m", "plane along the shaft z, m", found.bending.position_m, bending)
+    drawn = chart("bending moment", "N m", "plane along the shaft z, m", loads.bending.position_m, bending)
     blocks: list[Block] = [
-        Paragraph(f"Taken as {shaft[found.shaft]}; loads from rows, rotating masses and counterweights."),
+        Paragraph(f"Taken as {shaft[loads.shaft]}; loads from rows, rotating masses and counterweights."),
         table("Peaks over the cycle", heads, rows),
         table("Root mean square, and what counterweights cannot go below", smooth_heads, smooth),
         table("Largest bending moment", ["", "#moment, N m", "#in the plane z, m"], largest),
-        figure("bearing load", "N", found.angle_deg, lines, f"Magnitude of the load of the main bearings, {which}."),
+        figure("bearing load", "N", loads.angle_deg, lines, f"Magnitude of the load of the main bearings, {which}."),
         Figure((drawn,), "Largest bending moment inside the shaft over the cycle, plane by plane."),
     ]
-    blocks += bearing_loci(machine, found)
+    blocks += bearing_loci(machine, loads)
     return Chapter("Main bearings", tuple(blocks))
 
 

@@ -18,24 +18,24 @@ _SHORT = {"without counterweights": "before", "with counterweights": "after"}
 Row = tuple[int, str, tuple[tuple[float, float] | None, ...]]
 
 
-def foundation_loads(found: Sequence[OrderOfFoundation]) -> Chapter:
+def foundation_loads(loads: Sequence[OrderOfFoundation]) -> Chapter:
     """A table of forces and one of couples; loads that are small or nothing are named in a sentence."""
     words = (
         "The load is A cos(k psi - phase): k the order, psi the angle of the shaft in its sense of rotation since the "
-        f"outer dead centre of throw 1, first row (shaft angle {found[0].dead_centre_deg:g} deg). Forces act on the "
+        f"outer dead centre of throw 1, first row (shaft angle {loads[0].dead_centre_deg:g} deg). Forces act on the "
         "frame. Couples are sums of force times distance from the reference plane. As in API 618 that of the x forces "
         "is the horizontal couple, which turns about y, and that of the y forces the vertical one, which turns about x."
     )
-    forces, couples = _tables(found, _FORCES, "Forces", "N"), _tables(found, _COUPLES, "Couples", "N m")
+    forces, couples = _tables(loads, _FORCES, "Forces", "N"), _tables(loads, _COUPLES, "Couples", "N m")
     return Chapter("Loads on the foundation", (*forces, *couples, Paragraph(words)))
 
 
-def _tables(found: Sequence[OrderOfFoundation], names: Mapping[str, str], kind: str, unit: str) -> Iterator[Block]:
+def _tables(loads: Sequence[OrderOfFoundation], names: Mapping[str, str], kind: str, unit: str) -> Iterator[Block]:
     """The loads of one kind, and a sentence on those that are left out."""
-    shown = sets(found)
+    shown = sets(loads)
     rows: list[Row] = [
-        (one.order, words, tuple(oscillation(getattr(one, each), name) for each in shown))
-        for one in found
+        (order.order, words, tuple(oscillation(getattr(order, when), name) for when in shown))
+        for order in loads
         for name, words in names.items()
     ]
     largest = max(map(_largest, rows))

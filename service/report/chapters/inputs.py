@@ -17,7 +17,7 @@ from service.common.figures import digits
 from service.report.blocks import Block, Cell, Chapter, Paragraph, Table, facts, table
 from service.report.chapters.cylinders import cylinders
 from service.report.chapters.objective import objective
-from service.report.chapters.worst_case import asked
+from service.report.chapters.worst_case import stated_cases
 
 
 def inputs(request: OptimizeRequest, reference_plane_m: float) -> Chapter:
@@ -37,7 +37,7 @@ def inputs(request: OptimizeRequest, reference_plane_m: float) -> Chapter:
         *_groups(machine),
         *_balance_shafts(machine),
         objective(request),
-        *asked(request),
+        *stated_cases(request),
     ]
     return Chapter("Inputs", tuple(blocks))
 

@@ -10,13 +10,13 @@ from service.report.chapters.inputs import row_name
 from service.report.charts import Line
 
 
-def loads(machine: Machine, found: Loads) -> Chapter:
+def loads(machine: Machine, output: Loads) -> Chapter:
     """Rods, pins, covers, frame, guides, base and bearings."""
-    return Chapter("Loads of parts and base", tuple(_blocks(machine, found)))
+    return Chapter("Loads of parts and base", tuple(_blocks(machine, output)))
 
 
-def _blocks(machine: Machine, found: Loads) -> Iterator[Block]:
-    named = [(row_name(machine, row.throw, row.row), row) for row in found.rows]
+def _blocks(machine: Machine, output: Loads) -> Iterator[Block]:
+    named = [(row_name(machine, row.throw, row.row), row) for row in output.rows]
     heads = ["row", "#reciprocating, kg", "#turning, kg", "#of the rod, kg"]
     masses = [(name, row.reciprocating_mass_kg, row.rotating_mass_kg, row.rod_rotating_mass_kg) for name, row in named]
     yield table("Masses", heads, masses)
@@ -52,7 +52,7 @@ def _blocks(machine: Machine, found: Loads) -> Iterator[Block]:
         yield table("Covers and their bolts", ["row", "#cylinder", "end", "#largest, N", "#smallest, N"], covers)
     heads = ["row", "#tension, N", "#compression, N", "#mean, N", "#amplitude, N"]
     frames = [(name, row.frame) for name, row in named]
-    rows = [(name, one.tension_N, one.compression_N, one.mean_N, one.amplitude_N) for name, one in frames]
+    rows = [(name, frame.tension_N, frame.compression_N, frame.mean_N, frame.amplitude_N) for name, frame in frames]
     yield table("Frame and frame bolts, alternating", heads, rows)
     guides = [
         (name, row.guide.weight_N, row.guide.largest_N, row.guide.smallest_N, 100.0 * row.guide.lifted_share)
@@ -65,15 +65,15 @@ def _blocks(machine: Machine, found: Loads) -> Iterator[Block]:
     yield facts(
         "Base",
         [
-            ("mean torque, that of the driver, N m", found.driver_Nm),
-            ("largest torque on a base of the machine's own, N m", found.own_base_peak_Nm),
-            ("largest on a base shared with the driver, N m", found.shared_base_peak_Nm),
-            ("weight of the machine on its foundation, N", found.foundation_weight_N),
+            ("mean torque, that of the driver, N m", output.driver_Nm),
+            ("largest torque on a base of the machine's own, N m", output.own_base_peak_Nm),
+            ("largest on a base shared with the driver, N m", output.shared_base_peak_Nm),
+            ("weight of the machine on its foundation, N", output.foundation_weight_N),
         ],
     )
-    if found.bearing_weights:
-        weights = [(one.name, one.weight_N, one.x_N, one.y_N) for one in found.bearing_weights]
+    if output.bearing_weights:
+        weights = [(bearing.name, bearing.weight_N, bearing.x_N, bearing.y_N) for bearing in output.bearing_weights]
         yield table("Weight on the main bearings", ["bearing", "#weight, N", "#along x, N", "#along y, N"], weights)
-    lines = [Line("torque less its mean", found.shared_base_Nm)]
+    lines = [Line("torque less its mean", output.shared_base_Nm)]
     caption = "What leaves a base that machine and driver share; by Newton also the torque of the turning masses."
-    yield figure("torque on a shared base", "N m", found.angle_deg, lines, caption)
+    yield figure("torque on a shared base", "N m", output.angle_deg, lines, caption)

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 
-from optimizer.formulation.formulate import given_ceilings, weights
+from optimizer.formulation.formulate import objective_ceilings, weights
 from schemas.base.responses import ResponseFields, counted
 from schemas.base.titles import field_title
 from schemas.request.objective import Objective, Priority
@@ -23,8 +23,8 @@ _OVER_THE_TURN = {
 }
 
 
-def _told(value: float | str | tuple[Priority, ...]) -> float | str:
-    return ", ".join(each.goal for each in value) if isinstance(value, tuple) else value
+def _text(value: float | str | tuple[Priority, ...]) -> float | str:
+    return ", ".join(priority.goal for priority in value) if isinstance(value, tuple) else value
 
 
 def _per(unit: str) -> str:
@@ -65,11 +65,11 @@ def objective(request: OptimizeRequest) -> Table:
             *((f"ceiling of the peak {each.label}, {each.unit}", most) for each, most in _ceilings(goal, count)),
             *(
                 (f"ceiling of the {each.label}, {each.unit}", allowed)
-                for each, allowed in given_ceilings(goal)
+                for each, allowed in objective_ceilings(goal)
                 if each.axis is not None
             ),
             *(
-                (_OVER_THE_TURN[name], _told(getattr(goal, name)))
+                (_OVER_THE_TURN[name], _text(getattr(goal, name)))
                 for name in (*goal.over_the_turn, *(("bearing_measure",) if goal.bearing_weight else ()))
             ),
             ("among all optima", "the lightest" if goal.least_mass else "any"),

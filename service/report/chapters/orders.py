@@ -15,57 +15,67 @@ _LINE = 1e-6
 _HEADS = ["order", "#peak force, N", "#with counterweights, N", "#peak moment, N m", "#with counterweights, N m"]
 
 
-def two_orders(found: ResidualOrders) -> Table:
+def two_orders(residual: ResidualOrders) -> Table:
     """What shakes once and what shakes twice a turn; counterweights change the first alone."""
-    left: tuple[Order | None, ...] = found.after or (None, None)
+    left: tuple[Order | None, ...] = residual.after or (None, None)
     names = ("1, once a revolution", "2, twice a revolution")
-    scale = found.before[0]
-    rows = [_row(*each, scale) for each in zip(names, found.before, left, strict=True)]
+    scale = residual.before[0]
+    rows = [_row(*pair, scale) for pair in zip(names, residual.before, left, strict=True)]
     return table("Orders 1 and 2", _HEADS, rows)
 
 
-def orders(found: OrdersComparison) -> Chapter:
+def orders(comparison: OrdersComparison) -> Chapter:
     """Forces and moments by multiples of the shaft speed: orders that are more than small, and their ellipses."""
-    left = {one.order: one for one in found.after or ()}
-    listed = _listed(found)
-    rows = [_row(str(one.order), one, left.get(one.order), found.before[0]) for one in listed]
+    left = {order.order: order for order in comparison.after or ()}
+    listed = _listed(comparison)
+    rows = [_row(str(order.order), order, left.get(order.order), comparison.before[0]) for order in listed]
     words = ["Exact harmonics of the motion; counterweights on the shaft change the first order alone."]
-    small = [str(one.order) for one in found.before if one not in listed and (one.force.peak_N or one.moment.peak_Nm)]
+    small = [
+        str(order.order)
+        for order in comparison.before
+        if order not in listed and (order.force.peak_N or order.moment.peak_Nm)
+    ]
     if small:
         words.append(f"Of order {', '.join(small)} force and moment are below a thousandth of the largest.")
     # the first order has its hodographs already
-    drawn = [one for one in listed if one.order > 1 and not _straight(one)]
-    lines = [str(one.order) for one in listed if one.order > 1 and one not in drawn]
+    drawn = [order for order in listed if order.order > 1 and not _straight(order)]
+    lines = [str(order.order) for order in listed if order.order > 1 and order not in drawn]
     if lines:
         words.append(f"The vectors of order {', '.join(lines)} run along straight lines, which are not drawn.")
-    figures = [_hodographs(one, left.get(one.order)) for one in drawn]
+    figures = [_hodographs(order, left.get(order.order)) for order in drawn]
     shown = [figure for figure in figures if figure is not None]
     return Chapter("Orders", (Paragraph(" ".join(words)), table("", _HEADS, rows), *shown))
 
 
-def _listed(found: OrdersComparison) -> list[Order]:
+def _listed(comparison: OrdersComparison) -> list[Order]:
     """Orders whose force or moment is more than small beside the largest of its kind."""
-    largest = {what: max((_peak(one, what) for one in found.before), default=0.0) for what in ("force", "moment")}
-    return [one for one in found.before if any(_peak(one, what) > _SMALL * most for what, most in largest.items())]
+    largest = {
+        what: max((_peak(order, what) for order in comparison.before), default=0.0) for what in ("force", "moment")
+    }
+    return [
+        order
+        for order in comparison.before
+        if any(_peak(order, what) > _SMALL * most for what, most in largest.items())
+    ]
 
 
-def _straight(one: Order) -> bool:
+def _straight(order: Order) -> bool:
     """Whether force and moment both move to and fro along a line."""
-    ellipses = (_ellipse(one.force, "N"), _ellipse(one.moment, "N m"))
+    ellipses = (_ellipse(order.force, "N"), _ellipse(order.moment, "N m"))
     return all(minor <= _LINE * major for major, minor, _ in ellipses)
 
 
-def order_hodographs(found: OrdersComparison) -> Iterator[Figure]:
+def order_hodographs(comparison: OrdersComparison) -> Iterator[Figure]:
     """The ellipses of every order that has any worth a drawing."""
-    left = {one.order: one for one in found.after or ()}
-    for one in _listed(found):
-        drawn = _hodographs(one, left.get(one.order))
+    left = {order.order: order for order in comparison.after or ()}
+    for order in _listed(comparison):
+        drawn = _hodographs(order, left.get(order.order))
         if drawn is not None:
             yield drawn
 
 
-def _peak(one: Order, what: str) -> float:
-    return one.force.peak_N if what == "force" else one.moment.peak_Nm
+def _peak(order: Order, what: str) -> float:
+    return order.force.peak_N if what == "force" else order.moment.peak_Nm
 
 
 def _hodographs(was: Order, left: Order | None) -> Figure | None:
@@ -81,11 +91,11 @@ def _hodographs(was: Order, left: Order | None) -> Figure | None:
     return Figure(tuple(drawings), caption) if drawings else None
 
 
-def _ellipse(one: ForceOrder | MomentOrder, unit: str) -> tuple[float, float, float]:
+def _ellipse(order: ForceOrder | MomentOrder, unit: str) -> tuple[float, float, float]:
     """Semi-axes and direction of the major one, degrees."""
     short = unit.replace(" ", "")
-    sizes = [getattr(phasor, f"magnitude_{short}") for phasor in (one.co_rotating, one.counter_rotating)]
-    axis = 0.5 * (one.co_rotating.phase_deg + one.counter_rotating.phase_deg)
+    sizes = [getattr(phasor, f"magnitude_{short}") for phasor in (order.co_rotating, order.counter_rotating)]
+    axis = 0.5 * (order.co_rotating.phase_deg + order.counter_rotating.phase_deg)
     return sum(sizes), abs(sizes[0] - sizes[1]), axis
 
 

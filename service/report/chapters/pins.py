@@ -23,29 +23,29 @@ def loaded(request: PinLoadsRequest, answer: PinLoadsAnswer) -> Iterator[Chapter
     yield pin_loads(answer, request.pins or ())
 
 
-def pin_loads(found: PinLoads, pins: Sequence[Pin] = ()) -> Chapter:
+def pin_loads(loads: PinLoads, pins: Sequence[Pin] = ()) -> Chapter:
     """What the pins carry over a revolution, and whether they hold the scroll.
 
     Parameters
     ----------
     pins : the pins one by one, where the request names them; else they are even.
     """
-    return Chapter("Pin loads", tuple(_blocks(found, pins)))
+    return Chapter("Pin loads", tuple(_blocks(loads, pins)))
 
 
-def pin_figure(found: PinLoads) -> Figure:
+def pin_figure(loads: PinLoads) -> Figure:
     """Load of every pin over a revolution."""
-    lines = [Line(f"pin {pin.index}", pin.load_N) for pin in found.pins]
-    if found.drive_bearing is not None:
-        lines.append(Line("drive bearing", found.drive_bearing.load_N))
+    lines = [Line(f"pin {pin.index}", pin.load_N) for pin in loads.pins]
+    if loads.drive_bearing is not None:
+        lines.append(Line("drive bearing", loads.drive_bearing.load_N))
     caption = "Load of the pins: the force on the orbiting scroll, positive along the eccentric."
-    return figure("pin load", "N", found.angle_deg, lines, caption)
+    return figure("pin load", "N", loads.angle_deg, lines, caption)
 
 
-def _blocks(found: PinLoads, pins: Sequence[Pin]) -> Iterator[Block]:
-    for warning in found.warnings:
+def _blocks(loads: PinLoads, pins: Sequence[Pin]) -> Iterator[Block]:
+    for warning in loads.warnings:
         yield Paragraph(warning.message[:1].upper() + warning.message[1:] + ".", "warning")
-    held = found.equilibrium
+    held = loads.equilibrium
     if held.holds:
         yield Paragraph("The pins hold the scroll: moment and net force are in balance at every angle.")
     else:
@@ -56,15 +56,15 @@ def _blocks(found: PinLoads, pins: Sequence[Pin]) -> Iterator[Block]:
     yield facts(
         "",
         [
-            ("largest load of any pin, N", found.peak_N),
-            ("the same if members bore for half a revolution only, N", found.half_turn_mechanism_peak_N),
+            ("largest load of any pin, N", loads.peak_N),
+            ("the same if members bore for half a revolution only, N", loads.half_turn_mechanism_peak_N),
             ("largest error of the moment, N m", held.max_moment_error_Nm),
             ("largest net force, N", held.max_net_force_N),
-            *_of_drive(found),
-            ("work of the pins over one pitch, J", found.energy.pins_work_J),
-            ("work of the torque over one pitch, J", found.energy.torque_work_J),
-            ("dead points of all pins together, deg", ", ".join(map(digits, found.dead_points_deg)) or "none"),
-            ("degrees of freedom of the mechanism", found.mechanism.degrees_of_freedom),
+            *_of_drive(loads),
+            ("work of the pins over one pitch, J", loads.energy.pins_work_J),
+            ("work of the torque over one pitch, J", loads.energy.torque_work_J),
+            ("dead points of all pins together, deg", ", ".join(map(digits, loads.dead_points_deg)) or "none"),
+            ("degrees of freedom of the mechanism", loads.mechanism.degrees_of_freedom),
         ],
     )
     rows = [
@@ -78,24 +78,24 @@ def _blocks(found: PinLoads, pins: Sequence[Pin]) -> Iterator[Block]:
             pin.tension_from_deg,
             pin.tension_to_deg,
         )
-        for pin in found.pins
+        for pin in loads.pins
     ]
     heads = [
         "pin", "#sits at, deg", "#peak, N", "#at, deg", "#compression from, deg", "#to, deg", "#tension from, deg",
         "#to, deg",
     ]  # fmt: skip
     yield table("Pins", heads, rows)
-    yield _data(found, pins)
-    yield pin_figure(found)
-    if len(found.pins) <= _MOST_PINS:
-        step = max(1, len(found.angle_deg) // _LINES)
-        titles, *cells = lines(found, step)
+    yield _data(loads, pins)
+    yield pin_figure(loads)
+    if len(loads.pins) <= _MOST_PINS:
+        step = max(1, len(loads.angle_deg) // _LINES)
+        titles, *cells = lines(loads, step)
         yield table("Q_i over the revolution", [f"#{title}" for title in titles], cells)
-    if found.comparison is not None:
-        yield from _compared(found, found.comparison)
-    turning = [Line("rotation torque", found.rotation_torque_Nm)]
-    if len(set(found.rotation_torque_Nm)) > 1:
-        yield figure("rotation torque", "N m", found.angle_deg, turning, "Torque that turns the scroll about itself.")
+    if loads.comparison is not None:
+        yield from _compared(loads, loads.comparison)
+    turning = [Line("rotation torque", loads.rotation_torque_Nm)]
+    if len(set(loads.rotation_torque_Nm)) > 1:
+        yield figure("rotation torque", "N m", loads.angle_deg, turning, "Torque that turns the scroll about itself.")
 
 
 def _assumption(pins: Sequence[Pin]) -> str:
@@ -109,13 +109,15 @@ def _assumption(pins: Sequence[Pin]) -> str:
     )
 
 
-def _data(found: PinLoads, pins: Sequence[Pin]) -> Table:
+def _data(loads: PinLoads, pins: Sequence[Pin]) -> Table:
     """What each pin is, and its dead points."""
     rows = []
-    for number, pin in enumerate(found.pins):
-        one = pins[number] if pins else None
-        stiffness = "equal" if one is None or one.stiffness_N_per_m is None else number_cell(one.stiffness_N_per_m)
-        play = (0.0, 0.0) if one is None else (one.clearance_m, one.eccentricity_error_m)
+    for number, pin in enumerate(loads.pins):
+        stated = pins[number] if pins else None
+        stiffness = (
+            "equal" if stated is None or stated.stiffness_N_per_m is None else number_cell(stated.stiffness_N_per_m)
+        )
+        play = (0.0, 0.0) if stated is None else (stated.clearance_m, stated.eccentricity_error_m)
         rows.append((str(pin.index), *dead_points(pin.phase_deg), stiffness, *play))
     heads = [
         "pin", "#dead point, deg", "#and, deg", "#stiffness, N/m", "#clearance, m", "#error of eccentricity, m",
@@ -123,12 +125,12 @@ def _data(found: PinLoads, pins: Sequence[Pin]) -> Table:
     return table("Dead points, stiffness and clearance", heads, rows)
 
 
-def _of_drive(found: PinLoads) -> Iterator[tuple[str, float | None]]:
-    if found.drive_bearing is not None:
-        yield "largest load of the drive's bearing, N", found.drive_bearing.peak_N
+def _of_drive(loads: PinLoads) -> Iterator[tuple[str, float | None]]:
+    if loads.drive_bearing is not None:
+        yield "largest load of the drive's bearing, N", loads.drive_bearing.peak_N
 
 
-def _compared(found: PinLoads, losses: Losses) -> Iterator[Block]:
+def _compared(loads: PinLoads, losses: Losses) -> Iterator[Block]:
     ring = losses.oldham_ring
     yield facts(
         "Pins and an Oldham ring in their place",
@@ -142,4 +144,4 @@ def _compared(found: PinLoads, losses: Losses) -> Iterator[Block]:
     )
     first, second = zip(*ring.scroll_keys_N, strict=True)
     keys = [Line("in the frame", ring.frame_key_N), Line("in the scroll", first), Line("its opposite", second)]
-    yield figure("key load", "N", found.angle_deg, keys, "Keys of the Oldham ring, without the friction's own effect.")
+    yield figure("key load", "N", loads.angle_deg, keys, "Keys of the Oldham ring, without the friction's own effect.")

@@ -7,46 +7,51 @@ from schemas.rating.request import RatingRequest
 from service.report.blocks import Chapter, Paragraph, Table, facts, table
 
 _FIGURES: tuple[tuple[str, str, Callable[[StageRating], float | None]], ...] = (
-    ("cylinders", "", lambda one: one.cylinders),
-    ("suction pressure, Pa", "nominal", lambda one: one.nominal.suction_pressure_Pa),
-    ("", "corrected", lambda one: one.corrected.suction_pressure_Pa),
-    ("", "in cylinder", lambda one: one.in_cylinder.suction_pressure_Pa),
-    ("discharge pressure, Pa", "nominal", lambda one: one.nominal.discharge_pressure_Pa),
-    ("", "corrected", lambda one: one.corrected.discharge_pressure_Pa),
-    ("", "in cylinder", lambda one: one.in_cylinder.discharge_pressure_Pa),
-    ("pressure ratio", "nominal", lambda one: one.nominal.pressure_ratio),
-    ("", "in cylinder", lambda one: one.in_cylinder.pressure_ratio),
-    ("pressure losses", "suction", lambda one: one.losses.suction),
-    ("", "discharge", lambda one: one.losses.discharge),
-    ("discharge temperature, K", "nominal", lambda one: one.nominal.discharge_temperature_K),
-    ("", "in cylinder", lambda one: one.in_cylinder.discharge_temperature_K),
-    ("", "polytropic", lambda one: one.polytropic_temperature_K),
-    ("volumetric coefficient", "design", lambda one: one.design_coefficients.volumetric),
-    ("", "actual", lambda one: one.actual_coefficients.volumetric),
-    ("pressure coefficient", "", lambda one: one.actual_coefficients.pressure),
-    ("temperature coefficient", "", lambda one: one.actual_coefficients.temperature),
-    ("leakage coefficient", "", lambda one: one.actual_coefficients.leakage),
-    ("condensate coefficient", "", lambda one: one.condensate_coefficient),
-    ("delivery coefficient", "design", lambda one: one.design_coefficients.delivery),
-    ("", "actual", lambda one: one.actual_coefficients.delivery),
-    ("swept volume, m3", "calculated", lambda one: one.calculated.swept_volume_m3),
-    ("", "actual", lambda one: one.actual.swept_volume_m3),
-    ("bore, m", "calculated", lambda one: one.calculated.bore_m),
-    ("", "actual", lambda one: one.actual.bore_m),
-    ("gas load at outer dead centre, N", "nominal", lambda one: one.nominal_loads.outer.gas_force_N),
-    ("", "in cylinder", lambda one: one.actual_loads.outer.gas_force_N),
-    ("gas load at inner dead centre, N", "nominal", lambda one: one.nominal_loads.inner.gas_force_N),
-    ("", "in cylinder", lambda one: one.actual_loads.inner.gas_force_N),
-    ("indicated power, W", "", lambda one: one.indicated_power_W),
+    ("cylinders", "", lambda stage: stage.cylinders),
+    ("suction pressure, Pa", "nominal", lambda stage: stage.nominal.suction_pressure_Pa),
+    ("", "corrected", lambda stage: stage.corrected.suction_pressure_Pa),
+    ("", "in cylinder", lambda stage: stage.in_cylinder.suction_pressure_Pa),
+    ("discharge pressure, Pa", "nominal", lambda stage: stage.nominal.discharge_pressure_Pa),
+    ("", "corrected", lambda stage: stage.corrected.discharge_pressure_Pa),
+    ("", "in cylinder", lambda stage: stage.in_cylinder.discharge_pressure_Pa),
+    ("pressure ratio", "nominal", lambda stage: stage.nominal.pressure_ratio),
+    ("", "in cylinder", lambda stage: stage.in_cylinder.pressure_ratio),
+    ("pressure losses", "suction", lambda stage: stage.losses.suction),
+    ("", "discharge", lambda stage: stage.losses.discharge),
+    ("discharge temperature, K", "nominal", lambda stage: stage.nominal.discharge_temperature_K),
+    ("", "in cylinder", lambda stage: stage.in_cylinder.discharge_temperature_K),
+    ("", "polytropic", lambda stage: stage.polytropic_temperature_K),
+    ("volumetric coefficient", "design", lambda stage: stage.design_coefficients.volumetric),
+    ("", "actual", lambda stage: stage.actual_coefficients.volumetric),
+    ("pressure coefficient", "", lambda stage: stage.actual_coefficients.pressure),
+    ("temperature coefficient", "", lambda stage: stage.actual_coefficients.temperature),
+    ("leakage coefficient", "", lambda stage: stage.actual_coefficients.leakage),
+    ("condensate coefficient", "", lambda stage: stage.condensate_coefficient),
+    ("delivery coefficient", "design", lambda stage: stage.design_coefficients.delivery),
+    ("", "actual", lambda stage: stage.actual_coefficients.delivery),
+    ("swept volume, m3", "calculated", lambda stage: stage.calculated.swept_volume_m3),
+    ("", "actual", lambda stage: stage.actual.swept_volume_m3),
+    ("bore, m", "calculated", lambda stage: stage.calculated.bore_m),
+    ("", "actual", lambda stage: stage.actual.bore_m),
+    ("gas load at outer dead centre, N", "nominal", lambda stage: stage.nominal_loads.outer.gas_force_N),
+    ("", "in cylinder", lambda stage: stage.actual_loads.outer.gas_force_N),
+    ("gas load at inner dead centre, N", "nominal", lambda stage: stage.nominal_loads.inner.gas_force_N),
+    ("", "in cylinder", lambda stage: stage.actual_loads.inner.gas_force_N),
+    ("indicated power, W", "", lambda stage: stage.indicated_power_W),
 )
 
 
-def _tandems(names: Sequence[str], found: Sequence[TandemLoads]) -> Iterator[Table]:
+def _tandems(names: Sequence[str], tandems: Sequence[TandemLoads]) -> Iterator[Table]:
     """Rods that several pistons share."""
-    if found:
+    if tandems:
         rows = [
-            (" and ".join(names[number - 1] for number in one.stages), one.outer_N, one.inner_N, one.largest_N)
-            for one in found
+            (
+                " and ".join(names[number - 1] for number in tandem.stages),
+                tandem.outer_N,
+                tandem.inner_N,
+                tandem.largest_N,
+            )
+            for tandem in tandems
         ]
         heads = ["stages", "#outer dead centre, N", "#inner dead centre, N", "#largest, N"]
         yield table("Gas loads of rods that several pistons share", heads, rows)

@@ -21,16 +21,16 @@ _DOCUMENTS = ("document", "versions")
 _PACKAGES = ("numpy", "scipy", "clarabel", "cvxpy")
 
 
-def effects(uses: Mapping[str, EffectUse], asked: tuple[str, ...]) -> Chapter:
+def effects(uses: Mapping[str, EffectUse], outputs: tuple[str, ...]) -> Chapter:
     """Every effect, and whether it was simulated; GET /v1/effects says what each is for."""
     used = [name.replace("_", " ") for name, use in uses.items() if use.simulated]
     idle = [name.replace("_", " ") for name, use in uses.items() if not use.simulated]
     words = (
-        f"Asked for: {', '.join(asked)}. Only the effects that these need were simulated; the first order of force and "
-        "moment needs nothing but masses and geometry."
+        f"Asked for: {', '.join(outputs)}. Only the effects that these need were simulated; the first order of force "
+        "and moment needs nothing but masses and geometry."
     )
-    told = [f"Simulated: {', '.join(used)}.", *([f"Not simulated: {', '.join(idle)}."] if idle else [])]
-    return Chapter("Which effects were simulated", (Paragraph(words), Paragraph(" ".join(told))))
+    sentences = [f"Simulated: {', '.join(used)}.", *([f"Not simulated: {', '.join(idle)}."] if idle else [])]
+    return Chapter("Which effects were simulated", (Paragraph(words), Paragraph(" ".join(sentences))))
 
 
 def versions() -> dict[str, str]:
@@ -44,7 +44,7 @@ def body(request: ReportRequest) -> dict[str, Any]:
     return {name: value for name, value in result.items() if name not in _DOCUMENTS or name in request.model_fields_set}
 
 
-def _given(request: ReportRequest) -> dict[str, Any]:
+def _request_fields(request: ReportRequest) -> dict[str, Any]:
     """The request without the defaults of what nobody gave."""
     return request.model_dump(mode="json", exclude_unset=True)
 
@@ -54,12 +54,12 @@ def request_json(request: ReportRequest) -> str:
     return "\n".join(_lines(body(request), _LINE))
 
 
-def _without_pixels(found: dict[str, Any]) -> dict[str, Any]:
+def _without_pixels(fields: dict[str, Any]) -> dict[str, Any]:
     """The request as it is listed: of a logo, which nobody reads, the beginning."""
-    head = found.get("document", {})
+    head = fields.get("document", {})
     if head.get("logo") is None:
-        return found
-    return {**found, "document": {**head, "logo": f"{head['logo'][:_SHOWN]}..."}}
+        return fields
+    return {**fields, "document": {**head, "logo": f"{head['logo'][:_SHOWN]}..."}}
 
 
 def _lines(value: Any, room: int, before: int = 0) -> Iterator[str]:
@@ -131,5 +131,10 @@ def appendix(request: ReportRequest, at: str, checked: Check | None = None) -> C
     made = facts("", [("computed with", used), ("at", at), *digests])
     return Chapter(
         "Appendix: request",
-        (Paragraph(words), Listing("\n".join(_lines(_without_pixels(_given(request)), _LINE))), Paragraph(check), made),
+        (
+            Paragraph(words),
+            Listing("\n".join(_lines(_without_pixels(_request_fields(request)), _LINE))),
+            Paragraph(check),
+            made,
+        ),
     )

@@ -13,18 +13,18 @@ if TYPE_CHECKING:
 _FIGURES = ("force_peak_N", "moment_peak_Nm", "total_mass_kg")
 
 
-def estimated(found: SweepEstimate) -> Iterator[Chapter]:
+def estimated(estimate: SweepEstimate) -> Iterator[Chapter]:
     """What a sweep would be."""
     size = [
-        ("designs", found.total),
-        ("chunks", found.chunks),
-        ("designs a chunk", found.chunk_rows),
-        ("result, about MB", found.bytes / 1e6),
-        ("time of one core, about s", found.cpu_s),
-        (f"until it is done, {found.workers} workers, about s", found.wall_s),
+        ("designs", estimate.total),
+        ("chunks", estimate.chunks),
+        ("designs a chunk", estimate.chunk_rows),
+        ("result, about MB", estimate.bytes / 1e6),
+        ("time of one core, about s", estimate.cpu_s),
+        (f"until it is done, {estimate.workers} workers, about s", estimate.wall_s),
     ]
-    yield Chapter("Sweep, not run", (facts("", size), Paragraph(f"The time assumes {found.assumption}.")))
-    columns = [(column.name, column.unit or "", column.meaning) for column in found.columns]
+    yield Chapter("Sweep, not run", (facts("", size), Paragraph(f"The time assumes {estimate.assumption}.")))
+    columns = [(column.name, column.unit or "", column.meaning) for column in estimate.columns]
     yield Chapter("Columns", (table("", ["name", "unit", "meaning"], columns),))
 
 
@@ -37,7 +37,7 @@ def swept(counts: Mapping[str, int], best: "pa.Table", axes: tuple[str, ...], ti
     best : rows to show.
     axes : names of the columns that vary.
     """
-    statuses = sorted(counts.items(), key=lambda one: -one[1])
+    statuses = sorted(counts.items(), key=lambda pair: -pair[1])
     yield Chapter("Designs", (table("", ["status", "#count"], statuses),))
     if best.num_rows:
         shown = [name for name in ("index", *axes, "status", *_FIGURES) if name in best.schema.names]

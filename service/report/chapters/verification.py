@@ -28,14 +28,14 @@ def verified(answer: VerifyAnswer) -> Iterator[Chapter]:
     yield Chapter(title, (table("", ["claim", "verdict", "#margin", "where"], rows),))
 
 
-def _margin(one: Claim) -> Cell:
-    return "" if one.margin is None else Number(one.margin, f"{one.margin:.1e}")
+def _margin(claim: Claim) -> Cell:
+    return "" if claim.margin is None else Number(claim.margin, f"{claim.margin:.1e}")
 
 
 class Check(NamedTuple):
     """The check of an answer by the files that share nothing with what computed it; None: too much to be checked."""
 
-    found: VerifyAnswer | None
+    verification: VerifyAnswer | None
     digest: str  # SHA-256 of the answer
     outputs: tuple[str, ...]  # that it was asked for
 
@@ -66,9 +66,9 @@ def sentence(checked: Check, request: str) -> Paragraph:
     request : digest of the request.
     """
     which = f"Digests: request {request[:SHORT]}, answer {checked.digest[:SHORT]}."
-    if checked.found is None:
+    if checked.verification is None:
         return Paragraph(f"The answer holds more than is checked at a time: nothing was checked. {which}", "warning")
-    found = checked.found
+    found = checked.verification
     count = f"Checked by files that share nothing with what computed it: {found.checked} of {found.leaves} claims"
     if found.verdict == "broken":
         broken = ", ".join(f"{one.claim} ({_words(one.where)})" for one in found.claims if one.verdict == "broken")

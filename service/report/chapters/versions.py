@@ -58,7 +58,7 @@ def _computed(request: ReportRequest, place: int) -> Column:
             given = analyze(AnalyzeRequest(machine=machine, counterweights=version.counterweights))
             left = given.residual.after if given.residual is not None else None
             return Column(version.name, "given", left, given.total_mass_kg, given.counterweights)
-        result = optimize(request.asked_of(version))
+        result = optimize(request.request_for(version))
     except MissingInput as error:
         raise MissingInput(FieldProblem(("versions", place, *path), said) for path, said in error.problems) from None
     return Column(version.name, result.status, shown(result)[1], result.total_mass_kg, result.counterweights)
@@ -95,8 +95,12 @@ def _weights(columns: Sequence[Column]) -> Table:
     return table("Counterweights: mass, kg, and angle, deg", ["web", *(column.name for column in columns)], rows)
 
 
-def _weight(one: Counterweight | None) -> str:
-    return "none" if one is None or not one.mass_kg else f"{digits(one.mass_kg)} at {digits(one.angle_deg)}"
+def _weight(counterweight: Counterweight | None) -> str:
+    return (
+        "none"
+        if counterweight is None or not counterweight.mass_kg
+        else f"{digits(counterweight.mass_kg)} at {digits(counterweight.angle_deg)}"
+    )
 
 
 def _differences(request: ReportRequest) -> Iterator[Block]:
@@ -120,16 +124,16 @@ def _changes(request: ReportRequest, version: DesignVersion) -> Iterator[tuple[s
             yield from _apart((name,), getattr(request, name).model_dump(mode="json"), other.model_dump(mode="json"))
 
 
-def _apart(path: tuple[str | int, ...], one: Any, other: Any) -> Iterator[tuple[str, str, str]]:
+def _apart(path: tuple[str | int, ...], here: Any, there: Any) -> Iterator[tuple[str, str, str]]:
     """Fields that differ: pointer, value here, value there."""
-    if isinstance(one, Mapping) and isinstance(other, Mapping):
-        for key in dict.fromkeys([*one, *other]):
-            yield from _apart((*path, key), one.get(key, _MISSING), other.get(key, _MISSING))
-    elif isinstance(one, list) and isinstance(other, list) and len(one) == len(other):
-        for index, pair in enumerate(zip(one, other, strict=True)):
+    if isinstance(here, Mapping) and isinstance(there, Mapping):
+        for key in dict.fromkeys([*here, *there]):
+            yield from _apart((*path, key), here.get(key, _MISSING), there.get(key, _MISSING))
+    elif isinstance(here, list) and isinstance(there, list) and len(here) == len(there):
+        for index, pair in enumerate(zip(here, there, strict=True)):
             yield from _apart((*path, index), *pair)
-    elif one != other:
-        yield pointer(path), _short(one), _short(other)
+    elif here != there:
+        yield pointer(path), _short(here), _short(there)
 
 
 def _short(value: Any) -> str:

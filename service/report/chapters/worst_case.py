@@ -49,7 +49,7 @@ def worst_case(answer: OptimizeAnswer) -> Iterator[Chapter]:
         yield Chapter("Where things are off", tuple(blocks))
 
 
-def asked(request: OptimizeRequest) -> Iterator[Block]:
+def stated_cases(request: OptimizeRequest) -> Iterator[Block]:
     """Scenarios and tolerances as they were stated."""
     if request.cases:
         yield table(
@@ -59,7 +59,7 @@ def asked(request: OptimizeRequest) -> Iterator[Block]:
                 (scenario.name, scenario.weight, *change)
                 for scenario in (case.scenario for case in request.cases)
                 for change in (
-                    [(each.path, each.value) for each in scenario.changes] or [("the machine as it is given", None)]
+                    [(field.path, field.value) for field in scenario.changes] or [("the machine as it is given", None)]
                 )
             ],
         )

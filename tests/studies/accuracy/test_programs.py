@@ -21,7 +21,7 @@ from optimizer.studies.accuracy.methods import (
     POSITIONS,
     SIDES,
     TOLERANCES,
-    Found,
+    Attempt,
     Method,
     Task,
     _lighter,
@@ -161,7 +161,7 @@ def test_no_bound_of_any_method_is_above_what_another_reached(case: int) -> None
     assert answered >= 8
 
 
-def good(task: Task, outcome: Found, bound: float) -> bool:
+def good(task: Task, outcome: Attempt, bound: float) -> bool:
     """Whether a point is no better than the bound, or breaks a ceiling."""
     reached = float(task.statement.objective(outcome.unbalance))
     excess = float(np.max(task.statement.ceilings.excess(outcome.unbalance), initial=-np.inf))
@@ -215,8 +215,8 @@ def test_the_first_of_a_batch_is_the_program_itself(case: int) -> None:
         )
         for name in ("interior_point", "interior_point_batch")
     )
-    assert isinstance(alone, Found)
-    assert isinstance(batch, Found)
+    assert isinstance(alone, Attempt)
+    assert isinstance(batch, Attempt)
     assert np.allclose(batch.unbalance, alone.unbalance, rtol=1e-9, atol=1e-12)
     assert batch.prove() == pytest.approx(alone.prove(), rel=1e-12)
     share = np.array([1.0, 0.9])

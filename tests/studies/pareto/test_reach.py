@@ -55,10 +55,10 @@ def test_all_lines_of_a_front_are_within_the_same_limits(
     assert len(lines) > POINTS
     assert all(one == within for one in lines)
     assert all(first <= other for one in limits for first, other in zip(one, within, strict=True))
-    assert np.all(np.isfinite(found.trade.known))
+    assert np.all(np.isfinite(found.trade.cap))
     for point in found.points:
-        assert np.all(point.corner <= found.trade.known)
-        assert np.all(point.mass_limit <= found.trade.known)
+        assert np.all(point.corner <= found.trade.cap)
+        assert np.all(point.mass_limit <= found.trade.cap)
         peaks = found.trade.peaks(point.solution.unbalance)
         rounding = found.trade.rounding(point.solution.unbalance)
         assert not any(np.all(peaks + rounding < other.corner) for other in found.points)

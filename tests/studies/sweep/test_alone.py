@@ -116,7 +116,7 @@ def test_a_row_is_asked_for_the_gap_of_its_own_machine(of_base: int | None, said
     # as a worker gets it
     request = SweepRequest.model_validate_json(request.model_dump_json())
     group = Group(request, request.base, [np.array([np.nan, 1.0])])
-    rows = [group.one(design) for design in (0, 1)]
+    rows = [group.single(design) for design in (0, 1)]
     # read again, as by a client who asks for the design alone
     again = [OptimizeRequest.model_validate(json.loads(row.model_dump_json())) for row in rows]
     expected = [said or 1e-6, said or 1e-3]

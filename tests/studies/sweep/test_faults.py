@@ -50,8 +50,8 @@ def _of_many(requests: Sequence[OptimizeRequest], *_rest: object) -> bool:
     [
         (_plain, rows, "optimal", _of_columns),
         (_plain, rows, "columns", _of_columns),
-        (_over_the_turn, rows, "optimal_one_by_one", _of_many),
-        (_alone, rows, "optimal_one_by_one", _of_many),
+        (_over_the_turn, rows, "single_optima", _of_many),
+        (_alone, rows, "single_optima", _of_many),
     ],
 )
 def test_one_design_that_breaks_down_ends_no_other(

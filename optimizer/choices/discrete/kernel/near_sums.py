@@ -16,12 +16,12 @@ _MIX = np.uint64(0x9E3779B97F4A7C15)
 
 
 @kernel
-def gridded(one, other, slab, axes, low, side, cells, share):  # type: ignore[no-untyped-def]
+def gridded(left, right, slab, axes, low, side, cells, share):  # type: ignore[no-untyped-def]
     """Sums of (a, d) and (b, d) in a slab, by cells.
 
     Parameters
     ----------
-    other : sorted by the first coordinate.
+    right : sorted by the first coordinate.
     slab : (2,) of that coordinate, from the first number to below the second.
     axes : (2,) coordinates of the grid.
     low, side, cells : (2,) corner of the grid, width of a cell, (2,) numbers of cells; what is outside is in the last.
@@ -35,30 +35,30 @@ def gridded(one, other, slab, axes, low, side, cells, share):  # type: ignore[no
     """
     first, whole = np.zeros(cells[0] * cells[1] + 1, np.int64), share == ALL
     finer = 1.0 / side
-    for i in range(len(one)):
-        begin, end = _reach(one[i, 0], other, slab)
+    for i in range(len(left)):
+        begin, end = _reach(left[i, 0], right, slab)
         for j in range(begin, end):
             if whole or _taken(i, j, share):
-                first[_cell(one, i, other, j, axes, low, finer, cells) + 1] += 1
+                first[_cell(left, i, right, j, axes, low, finer, cells) + 1] += 1
     for c in range(first.size - 1):
         first[c + 1] += first[c]
-    count, d, there = first[-1], one.shape[1], first[:-1].copy()
+    count, d, there = first[-1], left.shape[1], first[:-1].copy()
     sums, places = np.empty((count, d)), np.empty((2, count), np.int64)
-    for i in range(len(one)):
-        begin, end = _reach(one[i, 0], other, slab)
+    for i in range(len(left)):
+        begin, end = _reach(left[i, 0], right, slab)
         for j in range(begin, end):
             if whole or _taken(i, j, share):
-                c = _cell(one, i, other, j, axes, low, finer, cells)
+                c = _cell(left, i, right, j, axes, low, finer, cells)
                 n = there[c]
                 there[c] += 1
                 places[0, n], places[1, n] = i, j
                 for k in range(d):
-                    sums[n, k] = one[i, k] + other[j, k]
+                    sums[n, k] = left[i, k] + right[j, k]
     return first, sums, places
 
 
 @kernel
-def near(first, sums, one, other, slab, axes, low, side, cells, share, start, square, most):  # type: ignore[no-untyped-def]
+def near(first, sums, left, right, slab, axes, low, side, cells, share, start, square, most):  # type: ignore[no-untyped-def]
     """Sums of a grid that are near to sums of (a, d) and (b, d) in a slab.
 
     Parameters
@@ -74,27 +74,27 @@ def near(first, sums, one, other, slab, axes, low, side, cells, share, start, sq
     (4,) : what to go on with; the first is a where nothing is left.
     int : sums that were looked at.
     """
-    found, k, looked, d = np.empty((3, most[0]), np.int64), 0, 0, one.shape[1]
+    matches, k, visits, d = np.empty((3, most[0]), np.int64), 0, 0, left.shape[1]
     after, at = np.full(4, -1), np.empty(d)
     columns, rows, line, n = cells[0], cells[1], start[2], start[3]
     whole, finer = share == ALL, 1.0 / side
-    for i in range(start[0], len(one)):
-        begin, end = _reach(one[i, 0], other, slab)
+    for i in range(start[0], len(left)):
+        begin, end = _reach(left[i, 0], right, slab)
         for j in range(max(begin, start[1]) if i == start[0] else begin, end):
             if not (whole or _taken(i, j, share)):
                 continue
-            if looked > most[1]:
+            if visits > most[1]:
                 after[0], after[1] = i, j
-                return found[:, :k].copy(), after, looked
+                return matches[:, :k].copy(), after, visits
             for c in range(d):
-                at[c] = one[i, c] + other[j, c]
+                at[c] = left[i, c] + right[j, c]
             # what is outside of the grid is in its last cells
             column = min(max(np.int64(np.floor((at[axes[0]] - low[0]) * finer)), 0), columns - 1)
             row = min(max(np.int64(np.floor((at[axes[1]] - low[1]) * finer)), 0), rows - 1)
             line = max(column - 1, 0) if line < 0 else line
             while line < min(column + 2, columns):
                 n, until = max(n, first[line * rows + max(row - 1, 0)]), first[line * rows + min(row + 2, rows)]
-                looked += max(until - n, 0)
+                visits += max(until - n, 0)
                 while n < until:
                     off = 0.0
                     # the last coordinates first: by those before them all of a cell are near
@@ -105,14 +105,14 @@ def near(first, sums, one, other, slab, axes, low, side, cells, share, start, sq
                     if off <= square:
                         if k == most[0]:
                             after[0], after[1], after[2], after[3] = i, j, line, n
-                            return found, after, looked
-                        found[0, k], found[1, k], found[2, k] = n, i, j
+                            return matches, after, visits
+                        matches[0, k], matches[1, k], matches[2, k] = n, i, j
                         k += 1
                     n += 1
                 line, n = line + 1, -1
             line = -1
-    after[0] = len(one)
-    return found[:, :k].copy(), after, looked
+    after[0] = len(left)
+    return matches[:, :k].copy(), after, visits
 
 
 @inner
@@ -135,10 +135,10 @@ def _place(other, value):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _cell(one, i, other, j, axes, low, finer, cells):  # type: ignore[no-untyped-def]
+def _cell(left, i, right, j, axes, low, finer, cells):  # type: ignore[no-untyped-def]
     a, b = axes[0], axes[1]
-    column = np.int64(np.floor((one[i, a] + other[j, a] - low[0]) * finer))
-    row = np.int64(np.floor((one[i, b] + other[j, b] - low[1]) * finer))
+    column = np.int64(np.floor((left[i, a] + right[j, a] - low[0]) * finer))
+    row = np.int64(np.floor((left[i, b] + right[j, b] - low[1]) * finer))
     return min(max(column, 0), cells[0] - 1) * cells[1] + min(max(row, 0), cells[1] - 1)
 
 

@@ -27,7 +27,7 @@ _CHAINS = 12
 _TOPS = np.uint64(0x8000800080008000)
 _MIX = np.uint64(0x9E3779B97F4A7C15)
 _TO_MAP, _TO_CHAIN = np.uint64(64 - MAP), np.uint64(64 - _CHAINS)
-_SIX, _LOW, _ONE = np.uint64(6), np.uint64(63), np.uint64(1)
+_SIX, _LOW, _LOWEST_BIT = np.uint64(6), np.uint64(63), np.uint64(1)
 
 
 class Window(NamedTuple):
@@ -71,7 +71,7 @@ class Work(NamedTuple):
     first: np.ndarray  # (2^_CHAINS,) the first sum in each chain, -1 where there is none
     after: np.ndarray  # (w,) the next in its chain
     put: Real  # (n,) masses place by place
-    found: Real  # (n,) of the smallest peak
+    best: Real  # (n,) of the smallest peak
 
 
 @kernel
@@ -109,14 +109,14 @@ def joined(quarters, tables, window, peaks, sets, level, most):  # type: ignore[
         half = sets.parts[s]
         rest = everything - half
         corner, wide = _corner(window, level, level - sets.least[s], sets.low[s], sets.high[s], work)
-        one, other = _listed(quarters, tables, 0, half, work), _listed(quarters, tables, 2, rest, work)
-        _mapped(one, window.cell, work)
-        kept = _kept(other, window, corner, wide, work)
-        met = _met(one, window.cell, work)
-        level, left = _compared(quarters, window, peaks, (half, rest), (met, kept), wide, (level, left), work)
+        first, second = _listed(quarters, tables, 0, half, work), _listed(quarters, tables, 2, rest, work)
+        _mapped(first, window.cell, work)
+        survivors = _survivors(second, window, corner, wide, work)
+        met = _met(first, window.cell, work)
+        level, left = _compared(quarters, window, peaks, (half, rest), (met, survivors), wide, (level, left), work)
         if left < 0:
-            return level, s, work.found
-    return level, sets.parts.size, work.found
+            return level, s, work.best
+    return level, sets.parts.size, work.best
 
 
 @inner
@@ -178,9 +178,9 @@ def _mapped(count, cell, work):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _kept(count, window, corner, wide, work):  # type: ignore[no-untyped-def]
+def _survivors(count, window, corner, wide, work):  # type: ignore[no-untyped-def]
     """Sums of the second half, as what is wanted beside them, that have a marked cell: how many; mark theirs."""
-    kept, cell = 0, window.cell
+    number, cell = 0, window.cell
     for i in range(count):
         wanted = corner - work.word[1, i]
         over = _over(window, wanted, wide)
@@ -188,17 +188,17 @@ def _kept(count, window, corner, wide, work):  # type: ignore[no-untyped-def]
         while not _marked(work.places, 0, _plus(wanted & cell, some)):
             if some == 0:
                 break
-            some = (some - _ONE) & over
+            some = (some - _LOWEST_BIT) & over
         else:
-            work.word[1, kept], work.code[1, kept] = wanted, work.code[1, i]
-            kept += 1
+            work.word[1, number], work.code[1, number] = wanted, work.code[1, i]
+            number += 1
             some = over
             while True:
                 _mark(work.places, 1, _plus(wanted & cell, some))
                 if some == 0:
                     break
-                some = (some - _ONE) & over
-    return kept
+                some = (some - _LOWEST_BIT) & over
+    return number
 
 
 @inner
@@ -235,11 +235,11 @@ def _compared(quarters, window, peaks, halves, counts, wide, state, work):  # ty
                     if value < level:
                         level = value
                         for place in range(work.put.size):
-                            work.found[place] = work.put[place]
+                            work.best[place] = work.put[place]
                 j = work.after[j]
             if some == 0:
                 break
-            some = (some - _ONE) & over
+            some = (some - _LOWEST_BIT) & over
     for j in range(met):
         work.first[_chain(work.word[0, j] & cell)] = -1
     return level, left
@@ -248,13 +248,13 @@ def _compared(quarters, window, peaks, halves, counts, wide, state, work):  # ty
 @inner
 def _mark(places, side, cells):  # type: ignore[no-untyped-def]
     place = (cells * _MIX) >> _TO_MAP
-    places[side, place >> _SIX] |= _ONE << (place & _LOW)
+    places[side, place >> _SIX] |= _LOWEST_BIT << (place & _LOW)
 
 
 @inner
 def _marked(places, side, cells):  # type: ignore[no-untyped-def]
     place = (cells * _MIX) >> _TO_MAP
-    return (places[side, place >> _SIX] >> (place & _LOW)) & _ONE != 0
+    return (places[side, place >> _SIX] >> (place & _LOW)) & _LOWEST_BIT != 0
 
 
 @inner

@@ -11,30 +11,30 @@ _TURN, _TO_CHAIN = np.uint64(29), np.uint64(64 - _CHAINS)
 
 
 @kernel
-def met(one, other, side, most):  # type: ignore[no-untyped-def]
+def met(left, right, side, most):  # type: ignore[no-untyped-def]
     """Points (n, d) and (m, d) that are in the same cell of a grid: numbers of both (2, k), of so many pairs at most.
 
     Parameters
     ----------
     side : of a cell, in every coordinate.
     """
-    first, after = np.full(1 << _CHAINS, -1), np.empty(len(one), np.int64)
-    cells, found, k = np.empty(len(one), np.uint64), np.empty((2, most), np.int64), 0
-    for i in range(len(one)):
-        cells[i] = _cell(one, i, side)
+    first, after = np.full(1 << _CHAINS, -1), np.empty(len(left), np.int64)
+    cells, pairs, k = np.empty(len(left), np.uint64), np.empty((2, most), np.int64), 0
+    for i in range(len(left)):
+        cells[i] = _cell(left, i, side)
         chain = cells[i] >> _TO_CHAIN
         after[i], first[chain] = first[chain], i
-    for j in range(len(other)):
-        cell = _cell(other, j, side)
+    for j in range(len(right)):
+        cell = _cell(right, j, side)
         i = first[cell >> _TO_CHAIN]
         while i >= 0:
             if cells[i] == cell:
                 if k == most:
-                    return found
-                found[0, k], found[1, k] = i, j
+                    return pairs
+                pairs[0, k], pairs[1, k] = i, j
                 k += 1
             i = after[i]
-    return found[:, :k].copy()
+    return pairs[:, :k].copy()
 
 
 @inner

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from service.fairness.threads import Threads
-from service.http.kept import Kept, Shelf
+from service.http.cached_document import CachedDocument, Shelf
 
 _LONG = b"a document " * 1000
 
@@ -22,14 +22,14 @@ def test_it_is_made_once_however_many_ask_and_the_loop_goes_on() -> None:
     go = threading.Event()
     made: list[tuple[str, bool]] = []
 
-    def make(name: str) -> Kept:
+    def make(name: str) -> CachedDocument:
         made.append((name, threading.current_thread() is threading.main_thread()))
         assert go.wait(60)
-        return Kept(_LONG, "text/plain")
+        return CachedDocument(_LONG, "text/plain")
 
     shelf, request = Shelf(make), _request()
 
-    async def asked() -> list[Kept]:
+    async def asked() -> list[CachedDocument]:
         waiting = [asyncio.ensure_future(shelf.take(request, "it")) for _ in range(5)]
         while not made:
             await asyncio.sleep(0.001)
@@ -43,14 +43,14 @@ def test_it_is_made_once_however_many_ask_and_the_loop_goes_on() -> None:
 
 @pytest.mark.parametrize(("content", "packed"), [(_LONG, True), (b"short", False)])
 def test_it_is_compressed_before_it_is_sent(content: bytes, packed: bool) -> None:
-    found = Shelf[str](lambda _: Kept(content, "text/plain")).made("it")
+    found = Shelf[str](lambda _: CachedDocument(content, "text/plain")).made("it")
     assert ("compressed" in vars(found)) == packed
 
 
 def test_what_could_not_be_made_is_tried_again() -> None:
-    outcomes: list[Any] = [OSError("no disk"), Kept(_LONG, "text/plain")]
+    outcomes: list[Any] = [OSError("no disk"), CachedDocument(_LONG, "text/plain")]
 
-    def make(name: str) -> Kept:
+    def make(name: str) -> CachedDocument:
         outcome = outcomes.pop(0)
         if isinstance(outcome, Exception):
             raise outcome

@@ -17,7 +17,7 @@ from schemas.request.requests import OptimizeRequest
 from schemas.sweep.columns import CERTIFICATE, MULTIPLIERS, goal_columns
 
 
-def optimal_one_by_one(
+def single_optima(
     requests: Sequence[OptimizeRequest], solver: Solver, multipliers: bool
 ) -> tuple[dict[str, Any], Complex]:
     """Columns of certified optima, and the unbalance of the counterweights (count, webs) kg m; nan where none.
@@ -27,16 +27,20 @@ def optimal_one_by_one(
     requests : of one machine with other numbers; none lacks what its objective needs.
     multipliers : whether the proofs are wanted, as text.
     """
-    alone = [prepare(one, outputs=("residual",)) for one in requests]
+    alone = [prepare(request, outputs=("residual",)) for request in requests]
     # a row has no column for prices and sensitivities
-    found = [solve(Task.of(one), scene, solver, in_full=False) for one, scene in zip(requests, alone, strict=True)]
-    rows = [_row(one, each, multipliers) for one, each in zip(requests, found, strict=True)]
+    solutions = [
+        solve(Task.of(request), scene, solver, in_full=False) for request, scene in zip(requests, alone, strict=True)
+    ]
+    rows = [_row(request, solution, multipliers) for request, solution in zip(requests, solutions, strict=True)]
     columns = {
         name: np.array([row[name] for row in rows], dtype=object if isinstance(first, str | None) else float)
         for name, first in rows[0].items()
     }
     nothing = np.full(len(requests[0].machine.webs), complex(np.nan))
-    return columns, np.array([each.shown.on_crank if isinstance(each, Solution) else nothing for each in found])
+    return columns, np.array(
+        [solution.shown.on_crank if isinstance(solution, Solution) else nothing for solution in solutions]
+    )
 
 
 def _row(request: OptimizeRequest, best: Solution | Infeasible, multipliers: bool) -> dict[str, str | float | None]:

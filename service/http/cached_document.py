@@ -23,7 +23,7 @@ FOR_EVER = "public, max-age=31536000, immutable"
 
 
 @dataclass(frozen=True)
-class Kept:
+class CachedDocument:
     """A document, plain and compressed with gzip."""
 
     content: bytes
@@ -41,7 +41,7 @@ class Kept:
     def answer(self, request: Request, cache: str = ASKS_AGAIN, **headers: str) -> Response:
         """The document, or that the client has it already."""
         told = {"Cache-Control": cache, "ETag": self.tag, "Vary": "Accept-Encoding", **headers}
-        if self._known(request):
+        if self._has_it(request):
             return Response(status_code=304, headers=told)
         content = self.content
         # a client that says nothing takes the document as it is
@@ -50,10 +50,10 @@ class Kept:
             content, told["Content-Encoding"] = self.compressed, "gzip"
         return Response(content, media_type=self.media_type, headers=told)
 
-    def _known(self, request: Request) -> bool:
+    def _has_it(self, request: Request) -> bool:
         """Whether a client has it; of two tags only the text counts (RFC 9110, 13.1.2)."""
-        given = [each.strip().removeprefix("W/") for each in request.headers.get("if-none-match", "").split(",")]
-        return "*" in given or self.tag.removeprefix("W/") in given
+        tags = [tag.strip().removeprefix("W/") for tag in request.headers.get("if-none-match", "").split(",")]
+        return "*" in tags or self.tag.removeprefix("W/") in tags
 
 
 Name = TypeVar("Name", bound=Hashable)
@@ -67,18 +67,18 @@ class Shelf(Generic[Name]):
     make : the document of a name.
     """
 
-    def __init__(self, make: Callable[[Name], Kept]) -> None:
+    def __init__(self, make: Callable[[Name], CachedDocument]) -> None:
         self._make = make
         self._making = Lock()
-        self._there: dict[Name, Kept] = {}
+        self._there: dict[Name, CachedDocument] = {}
 
-    async def take(self, request: Request, name: Name) -> Kept:
+    async def take(self, request: Request, name: Name) -> CachedDocument:
         """A document, for the answer to a request; the event loop does not wait until it is made."""
         if name in self._there:
             return self._there[name]
         return await threads_of(request).run(holding(request).who, partial(self.made, name))
 
-    def made(self, name: Name) -> Kept:
+    def made(self, name: Name) -> CachedDocument:
         """A document with all that is sent of it; who asks while it is made waits for the same."""
         with self._making:
             if name not in self._there:
