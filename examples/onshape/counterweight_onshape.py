@@ -102,7 +102,7 @@ def main(document: str, workspace: str, element: str, machine: str = "") -> None
     body = body_of(call(f"{studio}/massproperties?massAsGroup=true"))
     service = Service(os.environ.get("COUNTERWEIGHT_URL", "http://127.0.0.1:8000"))
     shaft = service.shaft({"faces": faces, "bodies": [body]})
-    serious = [f"{one['pointer']}: {one['message']}" for one in shaft["doubts"] if one["serious"]]
+    serious = [f"{doubt['pointer']}: {doubt['message']}" for doubt in shaft["doubts"] if doubt["serious"]]
     if serious:
         raise SystemExit("\n".join(serious))
     if machine:

@@ -177,7 +177,7 @@ def draw(machine, question, answer):
     document, request = machine.Document, question.body
     with change(document, "Balance"):
         drawn = {one.Web: one for one in machine.Counterweights}
-        heaviest = max((one["mass_kg"] for one in answer["counterweights"]), default=0.0)
+        heaviest = max((counterweight["mass_kg"] for counterweight in answer["counterweights"]), default=0.0)
         webs = {web["name"]: web for web in request["machine"]["webs"]}
         kept = []
         for one in answer["counterweights"]:

@@ -116,7 +116,9 @@ def verdict(
             words = f"{part.replace('_', '-')} {name}"
             told = after[name][f"{part}_{unit}"]
             lines.append(Line(words, unit.replace("Nm", "N m"), scale, told, value, least, part == "peak"))
-    masses: Dict[str, float] = {one["web"]: one["mass_kg"] for one in answer["counterweights"]}
+    masses: Dict[str, float] = {
+        counterweight["web"]: counterweight["mass_kg"] for counterweight in answer["counterweights"]
+    }
     most = max(masses.values(), default=0.0)
     for web in sorted({*masses, *weights}):
         mass = weights.get(web, Moments()).mass_kg
