@@ -31,7 +31,7 @@ def find(name: str, site: Path) -> list[Path]:
     if "/" in name:
         found = list(site.glob(name))
         return [file for path in found for file in (path.rglob("*") if path.is_dir() else [path]) if not file.is_dir()]
-    of_package = (one.files or [] for one in distributions(name=name, path=[str(site)]))
+    of_package = (distribution.files or [] for distribution in distributions(name=name, path=[str(site)]))
     return [path for files in of_package for file in files if (path := site / file).exists()]
 
 

@@ -173,7 +173,7 @@ def _range(rows: list[Row]) -> str:
 
 def _times(rows: list[Row], others: list[Row]) -> str:
     """Ratios of times, example by example."""
-    ratios = [one.time / other.time for one, other in zip(rows, others, strict=True)]
+    ratios = [row.time / other.time for row, other in zip(rows, others, strict=True)]
     return " to ".join(
         dict.fromkeys(f"{ratio:.2g}" if ratio < 100 else f"{ratio:.0f}" for ratio in (min(ratios), max(ratios)))
     )

@@ -27,11 +27,11 @@ class Sequence:
     @property
     def participants(self) -> list[str]:
         """Those that send or receive, in the order of their first message."""
-        return list(dict.fromkeys(name for one in self.messages for name in (one.sender, one.receiver)))
+        return list(dict.fromkeys(name for message in self.messages for name in (message.sender, message.receiver)))
 
 
 def _sequence(title: str, *messages: tuple[str, str, str]) -> Sequence:
-    return Sequence(title, tuple(Message(*one) for one in messages))
+    return Sequence(title, tuple(Message(*message) for message in messages))
 
 
 _CONNECTIONS, _COMPUTING = "service/wire/connections.py", "service/http/computing.py"
@@ -118,8 +118,10 @@ def picture(sequence: Sequence) -> str:
         lines.append(f'<path d="M{x:.0f} {_HEAD}V{height - _MARGIN}" stroke="#bbb" stroke-dasharray="3 3"/>')
         lines.append(f'{head} y="24" fill="#666">{folder + "/" if folder else ""}</text>')
         lines.append(f'{head} y="40" font-weight="bold">{file}</text>')
-    for number, one in enumerate(sequence.messages, start=1):
-        lines += _message(at[one.sender], at[one.receiver], _HEAD + _LINE * number, f"{number}. {one.content}")
+    for number, message in enumerate(sequence.messages, start=1):
+        lines += _message(
+            at[message.sender], at[message.receiver], _HEAD + _LINE * number, f"{number}. {message.content}"
+        )
     return "\n".join([*lines, "</svg>\n"])
 
 

@@ -25,13 +25,13 @@ _ONSHAPE = "https://cad.onshape.com"
 _MOST_POINTS = 64
 
 
-def asked(path: str) -> Json:
+def call(path: str) -> Json:
     """One call of Onshape, with the keys of the environment."""
     keys = base64.b64encode(os.environ["ONSHAPE_KEYS"].encode()).decode()
     headers = {"Authorization": f"Basic {keys}", "Accept": "application/json"}
     with urlopen(Request(os.environ.get("ONSHAPE_URL", _ONSHAPE) + path, headers=headers), timeout=60) as answer:
-        found: Json = json.load(answer)
-    return found
+        content: Json = json.load(answer)
+    return content
 
 
 def faces_of(details: Json) -> List[Json]:
@@ -85,24 +85,24 @@ def body_of(properties: Json) -> Json:
     }
 
 
-def machine_of(shaft: Json, said: Json) -> Json:
+def machine_of(shaft: Json, description: Json) -> Json:
     """A request with what the faces show and what a description says besides."""
-    rows = [throw.get("rows", []) for throw in said["machine"].get("throws", [])]
+    rows = [throw.get("rows", []) for throw in description["machine"].get("throws", [])]
     if len(rows) != len(shaft["throws"]):
         raise SystemExit(f"the faces show {len(shaft['throws'])} throws, {len(rows)} are described")
     shown = {name: shaft[name] for name in ("webs", "bearings", "unbalances")}
     throws = [{**throw, "rows": on} for throw, on in zip(shaft["throws"], rows)]
-    return {**said, "machine": {"kind": "reciprocating", **said["machine"], **shown, "throws": throws}}
+    return {**description, "machine": {"kind": "reciprocating", **description["machine"], **shown, "throws": throws}}
 
 
 def main(document: str, workspace: str, element: str, machine: str = "") -> None:
     """Print the shaft, or the answer about the whole machine."""
     studio = f"/api/v9/partstudios/d/{document}/w/{workspace}/e/{element}"
-    faces = faces_of(asked(f"{studio}/bodydetails"))
-    body = body_of(asked(f"{studio}/massproperties?massAsGroup=true"))
+    faces = faces_of(call(f"{studio}/bodydetails"))
+    body = body_of(call(f"{studio}/massproperties?massAsGroup=true"))
     service = Service(os.environ.get("COUNTERWEIGHT_URL", "http://127.0.0.1:8000"))
     shaft = service.shaft({"faces": faces, "bodies": [body]})
-    serious = [f"{one['pointer']}: {one['message']}" for one in shaft["doubts"] if one["serious"]]
+    serious = [f"{doubt['pointer']}: {doubt['message']}" for doubt in shaft["doubts"] if doubt["serious"]]
     if serious:
         raise SystemExit("\n".join(serious))
     if machine:

@@ -39,13 +39,13 @@ class Balance(om.ExplicitComponent):  # type: ignore[misc]
         machine = self.options["request"]["machine"]
         webs, unbalances = machine["webs"], machine.get("unbalances", [])
         self._names = [web["name"] for web in webs]
-        self._places = [one["position_m"] for one in unbalances]
+        self._places = [unbalance["position_m"] for unbalance in unbalances]
         self.add_input("max_mass", val=[web["max_mass_kg"] for web in webs], units="kg")
         self.add_output("peak", units="N")
         self.add_output("mass", units="kg")
         self.declare_partials("peak", "max_mass")
         if unbalances:
-            said = [[one.get("x_kg_m", 0.0), one.get("y_kg_m", 0.0)] for one in unbalances]
+            said = [[unbalance.get("x_kg_m", 0.0), unbalance.get("y_kg_m", 0.0)] for unbalance in unbalances]
             self.add_input("unbalance", val=said, units="kg*m")
             self.declare_partials("peak", "unbalance")
 
@@ -54,8 +54,8 @@ class Balance(om.ExplicitComponent):  # type: ignore[misc]
         for web, most in zip(request["machine"]["webs"], inputs["max_mass"], strict=True):
             web["max_mass_kg"] = float(most)
         if self._places:
-            for one, (x, y) in zip(request["machine"]["unbalances"], inputs["unbalance"], strict=True):
-                one["x_kg_m"], one["y_kg_m"] = float(x), float(y)
+            for unbalance, (x, y) in zip(request["machine"]["unbalances"], inputs["unbalance"], strict=True):
+                unbalance["x_kg_m"], unbalance["y_kg_m"] = float(x), float(y)
         self._answer = self.options["ask"](request)
         if self._answer["status"] != "optimal":
             raise om.AnalysisError(f"no optimum: {self._answer['status']}")

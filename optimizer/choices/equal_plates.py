@@ -43,23 +43,23 @@ def alike(
     if not suits_kernel(whole):
         return cut
     clusters = list(_clusters(plates, cut))
-    apart = [each for each in clusters if each.high - each.low > SAME_SIZE * each.high]
+    apart = [cluster for cluster in clusters if cluster.high - cluster.low > SAME_SIZE * cluster.high]
     if not apart:
         return cut
     admitted = _admitted(whole, cut, optimum, least_mass)
     empty = np.abs(cut.unbalance) == 0.0
     every = empty.copy()
-    every[plates.webs[np.concatenate([each.places for each in clusters])]] = True
+    every[plates.webs[np.concatenate([cluster.places for cluster in clusters])]] = True
     if len(apart) > 1:
         # all at once, which mostly does
         found = _opened(whole, plates, nodes, cut, every, apart, admitted)
         if found is not None:
             return found
     one_by_one, held, left = cut, empty.copy(), False
-    for each in clusters:
-        held[plates.webs[each.places]] = True
-        if each.high - each.low > SAME_SIZE * each.high:
-            found = _opened(whole, plates, nodes, one_by_one, held, [each], admitted)
+    for cluster in clusters:
+        held[plates.webs[cluster.places]] = True
+        if cluster.high - cluster.low > SAME_SIZE * cluster.high:
+            found = _opened(whole, plates, nodes, one_by_one, held, [cluster], admitted)
             one_by_one, left = found or one_by_one, left or found is None
     if not left:
         return one_by_one
@@ -150,10 +150,10 @@ def _opened(
     ----------
     held : (K,) bool, webs that stay as they are or are opened so; the others are chosen anew.
     """
-    many, places = whole.chosen(np.zeros(_TRIED, int)), np.concatenate([each.places for each in clusters])
-    webs, size = plates.webs[places], [each.places.size for each in clusters]
-    low, high = (np.repeat([getattr(each, name) for each in clusters], size) for name in ("low", "high"))
-    full, u = any(each.full for each in clusters), before.unbalance
+    many, places = whole.chosen(np.zeros(_TRIED, int)), np.concatenate([cluster.places for cluster in clusters])
+    webs, size = plates.webs[places], [cluster.places.size for cluster in clusters]
+    low, high = (np.repeat([getattr(cluster, name) for cluster in clusters], size) for name in ("low", "high"))
+    full, u = any(cluster.full for cluster in clusters), before.unbalance
     for _ in range(_ROUNDS):
         openings = np.repeat(before.angle[None], _TRIED, axis=0)
         openings[:, places] = np.linspace(low, high, _TRIED)

@@ -66,7 +66,7 @@ class Cylinders:
             self,
             point=frame.points(self.point),
             direction=frame.directions(self.direction),
-            points=tuple(frame.points(one) for one in self.points),
+            points=tuple(frame.points(point) for point in self.points),
         )
 
     def chosen(self, which: NDArray[np.bool_]) -> Self:
@@ -79,7 +79,7 @@ class Cylinders:
             radius=self.radius[which],
             ends=self.ends[which],
             angle_deg=self.angle_deg[which],
-            points=tuple(one for one, taken in zip(self.points, which, strict=True) if taken),
+            points=tuple(point for point, taken in zip(self.points, which, strict=True) if taken),
         )
 
 
@@ -99,41 +99,41 @@ class Planes:
             self,
             point=frame.points(self.point),
             normal=frame.directions(self.normal),
-            points=tuple(frame.points(one) for one in self.points),
+            points=tuple(frame.points(point) for point in self.points),
         )
 
 
 def cylinders_of(request: ShaftRequest) -> Cylinders:
     """The outer round faces; bores show nothing that counts here."""
-    found = [(n, one) for n, one in enumerate(request.faces) if isinstance(one, CylinderFace) and one.outer]
+    found = [(n, face) for n, face in enumerate(request.faces) if isinstance(face, CylinderFace) and face.outer]
     faces = [one for _, one in found]
     return Cylinders(
         number=np.array([n for n, _ in found], dtype=np.intp),
-        point=_triples([one.centre_m for one in faces]),
-        direction=_units([one.axis for one in faces]),
-        radius=np.array([one.radius_m for one in faces]),
-        ends=np.array([sorted(one.ends_m) for one in faces]).reshape(-1, 2),
-        angle_deg=np.array([one.angle_deg for one in faces]),
-        points=tuple(_triples(one.points_m) for one in faces),
+        point=_triples([face.centre_m for face in faces]),
+        direction=_units([face.axis for face in faces]),
+        radius=np.array([face.radius_m for face in faces]),
+        ends=np.array([sorted(face.ends_m) for face in faces]).reshape(-1, 2),
+        angle_deg=np.array([face.angle_deg for face in faces]),
+        points=tuple(_triples(face.points_m) for face in faces),
     )
 
 
 def planes_of(request: ShaftRequest) -> Planes:
     """The plane faces."""
-    found = [(n, one) for n, one in enumerate(request.faces) if isinstance(one, PlaneFace)]
+    found = [(n, face) for n, face in enumerate(request.faces) if isinstance(face, PlaneFace)]
     faces = [one for _, one in found]
     return Planes(
         number=np.array([n for n, _ in found], dtype=np.intp),
-        point=_triples([one.centre_m for one in faces]),
-        normal=_units([one.normal for one in faces]),
-        area=np.array([np.nan if one.area_m2 is None else one.area_m2 for one in faces]),
-        points=tuple(_triples(one.points_m) for one in faces),
+        point=_triples([face.centre_m for face in faces]),
+        normal=_units([face.normal for face in faces]),
+        area=np.array([np.nan if face.area_m2 is None else face.area_m2 for face in faces]),
+        points=tuple(_triples(face.points_m) for face in faces),
     )
 
 
 def other_points(request: ShaftRequest) -> Real:
     """Points (n, 3) of all faces that are neither round nor plane."""
-    return _triples([point for one in request.faces if isinstance(one, OtherFace) for point in one.points_m])
+    return _triples([point for face in request.faces if isinstance(face, OtherFace) for point in face.points_m])
 
 
 def _triples(points: Sequence[Sequence[float]]) -> Real:

@@ -69,7 +69,7 @@ def report(request: ShaftRequest, shaft: Shaft, rotor: RotorMoments | None) -> S
         doubts=(
             *shaft.doubts,
             *shaft.plates.doubts,
-            *(one for each in bearings.values() for one in each),
+            *(one for bearing in bearings.values() for one in bearing),
             *_sizes([chain[n] for n in pins]),
             *density_doubts(request.bodies),
         ),

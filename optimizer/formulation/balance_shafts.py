@@ -65,7 +65,10 @@ class Fitted(NamedTuple):
     @property
     def all_of_them(self) -> tuple[Counterweight, ...]:
         """Those on the balance shafts behind those of the crankshaft."""
-        return (*self.counterweights, *(one for shaft in self.balance_shafts for one in shaft.counterweights))
+        return (
+            *self.counterweights,
+            *(counterweight for shaft in self.balance_shafts for counterweight in shaft.counterweights),
+        )
 
     def active_limits(
         self, of_machine: tuple[MachineLimit, ...]

@@ -182,6 +182,6 @@ def _shapes(machine: Machine, mass_kg: Real) -> dict[int, Shape]:
             inertia_kg_m2=inertia,
         )
         for k, opening, chord, outer, inertia in zip(
-            cut.webs.tolist(), *(each.tolist() for each in figures), strict=True
+            cut.webs.tolist(), *(figure.tolist() for figure in figures), strict=True
         )
     }

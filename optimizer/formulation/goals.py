@@ -254,7 +254,7 @@ class _CaseQuantities:
     def _of_shaking(self) -> range:
         """Responses on the frame of all orders."""
         return self._placed(
-            "shaking", lambda: [self._quantity(each) for each in of_all_orders(*self.turn, self.objective)]
+            "shaking", lambda: [self._quantity(order) for order in of_all_orders(*self.turn, self.objective)]
         )
 
     def _of_frame_under(self, ceiling: CeilingFields) -> int:
@@ -309,7 +309,7 @@ class _CaseQuantities:
         problems = list(missing_sizes(self.machine))
         if problems:
             raise MissingInput(problems)
-        return np.array([(each.diameter_m or 0.0) * (each.length_m or 0.0) for each in self.machine.bearings])
+        return np.array([(bearing.diameter_m or 0.0) * (bearing.length_m or 0.0) for bearing in self.machine.bearings])
 
 
 def _called(row: Row, scenario: str | None, variant: int | None = None) -> Row:
@@ -322,10 +322,10 @@ def _largest(name: str, cases: Sequence[tuple[Group, ...]]) -> Goal:
     """The largest of the sums of groups of several cases."""
     if len(cases) == 1:
         return Goal(name, cases[0])
-    if all(len(each) == 1 for each in cases):
-        return Goal(name, (_merged([group for each in cases for group in each]),))
-    flat = tuple(group for each in cases for group in each)
-    return Goal(name, flat, cases=tuple(n for n, each in enumerate(cases) for _ in each))
+    if all(len(case) == 1 for case in cases):
+        return Goal(name, (_merged([group for case in cases for group in case]),))
+    flat = tuple(group for case in cases for group in case)
+    return Goal(name, flat, cases=tuple(n for n, case in enumerate(cases) for _ in case))
 
 
 def _merged(groups: Sequence[Group]) -> Group:

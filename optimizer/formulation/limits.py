@@ -163,7 +163,7 @@ def limit_sizes(machine: Machine) -> dict[WebLimit, LimitSize]:
 @remembered
 def largest_mass(machine: Machine) -> Real:
     """Largest mass of every web (..., K), the smallest of what its limits allow, kg; inf where there is none."""
-    given = (each.limit for each in limit_sizes(machine).values())
+    given = (size.limit for size in limit_sizes(machine).values())
     allowed = [each.mass(machine) for each in given if isinstance(each, MassLimit)]
     # where a weight is fixed nothing is chosen
     mass = np.where(fixed_webs(machine), 0.0, reduce(np.minimum, allowed, np.full(len(machine.webs), np.inf)))

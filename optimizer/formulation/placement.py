@@ -19,9 +19,15 @@ def on_webs(request: AnalyzeRequest) -> AnalyzeRequest:
     What is in a plane of its own sits on a web of the crankshaft that is named after the plane. Fields may hold
     columns (n,).
     """
-    if all(one.web is not None and one.radius_m is None for one in request.counterweights):
+    if all(
+        counterweight.web is not None and counterweight.radius_m is None for counterweight in request.counterweights
+    ):
         return request
-    radii = {one.web: one.radius_m for one in request.counterweights if one.web and one.radius_m is not None}
+    radii = {
+        counterweight.web: counterweight.radius_m
+        for counterweight in request.counterweights
+        if counterweight.web and counterweight.radius_m is not None
+    }
     machine = request.machine
 
     values: dict[Path, Any] = {}
@@ -32,14 +38,18 @@ def on_webs(request: AnalyzeRequest) -> AnalyzeRequest:
                 own = {"counterweight_radius_m": radii[web.name], "envelope": None}
                 values |= {("machine", *place, k, field): value for field, value in own.items()}
     names, placed = _names(request), []
-    for n, one in enumerate(request.counterweights):
-        if one.web is None:
+    for n, counterweight in enumerate(request.counterweights):
+        if counterweight.web is None:
             name = next(names)
             values["counterweights", n, "web"] = name
             placed.append(
                 with_fields(
                     _PLACE,
-                    {("name",): name, ("position_m",): one.position_m, ("counterweight_radius_m",): one.radius_m},
+                    {
+                        ("name",): name,
+                        ("position_m",): counterweight.position_m,
+                        ("counterweight_radius_m",): counterweight.radius_m,
+                    },
                 )
             )
     request = with_fields(request, values)
@@ -58,8 +68,8 @@ def _webs(machine: Machine) -> Iterator[tuple[Path, tuple[Web, ...]]]:
 def _names(request: AnalyzeRequest) -> Iterator[str]:
     """Names of planes, none of them that of a web."""
     taken = {web.name for _, webs in _webs(request.machine) for web in webs}
-    for number, one in enumerate(request.counterweights, 1):
-        if one.web is None:
+    for number, counterweight in enumerate(request.counterweights, 1):
+        if counterweight.web is None:
             name = f"counterweight {number}"
             while name in taken:
                 name += "'"

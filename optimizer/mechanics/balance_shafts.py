@@ -90,4 +90,4 @@ def beside(layout: Layout, responses: tuple[TurnResponse, ...]) -> tuple[TurnRes
     if layout.balance is None:
         return responses
     none = np.zeros(layout.balance.position.shape)
-    return tuple(replace(each, influence=np.concatenate([each.influence, none])) for each in responses)
+    return tuple(replace(response, influence=np.concatenate([response.influence, none])) for response in responses)

@@ -74,11 +74,11 @@ def traces(machine: ReciprocatingMachine, layout: Layout) -> tuple[Trace, ...]:
         if getattr(given, name) is not None
     ]
     leading = np.broadcast_shapes(
-        layout.omega.shape, *(part.shape for one in results for part in (one.table, one.lead))
+        layout.omega.shape, *(part.shape for result in results for part in (result.table, result.lead))
     )
     return tuple(
-        replace(one, table=np.broadcast_to(one.table, leading), lead=np.broadcast_to(one.lead, leading))
-        for one in results
+        replace(result, table=np.broadcast_to(result.table, leading), lead=np.broadcast_to(result.lead, leading))
+        for result in results
     )
 
 

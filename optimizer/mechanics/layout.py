@@ -185,9 +185,9 @@ def _balance_webs(machine: Rotor) -> BalanceWebs | None:
 
 def _unbalances(machine: Rotor) -> Iterator[Any]:
     """The shaft's own unbalances by their components, masses at a radius of 1 m: mass, radius, angle, position."""
-    for each in machine.unbalances:
-        for component, angle in ((each.x_kg_m, 0.0), (each.y_kg_m, 90.0)):
-            yield np.abs(component), 1.0, np.where(np.less(component, 0.0), angle + 180.0, angle), each.position_m
+    for unbalance in machine.unbalances:
+        for component, angle in ((unbalance.x_kg_m, 0.0), (unbalance.y_kg_m, 90.0)):
+            yield np.abs(component), 1.0, np.where(np.less(component, 0.0), angle + 180.0, angle), unbalance.position_m
 
 
 def _reciprocating(machine: ReciprocatingMachine) -> tuple[list[Any], list[Any], list[float]]:

@@ -124,8 +124,8 @@ def _tables(traces: Sequence[Trace]) -> "Tables":
     """The pressures that traces give, as what is compiled takes them."""
     from optimizer.mechanics.kernel.rows import Tables
 
-    number, designs = len(traces), max((len(each) for one in traces for each in (one.table, one.lead)), default=1)
-    sizes = [one.angle.shape for one in traces]
+    number, designs = len(traces), max((len(each) for trace in traces for each in (trace.table, trace.lead)), default=1)
+    sizes = [trace.angle.shape for trace in traces]
     shape = (number, *(max(each) for each in zip(*sizes, strict=True))) if sizes else (0, 1, 1)
     parts, lead, table = np.zeros((3, *shape)), np.empty((number, designs)), np.empty((number, designs), np.int64)
     for k, (one, (tables, count)) in enumerate(zip(traces, sizes, strict=True)):
@@ -133,7 +133,7 @@ def _tables(traces: Sequence[Trace]) -> "Tables":
         parts[0, k, :tables, :count], parts[1, k, :tables, :count] = one.angle, one.pressure
         parts[2, k, :tables, : count - 1] = np.diff(one.pressure, axis=-1) / np.where(step > 0.0, step, np.inf)
         table[k], lead[k] = one.table, one.lead
-    counts, cycles = np.array([count for _, count in sizes], np.int64), np.array([one.cycle for one in traces])
+    counts, cycles = np.array([count for _, count in sizes], np.int64), np.array([trace.cycle for trace in traces])
     angle, pressure, slope = parts
     return Tables(angle, pressure, slope, counts, cycles, table, lead)
 

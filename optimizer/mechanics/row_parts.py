@@ -81,7 +81,7 @@ class RowParts:
     def _by_row(self, *places: NDArray[Any]) -> tuple[NDArray[Any], ...]:
         """Every row, and places (m,), at each of these all rows: (m R,)."""
         count = self.weights.shape[1]
-        return np.tile(np.arange(count), places[0].size), *(np.repeat(each, count) for each in places)
+        return np.tile(np.arange(count), places[0].size), *(np.repeat(place, count) for place in places)
 
     @cached_property
     def _inertia(self) -> RowData:

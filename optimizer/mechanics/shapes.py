@@ -29,7 +29,7 @@ def plates(machine: Machine) -> Plates | None:
 @lru_cache(maxsize=8)
 def _side_by_side(envelopes: tuple[Envelope | None, ...]) -> Plates:
     """The plates of the webs, which machines have in common whose counterweights differ."""
-    cut = [(k, each) for k, each in enumerate(envelopes) if each is not None]
+    cut = [(k, envelope) for k, envelope in enumerate(envelopes) if envelope is not None]
     parts = []
     for shape, made in _SHAPES.items():
         places = np.array([n for n, (_, each) in enumerate(cut) if each.shape == shape], dtype=int)

@@ -31,7 +31,7 @@ class _Linked(JITCodeLibrary):  # type: ignore[misc]
 
     def get_pointer_to_function(self, name: str) -> int:
         self._ensure_finalized()
-        if not self._made and name in {each.name for each in self.get_defined_functions()}:
+        if not self._made and name in {function.name for function in self.get_defined_functions()}:
             self._made = True
             super()._optimize_final_module()
             self._final_module.verify()

@@ -46,17 +46,19 @@ def build(request: RatingRequest, designs: Sequence[StageDesign]) -> list[StageB
     # before the first and after the last stage, the pressures are not the machine's to change
     first = designs[0].size.swept_volume_m3, sizes[0].swept_volume_m3
     inner = [
-        pressure_correction(*first, one.size.swept_volume_m3, size.swept_volume_m3)
-        for one, size in zip(designs[1:], sizes[1:], strict=True)
+        pressure_correction(*first, design.size.swept_volume_m3, size.swept_volume_m3)
+        for design, size in zip(designs[1:], sizes[1:], strict=True)
     ]
     corrections = [1.0, *inner, 1.0]
-    corrected = [_corrected(one, *corrections[i : i + 2]) for i, one in enumerate(designs)]
+    corrected = [_corrected(design, *corrections[i : i + 2]) for i, design in enumerate(designs)]
     refuse(_order_problems(corrected))
-    reference = [_reference_losses(request, one) for one in designs]
+    reference = [_reference_losses(request, design) for design in designs]
     losses = [_losses(request, one) for one in reference]
     refuse(_loss_problems(losses))
-    in_cylinder = [_in_cylinder(one, state, loss) for one, state, loss in zip(designs, corrected, losses, strict=True)]
-    coefficients = delivery(request, in_cylinder, [one.m for one in designs])
+    in_cylinder = [
+        _in_cylinder(design, state, loss) for design, state, loss in zip(designs, corrected, losses, strict=True)
+    ]
+    coefficients = delivery(request, in_cylinder, [design.m for design in designs])
     return [
         StageBuilt(
             size=sizes[i],
@@ -72,7 +74,7 @@ def build(request: RatingRequest, designs: Sequence[StageDesign]) -> list[StageB
 
 
 def _sizes(request: RatingRequest, designs: Sequence[StageDesign]) -> list[CylinderSize]:
-    bores = [one.stage.bore_m or nominal_bore(one.size.bore_m, request.bore_series) for one in designs]
+    bores = [design.stage.bore_m or nominal_bore(design.size.bore_m, request.bore_series) for design in designs]
     refuse(
         FieldProblem(
             ("stages", i, "piston_rod_diameter_m"), f"must be smaller than the bore, which is rounded to {bore:.4g} m"
@@ -80,7 +82,7 @@ def _sizes(request: RatingRequest, designs: Sequence[StageDesign]) -> list[Cylin
         for i, (one, bore) in enumerate(zip(designs, bores, strict=True))
         if not one.piston.rod < bore
     )
-    return [one.piston.size(bore) for one, bore in zip(designs, bores, strict=True)]
+    return [design.piston.size(bore) for design, bore in zip(designs, bores, strict=True)]
 
 
 def _corrected(design: StageDesign, suction: float, discharge: float) -> StageState:

@@ -38,7 +38,7 @@ def tandem_loads(stages: Sequence[int], loads: Sequence[GasLoads]) -> TandemLoad
 def rod_loads(loads: Sequence[GasLoads], tandems: Sequence[TandemLoads]) -> list[float]:
     """Largest gas force [N] in the rod of every stage, which may carry others too."""
     shared = {number: tandem.largest_N for tandem in tandems for number in tandem.stages}
-    return [shared.get(number, one.largest_N) for number, one in enumerate(loads, 1)]
+    return [shared.get(number, load.largest_N) for number, load in enumerate(loads, 1)]
 
 
 def _dead_centre(head: float, crank: float, size: CylinderSize) -> DeadCentre:

@@ -83,7 +83,7 @@ def report(
     least : of the responses, and of all under ceilings that the report is about.
     implied : largest masses that the proofs count with, by web, kg.
     """
-    impossible = [each for each in ceilings if least[each.response].lower_bound > each.allowed]
+    impossible = [ceiling for ceiling in ceilings if least[ceiling.response].lower_bound > ceiling.allowed]
     left = replace(scene, shafts=shown.on_shafts).first_order(shown.on_crank)
     return Infeasibility(
         conflict=tuple(dict.fromkeys(each.field for each in impossible or together)),
@@ -242,7 +242,7 @@ def _scenarios(program: Problem, failure: Unkept, solver: Solver) -> tuple[str, 
 
 def _under(program: Problem, scenario: str, solver: Solver) -> CertifiedOptimum | Unkept:
     """The program under the ceilings of one scenario alone, as far as whether they can be kept."""
-    ceilings = tuple(each for each in program.ceilings if each[0].scenario == scenario)
+    ceilings = tuple(ceiling for ceiling in program.ceilings if ceiling[0].scenario == scenario)
     limited = tuple(each for each in program.limited if program.quantities[each[0]].scenario == scenario)
     return optimum(program.changed(goals=program.goals[-1:], ceilings=ceilings, limited=limited), 1.0, False, solver)
 

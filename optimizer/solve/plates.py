@@ -142,7 +142,7 @@ class _Task:
             nodes = closer_nodes(nodes, self.opened(tried[-1].called_for))
         # of those that are equally near the last
         attempts = (*reversed(tried), self.lightest(tried))
-        return min((self.judged(each.proven, each.cut) for each in attempts), key=lambda best: best.gap).optima
+        return min((self.judged(attempt.proven, attempt.cut) for attempt in attempts), key=lambda best: best.gap).optima
 
     def opened(self, u: Complex) -> Real:
         """Half-angles (P,) of what is cut for unbalances (K,), of alike webs alike, rad."""

@@ -113,16 +113,16 @@ def shadow_prices(
     )
     return tuple(
         ShadowPrice(
-            limit=each.limit,
-            web=each.web,
+            limit=limit.limit,
+            web=limit.web,
             # where a whole limit is worth less than the gap its price cannot be told from 0; a limit of 0 has a price
-            value=each.price * omega_squared / quantity.weight
-            if each.size == 0.0 or each.price * each.size > gap
+            value=limit.price * omega_squared / quantity.weight
+            if limit.size == 0.0 or limit.price * limit.size > gap
             else 0.0,
-            unit=_UNITS[f"{quantity.unit}/{each.unit}"],
+            unit=_UNITS[f"{quantity.unit}/{limit.unit}"],
         )
-        for each in limits
-        if each.limit in active[each.web] or each.price * each.size > _WORTH * at_rest
+        for limit in limits
+        if limit.limit in active[limit.web] or limit.price * limit.size > _WORTH * at_rest
     )
 
 

@@ -29,13 +29,13 @@ def with_turn(residual: Residual, scene: Prepared, unbalance: Complex | None) ->
     before = _peaks(of_all_orders(turn, scene.layout, goal), scene.layout)
     after = None if unbalance is None else _peaks(of_all_orders(turn, scene.laden, goal), scene.laden, unbalance)
     changes = tuple(
-        each.model_copy(
+        response.model_copy(
             update={
-                "turn_before": before[each.response],
-                "turn_after": None if after is None else after[each.response],
+                "turn_before": before[response.response],
+                "turn_after": None if after is None else after[response.response],
             }
         )
-        for each in residual.responses
+        for response in residual.responses
     )
     pair = TurnResidual(before=_pair(before), after=None if after is None else _pair(after))
     return residual.model_copy(update={"turn": pair, "responses": changes})
@@ -49,4 +49,4 @@ def _peaks(responses: Sequence[TurnResponse], layout: Layout, unbalance: Complex
     """Of one machine with the weights that are in its layout, by name."""
     u = np.zeros(responses[0].influence.shape, complex) if unbalance is None else unbalance
     found: Real = peaks(responses, u, _WIDTH).lower * layout.omega**2
-    return dict(zip((each.name for each in responses), found.tolist(), strict=True))
+    return dict(zip((response.name for response in responses), found.tolist(), strict=True))

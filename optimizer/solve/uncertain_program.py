@@ -86,7 +86,7 @@ class MachineOfCase:
     def parts(self) -> tuple[Phasors, ...]:
         """What every row adds to the responses, (rows,) each."""
         plan = self.scene.layout
-        return tuple(each.baseline for each in responses(plan, row_parts(plan), self.space.objective))
+        return tuple(response.baseline for response in responses(plan, row_parts(plan), self.space.objective))
 
     @property
     def scatters(self) -> bool:

@@ -148,7 +148,7 @@ def _external(robust: Robust, machine: MachineOfCase, response: int, u: Complex)
 def _peak(robust: Robust, machine: MachineOfCase, responses: Sequence[TurnResponse], u: Complex) -> float:
     """The largest of the peaks of several responses: closely of those alone that may have it."""
     masses = machine.share if machine.scatters else 0.0
-    quantities = [Quantity(each, "peak", machine.scenario, masses) for each in responses]
+    quantities = [Quantity(response, "peak", machine.scenario, masses) for response in responses]
     most = np.inf
     for width in (_ABOUT, _CLOSE):
         no = [False] * len(quantities)

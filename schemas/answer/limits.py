@@ -24,11 +24,14 @@ if TYPE_CHECKING:
 else:
     #: of the responses on the frame, and inside the shaft
     CeilingField = Literal[
-        *(each.field for each in ceilings()), "bearing_ceiling_N", "specific_load_ceiling_Pa", "bending_ceiling_Nm"
+        *(ceiling.field for ceiling in ceilings()),
+        "bearing_ceiling_N",
+        "specific_load_ceiling_Pa",
+        "bending_ceiling_Nm",
     ]
     MachineLimit = Literal[
         "max_total_mass",
-        *(each.limit for each in ceilings()),
+        *(ceiling.limit for ceiling in ceilings()),
         "bearing_ceiling",
         "specific_load_ceiling",
         "bending_ceiling",

@@ -105,8 +105,8 @@ def _options(node: Schema) -> Iterator[Schema]:
     if alternatives is None or "discriminator" in node:
         yield node
         return
-    for one in alternatives:
-        yield from _options(_collapsed(one) if "items" in one else one)
+    for alternative in alternatives:
+        yield from _options(_collapsed(alternative) if "items" in alternative else alternative)
 
 
 def _plain(node: Schema) -> bool:
@@ -115,15 +115,15 @@ def _plain(node: Schema) -> bool:
 
 def _joinable(options: list[Schema]) -> bool:
     """Whether one schema with a list of types says the same: no two of a type, nothing that holds for all of them."""
-    types = [one["type"] for one in options]
-    values = [one for one in options if one["type"] != _NULL]
+    types = [option["type"] for option in options]
+    values = [option for option in options if option["type"] != _NULL]
     mixed = len(values) > 1 and any(key in one for key in _ANY_TYPE for one in values)
     return bool(options) and len(set(types)) == len(types) and not mixed
 
 
 def _joined(options: list[Schema]) -> Schema:
-    types = [one["type"] for one in options]
-    joined = {key: value for one in options for key, value in one.items() if key not in ("title", "description")}
+    types = [option["type"] for option in options]
+    joined = {key: value for option in options for key, value in option.items() if key not in ("title", "description")}
     if _NULL in types:
         known = joined.get("enum", [joined["const"]] if "const" in joined else None)
         joined |= {} if known is None else {"enum": [*known, None]}

@@ -64,9 +64,9 @@ def _several(values: tuple[object, ...]) -> str:
         numbers = len(values) > 1 and all(isinstance(value, float | None) for value in values)
         return f"{len(values)} numbers" if numbers else ", ".join(map(_value, values))
     # a column for every field that one of them has
-    names = list(dict.fromkeys(chain.from_iterable((name for name, _ in _content(one)) for one in models)))
+    names = list(dict.fromkeys(chain.from_iterable((name for name, _ in _content(model)) for model in models)))
     head = "".join(f"<th>{escape(name)}</th>" for name in names)
-    rows = (dict(_content(one)) for one in models[:_MOST])
+    rows = (dict(_content(model)) for model in models[:_MOST])
     body = "".join(f"<tr>{''.join(f'<td>{_value(row.get(name, str()))}</td>' for name in names)}</tr>" for row in rows)
     more = f"<caption>{len(models)}, the first {_MOST} of them</caption>" if len(models) > _MOST else ""
     return f"<table>{more}<tr>{head}</tr>{body}</table>"

@@ -90,7 +90,7 @@ def ceilings() -> Iterator[CeilingFields]:
 def limited(objective: Any) -> list[CeilingFields]:
     """Ceilings that an objective gives, as numbers or columns."""
     given = vars(objective)
-    return [each for one in RESPONSES.values() for each in one.ceilings if given[each.field] is not None]
+    return [ceiling for one in RESPONSES.values() for ceiling in one.ceilings if given[ceiling.field] is not None]
 
 
 def counted(objective: Any) -> tuple[ResponseFields, ...]:

@@ -142,7 +142,7 @@ class Rotor(Ruled):
 
     def rules(self) -> Iterator[Rule]:
         yield from unique_names(("webs",), [web.name for web in self.webs])
-        yield from unique_names(("unbalances",), [each.name for each in self.unbalances])
+        yield from unique_names(("unbalances",), [unbalance.name for unbalance in self.unbalances])
         if self.overspeed_rpm is not None:
             slower = self.overspeed_rpm < self.speed_rpm
             yield Rule(slower, ("overspeed_rpm",), "must be at least speed_rpm")

@@ -151,8 +151,8 @@ def row_cylinders(row: Row) -> Iterator[tuple[tuple[str | int, ...], Cylinder]]:
     """The cylinders of a row with their paths from it."""
     if row.cylinder is not None:
         yield ("cylinder",), row.cylinder
-    for k, one in enumerate(row.cylinders):
-        yield ("cylinders", k), one
+    for k, cylinder in enumerate(row.cylinders):
+        yield ("cylinders", k), cylinder
 
 
 class Throw(Model):

@@ -148,10 +148,10 @@ class MatchRequest(Ruled):
         rows = self.places
         yield Rule(not rows, ("machine", "throws"), "parts need at least one row")
         yield Rule(not self.parts and not self.balance_nuts_kg, ("parts",), "nothing to match: give parts or nuts")
-        kinds = [each.kind for each in self.parts]
-        for k, each in enumerate(self.parts):
-            yield Rule(each.kind in kinds[:k], ("parts", k, "class"), "this class is named already")
-            yield from _parts_rules(("parts", k), each, rows)
+        kinds = [part.kind for part in self.parts]
+        for k, part in enumerate(self.parts):
+            yield Rule(part.kind in kinds[:k], ("parts", k, "class"), "this class is named already")
+            yield from _parts_rules(("parts", k), part, rows)
         yield from fitted_rules(self.machine, self.counterweights)
         both = self.choose_counterweights and bool(self.counterweights)
         yield Rule(both, ("counterweights",), "give either `counterweights` or `choose_counterweights`")

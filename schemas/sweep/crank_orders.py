@@ -49,12 +49,12 @@ class CrankOrders:
     @property
     def alike(self) -> bool:
         """Whether every angle can take the place of every other."""
-        return len({one.image[0] for one in self.symmetries if not one.reversed}) == len(self.times)
+        return len({symmetry.image[0] for symmetry in self.symmetries if not symmetry.reversed}) == len(self.times)
 
     @property
     def count(self) -> int:
         """Number of orders that are different machines (Burnside's lemma)."""
-        return sum(self._unmoved(one) for one in self.symmetries) // len(self.symmetries)
+        return sum(self._unmoved(symmetry) for symmetry in self.symmetries) // len(self.symmetries)
 
     def _unmoved(self, symmetry: Symmetry) -> int:
         """Sequences that a symmetry leaves as they are."""
@@ -135,7 +135,7 @@ def _same_in_a_mirror(machine: Machine, alike_across: bool) -> bool:
     if any(row.cylinder is not None or row.cylinders for throw in throws for row in throw.rows):
         return False
     axes = [row.axis_deg for throw in throws[:1] for row in throw.rows] or [0.0]
-    lines = {(one + other) / 2 for one in axes for other in axes}
+    lines = {(axis + other) / 2 for axis in axes for other in axes}
     if not alike_across:
         lines = {line for line in lines if _off(line, 90.0) <= _NEAR}
     return any(all(_mirrored(throw.rows, line) for throw in throws) for line in lines)
@@ -170,11 +170,11 @@ def _same_from_both_ends(machine: Machine) -> bool:
         return False
     if given is not None and abs(2 * given - ends) > _NEAR * max(size, abs(given)):
         return False
-    sides = [[_from_an_end(one, ends, turned) for one in throws] for turned in (False, True)]
+    sides = [[_from_an_end(throw, ends, turned) for throw in throws] for turned in (False, True)]
     places = [*machine.webs, *machine.bearings]
     last = len(throws) - 1 if machine.discrete else None
-    turned = [_from_an_end(one, ends, True, last) for one in places]
-    there = [_from_an_end(one, ends, False, last) for one in places]
+    turned = [_from_an_end(place, ends, True, last) for place in places]
+    there = [_from_an_end(place, ends, False, last) for place in places]
     return _equal(sides[0], sides[1][::-1], size) and _equal(there, turned, size, anywhere=True)
 
 

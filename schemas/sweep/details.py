@@ -93,9 +93,11 @@ def _within(machine: ReciprocatingMachine, of: Of, label: str, path: Path) -> It
         yield from (Part(f"{label}.{case}", path) for case in CASES)
     else:
         cylinders = [*row_cylinders(machine.throws[int(path[1])].rows[int(path[3])])]
-        for within, one in zip(labels([getattr(each, "name", None) for _, each in cylinders]), cylinders, strict=True):
+        for within, cylinder in zip(
+            labels([getattr(each, "name", None) for _, each in cylinders]), cylinders, strict=True
+        ):
             place = label if len(cylinders) == 1 else f"{label}.{within}"
-            yield from (Part(f"{place}.{side}", (*path, *one[0])) for side in _SIDES)
+            yield from (Part(f"{place}.{side}", (*path, *cylinder[0])) for side in _SIDES)
 
 
 def _number(name: str, unit: str | None, meaning: str) -> Column:

@@ -36,7 +36,7 @@ def examples(
     else:
         from service.report.chapters.catalogue import names
 
-        show(names("Examples", [(one.name, one.title) for one in catalogue().examples]))
+        show(names("Examples", [(example.name, example.title) for example in catalogue().examples]))
 
 
 def schema(

@@ -35,7 +35,10 @@ def _fitted(file: str) -> list[dict[str, Any]]:
     """The counterweights of an answer, as a request names them."""
     body = content(file)
     try:
-        every = [*body["counterweights"], *(one for shaft in body["balance_shafts"] for one in shaft["counterweights"])]
+        every = [
+            *body["counterweights"],
+            *(counterweight for shaft in body["balance_shafts"] for counterweight in shaft["counterweights"]),
+        ]
         return [{name: one[name] for name in _PLACED} for one in every]
     except (KeyError, TypeError):
         fail(f"{file} is not the answer to an optimisation or an analysis")

@@ -75,8 +75,8 @@ def _values(table: "pa.Table", x: str, y: str) -> tuple[list[float], list[float]
         if not (pa.types.is_floating(kind) or pa.types.is_integer(kind)):
             fail(f"{name} is no column of numbers")
     numbers = [table[name].cast(pa.float64()) for name in (x, y)]
-    keep = pc.and_(*(pc.fill_null(pc.is_finite(one), False) for one in numbers))
+    keep = pc.and_(*(pc.fill_null(pc.is_finite(number), False) for number in numbers))
     if "status" in table.schema.names:
         keep = pc.and_(keep, pc.is_in(table["status"], value_set=pa.array(_ANSWERED)))
-    across, upward = (one.filter(keep).to_pylist() for one in numbers)
+    across, upward = (number.filter(keep).to_pylist() for number in numbers)
     return across, upward, table.num_rows - len(across)

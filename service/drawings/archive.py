@@ -44,8 +44,8 @@ def files(drawn: DrawingSet) -> Iterator[tuple[str, bytes]]:
 def _placed(drawn: DrawingSet) -> Iterator[Solid]:
     """Every counterweight where it sits at shaft angle 0, in the coordinates of the machine."""
     for part in drawn.parts:
-        for one in part.places:
-            yield _solid(part, one)
+        for place in part.places:
+            yield _solid(part, place)
 
 
 def _solid(part: Part, counterweight: Counterweight) -> Solid:

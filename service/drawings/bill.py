@@ -28,7 +28,7 @@ def heads(drawn: DrawingSet) -> tuple[str, ...]:
 
 def rows(drawn: DrawingSet) -> Iterator[tuple[Cell, ...]]:
     """The lines of the bill, each with what sets it beside the optimum where it is as built."""
-    beside = {} if drawn.built is None else {one.web: line(one, drawn.built.tolerance) for one in drawn.built.pairs}
+    beside = {} if drawn.built is None else {pair.web: line(pair, drawn.built.tolerance) for pair in drawn.built.pairs}
     for row in _rows(drawn):
         yield *row, *(beside[str(row[_WEB])][1:] if beside else ())
 
@@ -38,7 +38,7 @@ def _rows(drawn: DrawingSet) -> Iterator[tuple[Cell, ...]]:
     for part in drawn.parts:
         for one in part.places:
             yield part.number, len(part.places), *_placed(one), *_made(part, one), part.name
-    drawn_webs = {one.web for part in drawn.parts for one in part.places}
+    drawn_webs = {place.web for part in drawn.parts for place in part.places}
     for one in drawn.fitted:
         if one.web not in drawn_webs:
             yield None, 1, *_placed(one), *(None,) * 7, "none: the web has no envelope"

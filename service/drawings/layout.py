@@ -172,19 +172,19 @@ class CrankMachine(_Shaft):
     @field_validator("throws")
     @classmethod
     def _few_rows(cls, throws: tuple[Crank | None, ...]) -> tuple[Crank | None, ...]:
-        if sum(len(one.rows) for one in throws if one) > MAX_ROWS_TOGETHER:
+        if sum(len(throw.rows) for throw in throws if throw) > MAX_ROWS_TOGETHER:
             raise PydanticCustomError("rows", f"must hold at most {MAX_ROWS_TOGETHER} rows together")
         return throws
 
     @property
     def cranks(self) -> tuple[tuple[str, Crank], ...]:
         """Throws that are known, by name or by number from 1."""
-        return tuple((one.name or str(k), one) for k, one in enumerate(self.throws, start=1) if one)
+        return tuple((throw.name or str(k), throw) for k, throw in enumerate(self.throws, start=1) if throw)
 
     @property
     def supports(self) -> tuple[tuple[str, Support], ...]:
         """Main bearings that are known, by name or by number from 1."""
-        return tuple((one.name or str(k), one) for k, one in enumerate(self.bearings, start=1) if one)
+        return tuple((bearing.name or str(k), bearing) for k, bearing in enumerate(self.bearings, start=1) if bearing)
 
 
 class OrbitMachine(_Shaft):
@@ -216,16 +216,16 @@ class Layout(_Part):
     def _seen(self, weights: Sequence[Weight | None]) -> Iterator[Fitted]:
         """Weights with the radius of their own, of the web, or of the counterweight that they stand for."""
         webs = {web.name: web for web in self.machine.places}
-        radii = {one.web: one.radius_m for one in self.counterweights if one}
-        heaviest = max((one.mass_kg for one in weights if one), default=0.0)
-        for one in weights:
+        radii = {counterweight.web: counterweight.radius_m for counterweight in self.counterweights if counterweight}
+        heaviest = max((weight.mass_kg for weight in weights if weight), default=0.0)
+        for weight in weights:
             # weights of balance shafts are on none of these webs
-            if one is None or one.web not in webs or not one.mass_kg > _DUST * heaviest:
+            if weight is None or weight.web not in webs or not weight.mass_kg > _DUST * heaviest:
                 continue
-            web = webs[one.web]
-            radius = one.radius_m or web.radius_m or radii.get(one.web)
+            web = webs[weight.web]
+            radius = weight.radius_m or web.radius_m or radii.get(weight.web)
             if radius is not None:
-                yield Fitted(web, one.mass_kg, one.angle_deg, radius, one.fixed, one.shape)
+                yield Fitted(web, weight.mass_kg, weight.angle_deg, radius, weight.fixed, weight.shape)
 
     @property
     def reference_plane_m(self) -> float:
@@ -235,7 +235,7 @@ class Layout(_Part):
             return machine.reference_plane_m
         if isinstance(machine, OrbitMachine):
             return machine.orbiting_position_m
-        planes = [one.position_m for _, one in machine.cranks] or [one.position_m for one in machine.places]
+        planes = [one.position_m for _, one in machine.cranks] or [place.position_m for place in machine.places]
         return (min(planes) + max(planes)) / 2.0
 
 

@@ -178,7 +178,7 @@ def _notes(part: Part) -> Iterator[str]:
 
 def _as_built(part: Part, built: AsBuilt | None) -> Iterator[str]:
     """As built, optimum and difference of each place."""
-    webs = {one.web for one in part.places}
+    webs = {place.web for place in part.places}
     for pair in () if built is None else built.pairs:
         if pair.web not in webs:
             continue

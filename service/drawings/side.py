@@ -96,7 +96,7 @@ def _view(layout: Layout, planes: Sequence[_Plane], depth: Point) -> _View:
     per_m = (_RIGHT - _LEFT) / (high - low + 2 * room)
     weights = (*layout.best, *layout.built)
     radii = [web.reach_m for web in machine.places if web.reach_m]
-    radii += [one.shape.outer_radius_m if one.shape else _OUTER * one.radius_m for one in weights]
+    radii += [weight.shape.outer_radius_m if weight.shape else _OUTER * weight.radius_m for weight in weights]
     if isinstance(machine, CrankMachine):
         radii += [crank.crank_radius_m for _, crank in machine.cranks]
         facing = machine.cranks[0][1].crank_angle_deg if machine.cranks else 0.0

@@ -136,12 +136,12 @@ class Drawing:
 
 def beside(label: str, drawings: Sequence[Drawing]) -> Drawing:
     """Drawings of one size, two to a row where they are no wider than half a page."""
-    width, height = max(one.width for one in drawings), max(one.height for one in drawings)
+    width, height = max(drawing.width for drawing in drawings), max(drawing.height for drawing in drawings)
     columns = min(2 if 2 * width <= PAGE_WIDTH else 1, len(drawings))
     gap = PAGE_WIDTH - 2 * width if columns == 2 else 0.0
     whole = Drawing(columns * width + gap, height * -(-len(drawings) // columns), label)
-    for number, one in enumerate(drawings):
-        whole.inset(one, ((width + gap) * (number % columns), height * (number // columns)))
+    for number, drawing in enumerate(drawings):
+        whole.inset(drawing, ((width + gap) * (number % columns), height * (number // columns)))
     return whole
 
 

@@ -61,7 +61,7 @@ def coding_of(request: Request) -> Coding | None:
 
 def _quality(name: str, ranges: Mapping[str, float]) -> float:
     """How much a form is liked: the most specific range that holds it says so."""
-    return next((ranges[each] for each in _ranges(name) if each in ranges), 0.0)
+    return next((ranges[pattern] for pattern in _ranges(name) if pattern in ranges), 0.0)
 
 
 def _ranges(name: str) -> Iterator[str]:

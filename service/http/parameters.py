@@ -43,4 +43,4 @@ async def of_the_route(request: Request) -> None:
     """The same at a route of the framework, which knows its parameters; probes are answered whatever they add."""
     route = request.scope.get("route")
     if isinstance(route, APIRoute) and route.include_in_schema and route.path not in PROBES:
-        require_parameters(request, {each.alias for each in route.dependant.query_params})
+        require_parameters(request, {param.alias for param in route.dependant.query_params})

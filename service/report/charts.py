@@ -129,8 +129,8 @@ def hodograph(
     axes : names of the components.
     """
     width = PAGE_WIDTH / 2 - 6
-    drawing = Drawing(width, width + 46, f"hodograph of {title}: {', '.join(one.name for one in ellipses)}")
-    largest = max([one.major for one in ellipses] + [least])
+    drawing = Drawing(width, width + 46, f"hodograph of {title}: {', '.join(ellipse.name for ellipse in ellipses)}")
+    largest = max([ellipse.major for ellipse in ellipses] + [least])
     factor, large = prefix(largest)
     low, high, steps = axis(-largest / factor, largest / factor, 8)
     x, y = _Scale(low, high, 42, width - 8), _Scale(low, high, width - 38, 12)
@@ -142,14 +142,14 @@ def hodograph(
         drawing.text((x(value), y(low) + 12), tick(value), "middle", 9)
     drawing.text((x(high), y(low) + 24), f"{axes[0]}, {large}{unit}", "end", 9, MUTED)
     drawing.text((9, y(high)), f"{axes[1]}, {large}{unit}", "end", 9, MUTED, turned=True)
-    for index, one in enumerate(ellipses):
-        points = [(x(a / factor), y(b / factor)) for a, b in _ellipse(one)]
-        if one.major / factor * (x.end - x.start) / (x.high - x.low) < _DOT:
-            drawing.circle(points[0], _DOT, one.stroke)
-        drawing.line(points, one.stroke, one.width, one.dash)
+    for index, ellipse in enumerate(ellipses):
+        points = [(x(a / factor), y(b / factor)) for a, b in _ellipse(ellipse)]
+        if ellipse.major / factor * (x.end - x.start) / (x.high - x.low) < _DOT:
+            drawing.circle(points[0], _DOT, ellipse.stroke)
+        drawing.line(points, ellipse.stroke, ellipse.width, ellipse.dash)
         place = 42.0, width + 2 + 16 * index
-        drawing.line([place, (place[0] + 22, place[1])], one.stroke, one.width, one.dash)
-        drawing.text((place[0] + 27, place[1] + 3.5), f"{one.name} {prose(one.major)} {unit}", size=10)
+        drawing.line([place, (place[0] + 22, place[1])], ellipse.stroke, ellipse.width, ellipse.dash)
+        drawing.text((place[0] + 27, place[1] + 3.5), f"{ellipse.name} {prose(ellipse.major)} {unit}", size=10)
     return drawing
 
 

@@ -98,7 +98,7 @@ def document(
             ("date", f"{day:%-d %B %Y}"),
         ],
     )
-    changes = [(one.revision, one.date, one.change, one.author) for one in office.revisions]
+    changes = [(revision.revision, revision.date, revision.change, revision.author) for revision in office.revisions]
     return Document(
         title=request.machine.name or "Machine without a name",
         subject="Counterweights: report",

@@ -22,11 +22,11 @@ class Curve(NamedTuple):
 def locus(title: str, unit: str, curves: Sequence[Curve]) -> Drawing:
     """Curves that the tip of a vector runs along, each with its circle; the origin is in the picture."""
     side = PAGE_WIDTH / 2 - 6
-    drawing = Drawing(side, side + 46, f"{title}: {', '.join(one.name for one in curves)}")
-    corners = [0j] + [one.centre + one.radius * way for one in curves for way in (-1 - 1j, 1 + 1j)]
-    factor, large = prefix(max(max(abs(each.real), abs(each.imag)) for each in corners))
-    low_x, high_x = min(each.real for each in corners), max(each.real for each in corners)
-    low_y, high_y = min(each.imag for each in corners), max(each.imag for each in corners)
+    drawing = Drawing(side, side + 46, f"{title}: {', '.join(curve.name for curve in curves)}")
+    corners = [0j] + [curve.centre + curve.radius * way for curve in curves for way in (-1 - 1j, 1 + 1j)]
+    factor, large = prefix(max(max(abs(corner.real), abs(corner.imag)) for corner in corners))
+    low_x, high_x = min(corner.real for corner in corners), max(corner.real for corner in corners)
+    low_y, high_y = min(corner.imag for corner in corners), max(corner.imag for corner in corners)
     half = 0.54 * max(high_x - low_x, high_y - low_y) / factor or 1.0
     middle = complex(low_x + high_x, low_y + high_y) / (2.0 * factor)
     per_unit = (side - 50) / (2.0 * half)
@@ -46,14 +46,14 @@ def locus(title: str, unit: str, curves: Sequence[Curve]) -> Drawing:
         drawing.text((left - 4, y + 3.5), tick(value), "end", 9)
     drawing.text((side - 8, bottom + 24), f"{title} x, {large}{unit}", "end", 9, MUTED)
     drawing.text((9, 12), f"{title} y, {large}{unit}", "end", 9, MUTED, turned=True)
-    for index, one in enumerate(curves):
-        closed = [*one.points, *one.points[:1]]
-        drawing.line([place(point) for point in closed], one.stroke, 1.6, one.dash)
-        drawing.circle(place(one.centre), per_unit * one.radius / factor, one.stroke, width=0.8, dash="2 2")
-        drawing.circle(place(one.centre), 1.5, one.stroke, one.stroke)
+    for index, curve in enumerate(curves):
+        closed = [*curve.points, *curve.points[:1]]
+        drawing.line([place(point) for point in closed], curve.stroke, 1.6, curve.dash)
+        drawing.circle(place(curve.centre), per_unit * curve.radius / factor, curve.stroke, width=0.8, dash="2 2")
+        drawing.circle(place(curve.centre), 1.5, curve.stroke, curve.stroke)
         key = 42.0, side + 2 + 16 * index
-        drawing.line([key, (key[0] + 22, key[1])], one.stroke, 1.6, one.dash)
-        drawing.text((key[0] + 27, key[1] + 3.5), f"{one.name}: circle {digits(one.radius)} {unit}", size=10)
+        drawing.line([key, (key[0] + 22, key[1])], curve.stroke, 1.6, curve.dash)
+        drawing.text((key[0] + 27, key[1] + 3.5), f"{curve.name}: circle {digits(curve.radius)} {unit}", size=10)
     drawing.circle(place(0j), 2.0, INK, INK)
     return drawing
 

@@ -108,7 +108,7 @@ def _stages(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
 
 def _orders(_request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
     figures = [] if answer.orders is None else order_hodographs(answer.orders)
-    drawn = [each for one in figures for each in one.drawings]
+    drawn = [drawing for figure in figures for drawing in figure.drawings]
     words = "hodographs of force and moment, order by order"
     return _grid(words, drawn, "no order has a force or a moment to draw")
 

@@ -35,8 +35,8 @@ def stage_scheme(machine: Machine, stages: Sequence[Stage]) -> Drawing:
     rows = -(-len(stages) // _COLUMNS)
     drawing = Drawing(PAGE_WIDTH, rows * _HEIGHT, "scheme of the eight balancing stages")
     gap = (PAGE_WIDTH - _COLUMNS * _SIDE) / (_COLUMNS - 1)
-    for k, one in enumerate(stages):
-        drawing.inset(_stage(machine, one), ((_SIDE + gap) * (k % _COLUMNS), _HEIGHT * (k // _COLUMNS)))
+    for k, stage in enumerate(stages):
+        drawing.inset(_stage(machine, stage), ((_SIDE + gap) * (k % _COLUMNS), _HEIGHT * (k // _COLUMNS)))
     return drawing
 
 

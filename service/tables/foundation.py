@@ -17,10 +17,10 @@ _KILO = 1e3
 
 def sets(loads: Sequence[OrderOfFoundation]) -> dict[str, str]:
     """The sets of counterweights that loads are told of: the field of each, and its heading."""
-    built = any(one.as_built is not None for one in loads)
+    built = any(load.as_built is not None for load in loads)
     names = {"before": "without counterweights", "after": "optimum" if built else "with counterweights"}
     headings = {**names, "as_built": "as built"}
-    return {name: words for name, words in headings.items() if any(getattr(one, name) is not None for one in loads)}
+    return {name: words for name, words in headings.items() if any(getattr(load, name) is not None for load in loads)}
 
 
 def oscillation(load: FoundationLoad | None, name: str) -> tuple[float, float] | None:

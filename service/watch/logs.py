@@ -36,7 +36,7 @@ def _frames(exc_info: _ExcInfo) -> str:
     kind, error, trace = exc_info
     lines = [f"{frame.filename}:{frame.lineno} in {frame.name}" for frame in traceback.extract_tb(trace)]
     if isinstance(error, BaseExceptionGroup):
-        lines += [_frames((type(one), one, one.__traceback__)) for one in error.exceptions]
+        lines += [_frames((type(exception), exception, exception.__traceback__)) for exception in error.exceptions]
     return "\n".join([*lines, "" if kind is None else kind.__qualname__])
 
 

@@ -21,7 +21,7 @@ class Cors(CORSMiddleware):
             if message["type"] == "http.response.start":
                 headers = message.get("headers", ())
                 varies = b", ".join([*[value for name, value in headers if name == b"vary"], b"Origin"])
-                message["headers"] = [*[each for each in headers if each[0] != b"vary"], (b"vary", varies)]
+                message["headers"] = [*[header for header in headers if header[0] != b"vary"], (b"vary", varies)]
             await send(message)
 
         await self.app(scope, receive, vary)

@@ -3,7 +3,7 @@
 import pytest
 from freecad.counterweight.asking import ask
 from freecad.counterweight.service import Refused, Service
-from freecad.counterweight.sheets import Asked, Wrong, completed, from_tables, letters, table
+from freecad.counterweight.sheets import SheetRequest, Wrong, completed, from_tables, letters, table
 
 ENVELOPE = {"envelope.shape": "sector", "envelope.outer_radius_m": 0.3, "envelope.thickness_m": 0.05}
 TABLES = {
@@ -137,4 +137,4 @@ def test_what_the_service_refuses_is_said_at_its_cell() -> None:
 
 def test_a_service_that_is_away() -> None:
     with pytest.raises(Wrong, match=r"the service at http://127\.0\.0\.1:9 does not answer"):
-        ask(Service("http://127.0.0.1:9"), Asked({"machine": {}}))
+        ask(Service("http://127.0.0.1:9"), SheetRequest({"machine": {}}))

@@ -21,7 +21,7 @@ def floor_multipliers(program: Problem, cuts: Cuts, statement: Statement) -> Mul
     statement : of the program with these cuts, its groups times factors or not.
     """
     points = [np.array([cut.constant for cut in each]) for each in cuts]
-    circles = [smallest_circle(each) for each in points]
+    circles = [smallest_circle(point) for point in points]
     row = np.zeros(statement.floor.size)
     term = np.zeros(statement.row.size, complex)
     first_term = np.searchsorted(statement.row, np.arange(statement.floor.size))

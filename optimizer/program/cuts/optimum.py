@@ -88,7 +88,7 @@ class CertifiedOptimum:
 
     def within(self, limits: Limits) -> "CertifiedOptimum":
         """With limits that say the same by other radii: those of what is cut from plates."""
-        goals = tuple(each._replace(proof=each.proof.within(limits)) for each in self.goals)
+        goals = tuple(goal._replace(proof=goal.proof.within(limits)) for goal in self.goals)
         of_mass = self.mass_proof
         if of_mass is not None:
             # one statement stays one: both bounds are told of it at once

@@ -78,7 +78,7 @@ def _of_rows(statement: Statement, sums: Sequence[tuple[int, ...]]) -> Statement
         norms=Norms(
             norms.constant[every], norms.influence[every], norms.scatter, tuple(scalar[n] for n in every.tolist())
         ),
-        row=np.repeat(np.arange(len(sums)), [each.size for each in terms]),
+        row=np.repeat(np.arange(len(sums)), [term.size for term in terms]),
         group=np.zeros(len(sums), int),
         floor=np.array([np.sum(statement.floor[list(each)]) for each in sums]),
         names=Names(

@@ -66,7 +66,7 @@ class _Curves:
 
     def __init__(self, responses: Sequence[TurnResponse]) -> None:
         pieces = responses[0].curves.pieces
-        self.number: Index = np.array([each.number for each in responses], dtype=np.intp)
+        self.number: Index = np.array([response.number for response in responses], dtype=np.intp)
         self.source = pieces.source
         self.piece = np.flatnonzero(pieces.half[self.number[0]] > 0.0)
         self.centre, self.half = (each[self.number[0], self.piece] for each in (pieces.centre, pieces.half))

@@ -118,8 +118,8 @@ class Problem:
     def case_of(self) -> np.ndarray:
         """(groups,) sum to which a group belongs, of those of all goals."""
         cases = [np.array(goal.cases or [0] * len(goal.groups), dtype=int) for goal in self.goals]
-        first = np.cumsum([0, *(int(each[-1]) + 1 for each in cases)])
-        return np.concatenate([each + start for each, start in zip(cases, first, strict=False)])
+        first = np.cumsum([0, *(int(case[-1]) + 1 for case in cases)])
+        return np.concatenate([case + start for case, start in zip(cases, first, strict=False)])
 
     @cached_property
     def goal_of_case(self) -> np.ndarray:

@@ -64,7 +64,7 @@ def suits_kernel(statement: Statement) -> bool:
     """
     influences = (statement.norms.influence, statement.ceilings.norms.influence)
     apart = statement.group[-1] == 0 and statement.limits.alike is None
-    return bool(apart and not any(np.iscomplexobj(each) for each in influences))
+    return bool(apart and not any(np.iscomplexobj(influence) for influence in influences))
 
 
 def both_stages(

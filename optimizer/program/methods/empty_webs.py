@@ -110,7 +110,7 @@ def _without(program: Statement, empty: np.ndarray, optimum: Optimum, share: Rea
     if not suits_kernel(part):
         return None
     for _ in range(2):
-        smallest, lightest = (points_at(part, each) for each in ends(part, left, least_mass))
+        smallest, lightest = (points_at(part, end) for end in ends(part, left, least_mass))
         room = _WITH_ROOM * (optimum.objective - smallest.objective)
         point = settled(part, lightest if least_mass else smallest, optimum.objective, optimum.mass_bound)
         u = np.zeros(empty.shape, complex)

@@ -126,8 +126,10 @@ class Solver:
         if start is not None:
             known = first.weighed(start.mass_lower_bound, start.mass_multipliers, start.mass_target)
             best = known.moved_to(statement, start.unbalance) if admit(best, start) else known
-        for each in supporting_multipliers(statement, best.unbalance):
-            best = best.weighed(float(mass_lower_bound(statement, each, np.asarray(counted))), each, counted)
+        for multiplier in supporting_multipliers(statement, best.unbalance):
+            best = best.weighed(
+                float(mass_lower_bound(statement, multiplier, np.asarray(counted))), multiplier, counted
+            )
         for attempt in _MASS_ATTEMPTS:
             inner = max(target - attempt.target_margin * share, 0.5 * (target + first.lower_bound))
             clip = min(max(attempt.clip(natural, largest), needed), largest)
@@ -137,9 +139,9 @@ class Solver:
             )
             if solved is not None:
                 began = time.perf_counter()
-                for each in mass_multipliers(statement, *solved):
-                    bound = float(mass_lower_bound(statement, each, np.asarray(counted)))
-                    best = best.weighed(bound, each, counted)
+                for multiplier in mass_multipliers(statement, *solved):
+                    bound = float(mass_lower_bound(statement, multiplier, np.asarray(counted)))
+                    best = best.weighed(bound, multiplier, counted)
                 best = replace(best, certify_s=best.certify_s + time.perf_counter() - began)
             proof = best.mass_multipliers
             given_up = 0.0 if proof is None else float(tolerance_allowance(statement, proof))

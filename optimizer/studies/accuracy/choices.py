@@ -235,8 +235,8 @@ class _Ways:
             resolution=max((objective - bound) / rest, EQUAL),
         )
         candidates = [
-            None if each is None or not rung.feasible else (each.time_ms, each.relative_error)
-            for rung, each in zip(rungs, figures, strict=True)
+            None if figure is None or not rung.feasible else (figure.time_ms, figure.relative_error)
+            for rung, figure in zip(rungs, figures, strict=True)
         ]
         fastest = frontier(candidates, reference.resolution)
         rows = tuple(_row(*each) for each in zip(rungs, figures, fastest, strict=True))

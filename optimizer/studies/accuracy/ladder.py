@@ -158,7 +158,7 @@ def frontier(points: Sequence[tuple[float, float] | None], resolution: float) ->
     points : None is no candidate.
     resolution : errors below it are the same.
     """
-    known = [None if one is None else (one[0], max(one[1], resolution)) for one in points]
+    known = [None if point is None else (point[0], max(point[1], resolution)) for point in points]
     candidates = [one for one in known if one is not None]
 
     def beaten(point: tuple[float, float]) -> bool:

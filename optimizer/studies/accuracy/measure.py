@@ -156,9 +156,12 @@ def _judged(
     points = [
         # a batch answers no single request in the time of one of its programs
         None
-        if each is None or each.time_ms is None or trial.method.programs > 1 or (each.excess or 0.0) > CEILING_TOLERANCE
-        else (each.time_ms, each.relative_error)
-        for trial, each in zip(trials, figures, strict=True)
+        if figure is None
+        or figure.time_ms is None
+        or trial.method.programs > 1
+        or (figure.excess or 0.0) > CEILING_TOLERANCE
+        else (figure.time_ms, figure.relative_error)
+        for trial, figure in zip(trials, figures, strict=True)
     ]
     fastest = frontier(points, reference.resolution)
     return reference, tuple(_row(*each) for each in zip(trials, figures, fastest, strict=True))

@@ -205,7 +205,7 @@ def _proving(task: Task, point: matrices.Point | NoPoint) -> Attempt | str:
 
     def prove() -> float:
         candidates = objective_multipliers(task.statement, point.unbalance, point.multipliers)
-        return max(float(objective_lower_bound(task.statement, each)) for each in candidates)
+        return max(float(objective_lower_bound(task.statement, candidate)) for candidate in candidates)
 
     return Attempt(point.unbalance, point.claimed, prove)
 

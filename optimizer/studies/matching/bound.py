@@ -31,8 +31,8 @@ def sorted_masses(problem: Problem, slope: Complex) -> Real:
     """Masses at places (T,) for which Re(conj(slope) v) is least."""
     worth = np.real(np.conj(slope) @ problem.of_place)
     mass = np.empty_like(worth)
-    for each, part in zip(problem.classes, problem.slices, strict=True):
-        mass[part][np.argsort(-worth[part], kind="stable")] = np.sort(each.mass)
+    for group, part in zip(problem.classes, problem.slices, strict=True):
+        mass[part][np.argsort(-worth[part], kind="stable")] = np.sort(group.mass)
     return mass
 
 

@@ -54,7 +54,7 @@ class _Search:
     @property
     def least(self) -> float:
         """The smallest bound of those that are known."""
-        return min(one.bound for one in self._evaluations.values())
+        return min(evaluation.bound for evaluation in self._evaluations.values())
 
     @property
     def listed(self) -> _Evaluation:

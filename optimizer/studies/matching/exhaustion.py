@@ -33,8 +33,8 @@ class Half(NamedTuple):
 
     def mass(self, number: int) -> dict[int, Real]:
         """Masses at the rows of every class of one arrangement."""
-        which = np.unravel_index(number, [len(each) for each in self.masses])
-        return {c: each[k] for c, each, k in zip(self.classes, self.masses, which, strict=True)}
+        which = np.unravel_index(number, [len(mass) for mass in self.masses])
+        return {c: mass[k] for c, mass, k in zip(self.classes, self.masses, which, strict=True)}
 
 
 def _arranged(places: Places) -> Real | None:
@@ -46,11 +46,11 @@ def _arranged(places: Places) -> Real | None:
 
 def halves(problem: Problem) -> tuple[Half, Half] | None:
     """The classes in two halves of as equal size as can be; None where there are too many arrangements."""
-    results = [_arranged(each) for each in problem.classes]
-    masses = [each for each in results if each is not None]
+    results = [_arranged(group) for group in problem.classes]
+    masses = [result for result in results if result is not None]
     if len(masses) < len(results):
         return None
-    sizes, every = [float(len(each)) for each in masses], range(len(masses))
+    sizes, every = [float(len(mass)) for mass in masses], range(len(masses))
     splits = [some for count in range(len(masses)) for some in combinations(every, count)]
     one = min(splits, key=lambda some: max(np.prod([sizes[c] for c in some]), _rest(sizes, some)))
     other = tuple(c for c in every if c not in one)
@@ -111,11 +111,11 @@ def candidates(problem: Problem, minorants: Minorants, value: float, cut: Plane)
 def _assignment(problem: Problem, by_class: dict[int, Real]) -> Real:
     """Masses at all places (T,) of masses at rows; what is left over lies beside the machine."""
     results = []
-    for c, each in enumerate(problem.classes):
-        on = each.row >= 0
-        mass = np.empty_like(each.mass)
+    for c, group in enumerate(problem.classes):
+        on = group.row >= 0
+        mass = np.empty_like(group.mass)
         mass[on] = by_class[c]
-        kinds, left = np.unique(each.mass, return_counts=True)
+        kinds, left = np.unique(group.mass, return_counts=True)
         left = left - np.array([np.sum(by_class[c] == kind) for kind in kinds])
         mass[~on] = np.repeat(kinds, left)
         results.append(mass)

@@ -154,7 +154,7 @@ def _evaluated(request: MatchRequest, machine: ReciprocatingMachine, chosen: Fit
         close = {"relative_gap": min(request.accuracy.relative_gap, 1e-6)}
         answer = optimize(OptimizeRequest(machine=machine, objective=goal, accuracy=Accuracy(**close)))
     else:
-        given = tuple(GivenCounterweight(**one) for one in _counterweights(request, chosen))
+        given = tuple(GivenCounterweight(**counterweight) for counterweight in _counterweights(request, chosen))
         answer = analyze(AnalyzeRequest(machine=machine, counterweights=given))
     fitted = answer.counterweights
     mass, angle = np.array([one.mass_kg for one in fitted]), np.array([one.angle_deg for one in fitted])
@@ -188,15 +188,15 @@ def _counterweights(request: MatchRequest, chosen: Fitted | None) -> Iterator[di
 def _named(request: MatchRequest, problem: Problem, mass: Real) -> tuple[tuple[Assignment, ...], tuple[Spare, ...]]:
     """Parts for masses: of equal ones the first that is listed goes to the first row."""
     assignments, spares, rows = [], [], [place.model_dump() for place in request.places]
-    for each, part in zip(problem.classes, problem.slices, strict=True):
-        free = list(range(each.mass.size))
-        for row, weight in zip(each.row.tolist(), mass[part].tolist(), strict=True):
-            which = next(k for k in free if each.mass[k] == weight)
+    for group, part in zip(problem.classes, problem.slices, strict=True):
+        free = list(range(group.mass.size))
+        for row, weight in zip(group.row.tolist(), mass[part].tolist(), strict=True):
+            which = next(k for k in free if group.mass[k] == weight)
             free.remove(which)
-            name = each.names[which]
+            name = group.names[which]
             if name is None:
                 continue
-            fields = {"kind": each.kind, "part": name, "mass_kg": weight}
+            fields = {"kind": group.kind, "part": name, "mass_kg": weight}
             if row < 0:
                 spares.append(Spare(**fields))
             else:

@@ -79,18 +79,18 @@ class Problem:
     @property
     def listed(self) -> Real:
         """Masses as they are listed (T,), class by class."""
-        return np.concatenate([each.mass for each in self.classes])
+        return np.concatenate([group.mass for group in self.classes])
 
     @property
     def of_place(self) -> Complex:
         """What a kilogram at a place adds to the vectors (J, T); nothing beside the machine."""
-        place = np.concatenate([each.row for each in self.classes])
+        place = np.concatenate([group.row for group in self.classes])
         return np.where(place >= 0, self.of_row[:, np.maximum(place, 0)], 0.0)
 
     @property
     def slices(self) -> tuple[slice, ...]:
         """The places of every class among all."""
-        ends = np.cumsum([0, *(each.mass.size for each in self.classes)]).tolist()
+        ends = np.cumsum([0, *(group.mass.size for group in self.classes)]).tolist()
         return tuple(slice(*pair) for pair in pairwise(ends))
 
     def vectors(self, mass: Real) -> Complex:
@@ -100,17 +100,17 @@ class Problem:
     def row_masses(self, mass: Real) -> Real:
         """What the rows get (..., rows) of masses at places (..., T)."""
         result = np.zeros((*mass.shape[:-1], self.rows))
-        for each, part in zip(self.classes, self.slices, strict=True):
-            on = each.row >= 0
-            result[..., each.row[on]] += mass[..., part][..., on]
+        for group, part in zip(self.classes, self.slices, strict=True):
+            on = group.row >= 0
+            result[..., group.row[on]] += mass[..., part][..., on]
         return result
 
     @property
     def rounding(self) -> float:
         """What a value is known no better than, wherever the parts are: a nut may be on any row, or beside them."""
         heaviest = np.zeros(self.rows)
-        for each in self.classes:
-            heaviest[each.row[each.row >= 0]] += np.max(each.mass)
+        for group in self.classes:
+            heaviest[group.row[group.row >= 0]] += np.max(group.mass)
         most = self.start_size + self.size_of_row @ heaviest
         return 8 * np.finfo(float).eps * self.listed.size * float(np.max(self.peaks.weight @ most))
 
@@ -178,12 +178,12 @@ def _classes(request: MatchRequest) -> tuple[Places, ...]:
     number = {place: i for i, place in enumerate(request.places)}
     results = [
         Places(
-            each.kind,
-            each.names,
-            stacked(each.masses_kg),
-            np.array([number[place] for place in (request.places if each.rows is None else each.rows)]),
+            part.kind,
+            part.names,
+            stacked(part.masses_kg),
+            np.array([number[place] for place in (request.places if part.rows is None else part.rows)]),
         )
-        for each in request.parts
+        for part in request.parts
     ]
     nuts = request.balance_nuts_kg
     if nuts:

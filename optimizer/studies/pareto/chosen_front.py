@@ -200,8 +200,11 @@ class _Search:
     def _peaks(self, u: Complex) -> Real:
         """Weighted peak force and moment (2,) with unbalances (K,)."""
         across = self.request.objective.direction_weights
-        vectors = (each.to(u) for each in self.scene.responses if each.name in PAIR)
-        return np.array([float(weighted(each, across.x, across.y).peak) for each in vectors]) * self.scene.omega_squared
+        vectors = (response.to(u) for response in self.scene.responses if response.name in PAIR)
+        return (
+            np.array([float(weighted(vector, across.x, across.y).peak) for vector in vectors])
+            * self.scene.omega_squared
+        )
 
     def _point(self, optimum: _Optimum, size: Real) -> ParetoPoint:
         best, proven = optimum.solution, bool(np.all(np.isfinite(optimum.corner)))
@@ -222,7 +225,7 @@ class _Search:
                 self.machine,
                 self.request.objective,
                 self.scene.responses,
-                np.array([one.mass_kg for one in shown.counterweights]),
+                np.array([counterweight.mass_kg for counterweight in shown.counterweights]),
                 best.unbalance,
                 self.scene.omega_squared,
             ),

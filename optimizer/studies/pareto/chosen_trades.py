@@ -71,8 +71,8 @@ def chosen_trades(
         )
     at, bound, size = ends
     results = [search.point(share @ at, size, (len(points) - n)) for n, share in enumerate(points)]
-    decided = all(isinstance(each, _Chosen) or _none_proven(each) for each in results)
-    kept = _best([each for each in results if isinstance(each, _Chosen)])
+    decided = all(isinstance(result, _Chosen) or _none_proven(result) for result in results)
+    kept = _best([result for result in results if isinstance(result, _Chosen)])
     told = [search.traded_point(each, size) for each in kept]
     close = np.all(np.diag(at) - bound <= max(task.relative_gap, OPTIMUM_SHARE) * size)
     exact = decided and close and all(point.status == "optimal" for point in told)

@@ -68,11 +68,15 @@ def pareto(request: ParetoRequest, solver: Solver | None = None) -> ParetoAnswer
     solved, certified = sum(one.solve_s for one in made), sum(one.certify_s for one in made)
     trading = time.perf_counter()
     names, counted = request.responses, request.counts
-    trades = () if names is None else tuple(traded_front(request, names, each, scene, solver) for each in machines)
-    counts = () if counted is None else tuple(count_front(request, counted, each, scene, solver) for each in machines)
+    trades = (
+        () if names is None else tuple(traded_front(request, names, machine, scene, solver) for machine in machines)
+    )
+    counts = (
+        () if counted is None else tuple(count_front(request, counted, machine, scene, solver) for machine in machines)
+    )
     end = time.perf_counter()
     solved += end - trading
-    worst = [*(one.status for one in fronts), *(one.status for one in trades), *(one.status for one in counts)]
+    worst = [*(one.status for one in fronts), *(one.status for one in trades), *(count.status for count in counts)]
     before = scene.first_order()
     return ParetoAnswer(
         status=max(worst, key=_WORST.index),

@@ -111,7 +111,7 @@ def trade(machine: Machine, objective: Objective, responses: Sequence[Response],
     """The trade of a machine: direction weights and ceilings count, the weights of force and moment do not."""
     across = objective.direction_weights
     caps = [(each, np.asarray(allowed / omega_squared)) for each, allowed in limited(responses, objective)]
-    pair = (each for each in responses if each.name in PAIR)
+    pair = (response for response in responses if response.name in PAIR)
     force, moment = (weighted_peak(each, np.ones(()), np.asarray(across.x), np.asarray(across.y)) for each in pair)
     bounds = limits(machine)
     return Trade(

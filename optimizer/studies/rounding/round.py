@@ -67,10 +67,10 @@ class _Set(NamedTuple):
 
     @classmethod
     def of(cls, answer: OptimizeAnswer) -> "_Set":
-        free = [not one.fixed for one in answer.counterweights]
+        free = [not counterweight.fixed for counterweight in answer.counterweights]
         return cls(
-            np.where(free, [one.mass_kg for one in answer.counterweights], 0.0),
-            np.where(free, [one.angle_deg for one in answer.counterweights], 0.0),
+            np.where(free, [counterweight.mass_kg for counterweight in answer.counterweights], 0.0),
+            np.where(free, [counterweight.angle_deg for counterweight in answer.counterweights], 0.0),
         )
 
 

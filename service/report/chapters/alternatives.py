@@ -22,7 +22,7 @@ def alternatives(answer: OptimizeAnswer) -> Iterator[Chapter]:
     if not answer.alternatives or answer.certificate is None:
         return
     best = answer.certificate.objective
-    rows = [_row(one, best) for one in answer.alternatives]
+    rows = [_row(alternative, best) for alternative in answer.alternatives]
     yield Chapter("Cheaper choices", (Paragraph(_WORDS), table("", _HEADS, rows)))
 
 

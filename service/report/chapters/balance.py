@@ -80,20 +80,20 @@ def added(answer: OptimizeAnswer, gaps: Mapping[str, float]) -> Iterator[tuple[s
     gaps : peaks by response that are not told from zero.
     """
     why = answer.infeasibility
-    closest = {} if why is None else {each.response: each.peak for each in why.closest.responses}
-    for each in answer.residual.responses:
-        after = closest.get(each.response, each.after)
+    closest = {} if why is None else {response.response: response.peak for response in why.closest.responses}
+    for response in answer.residual.responses:
+        after = closest.get(response.response, response.after)
         yield (
-            f"peak {each.label}, {each.unit}",
-            each.before,
-            settled(after, each.before, gaps.get(each.response, 0.0)),
+            f"peak {response.label}, {response.unit}",
+            response.before,
+            settled(after, response.before, gaps.get(response.response, 0.0)),
             "",
         )
-        if each.turn_before is not None:
+        if response.turn_before is not None:
             yield (
-                f"peak {each.label} of all orders, {each.unit}",
-                each.turn_before,
-                settled(each.turn_after, each.turn_before),
+                f"peak {response.label} of all orders, {response.unit}",
+                response.turn_before,
+                settled(response.turn_after, response.turn_before),
                 "",
             )
 

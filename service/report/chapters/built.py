@@ -24,7 +24,7 @@ def as_fitted(built: AsBuilt) -> Iterator[Block]:
     heads = ["web", "#plane z, m", "#radius, m"]
     for unit in ("kg", "deg"):
         heads += [f"#optimum, {unit}", "#as built", "#difference", "#tolerance"]
-    rows = [tuple(_cells(one, line(one, built.tolerance))) for one in built.pairs]
+    rows = [tuple(_cells(pair, line(pair, built.tolerance))) for pair in built.pairs]
     yield table("Optimum and as built", heads, rows)
     yield Paragraph(_words(built.tolerance))
 

@@ -15,5 +15,5 @@ def effects(catalogue: EffectCatalogue) -> Iterator[Chapter]:
     """What can be asked for, and what is simulated and read for it."""
     heads = ["name", "", "needs", "inputs beyond masses and geometry"]
     for title, entries in (("Outputs", catalogue.outputs), ("Effects", catalogue.effects)):
-        rows = [(one.name, one.meaning, ", ".join(one.needs), ", ".join(one.inputs)) for one in entries]
+        rows = [(entry.name, entry.meaning, ", ".join(entry.needs), ", ".join(entry.inputs)) for entry in entries]
         yield Chapter(title, (table("", heads, rows),))

@@ -66,10 +66,10 @@ def _table(kind: str, unit: str, headings: Sequence[str], rows: Sequence[Row], s
 
 def _cells(parts: Sequence[tuple[float, float] | None], scale: float) -> Iterator[Cell | float | None]:
     """Amplitude in both units and phase; what rounding leaves beside the scale is 0, and its phase is none."""
-    for one in parts:
-        if one is None:
+    for part in parts:
+        if part is None:
             yield from (None, None, None)
             continue
-        amplitude = settled(one[0], scale)
+        amplitude = settled(part[0], scale)
         still = isinstance(amplitude, Number) and amplitude.text == "0"
-        yield from (amplitude, settled(one[0] / _KILO, scale / _KILO), None if still else one[1])
+        yield from (amplitude, settled(part[0] / _KILO, scale / _KILO), None if still else part[1])

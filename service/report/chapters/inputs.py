@@ -75,7 +75,7 @@ def _catalogue(machine: Machine) -> Iterator[tuple[str, Cell | float]]:
             kind = CHOICES[name]
             yield (
                 kind.label.format(web.name),
-                ", ".join(kind.text.format(*each) for each in kind.options(getattr(web, name))),
+                ", ".join(kind.text.format(*option) for option in kind.options(getattr(web, name))),
             )
     yield from _limit("most counterweights", machine.max_counterweights)
     yield from _limit("most part numbers", general.max_part_numbers)
@@ -107,8 +107,14 @@ def _reciprocating(machine: ReciprocatingMachine) -> Iterator[Block]:
         "Throws",
         ["throw", "#plane z, m", "#crank radius, m", "#crank angle, deg", "#rotating mass, kg"],
         [
-            (throw_name(one, number), one.position_m, one.crank_radius_m, one.crank_angle_deg, one.rotating_mass_kg)
-            for number, one in enumerate(machine.throws)
+            (
+                throw_name(throw, number),
+                throw.position_m,
+                throw.crank_radius_m,
+                throw.crank_angle_deg,
+                throw.rotating_mass_kg,
+            )
+            for number, throw in enumerate(machine.throws)
         ],
     )
     rows = [
@@ -218,7 +224,10 @@ def _unbalances(machine: Machine) -> Iterator[Block]:
         yield table(
             "Unbalances of the shaft itself",
             ["unbalance", "#plane z, m", "#x, kg m", "#y, kg m"],
-            [(one.name, one.position_m, one.x_kg_m, one.y_kg_m) for one in machine.unbalances],
+            [
+                (unbalance.name, unbalance.position_m, unbalance.x_kg_m, unbalance.y_kg_m)
+                for unbalance in machine.unbalances
+            ],
         )
 
 

@@ -13,7 +13,7 @@ _LIMITS = {
     "max_centrifugal_force": "largest centrifugal force",
     "sector": "sector",
     "max_total_mass": "largest total mass",
-    **{each.limit: f"ceiling of the {each.label}" for each in ceilings()},
+    **{ceiling.limit: f"ceiling of the {ceiling.label}" for ceiling in ceilings()},
     "bearing_ceiling": "ceiling of the bearing loads",
     "specific_load_ceiling": "ceiling of the specific bearing loads",
     "bending_ceiling": "ceiling of the bending moments",
@@ -40,7 +40,7 @@ def prices(answer: OptimizeAnswer) -> Iterator[Chapter]:
                 table(
                     "Shadow prices of the limits",
                     ["limit", "web", "#fall of the objective", "unit"],
-                    [(limits([one.limit]), one.web, one.value, one.unit) for one in answer.shadow_prices],
+                    [(limits([price.limit]), price.web, price.value, price.unit) for price in answer.shadow_prices],
                 ),
             ),
         )

@@ -14,17 +14,17 @@ _PROVEN = {
 
 def matched(request: MatchRequest, answer: MatchAnswer) -> Iterator[Chapter]:
     """Parts row by row, force and moment before and after, and the certificate."""
-    kinds = list(dict.fromkeys(one.kind for one in answer.assignments))
-    on = {(one.throw, one.row, one.kind): one for one in answer.assignments}
+    kinds = list(dict.fromkeys(assignment.kind for assignment in answer.assignments))
+    on = {(assignment.throw, assignment.row, assignment.kind): assignment for assignment in answer.assignments}
     rows = []
     for row in answer.rows:
         parts = (on.get((row.throw, row.row, kind)) for kind in kinds)
-        cells = (cell for one in parts for cell in (("", "") if one is None else (one.part, one.mass_kg)))
+        cells = (cell for part in parts for cell in (("", "") if part is None else (part.part, part.mass_kg)))
         rows.append((_name(request, row), *cells, row.reciprocating_mass_kg))
     heads = [head for kind in kinds for head in (f"<{kind}", "#kg")]
     blocks = [table("", ["row", *heads, "#reciprocating mass, kg"], rows)]
     if answer.spares:
-        left = ((one.kind, one.part, one.mass_kg) for one in answer.spares)
+        left = ((spare.kind, spare.part, spare.mass_kg) for spare in answer.spares)
         blocks.append(table("Left over", ["", "part", "#kg"], list(left)))
     yield Chapter("Parts on rows", tuple(blocks))
     before, after = answer.residual.before, answer.residual.after
@@ -35,7 +35,10 @@ def matched(request: MatchRequest, answer: MatchAnswer) -> Iterator[Chapter]:
     ]
     yield Chapter("First order", (table("", ["", "#as listed", "#as matched"], peaks),))
     if answer.counterweights:
-        fitted = [(one.web, one.mass_kg, angle(one.angle_deg)) for one in answer.counterweights]
+        fitted = [
+            (counterweight.web, counterweight.mass_kg, angle(counterweight.angle_deg))
+            for counterweight in answer.counterweights
+        ]
         title = "Counterweights, chosen" if request.choose_counterweights else "Counterweights, as given"
         yield Chapter(title, (table("", ["web", "#mass, kg", "#angle, deg"], fitted),))
     proof = facts(

@@ -33,10 +33,10 @@ def _per(unit: str) -> str:
 
 def _ceilings(goal: Objective, responses: Iterable[ResponseFields]) -> Iterator[tuple[ResponseFields, float]]:
     """Ceilings that there are of whole responses."""
-    for each in responses:
-        allowed: float | None = getattr(goal, each.ceilings[0].field)
+    for response in responses:
+        allowed: float | None = getattr(goal, response.ceilings[0].field)
         if allowed is not None:
-            yield each, allowed
+            yield response, allowed
 
 
 def objective(request: OptimizeRequest) -> Table:

@@ -68,16 +68,16 @@ def _trade(objective: Objective, trade: TradedFront) -> Iterator[Block]:
     if trade.infeasibility is not None:
         yield from reachable(objective, trade.infeasibility)
         return
-    heads = [f"#{one.response}, {one.unit}" for one in trade.responses]
+    heads = [f"#{response.response}, {response.unit}" for response in trade.responses]
     bounds: list[tuple[Cell | float | None, ...]] = [
-        ("without counterweights", *(one.without_counterweights for one in trade.responses)),
-        ("smallest by itself", *(one.smallest for one in trade.responses)),
-        ("proven at least", *(one.lower_bound for one in trade.responses)),
+        ("without counterweights", *(response.without_counterweights for response in trade.responses)),
+        ("smallest by itself", *(response.smallest for response in trade.responses)),
+        ("proven at least", *(response.lower_bound for response in trade.responses)),
     ]
     yield table("", ["", *heads], bounds)
     rows: list[tuple[Cell | float | None, ...]] = [
         (str(index), *point.values, point.total_mass_kg, _gap(point), "" if beaten is None else f"beaten by {beaten}")
-        for index, (point, beaten) in enumerate((each, each.beaten_by) for each in trade.points)
+        for index, (point, beaten) in enumerate((point, point.beaten_by) for point in trade.points)
     ]
     yield table("", ["point", *heads, "#mass, kg", "#relative gap", ""], rows)
     if trade.reason is not None:
@@ -112,8 +112,8 @@ def _gap(point: ParetoPoint | TradedPoint) -> Cell:
 def _reached(point: ParetoPoint) -> str:
     """Limits of the machine, and those of webs with their names."""
     webs: dict[str, list[str]] = {}
-    for one in point.counterweights:
-        for limit in one.active_limits:
-            webs.setdefault(limits([limit]), []).append(one.web)
+    for counterweight in point.counterweights:
+        for limit in counterweight.active_limits:
+            webs.setdefault(limits([limit]), []).append(counterweight.web)
     machine = [limits([limit]) for limit in point.active_limits]
     return "; ".join([*machine, *(f"{name} of {', '.join(of)}" for name, of in webs.items())])

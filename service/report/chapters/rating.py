@@ -59,7 +59,7 @@ def _tandems(names: Sequence[str], tandems: Sequence[TandemLoads]) -> Iterator[T
 
 def rated(_: RatingRequest, answer: RatingAnswer) -> Iterator[Chapter]:
     """Stages, totals and warnings."""
-    names = [one.name or str(place) for place, one in enumerate(answer.stages, 1)]
+    names = [stage.name or str(place) for place, stage in enumerate(answer.stages, 1)]
     rows = [(name, level, *map(figure, answer.stages)) for name, level, figure in _FIGURES]
     yield Chapter("Stages", (table("", ["", "", *(f"#{name}" for name in names)], rows),))
     totals = facts(
@@ -96,8 +96,8 @@ def _chosen(names: Sequence[str], choice: Choice) -> Chapter:
         "#motor needed, W",
     ]  # fmt: skip
     rows = [
-        (number, one.speed_rpm, *one.piston_rod_diameters_m, *one.rod_loads_N, one.motor_power_W)
-        for number, one in enumerate(choice.steps, 1)
+        (number, step.speed_rpm, *step.piston_rod_diameters_m, *step.rod_loads_N, step.motor_power_W)
+        for number, step in enumerate(choice.steps, 1)
     ]
     words = "Rods and motor from the tables of the request: the design is done over until both suffice."
     motor = facts("", [("motor, W", choice.motor_power_W), ("speed of the shaft, rpm", choice.speed_rpm)])
@@ -105,6 +105,8 @@ def _chosen(names: Sequence[str], choice: Choice) -> Chapter:
 
 
 def _warnings(answer: RatingAnswer) -> Iterator[Paragraph]:
-    for one in answer.warnings:
-        place = "machine" if one.stage is None else f"stage {answer.stages[one.stage - 1].name or one.stage}"
-        yield Paragraph(f"{place}: {one.message}", "warning")
+    for warning in answer.warnings:
+        place = (
+            "machine" if warning.stage is None else f"stage {answer.stages[warning.stage - 1].name or warning.stage}"
+        )
+        yield Paragraph(f"{place}: {warning.message}", "warning")

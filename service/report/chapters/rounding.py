@@ -24,7 +24,7 @@ def with_rounding(request: RoundRequest, answer: RoundAnswer) -> Iterator[Chapte
 
 def _blocks(request: RoundRequest, answer: OptimizeAnswer, rounding: Rounding) -> Iterator[Block]:
     assert answer.certificate is not None  # there is none where nothing can be rounded
-    pieces = sum(one.mass_kg > 0 and not one.fixed for one in answer.counterweights)
+    pieces = sum(counterweight.mass_kg > 0 and not counterweight.fixed for counterweight in answer.counterweights)
     yield table(
         "",
         ["", "#objective", "#mass, kg", "#counterweights", "<limits"],
@@ -46,13 +46,13 @@ def _blocks(request: RoundRequest, answer: OptimizeAnswer, rounding: Rounding) -
             ("with the angles alone on steps", rounding.angles_alone_rise),
         ],
     )
-    rows = [(one.web, one.lighter, one.heavier, one.backward, one.forward) for one in rounding.steps]
+    rows = [(step.web, step.lighter, step.heavier, step.backward, step.forward) for step in rounding.steps]
     if rows:
         title = "The objective rises by, where one counterweight is a step off"
         yield table(title, ["web", "#lighter", "#heavier", "#angle back", "#angle on"], rows)
 
 
 def _row(name: str, weights: Weights) -> tuple[Cell | float | None, ...]:
-    pieces = sum(one.mass_kg > 0 and not one.fixed for one in weights.counterweights)
+    pieces = sum(counterweight.mass_kg > 0 and not counterweight.fixed for counterweight in weights.counterweights)
     count = Number(pieces, str(pieces))
     return (name, weights.objective, weights.total_mass_kg, count, "kept" if weights.limits_kept else "broken")

@@ -9,7 +9,7 @@ from service.report.blocks import Chapter, Paragraph, facts, table
 
 def shown(request: ShaftRequest, answer: ShaftAnswer) -> Iterator[Chapter]:
     """The answer to a request."""
-    serious = sum(one.serious for one in answer.doubts)
+    serious = sum(doubt.serious for doubt in answer.doubts)
     if serious:
         yield Chapter("Verdict", (Paragraph(f"Serious doubts: {serious}. Correct the model first.", "warning"),))
     frame = answer.frame
@@ -26,26 +26,31 @@ def shown(request: ShaftRequest, answer: ShaftAnswer) -> Iterator[Chapter]:
     if answer.plates:
         plates = [
             (
-                one.web or "no envelope",
-                (one.from_m + one.to_m) / 2,
-                one.thickness_m,
-                "not known" if one.hub_m is None else one.hub_m,
-                "not known" if one.reach_m is None else one.reach_m,
+                plate.web or "no envelope",
+                (plate.from_m + plate.to_m) / 2,
+                plate.thickness_m,
+                "not known" if plate.hub_m is None else plate.hub_m,
+                "not known" if plate.reach_m is None else plate.reach_m,
             )
-            for one in answer.plates
+            for plate in answer.plates
         ]
         heads = ["web", "#position, m", "#thickness, m", "#reach opposite its crank, m", "#reach, m"]
         yield Chapter("Webs", (table("", heads, plates),))
     if answer.bearings:
-        journals = [(one.name, one.position_m, one.diameter_m, one.length_m) for one in answer.bearings]
+        journals = [
+            (bearing.name, bearing.position_m, bearing.diameter_m, bearing.length_m) for bearing in answer.bearings
+        ]
         yield Chapter("Bearings", (table("", ["bearing", "#position, m", "#diameter, m", "#length, m"], journals),))
     if answer.rotor is not None:
         mass = facts("", [("mass, kg", answer.rotor.mass_kg), ("unbalance, kg m", answer.rotor.unbalance_kg_m)])
-        planes = [(one.name, one.position_m, one.x_kg_m, one.y_kg_m) for one in answer.unbalances]
+        planes = [
+            (unbalance.name, unbalance.position_m, unbalance.x_kg_m, unbalance.y_kg_m)
+            for unbalance in answer.unbalances
+        ]
         both = table("In two planes", ["plane", "#position, m", "#x, kg m", "#y, kg m"], planes)
         yield Chapter("Unbalance of the bodies", (mass, both))
     if answer.doubts:
-        doubts = [(_name(request, one.pointer), one.code, one.message) for one in answer.doubts]
+        doubts = [(_name(request, doubt.pointer), doubt.code, doubt.message) for doubt in answer.doubts]
         yield Chapter("What to look at", (table("", ["face or body", "about", "<what was seen"], doubts),))
 
 

@@ -17,7 +17,7 @@ from service.report.formula import formula
 from service.tables.as_built import AsBuilt
 
 _CEILINGS: Mapping[CeilingField, str] = {
-    **{each.field: each.label for each in ceilings()},
+    **{ceiling.field: ceiling.label for ceiling in ceilings()},
     "bearing_ceiling_N": "bearing loads",
     "specific_load_ceiling_Pa": "specific bearing loads",
     "bending_ceiling_Nm": "bending moments",

@@ -22,7 +22,7 @@ _SHOWN = 6
 
 def verified(answer: VerifyAnswer) -> Iterator[Chapter]:
     """One row for each kind of claim, and for what was not looked at."""
-    rows = [(one.claim, one.verdict, _margin(one), one.where) for one in answer.claims]
+    rows = [(claim.claim, claim.verdict, _margin(claim), claim.where) for claim in answer.claims]
     rows += [("", "not covered", "", name) for name in answer.not_covered]
     title = f"Claims: {answer.checked} of {answer.leaves} are checked"
     yield Chapter(title, (table("", ["claim", "verdict", "#margin", "where"], rows),))
@@ -71,11 +71,13 @@ def sentence(checked: Check, request: str) -> Paragraph:
     found = checked.verification
     count = f"Checked by files that share nothing with what computed it: {found.checked} of {found.leaves} claims"
     if found.verdict == "broken":
-        broken = ", ".join(f"{one.claim} ({_words(one.where)})" for one in found.claims if one.verdict == "broken")
+        broken = ", ".join(
+            f"{claim.claim} ({_words(claim.where)})" for claim in found.claims if claim.verdict == "broken"
+        )
         return Paragraph(f"{count}. Broken: {broken}. {which}", "warning")
     if found.verdict == "held":
         return Paragraph(f"{count}, and every one holds. {which}")
-    open_claims = (one.where for one in found.claims if one.verdict == "not covered")
+    open_claims = (claim.where for claim in found.claims if claim.verdict == "not covered")
     names = [*dict.fromkeys(map(_words, (*open_claims, *found.not_covered)))]
     more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
     return Paragraph(f"{count}; nothing is broken. Not covered: {', '.join(names[:_SHOWN])}{more}. {which}")

@@ -66,16 +66,16 @@ def _computed(request: ReportRequest, place: int) -> Column:
 
 def _figures(columns: Sequence[Column]) -> Table:
     """Key figures, a column for each version, and by how much each differs from the first."""
-    rows: list[tuple[str | float | None, ...]] = [("counterweights", *(one.status for one in columns))]
+    rows: list[tuple[str | float | None, ...]] = [("counterweights", *(column.status for column in columns))]
     figures = (
-        ("peak force, N", [one.left.force.peak_N if one.left else None for one in columns]),
-        ("peak moment, N m", [one.left.moment.peak_Nm if one.left else None for one in columns]),
-        ("total mass, kg", [one.mass_kg for one in columns]),
+        ("peak force, N", [column.left.force.peak_N if column.left else None for column in columns]),
+        ("peak moment, N m", [column.left.moment.peak_Nm if column.left else None for column in columns]),
+        ("total mass, kg", [column.mass_kg for column in columns]),
     )
     for name, values in figures:
         rows.append((name, *values))
         rows.append(("difference", "", *(_change(values[0], value) for value in values[1:])))
-    return table("Peaks of the first order, and mass", ["", *(f"#{one.name}" for one in columns)], rows)
+    return table("Peaks of the first order, and mass", ["", *(f"#{column.name}" for column in columns)], rows)
 
 
 def _change(was: float | None, now: float | None) -> str:

@@ -21,7 +21,7 @@ def worst_case(answer: OptimizeAnswer) -> Iterator[Chapter]:
         rows = [
             ("peak force, N", worst.force_peak_N),
             ("peak moment, N m", worst.moment_peak_Nm),
-            *((f"peak {each.label}, {each.unit}", each.peak) for each in worst.responses),
+            *((f"peak {response.label}, {response.unit}", response.peak) for response in worst.responses),
             ("peak load of a main bearing, N", worst.bearing_peak_N),
         ]
         blocks.append(facts("In the worst case", [(name, value) for name, value in rows if value is not None]))

@@ -241,7 +241,7 @@ def balanced(document, name, bodies, service, force):
     density = 7.85 if name == "density 7.85" else STEEL
     found = {}
     try:
-        machine = read_shaft(document, bodies, service, [density] * len(bodies), said=said, force=force)
+        machine = read_shaft(document, bodies, service, [density] * len(bodies), description=said, force=force)
         found["doubts"] = list(machine.Doubts)
         heads, *webs = table_of(next(sheet for sheet in machine.Tables if sheet.Label == "webs"))
         found["webs"] = [dict(zip(heads, web, strict=True)) for web in webs]

@@ -99,8 +99,8 @@ def sampled(
     v, dual = result
     at_angles = [vector_duals(dual[rows]) for rows in objective]
     # each peak is a row of its own under "max"; its share is what its angles have of the multipliers
-    row = np.array([np.sum(np.abs(each)) for each in at_angles]) if together else np.ones(1)
-    term = [_terms(each, grid, peak) for each, peak in zip(at_angles, turn.peaks, strict=True)]
+    row = np.array([np.sum(np.abs(angle)) for angle in at_angles]) if together else np.ones(1)
+    term = [_terms(angle, grid, peak) for angle, peak in zip(at_angles, turn.peaks, strict=True)]
     ceiling_terms = [np.sum(vector_duals(dual[rows]) * np.exp(-1j * grid), keepdims=True) for rows in caps]
     return point(
         statement,

@@ -6,7 +6,7 @@ import os
 from typing import Any, Dict, List
 
 from .service import Refused, Service
-from .sheets import Asked, Wrong
+from .sheets import SheetRequest, Wrong
 
 #: environment variable of the API key; it is never stored
 KEY = "COUNTERWEIGHT_KEY"
@@ -25,7 +25,7 @@ def service_at(url: str, key: str | None = None) -> Service:
     return Service(url, key or os.environ.get(KEY), patience_s=20.0)
 
 
-def ask(service: Service, asked: Asked) -> Dict[str, Any]:
+def ask(service: Service, question: SheetRequest) -> Dict[str, Any]:
     """The answer, with counterweights.
 
     Raises
@@ -33,9 +33,9 @@ def ask(service: Service, asked: Asked) -> Dict[str, Any]:
     Wrong
     """
     try:
-        answer = service.optimize(asked.body)
+        answer = service.optimize(question.body)
     except Refused as refused:
-        lines = [f"{asked.where(pointer)}: {message}" for pointer, message in refused.fields.items()]
+        lines = [f"{question.where(pointer)}: {message}" for pointer, message in refused.fields.items()]
         raise Wrong(lines or [str(refused)]) from None
     except (OSError, ValueError) as error:
         raise unanswered(service, error) from None
@@ -52,6 +52,8 @@ def unanswered(service: Service, error: Exception) -> Wrong:
     return Wrong([line])
 
 
-def warnings(answer: Dict[str, Any], asked: Asked) -> List[str]:
+def warnings(answer: Dict[str, Any], question: SheetRequest) -> List[str]:
     """What the service adds to its answer, at the cells that it concerns."""
-    return [f"Warning: {asked.where(one['pointer'] or '')}: {one['message']}" for one in answer["warnings"]]
+    return [
+        f"Warning: {question.where(warning['pointer'] or '')}: {warning['message']}" for warning in answer["warnings"]
+    ]

@@ -14,7 +14,7 @@ import FreeCAD as App
 
 from .asking import ask, warnings
 from .faces import MM, body_of, faces_of
-from .features import Counterweight, Machine, asked, shaft_moments, sizes, weight_moments
+from .features import Counterweight, Machine, request_of, shaft_moments, sizes, weight_moments
 from .plate import Plate
 from .plausible import reasons, summary, unlike
 from .shaft import ask_shaft, doubts, tables
@@ -42,7 +42,7 @@ def change(document, words):
     document.commitTransaction()
 
 
-def read_shaft(document, bodies, service, densities=None, frame=None, said=None, force=False):
+def read_shaft(document, bodies, service, densities=None, frame=None, description=None, force=False):
     """The machine of some bodies, with tables of what their faces show; it is for the designer to correct and complete.
 
     Parameters
@@ -50,7 +50,7 @@ def read_shaft(document, bodies, service, densities=None, frame=None, said=None,
     service : that reads the shaft from the faces.
     densities : of the bodies, kg/m3; steel if not said.
     frame : of the shaft; from its faces if not said: x towards the first crank pin.
-    said : a request with what no face shows, if it is known already.
+    description : a request with what no face shows, if it is known already.
     force : go on in spite of what shows that this is no shaft, and say so.
 
     Raises
@@ -58,7 +58,7 @@ def read_shaft(document, bodies, service, densities=None, frame=None, said=None,
     Wrong
     """
     selected = listed(bodies, densities, frame)
-    return drawn_from(document, selected, ask_shaft(service, selected.question), said, force)
+    return drawn_from(document, selected, ask_shaft(service, selected.question), description, force)
 
 
 class Selected(NamedTuple):
@@ -93,7 +93,7 @@ def listed(bodies, densities=None, frame=None):
     return Selected(list(bodies), densities, question)
 
 
-def drawn_from(document, selected, answer, said=None, force=False):
+def drawn_from(document, selected, answer, description=None, force=False):
     """The machine that an answer about faces shows, in the document.
 
     Raises
@@ -104,12 +104,12 @@ def drawn_from(document, selected, answer, said=None, force=False):
     bodies, densities, question = selected
     serious = doubts(question, answer, serious=True)
     shown = tables(answer, densities[0] if len(set(densities)) == 1 else STEEL_KG_M3)
-    if said is not None:
-        serious += unlike(answer["throws"], said.get("machine", {}).get("throws", ()))
+    if description is not None:
+        serious += unlike(answer["throws"], description.get("machine", {}).get("throws", ()))
     if serious and not force:
         raise Wrong([f"not the shaft that it seems to be: {line}" for line in serious])
-    if said is not None:
-        shown = completed(shown, said)
+    if description is not None:
+        shown = completed(shown, description)
     with change(document, "Read shaft"):
         machine = document.addObject("App::FeaturePython", "Machine")
         Machine(machine)
@@ -140,7 +140,7 @@ def shaft_words(machine):
     ------
     Wrong
     """
-    return summary(sizes(machine), asked(machine).body["machine"]["throws"])
+    return summary(sizes(machine), request_of(machine).body["machine"]["throws"])
 
 
 def question_of(machine, force=False):
@@ -151,7 +151,7 @@ def question_of(machine, force=False):
     Wrong
         with what shows that it cannot, unless it is forced; then the machine keeps that.
     """
-    question = asked(machine)
+    question = request_of(machine)
     why = reasons(sizes(machine), question.body["machine"])
     if why and not force:
         raise Wrong([f"not asked: {line}" for line in why])
@@ -177,7 +177,7 @@ def draw(machine, question, answer):
     document, request = machine.Document, question.body
     with change(document, "Balance"):
         drawn = {one.Web: one for one in machine.Counterweights}
-        heaviest = max((one["mass_kg"] for one in answer["counterweights"]), default=0.0)
+        heaviest = max((counterweight["mass_kg"] for counterweight in answer["counterweights"]), default=0.0)
         webs = {web["name"]: web for web in request["machine"]["webs"]}
         kept = []
         for one in answer["counterweights"]:
@@ -208,7 +208,7 @@ def verify(machine):
     """
     if not machine.Answer:
         raise Wrong(["there is no answer yet: balance first"])
-    now = asked(machine).body["machine"]
+    now = request_of(machine).body["machine"]
     shaft = shaft_moments(machine)
     first, *others = shaft.values()
     try:
@@ -228,11 +228,11 @@ def _new(document, web):
     return made
 
 
-def _ask_for(made, machine, web, one):
+def _ask_for(made, machine, web, counterweight):
     plate = Plate.of(web["envelope"])
     made.Web, made.Outline, made.Frame = web["name"], plate.shape, machine.Frame
     made.InnerRadius, made.OuterRadius = plate.inner_m / MM, plate.outer_m / MM
     made.Thickness, made.Density = plate.thickness_m / MM, plate.density_kg_m3
     made.LargestHalfAngle = web["envelope"].get("max_half_angle_deg", 90.0)
     made.Position = web["position_m"] / MM
-    made.AskedUnbalance, made.AskedAngle = one["mass_radius_kg_m"], one["angle_deg"]
+    made.AskedUnbalance, made.AskedAngle = counterweight["mass_radius_kg_m"], counterweight["angle_deg"]

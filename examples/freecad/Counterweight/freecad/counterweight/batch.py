@@ -48,15 +48,15 @@ def _setting(name):
 
 def _balanced(shaft, machine, folder):
     try:
-        said = json.loads(machine.read_text())
-        density = float(said.pop("density_kg_m3", STEEL_KG_M3))
+        description = json.loads(machine.read_text())
+        density = float(description.pop("density_kg_m3", STEEL_KG_M3))
     except (OSError, ValueError, TypeError, AttributeError) as error:
         raise Wrong([f"{machine}: {error}"]) from None
     document = _opened(shaft)
     bodies = [one for one in document.RootObjects if getattr(one, "Shape", None) is not None and one.Shape.Solids]
     service = service_at(os.environ.get("COUNTERWEIGHT_URL") or url())
     force = forced()
-    made = read_shaft(document, bodies, service, [density] * len(bodies), said=said, force=force)
+    made = read_shaft(document, bodies, service, [density] * len(bodies), description=description, force=force)
     yield from (f"to look at: {line}" for line in made.Doubts)
     yield shaft_words(made)
     yield from balance(made, service, force).words()

@@ -11,7 +11,7 @@ import FreeCAD as App
 import Part
 
 from .faces import inside
-from .features import asked
+from .features import request_of
 from .sheets import Wrong
 from .solids import MM, seen, shape_of
 
@@ -40,11 +40,11 @@ def clearance(machine):
         ring = _ring(one, shape.BoundBox, room)
         for body in machine.Obstacles:
             words = f"within {room:g} mm of its way"
-            found += _said(one, body, words, _overlap(ring, seen(body, machine.Frame)))
+            found += _overlap_line(one, body, words, _overlap(ring, seen(body, machine.Frame)))
         grown = shape.makeOffsetShape(room, 1e-3, join=2) if room else shape
         for rod in rods:
             volume, angle = rod.worst(grown)
-            found += _said(one, rod.body, f"within {room:g} mm at shaft angle {angle:g} degrees", volume)
+            found += _overlap_line(one, rod.body, f"within {room:g} mm at shaft angle {angle:g} degrees", volume)
     return found
 
 
@@ -54,12 +54,12 @@ def overlaps(machine):
         line
         for one in machine.Counterweights
         for body in machine.Shaft
-        for line in _said(one, body, "overlap", _overlap(one.Shape, shape_of(body)))
+        for line in _overlap_line(one, body, "overlap", _overlap(one.Shape, shape_of(body)))
     ]
 
 
-def _said(one, body, words, volume):
-    return [f"{one.Label} and {body.Label}: {volume:.4g} mm3 {words}"] if volume > _TOUCH else []
+def _overlap_line(solid, body, words, volume):
+    return [f"{solid.Label} and {body.Label}: {volume:.4g} mm3 {words}"] if volume > _TOUCH else []
 
 
 def _overlap(shape, other):
@@ -68,11 +68,11 @@ def _overlap(shape, other):
     return shape.common(other).Volume
 
 
-def _ring(one, box, room):
+def _ring(solid, box, room):
     """What a counterweight sweeps over a turn, grown by the clearance."""
-    inner, outer = one.InnerRadius.Value, one.OuterRadius.Value
-    if one.Outline == "segment":
-        inner = max(inner, outer * cos(radians(one.HalfAngle.Value)))
+    inner, outer = solid.InnerRadius.Value, solid.OuterRadius.Value
+    if solid.Outline == "segment":
+        inner = max(inner, outer * cos(radians(solid.HalfAngle.Value)))
     low, height = App.Vector(0, 0, box.ZMin - room), box.ZLength + 2 * room
     disc = Part.makeCylinder(outer + room, height, low)
     return disc.cut(Part.makeCylinder(inner - room, height, low)) if inner > room else disc
@@ -80,7 +80,7 @@ def _ring(one, box, room):
 
 def _rods(machine):
     """The rods that the rows name."""
-    question = asked(machine)
+    question = request_of(machine)
     for (number, place), label in question.rods.items():
         bodies = machine.Document.getObjectsByLabel(label)
         if not bodies:

@@ -33,7 +33,7 @@ def export(machine, folder, service):
     try:
         target.mkdir(parents=True, exist_ok=True)
         Import.export([*machine.Shaft, *machine.Counterweights], str(target / "balanced.step"))
-        drawn = service.drawings(_given(machine), target / "counterweights.zip")
+        drawn = service.drawings(_drawing_request(machine), target / "counterweights.zip")
         with ZipFile(drawn) as archive:
             archive.extractall(target)
     except Refused as refused:
@@ -44,9 +44,13 @@ def export(machine, folder, service):
     return sorted(target.iterdir())
 
 
-def _given(machine):
+def _drawing_request(machine):
     """The counterweights of the answer, to be drawn."""
     request, answer = json.loads(machine.Request), json.loads(machine.Answer)
     names = ("web", "mass_kg", "angle_deg")
-    fitted = [{name: one[name] for name in names} for one in answer["counterweights"] if one["mass_kg"] > 0]
+    fitted = [
+        {name: counterweight[name] for name in names}
+        for counterweight in answer["counterweights"]
+        if counterweight["mass_kg"] > 0
+    ]
     return {"machine": request["machine"], "counterweights": fitted}

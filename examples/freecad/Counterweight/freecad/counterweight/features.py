@@ -147,26 +147,28 @@ def weight_moments(machine):
     return found
 
 
-def asked(machine):
+def request_of(machine):
     """The request that tables and solids say.
 
     Raises
     ------
     Wrong
     """
-    found = from_tables({sheet.Label: table_of(sheet) for sheet in machine.Tables})
+    question = from_tables({sheet.Label: table_of(sheet) for sheet in machine.Tables})
     boxes = [seen(body, machine.Frame).BoundBox for body in machine.Shaft]
     low, high = min(box.ZMin for box in boxes) * MM, max(box.ZMax for box in boxes) * MM
-    found.body["machine"]["unbalances"] = [
-        each for label, one in shaft_moments(machine).items() for each in one.as_unbalances(label, low, high)
+    question.body["machine"]["unbalances"] = [
+        unbalance
+        for label, moments in shaft_moments(machine).items()
+        for unbalance in moments.as_unbalances(label, low, high)
     ]
-    return found
+    return question
 
 
 def status(machine):
     """In words, whether the last answer is that to what the machine says now."""
     try:
-        now = asked(machine).body
+        now = request_of(machine).body
     except Wrong as wrong:
         return wrong.lines[0]
     if not machine.Answer:
@@ -176,12 +178,12 @@ def status(machine):
     return f"balanced, FORCED in spite of: {machine.Forced}" if machine.Forced else "balanced"
 
 
-def alike(one, other):
+def alike(first, second):
     """Whether two requests are the same, to what a file keeps of a shape."""
-    if isinstance(one, dict) and isinstance(other, dict):
-        return one.keys() == other.keys() and all(alike(one[key], other[key]) for key in one)
-    if isinstance(one, list) and isinstance(other, list):
-        return len(one) == len(other) and all(map(alike, one, other))
-    if isinstance(one, float) and isinstance(other, (int, float)):
-        return abs(one - other) <= 1e-9 * max(abs(one), abs(other), 1e-3)
-    return one == other
+    if isinstance(first, dict) and isinstance(second, dict):
+        return first.keys() == second.keys() and all(alike(first[key], second[key]) for key in first)
+    if isinstance(first, list) and isinstance(second, list):
+        return len(first) == len(second) and all(map(alike, first, second))
+    if isinstance(first, float) and isinstance(second, (int, float)):
+        return abs(first - second) <= 1e-9 * max(abs(first), abs(second), 1e-3)
+    return first == second

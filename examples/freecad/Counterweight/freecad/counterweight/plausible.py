@@ -58,12 +58,12 @@ def reasons(sizes: Sizes, machine: Mapping[str, Any]) -> List[str]:
     return [*_of_densities(sizes), *_of_rows(sizes, machine.get("throws", ()))]
 
 
-def unlike(found: Sequence[Mapping[str, Any]], said: Sequence[Mapping[str, Any]]) -> List[str]:
+def unlike(faces: Sequence[Mapping[str, Any]], description: Sequence[Mapping[str, Any]]) -> List[str]:
     """Cranks that are described otherwise than the faces show them, throw by throw."""
     return [
         f"throw {throw['name']}: the faces show a crank radius of {1e3 * throw['crank_radius_m']:.5g} mm,"
         f" {1e3 * more['crank_radius_m']:.5g} mm are described"
-        for throw, more in zip(found, said)
+        for throw, more in zip(faces, description)
         if isinstance(more.get("crank_radius_m"), (int, float))
         and abs(more["crank_radius_m"] - throw["crank_radius_m"]) > _SAME * throw["crank_radius_m"]
     ]

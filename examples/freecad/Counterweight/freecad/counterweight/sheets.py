@@ -33,7 +33,7 @@ class Wrong(ValueError):
 
 
 @dataclass
-class Asked:
+class SheetRequest:
     """A request without the masses of the solids.
 
     body : the request.
@@ -53,7 +53,7 @@ class Asked:
         return self.cells[at] + (f" ({pointer})" if at != pointer else "") if at else pointer or "the request"
 
 
-def from_tables(tables: Mapping[str, Table]) -> Asked:
+def from_tables(tables: Mapping[str, Table]) -> SheetRequest:
     """The request that tables say.
 
     Raises
@@ -62,7 +62,7 @@ def from_tables(tables: Mapping[str, Table]) -> Asked:
     """
     reader = _Reader()
     reader.single(tables.get(MACHINE, []))
-    machine = reader.found.body.setdefault("machine", {})
+    machine = reader.request.body.setdefault("machine", {})
     machine.setdefault("kind", "reciprocating")
     throws: Dict[str, int] = {}
     for item, cells, place in reader.lines(THROWS, tables.get(THROWS, [])):
@@ -74,7 +74,7 @@ def from_tables(tables: Mapping[str, Table]) -> Asked:
             continue
         number = reader.put(["machine", THROWS, throws[throw], ROWS], item, cells, place)
         if rod is not None:
-            reader.found.rods[throws[throw], number] = str(rod)
+            reader.request.rods[throws[throw], number] = str(rod)
     for item, cells, place in reader.lines(WEBS, tables.get(WEBS, [])):
         if "envelope" not in item:
             reader.wrong.append(f"{place}: a web needs its envelope: nothing could be drawn")
@@ -87,19 +87,19 @@ def from_tables(tables: Mapping[str, Table]) -> Asked:
         reader.wrong.append(f"{WEBS}: no web is used")
     if reader.wrong:
         raise Wrong(reader.wrong)
-    return reader.found
+    return reader.request
 
 
 @dataclass
 class _Reader:
-    found: Asked = field(default_factory=Asked)
+    request: SheetRequest = field(default_factory=SheetRequest)
     wrong: List[str] = field(default_factory=list)
 
     def single(self, table: Table) -> None:
         for number, line in enumerate(table[1:], start=2):
             name, value = [*line, None, None][:2]
             if name is not None and value is not None:
-                self._set(self.found.body, self.found.cells, str(name), value, f"{MACHINE}!B{number}")
+                self._set(self.request.body, self.request.cells, str(name), value, f"{MACHINE}!B{number}")
 
     def lines(self, sheet: str, table: Table) -> List[Tuple[Dict[str, Any], Dict[str, str], str]]:
         """What every line says, with the cells of its fields, and where it stands."""
@@ -122,14 +122,14 @@ class _Reader:
 
     def put(self, path: Sequence[Union[str, int]], item: Dict[str, Any], cells: Mapping[str, str], place: str) -> int:
         """Append an item to a list of the request; its number."""
-        at: Any = self.found.body
+        at: Any = self.request.body
         for key in path[:-1]:
             at = at[key]
         items = at.setdefault(path[-1], [])
         items.append(item)
         pointer = "".join(f"/{key}" for key in path) + f"/{len(items) - 1}"
-        self.found.cells[pointer] = place
-        self.found.cells.update({pointer + below: cell for below, cell in cells.items()})
+        self.request.cells[pointer] = place
+        self.request.cells.update({pointer + below: cell for below, cell in cells.items()})
         return len(items) - 1
 
     def _set(self, item: Dict[str, Any], cells: Dict[str, str], name: str, value: Cell, place: str) -> None:
@@ -183,36 +183,36 @@ def table(heads: Sequence[str], lines: Sequence[Mapping[str, Cell]]) -> Table:
     return [list(heads), *([line.get(head) for head in heads] for line in lines)]
 
 
-def completed(tables: Mapping[str, Table], said: Mapping[str, Any]) -> Dict[str, Table]:
+def completed(tables: Mapping[str, Table], description: Mapping[str, Any]) -> Dict[str, Table]:
     """Tables of what the faces show, with what a request says besides; its throws and webs stand in their order.
 
     Raises
     ------
     Wrong
     """
-    machine = dict(said.get("machine", {}))
+    machine = dict(description.get("machine", {}))
     throws, webs = [dict(throw) for throw in machine.pop(THROWS, [])], machine.pop(WEBS, [])
     lines = [throw.pop(ROWS, []) for throw in throws]
-    found = _merged(THROWS, tables[THROWS], throws)
-    names = found[0].index("name")
-    rows = [{THROW: line[names], **flat(row)} for line, on in zip(found[1:], lines) for row in on]
+    merged = _merged(THROWS, tables[THROWS], throws)
+    names = merged[0].index("name")
+    rows = [{THROW: line[names], **flat(row)} for line, on in zip(merged[1:], lines) for row in on]
     heads = list(dict.fromkeys([THROW, *(name for row in rows for name in row)]))
-    fields = flat({**said, "machine": machine})
+    fields = flat({**description, "machine": machine})
     return {
         MACHINE: [["field", "value"], *([name, value] for name, value in fields.items())],
-        THROWS: found,
+        THROWS: merged,
         ROWS: table(heads, rows),
         WEBS: _merged(WEBS, tables[WEBS], webs) if webs else tables[WEBS],
     }
 
 
-def _merged(sheet: str, found: Table, said: Sequence[Mapping[str, Any]]) -> Table:
+def _merged(sheet: str, shown: Table, description: Sequence[Mapping[str, Any]]) -> Table:
     """A table with what is said besides, line by line; what is doubtful does not count."""
-    heads = [str(head) for head in found[0]]
-    lines = [line for line in (dict(zip(heads, line)) for line in found[1:]) if line.get(USE) != "no"]
-    if len(said) != len(lines):
-        raise Wrong([f"{sheet}: the faces show {len(lines)}, {len(said)} are described"])
-    for line, more in zip(lines, said):
+    heads = [str(head) for head in shown[0]]
+    lines = [line for line in (dict(zip(heads, line)) for line in shown[1:]) if line.get(USE) != "no"]
+    if len(description) != len(lines):
+        raise Wrong([f"{sheet}: the faces show {len(lines)}, {len(description)} are described"])
+    for line, more in zip(lines, description):
         line.update(flat(more))
     return table(list(dict.fromkeys([*heads, *(key for line in lines for key in line)])), lines)
 

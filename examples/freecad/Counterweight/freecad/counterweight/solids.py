@@ -46,10 +46,10 @@ def extruded(outline, thickness):
     return face.extrude(App.Vector(0, 0, thickness))
 
 
-def _edge(kind, *given):
+def _edge(kind, *figures):
     if kind == "line":
-        return Part.makeLine(*(App.Vector(x / MM, y / MM, 0) for x, y in given))
-    radius, first, last = given
+        return Part.makeLine(*(App.Vector(x / MM, y / MM, 0) for x, y in figures))
+    radius, first, last = figures
     ends = (_at(radius / MM, angle) for angle in (first, (first + last) / 2, last))
     return Part.Arc(*ends).toShape()
 

@@ -29,17 +29,17 @@ class Line:
     what: str
     unit: str
     before: float
-    told: float
-    found: float
+    service: float
+    solids: float
     small: float
     headline: bool = False
 
     @property
     def off(self) -> float:
-        return abs(self.found - self.told) / (max(self.before, self.told, self.small) or 1.0)
+        return abs(self.solids - self.service) / (max(self.before, self.service, self.small) or 1.0)
 
     def __str__(self) -> str:
-        solids, service, before = map(self._figure, (self.found, self.told, self.before))
+        solids, service, before = map(self._figure, (self.solids, self.service, self.before))
         difference = "equal" if self.off <= _EQUAL else f"difference {self.off:.1e} of it"
         return (
             f"{self.what}: solids {solids} {self.unit}, service {service} {self.unit}, "
@@ -49,11 +49,11 @@ class Line:
     @property
     def outcome(self) -> str:
         """What remains of what there was."""
-        return f"{self.what} {self._figure(self.found)} of {self._figure(self.before)} {self.unit}"
+        return f"{self.what} {self._figure(self.solids)} of {self._figure(self.before)} {self.unit}"
 
     def _figure(self, value: float) -> str:
         """Digits; what rounding leaves of larger figures is nothing."""
-        nothing = abs(value) <= max(TOLERANCE * max(self.before, self.told), _ROUNDING * self.small)
+        nothing = abs(value) <= max(TOLERANCE * max(self.before, self.service), _ROUNDING * self.small)
         return "0" if nothing else f"{value:,.6g}"
 
 
@@ -116,7 +116,9 @@ def verdict(
             words = f"{part.replace('_', '-')} {name}"
             told = after[name][f"{part}_{unit}"]
             lines.append(Line(words, unit.replace("Nm", "N m"), scale, told, value, least, part == "peak"))
-    masses: Dict[str, float] = {one["web"]: one["mass_kg"] for one in answer["counterweights"]}
+    masses: Dict[str, float] = {
+        counterweight["web"]: counterweight["mass_kg"] for counterweight in answer["counterweights"]
+    }
     most = max(masses.values(), default=0.0)
     for web in sorted({*masses, *weights}):
         mass = weights.get(web, Moments()).mass_kg

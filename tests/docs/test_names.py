@@ -1,0 +1,96 @@
+"""Names of production code are nouns of the field: no participle, and no pronoun (docs/style.md)."""
+
+import ast
+import re
+from collections.abc import Iterator
+
+import pytest
+
+from tests.docs.reading import ROOT
+
+WORDS = frozenset(
+    ("asked", "told", "said", "found", "given", "heard", "liked", "looked", "kept", "known", "one", "each")
+)
+FOLDERS = ("deploy", "docs", "examples", "optimizer", "schemas", "service")
+#: names that others depend on, which therefore stay; each with the file that has it
+CONTRACT = {
+    # fields of answers
+    ("schemas/request/accuracy.py", "limits_kept"),
+    ("schemas/request/rounding.py", "limits_kept"),
+    # a schema of openapi.json, by which generated clients call their type
+    ("schemas/machine/fitted.py", "GivenCounterweight"),
+    # settings, as variables of the environment name them
+    ("service/settings.py", "max_connections_each"),
+    ("service/settings.py", "queue_length_each"),
+    ("service/settings.py", "held_mb_each"),
+    ("service/settings.py", "event_streams_each"),
+    ("service/settings.py", "row_streams_each"),
+    ("service/settings.py", "max_jobs_each"),
+    # a column of the database of jobs, whose rows become these attributes
+    ("service/jobs/job.py", "kept"),
+    # properties in documents that FreeCAD has saved
+    ("examples/freecad/Counterweight/freecad/counterweight/balance.py", "AskedUnbalance"),
+    ("examples/freecad/Counterweight/freecad/counterweight/balance.py", "AskedAngle"),
+}
+
+
+def is_noun(name: str) -> bool:
+    """Whether no part of a name is one of the words: parts stand between underscores, or begin with a capital."""
+    parts = re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+", name)
+    return WORDS.isdisjoint(part.lower() for part in parts)
+
+
+def names(tree: ast.AST) -> Iterator[str]:
+    """Classes, functions, their parameters, fields of classes and attributes of objects."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ClassDef):
+            yield node.name
+            targets = [part.target for part in node.body if isinstance(part, ast.AnnAssign)]
+            targets += [target for part in node.body if isinstance(part, ast.Assign) for target in part.targets]
+            yield from (target.id for target in targets if isinstance(target, ast.Name))
+        elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            yield node.name
+        elif isinstance(node, ast.arg):
+            yield node.arg
+        elif isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
+            yield node.attr
+
+
+def no_nouns() -> set[tuple[str, str]]:
+    """File and name, or file and its own name."""
+    results = set()
+    files = [file for folder in FOLDERS for file in sorted((ROOT / folder).rglob("*.py"))]
+    assert len(files) > 600
+    for file in files:
+        place = file.relative_to(ROOT).as_posix()
+        every = {file.stem, *names(ast.parse(file.read_text()))}
+        results |= {(place, name) for name in every if not is_noun(name)}
+    return results
+
+
+def test_production_code_is_named_by_nouns() -> None:
+    left = no_nouns()
+    assert left - CONTRACT == set(), "name the thing by its type or its role, as docs/style.md says"
+    assert CONTRACT - left == set(), "these are gone: take them from the list"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "class Found: ...",
+        "class Part:\n    limit_kept: int",
+        "class Part:\n    one = 1",
+        "def told(): ...",
+        "def area(*, given_mm): ...",
+        "def area(*each): ...",
+        "async def area(**asked): ...",
+        "area = lambda one: one",
+        "def area(part):\n    part._known = 1",
+    ],
+)
+def test_a_participle_is_seen_wherever_it_stands(text: str) -> None:
+    assert [name for name in names(ast.parse(text)) if not is_noun(name)] != []
+
+
+def test_a_word_within_a_word_is_no_participle() -> None:
+    assert all(map(is_noun, ("foundation_loads", "Tone", "zones", "teach", "stone_m", "_beaches")))
