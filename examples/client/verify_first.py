@@ -189,7 +189,9 @@ def infeasible(request: Place, answer: Place, budget: Place, said: Place) -> Cla
     for name, unit in NAMES.items():
         lowest, found = (said / f"smallest_{name}{part}_{unit}" for part in ("_lower_bound", ""))
         if lowest and found:
-            yield from near_the_bound(f"smallest_{name}", found, lowest, plain, name, implied)
+            yield from near_the_bound(
+                f"smallest_{name}", found, lowest, plain, name, implied_alone(said, name, implied)
+            )
         if lowest and f"{name}_ceiling_{unit}" in named and len(named) < len(given):
             # this ceiling alone is out of reach
             yield "conflict", lowest, lowest.number() - (goal / f"{name}_ceiling_{unit}").number(), lowest.number()
@@ -199,11 +201,13 @@ def infeasible(request: Place, answer: Place, budget: Place, said: Place) -> Cla
             yield "smallest", one / "response", -ONE, ONE
             continue
         alone, priced = Statement(plain, Place({}), {name: {name: ONE}}), partial(priced_at, {name: lowest.number()})
-        yield from proven("smallest", lowest, alone, one / "multipliers", implied, {}, priced)
+        yield from proven(
+            "smallest", lowest, alone, one / "multipliers", implied_alone(said, name, implied), {}, priced
+        )
         yield "smallest", one / "response", ONE, ONE
         yield same("smallest", one / "ceiling_field", CEILINGS[name])
         yield near("smallest", one / "ceiling", (goal / CEILINGS[name]).number(0.0))
-        yield from near_the_bound("smallest", one / "smallest", lowest, plain, name, implied)
+        yield from near_the_bound("smallest", one / "smallest", lowest, plain, name, implied_alone(said, name, implied))
         if CEILINGS[name] in named and len(named) < len(given):
             yield "conflict", lowest, lowest.number() - (goal / CEILINGS[name]).number(), lowest.number()
     yield from closest(request, plain, said / "closest")
@@ -228,9 +232,16 @@ def near_the_bound(claim: str, found: Place, lowest: Place, machine: Machine, na
         yield claim, found, room, size
 
 
+def implied_alone(said: Place, response: str, together: Place) -> Place:
+    """Largest masses that the bound on a peak alone counts with."""
+    own = said / "smallest_implied_max_mass_kg" / response
+    return own if own else together
+
+
 def smallest(machine: Machine, goal: Place, said: Place, proofs: Place, implied: Place) -> Claims:
     """Bounds on either peak alone, under the ceilings of a goal."""
     for name, unit in NAMES.items():
         lowest = said / f"smallest_{name}_lower_bound_{unit}"
         alone, priced = Statement(machine, goal, {name: {name: ONE}}), partial(priced_at, {name: lowest.number(0.0)})
-        yield from proven(f"smallest_{name}", lowest, alone, proofs / f"smallest_{name}", implied, {}, priced)
+        limits = implied_alone(said, name, implied)
+        yield from proven(f"smallest_{name}", lowest, alone, proofs / f"smallest_{name}", limits, {}, priced)

@@ -16,7 +16,7 @@ from verify_cases import scenarios, without_cases
 from verify_claims import EVIDENCE, Claims, covered, near
 from verify_costs import costs
 from verify_cuts import FIELDS, SHAFTS
-from verify_first import near_the_bound, priced_at, searched, smallest
+from verify_first import implied_alone, near_the_bound, priced_at, searched, smallest
 from verify_first import proven as exactly
 from verify_goals import Program as Asked
 from verify_goals import values
@@ -71,7 +71,7 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
         yield near("yardstick", size, mass)
     goals_of = Asked([*program.parts.values()], program.named, program.off, machine, program.rows)
     yield from covered(values(request, answer, goals_of, fitted))
-    yield from covered(_as_given(request, machine, answer, implied))
+    yield from covered(_as_given(request, machine, answer))
     if slopes:
         yield from covered(costs(request, answer, machine, program.first, terms, slopes))
     yield from covered(misplacement(goals_of.parts, program.named[-1], fitted, answer / "sensitivity"))
@@ -91,13 +91,13 @@ def _earlier(program: Program, proof: Place, implied: Place) -> Claims:
         yield from _proven("goals", one / "lower_bound", found, implied, one / "multipliers")
 
 
-def _as_given(request: Place, machine: Machine, answer: Place, implied: Place) -> Claims:
+def _as_given(request: Place, machine: Machine, answer: Place) -> Claims:
     """The bound of the machine as it is given, nothing off, by multipliers of its own."""
     price = answer / "price_of_robustness"
     if not price / "nominal_multipliers":
         return
     program, proof = Program(without_cases(request), machine, Place(None)), price / "nominal_multipliers"
-    lowest, first = price / "nominal_lower_bound", program.first
+    lowest, first, implied = price / "nominal_lower_bound", program.first, price / "nominal_implied_max_mass_kg"
     if not (first.over_turn or first.geared):
         # of the first order alone: what webs without limits gain by rounding is taken off exactly
         priced = partial(priced_at, dict.fromkeys(first.exact.rows, lowest.number()))
@@ -136,7 +136,9 @@ def unreachable(request: Place, answer: Place, budget: Place, said: Place) -> Cl
         yield from smallest(machine, Place({}), said, proofs, implied)
         for name, unit in NAMES.items():
             lowest, found = (said / f"smallest_{name}{part}_{unit}" for part in ("_lower_bound", ""))
-            yield from near_the_bound(f"smallest_{name}", found, lowest, machine, name, implied)
+            yield from near_the_bound(
+                f"smallest_{name}", found, lowest, machine, name, implied_alone(said, name, implied)
+            )
 
 
 def _proven(

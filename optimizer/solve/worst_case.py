@@ -22,6 +22,7 @@ from optimizer.responses.curve import TurnResponse
 from optimizer.solve.answer_fields import fitted
 from optimizer.solve.cut_plates import cut_plates
 from optimizer.solve.infeasibility import out_of_reach
+from optimizer.solve.proof import implied_max_mass
 from optimizer.solve.solution import Infeasible, Solution, finite_or_null, multipliers_of
 from optimizer.solve.uncertain_program import MachineOfCase, Measure, Robust
 from schemas.answer.first_order import ResponsePeak
@@ -66,11 +67,11 @@ def _beside_nominal(robust: Robust, asked: Goals, told: Solution, solver: Solver
         best = best.within(asked.program.limits)
     u = unbalance(mass, angle, best.limits.radius)
     return with_worst_case(
-        robust, told, u, late, _proof_of(scene, best, chosen(task.machine, task.objective, mass, angle))
+        robust, told, u, late, _proof_of(task, scene, best, chosen(task.machine, task.objective, mass, angle))
     )
 
 
-def _proof_of(scene: Prepared, best: Found, shown: Fitted) -> dict[str, object]:
+def _proof_of(task: Task, scene: Prepared, best: Found, shown: Fitted) -> dict[str, object]:
     """The best counterweights of the machine as it is given, and of one goal what is proven of them."""
     fields: dict[str, object] = {
         "nominal_counterweights": shown.counterweights,
@@ -82,6 +83,7 @@ def _proof_of(scene: Prepared, best: Found, shown: Fitted) -> dict[str, object]:
     return fields | {
         "nominal_lower_bound": finite_or_null(best.proof.bound * square),
         "nominal_multipliers": multipliers_of(best.proof, square, {None: square}),
+        "nominal_implied_max_mass_kg": implied_max_mass(task.space.machine, best.limits.max_mass[None])[0],
     }
 
 
