@@ -63,14 +63,17 @@ def priced_at(values: dict[str, Number], rows: dict[str, Number], least: Number 
 
 def ceilings(statement: Statement, weights: Sequence[Mass], place: Place, kept: bool) -> Claims:
     """``kept``: whether the answer says that they are; returns by how much they are exceeded."""
-    machine, excess = statement.machine, {}
-    after = machine.responses(weights)
-    for name, cap in statement.caps.items():
-        size = statement.sizes[name]
-        excess[name] = largest(abs(phasors(after, name)[0]) - cap, ZERO)
-        room = size * real(CEILING) - excess[name]
+    over = excess(statement, weights)
+    for name, size in statement.sizes.items():
+        room = size * real(CEILING) - over[name]
         yield "ceilings", place, room if kept or room.high >= 0 else None, size
-    return excess
+    return over
+
+
+def excess(statement: Statement, weights: Sequence[Mass]) -> dict[str, Number]:
+    """By how much counterweights exceed the ceilings."""
+    after = statement.machine.responses(weights)
+    return {name: largest(abs(phasors(after, name)[0]) - cap, ZERO) for name, cap in statement.caps.items()}
 
 
 def optimum(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> Claims:
@@ -84,7 +87,7 @@ def optimum(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> 
     rows = {"sum": weights} if together else {name: {name: weight} for name, weight in weights.items()}
     statement = Statement(machine, goal, rows)
     optimal = (answer / "status").text() == "optimal"
-    excess = yield from ceilings(statement, fitted.turning, answer / "counterweights", optimal)
+    over = yield from ceilings(statement, fitted.turning, answer / "counterweights", optimal)
     after = machine.responses(fitted.turning)
     value, rest = (largest(ZERO, *statement.values(responses).values()) for responses in (after, machine.laden))
     objective, lowest, implied = proof / "objective", proof / "lower_bound", proof / "implied_max_mass_kg"
@@ -94,7 +97,7 @@ def optimum(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> 
     yield near("before", proof / "objective_without_counterweights", rest)
     # nothing that exceeds no ceiling by more is better
     multipliers, priced = proof / "multipliers", partial(priced_at, dict.fromkeys(rows, lowest.number(0.0)))
-    yield from proven("lower_bound", lowest, statement, multipliers / "objective", implied, excess, priced)
+    yield from proven("lower_bound", lowest, statement, multipliers / "objective", implied, over, priced)
     if proof / "yardstick":
         yield yardstick(statement, proof / "yardstick", rest, implied)
     asks_least = (goal / "least_mass").read((bool,), "true or false", True)

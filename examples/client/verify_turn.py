@@ -10,13 +10,13 @@ from __future__ import annotations
 from functools import partial
 from typing import Optional, Tuple
 
-from verify_answer import Fitted, closest
+from verify_answer import Fitted, closest, fitted
 from verify_cases import FIELDS as CASES
 from verify_cases import scenarios, without_cases
 from verify_claims import EVIDENCE, Claims, covered, near
 from verify_costs import costs
 from verify_cuts import FIELDS, SHAFTS
-from verify_first import implied_alone, near_the_bound, priced_at, searched, smallest
+from verify_first import excess, implied_alone, near_the_bound, priced_at, searched, smallest
 from verify_first import proven as exactly
 from verify_goals import Program as Asked
 from verify_goals import values
@@ -101,7 +101,9 @@ def _as_given(request: Place, machine: Machine, answer: Place) -> Claims:
     if not (first.over_turn or first.geared):
         # of the first order alone: what webs without limits gain by rounding is taken off exactly
         priced = partial(priced_at, dict.fromkeys(first.exact.rows, lowest.number()))
-        yield from exactly("nominal_optimum", lowest, first.exact, proof, implied, {}, priced)
+        there = yield from fitted(request, machine, price / "nominal_counterweights", price / "nominal_balance_shafts")
+        over = excess(first.exact, there.turning)
+        yield from exactly("nominal_optimum", lowest, first.exact, proof, implied, over, priced)
         return
     found = program.bound(proof, program.terms(proof), implied)
     yield from _proven("nominal_optimum", lowest, found, implied, proof)

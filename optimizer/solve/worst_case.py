@@ -19,7 +19,7 @@ from optimizer.program.cuts.optimum import Found, Unkept
 from optimizer.program.optimum import optimum
 from optimizer.program.reference.solver import Solver
 from optimizer.responses.curve import TurnResponse
-from optimizer.solve.answer_fields import fitted
+from optimizer.solve.answer_fields import bound_beside, fitted
 from optimizer.solve.cut_plates import cut_plates
 from optimizer.solve.infeasibility import out_of_reach
 from optimizer.solve.proof import implied_max_mass
@@ -67,21 +67,27 @@ def _beside_nominal(robust: Robust, asked: Goals, told: Solution, solver: Solver
         best = best.within(asked.program.limits)
     u = unbalance(mass, angle, best.limits.radius)
     return with_worst_case(
-        robust, told, u, late, _proof_of(task, scene, best, chosen(task.machine, task.objective, mass, angle))
+        robust, told, u, late, _proof_of(robust, task, best, chosen(task.machine, task.objective, mass, angle), u)
     )
 
 
-def _proof_of(task: Task, scene: Prepared, best: Found, shown: Fitted) -> dict[str, object]:
-    """The best counterweights of the machine as it is given, and of one goal what is proven of them."""
+def _proof_of(robust: Robust, task: Task, best: Found, shown: Fitted, u: Complex) -> dict[str, object]:
+    """The best counterweights (K,) kg m of the machine as it is given, and of one goal what is proven of them.
+
+    Parameters
+    ----------
+    task : with the radii of what is cut.
+    """
     fields: dict[str, object] = {
         "nominal_counterweights": shown.counterweights,
         "nominal_balance_shafts": shown.balance_shafts,
     }
     if len(best.goals) > 1:
         return fields
-    square = scene.omega_squared
+    square, program = robust.scene.omega_squared, _nominal(robust).program
+    excess = program.values(u, _CLOSE).excess if program.ceilings or program.limited else 0.0
     return fields | {
-        "nominal_lower_bound": finite_or_null(best.proof.bound * square),
+        "nominal_lower_bound": finite_or_null(bound_beside(best.proof, excess) * square),
         "nominal_multipliers": multipliers_of(best.proof, square, {None: square}),
         "nominal_implied_max_mass_kg": implied_max_mass(task.space.machine, best.limits.max_mass[None])[0],
     }
