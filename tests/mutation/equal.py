@@ -4,6 +4,7 @@ _STEERS = "it leads a search: every point is judged, and every bound proven, by 
 _SPEED = "it says how the same is computed, and how fast"
 _ALIKE = "both come to the same there"
 _FINER = "finer or coarser than is needed, within what is told of it"
+_LOOKS = "a hundredth of the width of a line: nobody can see it"
 _MECHANICS: dict[str, str] = {
     "bearings.py bending_moment: terms(-1.0) < terms(1.0) -> terms(-1.0) <= terms(1.0)": _ALIKE,
     "bearings.py bending_moment: 1.0 -> 1.011": "the moment is the same from either side",
@@ -40,6 +41,7 @@ _SERVICE: dict[str, str] = {
     "jobs/coordinator.py _AT_A_TIME": _SPEED,
     "jobs/coordinator.py _collect_rows: len(came) > _AT_A_TIME -> len(came) >= _AT_A_TIME": _SPEED,
     "jobs/coordinator.py stop: 6 -> 7": _FINER,
+    "report/accuracy_picture.py _axes: 0.8 -> 0.809": _LOOKS,
 }
 #: `file of: fault`, of the function or name that it stands in; without a fault all that stands there
 EQUAL = {
