@@ -63,14 +63,17 @@ def priced_at(values: dict[str, Number], rows: dict[str, Number], least: Number 
 
 def ceilings(statement: Statement, weights: Sequence[Mass], place: Place, feasible: bool) -> Claims:
     """``feasible``: whether the answer says that they are; returns by how much they are exceeded."""
-    machine, excess = statement.machine, {}
-    after = machine.responses(weights)
-    for name, cap in statement.caps.items():
-        size = statement.sizes[name]
-        excess[name] = largest(abs(phasors(after, name)[0]) - cap, ZERO)
-        room = size * real(CEILING) - excess[name]
+    over = excess(statement, weights)
+    for name, size in statement.sizes.items():
+        room = size * real(CEILING) - over[name]
         yield "ceilings", place, room if feasible or room.high >= 0 else None, size
-    return excess
+    return over
+
+
+def excess(statement: Statement, weights: Sequence[Mass]) -> dict[str, Number]:
+    """By how much counterweights exceed the ceilings."""
+    after = statement.machine.responses(weights)
+    return {name: largest(abs(phasors(after, name)[0]) - cap, ZERO) for name, cap in statement.caps.items()}
 
 
 def optimum(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> Claims:
@@ -84,7 +87,7 @@ def optimum(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> 
     rows = {"sum": weights} if together else {name: {name: weight} for name, weight in weights.items()}
     statement = Statement(machine, goal, rows)
     optimal = (answer / "status").text() == "optimal"
-    excess = yield from ceilings(statement, fitted.turning, answer / "counterweights", optimal)
+    over = yield from ceilings(statement, fitted.turning, answer / "counterweights", optimal)
     after = machine.responses(fitted.turning)
     value, rest = (largest(ZERO, *statement.values(responses).values()) for responses in (after, machine.laden))
     objective, lowest, implied = proof / "objective", proof / "lower_bound", proof / "implied_max_mass_kg"
@@ -94,7 +97,7 @@ def optimum(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> 
     yield near("before", proof / "objective_without_counterweights", rest)
     # nothing that exceeds no ceiling by more is better
     multipliers, priced = proof / "multipliers", partial(priced_at, dict.fromkeys(rows, lowest.number(0.0)))
-    yield from proven("lower_bound", lowest, statement, multipliers / "objective", implied, excess, priced)
+    yield from proven("lower_bound", lowest, statement, multipliers / "objective", implied, over, priced)
     if proof / "yardstick":
         yield yardstick(statement, proof / "yardstick", rest, implied)
     asks_least = (goal / "least_mass").read((bool,), "true or false", True)
@@ -191,7 +194,9 @@ def infeasible(request: Place, answer: Place, budget: Place, verdict: Place) -> 
     for name, unit in NAMES.items():
         lowest, attained = (verdict / f"smallest_{name}{part}_{unit}" for part in ("_lower_bound", ""))
         if lowest and attained:
-            yield from near_the_bound(f"smallest_{name}", attained, lowest, plain, name, implied)
+            yield from near_the_bound(
+                f"smallest_{name}", attained, lowest, plain, name, implied_alone(verdict, name, implied)
+            )
         if lowest and f"{name}_ceiling_{unit}" in names and len(names) < len(limits):
             # this ceiling alone is out of reach
             yield "conflict", lowest, lowest.number() - (goal / f"{name}_ceiling_{unit}").number(), lowest.number()
@@ -201,11 +206,14 @@ def infeasible(request: Place, answer: Place, budget: Place, verdict: Place) -> 
             yield "smallest", item / "response", -ONE, ONE
             continue
         alone, priced = Statement(plain, Place({}), {name: {name: ONE}}), partial(priced_at, {name: lowest.number()})
-        yield from proven("smallest", lowest, alone, item / "multipliers", implied, {}, priced)
+        yield from proven(
+            "smallest", lowest, alone, item / "multipliers", implied_alone(verdict, name, implied), {}, priced
+        )
         yield "smallest", item / "response", ONE, ONE
         yield same("smallest", item / "ceiling_field", CEILINGS[name])
         yield near("smallest", item / "ceiling", (goal / CEILINGS[name]).number(0.0))
-        yield from near_the_bound("smallest", item / "smallest", lowest, plain, name, implied)
+        own = implied_alone(verdict, name, implied)
+        yield from near_the_bound("smallest", item / "smallest", lowest, plain, name, own)
         if CEILINGS[name] in names and len(names) < len(limits):
             yield "conflict", lowest, lowest.number() - (goal / CEILINGS[name]).number(), lowest.number()
     yield from closest(request, plain, verdict / "closest")
@@ -230,9 +238,16 @@ def near_the_bound(claim: str, attained: Place, lowest: Place, machine: Machine,
         yield claim, attained, room, size
 
 
+def implied_alone(verdict: Place, response: str, together: Place) -> Place:
+    """Largest masses that the bound on a peak alone counts with."""
+    own = verdict / "smallest_implied_max_mass_kg" / response
+    return own if own else together
+
+
 def smallest(machine: Machine, goal: Place, verdict: Place, proofs: Place, implied: Place) -> Claims:
     """Bounds on either peak alone, under the ceilings of a goal."""
     for name, unit in NAMES.items():
         lowest = verdict / f"smallest_{name}_lower_bound_{unit}"
         alone, priced = Statement(machine, goal, {name: {name: ONE}}), partial(priced_at, {name: lowest.number(0.0)})
-        yield from proven(f"smallest_{name}", lowest, alone, proofs / f"smallest_{name}", implied, {}, priced)
+        limits = implied_alone(verdict, name, implied)
+        yield from proven(f"smallest_{name}", lowest, alone, proofs / f"smallest_{name}", limits, {}, priced)

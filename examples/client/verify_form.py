@@ -24,7 +24,7 @@ shadow_prices: limit web value unit
 worst_case: force_peak_N moment_peak_Nm responses bearing_peak_N objective
 worst_case/responses closest/responses: response label unit peak
 price_of_robustness: nominal nominal_optimum nominal_optimum_worst_case nominal_lower_bound nominal_counterweights
-  nominal_balance_shafts nominal_multipliers
+  nominal_balance_shafts nominal_multipliers nominal_implied_max_mass_kg
 sensitivity: objective_rise_per_deg objective_rise_per_percent
 residual: before after orders responses turn
 residual/responses: response label unit before after turn_before turn_after
@@ -53,7 +53,8 @@ terms: response part row angle_deg scenario x y
 rows: name value
 ceilings: response part angle_deg scenario x y
 infeasibility: conflict smallest_force_N smallest_moment_Nm smallest_force_lower_bound_N
-  smallest_moment_lower_bound_Nm scenarios smallest implied_max_mass_kg closest multipliers
+  smallest_moment_lower_bound_Nm scenarios smallest implied_max_mass_kg
+  smallest_implied_max_mass_kg closest multipliers
 smallest: response ceiling_field ceiling smallest lower_bound multipliers
 closest: counterweights balance_shafts first_order responses
 infeasibility/multipliers: conflict smallest_force smallest_moment

@@ -190,7 +190,8 @@ class Program:
         beta = (proof / "budget").number(0.0, least=0) if machine.left is not None else ZERO
         for web, pull, wide in zip(self.webs, machine.together([-one for one in pulls.slopes]), pulls.spread):
             if web.plate is not None:
-                least = least - of_plate(web, web.plate, support(pull, web.sector) - wide, cost + beta)
+                pull = support(pull, web.sector) - wide
+                least = least - of_plate(web, web.plate, pull, cost + beta, Place(None))
                 continue
             gain = web.radius * (support(pull, web.sector) - wide) - cost - beta
             if gain.high <= 0:

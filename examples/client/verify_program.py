@@ -175,7 +175,8 @@ class Statement:
             price = cost + spent(machine, pulls, share, cost, implied if believed else Place(None))
         for web in machine.webs:
             if web.plate is not None:
-                least = least - of_plate(web, web.plate, pulls[web.name] * share, price)
+                said = implied / web.name if believed else Place(None)
+                least = least - of_plate(web, web.plate, pulls[web.name] * share, price, said)
                 continue
             gain = gains[web.name] * share - price
             if gain.high > 0 and (web.name not in free or (machine.left is not None and price.high > 0)):
@@ -295,11 +296,11 @@ def spent(machine: Machine, pulls: dict[str, Number], share: Number, cost: Numbe
     return real(high)
 
 
-def of_plate(web: Web, plate: Plate, pull: Number, price: Number) -> Number:
+def of_plate(web: Web, plate: Plate, pull: Number, price: Number, implied: Place) -> Number:
     """What is cut from a plate takes off at most, of what a kilogram metre takes off."""
     if pull.high <= 0 or (web.limit is not None and web.limit.high <= 0):
         return ZERO
-    limit = inf if web.limit is None else float(web.limit)
+    limit = min(inf if web.limit is None else float(web.limit), implied.double(least=0) if implied else inf)
     low, high = plate.worth(max(pull.middle().real, 0.0), max(price.middle().real, 0.0), limit)
     return Number(real(low).low, real(high).high)
 

@@ -10,13 +10,13 @@ from __future__ import annotations
 from functools import partial
 from typing import Optional, Tuple
 
-from verify_answer import Fitted, closest
+from verify_answer import Fitted, closest, fitted
 from verify_cases import FIELDS as CASES
 from verify_cases import scenarios, without_cases
 from verify_claims import EVIDENCE, Claims, covered, near
 from verify_costs import costs
 from verify_cuts import FIELDS, SHAFTS
-from verify_first import near_the_bound, priced_at, searched, smallest
+from verify_first import excess, implied_alone, near_the_bound, priced_at, searched, smallest
 from verify_first import proven as exactly
 from verify_goals import Program as Asked
 from verify_goals import values
@@ -71,7 +71,7 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
         yield near("yardstick", size, mass)
     goals_of = Asked([*program.parts.values()], program.named, program.off, machine, program.rows)
     yield from covered(values(request, answer, goals_of, fitted))
-    yield from covered(_nominal(request, machine, answer, implied))
+    yield from covered(_nominal(request, machine, answer))
     if slopes:
         yield from covered(costs(request, answer, machine, program.first, terms, slopes))
     yield from covered(misplacement(goals_of.parts, program.named[-1], fitted, answer / "sensitivity"))
@@ -91,17 +91,19 @@ def _earlier(program: Program, proof: Place, implied: Place) -> Claims:
         yield from _proven("goals", one / "lower_bound", found, implied, one / "multipliers")
 
 
-def _nominal(request: Place, machine: Machine, answer: Place, implied: Place) -> Claims:
+def _nominal(request: Place, machine: Machine, answer: Place) -> Claims:
     """The bound of the machine as it is given, nothing off, by multipliers of its own."""
     price = answer / "price_of_robustness"
     if not price / "nominal_multipliers":
         return
     program, proof = Program(without_cases(request), machine, Place(None)), price / "nominal_multipliers"
-    lowest, first = price / "nominal_lower_bound", program.first
+    lowest, first, implied = price / "nominal_lower_bound", program.first, price / "nominal_implied_max_mass_kg"
     if not (first.over_turn or first.geared):
         # of the first order alone: what webs without limits gain by rounding is taken off exactly
         priced = partial(priced_at, dict.fromkeys(first.exact.rows, lowest.number()))
-        yield from exactly("nominal_optimum", lowest, first.exact, proof, implied, {}, priced)
+        there = yield from fitted(request, machine, price / "nominal_counterweights", price / "nominal_balance_shafts")
+        over = excess(first.exact, there.turning)
+        yield from exactly("nominal_optimum", lowest, first.exact, proof, implied, over, priced)
         return
     bound = program.bound(proof, program.terms(proof), implied)
     yield from _proven("nominal_optimum", lowest, bound, implied, proof)
@@ -136,7 +138,9 @@ def unreachable(request: Place, answer: Place, budget: Place, verdict: Place) ->
         yield from smallest(machine, Place({}), verdict, proofs, implied)
         for name, unit in NAMES.items():
             lowest, attained = (verdict / f"smallest_{name}{part}_{unit}" for part in ("_lower_bound", ""))
-            yield from near_the_bound(f"smallest_{name}", attained, lowest, machine, name, implied)
+            yield from near_the_bound(
+                f"smallest_{name}", attained, lowest, machine, name, implied_alone(verdict, name, implied)
+            )
 
 
 def _proven(

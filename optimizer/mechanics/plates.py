@@ -9,6 +9,9 @@ import numpy as np
 from optimizer.mechanics.envelope import Envelope, opened_for
 from optimizer.numerics.arrays import Real, Reals
 
+#: rad: openings from which on a mass says more than an unbalance; and the step of its slope
+_STEEP, _STEP = 1.5, 1e-3
+
 
 @dataclass(frozen=True)
 class Plates:
@@ -60,6 +63,16 @@ class Plates:
     def opened_for(self, mass: Real) -> Real:
         """Half-angles of the counterweights of masses, rad; the largest for more than a plate holds."""
         return self._by_part(opened_for, mass)
+
+    def opened_by_both(self, mass: Real, radius: Real) -> Real:
+        """The same of masses at their radii: near a right angle an unbalance says no more than 1e-8 of an opening."""
+        half_angle = self.opened(mass * radius)
+        steep = half_angle > _STEEP
+        if not steep.any():
+            return half_angle
+        there = self.mass(half_angle)
+        slope = (there - self.mass(half_angle - _STEP)) / _STEP
+        return np.where(steep, np.minimum(half_angle + (mass - there) / slope, self.most), half_angle)
 
     def mass_of(self, unbalance: Real) -> Real:
         """Masses of the counterweights of unbalances, kg."""

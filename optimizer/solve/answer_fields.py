@@ -236,15 +236,20 @@ def _claim(
 
 
 def _bound(proof: Proof, u: Complex, excess: float) -> tuple[float, float]:
-    """A bound that speaks of all that exceed no ceiling by more than counterweights do, and the rounding of a value."""
+    """The bound that is claimed of counterweights with an excess, and the rounding of a value."""
     statement = proof.statement
-    allowance = 0.0
-    if excess > 0.0:
-        over = np.full(statement.ceilings.size.shape, excess)
-        allowance = float(ceiling_allowance(statement, proof.multipliers, over))
     # what scatters whatever the counterweights is a floor
     charge = proof.charge + _FLOORS * float(np.add.reduce(np.abs(statement.floor)))
-    return proof.bound - allowance, float(points_at(statement, u).rounding) + charge * np.finfo(float).eps
+    rounding = float(points_at(statement, u).rounding) + charge * np.finfo(float).eps
+    return bound_beside(proof, excess), rounding
+
+
+def bound_beside(proof: Proof, excess: float) -> float:
+    """A bound that speaks of all that exceed no ceiling by more than an excess, as a share of its size."""
+    if excess <= 0.0:
+        return proof.bound
+    over = np.full(proof.statement.ceilings.size.shape, excess)
+    return proof.bound - float(ceiling_allowance(proof.statement, proof.multipliers, over))
 
 
 def _touched(task: Task, goals: Goals, values: Values) -> Iterator[MachineLimit]:

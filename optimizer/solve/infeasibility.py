@@ -12,7 +12,7 @@ from optimizer.formulation.formulate import limited as limited_responses
 from optimizer.formulation.goals import Goals
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
-from optimizer.mechanics.shapes import closed
+from optimizer.mechanics.shapes import closed, plates
 from optimizer.outputs.first_order import added_peaks, first_order, smallest_peaks, smallest_proofs
 from optimizer.program.certificate import Multipliers, objective_lower_bound
 from optimizer.program.cuts.dominance import Group, Weighed
@@ -33,11 +33,14 @@ from schemas.answer.infeasibility import Closest, Infeasibility, SmallestPeak
 from schemas.answer.limits import CeilingField
 from schemas.answer.proof import BoundMultipliers, InfeasibilityMultipliers
 from schemas.base.responses import PAIR
+from schemas.machine.machine import Machine
 
 #: relative gap of the smallest peaks by themselves
 _ALONE = 1e-7
 #: share of the largest multiplier of a conflict from which on a ceiling takes part in it
 _TAKES_PART = 1e-6
+#: masses of plates are told with room for their rounding
+_CUT = 1.0 + 1e-9
 #: so many responses of a conflict are looked at by themselves
 _MOST_AT_FAULT = 6
 
@@ -48,6 +51,13 @@ class Smallest(NamedTuple):
     value: float
     lower_bound: float
     multipliers: BoundMultipliers
+
+
+class ImpliedMasses(NamedTuple):
+    """Largest masses that proofs count with where those of the machine are larger, by web, kg."""
+
+    together: dict[str, float]
+    alone: dict[str, dict[str, float]]  # of responses whose smallest peak is proven for less
 
 
 class StatedCeiling(NamedTuple):
@@ -70,7 +80,7 @@ def report(
     ceilings: Sequence[StatedCeiling],
     together: Sequence[StatedCeiling],
     least: Mapping[str, Smallest],
-    implied: dict[str, float],
+    implied: ImpliedMasses,
     conflict: BoundMultipliers | None,
     scenarios: tuple[str, ...] = (),
 ) -> Infeasibility:
@@ -81,7 +91,7 @@ def report(
     shown : what comes closest.
     together : ceilings that conflict where each by itself can be kept.
     least : of the responses, and of all under ceilings that the report is about.
-    implied : largest masses that the proofs count with, by web, kg.
+    implied : largest masses that the proofs count with.
     """
     impossible = [ceiling for ceiling in ceilings if least[ceiling.response].lower_bound > ceiling.allowed]
     left = replace(scene, shafts=shown.on_shafts).first_order(shown.on_crank)
@@ -103,7 +113,8 @@ def report(
             for each in dict.fromkeys(ceilings)
             if each.listed
         ),
-        implied_max_mass_kg=implied,
+        implied_max_mass_kg=implied.together,
+        smallest_implied_max_mass_kg=implied.alone,
         scenarios=scenarios,
         closest=Closest(
             counterweights=shown.counterweights,
@@ -180,10 +191,30 @@ def unreachable(
         scales, proof = goals.program.excess_scales(failure.proof.cuts), failure.proof
         conflict = named_excess(proof.with_pieces, proof.multipliers, scales, goals.speeds)
         scenarios = _scenarios(goals.program, failure, solver)
-    implied = implied_max_mass(closed(task.space.machine), common.max_mass[None])[0]
+    implied = _implied(task.space.machine, common, {name: peak.limits for name, peak in least.items()})
     infeasibility = report(scene, shown, (*exact, *both), together, peaks, implied, conflict, scenarios)
     spent = (0.0 if failure is None else failure.certify_s) + sum(peak.certify_s for peak in least.values())
     return Infeasible("infeasible", INFEASIBLE, infeasibility, spent, METHOD if failure is None else failure.method)
+
+
+def _implied(machine: Machine, together: Limits, alone: Mapping[str, Limits]) -> ImpliedMasses:
+    """The masses of proofs within limits, of each response by itself where it is proven for less."""
+    less = {name: each for name, each in alone.items() if np.any(each.max_mass < together.max_mass)}
+    return ImpliedMasses(
+        _masses_within(machine, together), {name: _masses_within(machine, each) for name, each in less.items()}
+    )
+
+
+def _masses_within(machine: Machine, limits: Limits) -> dict[str, float]:
+    """Masses of limits where those of the machine are larger, of a plate what is cut for its unbalance."""
+    smallest = closed(machine)
+    implied, cut = implied_max_mass(smallest, limits.max_mass[None])[0], plates(machine)
+    if cut is None or not implied:
+        return implied
+    # within rounding of what is cut
+    mass = cut.mass_of(limits.reach[cut.webs]) * _CUT
+    of_plates = {machine.webs[k].name: float(each) for k, each in zip(cut.webs, mass, strict=True)}
+    return {name: of_plates.get(name, each) for name, each in implied.items()}
 
 
 def _conflict(

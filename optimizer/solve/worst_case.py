@@ -19,9 +19,10 @@ from optimizer.program.cuts.optimum import CertifiedOptimum, Unkept
 from optimizer.program.optimum import optimum
 from optimizer.program.reference.solver import Solver
 from optimizer.responses.curve import TurnResponse
-from optimizer.solve.answer_fields import fitted
+from optimizer.solve.answer_fields import bound_beside, fitted
 from optimizer.solve.cut_plates import cut_plates
 from optimizer.solve.infeasibility import out_of_reach
+from optimizer.solve.proof import implied_max_mass
 from optimizer.solve.solution import Infeasible, Solution, finite_or_null, multipliers_of
 from optimizer.solve.uncertain_program import MachineOfCase, Measure, Robust
 from schemas.answer.first_order import ResponsePeak
@@ -66,22 +67,29 @@ def _beside_nominal(robust: Robust, goals: Goals, solution: Solution, solver: So
         best = best.within(goals.program.limits)
     u = unbalance(mass, angle, best.limits.radius)
     return with_worst_case(
-        robust, solution, u, late, _proof_of(scene, best, chosen(task.machine, task.objective, mass, angle))
+        robust, solution, u, late, _proof_of(robust, task, best, chosen(task.machine, task.objective, mass, angle), u)
     )
 
 
-def _proof_of(scene: Prepared, best: CertifiedOptimum, shown: Fitted) -> dict[str, object]:
-    """The best counterweights of the machine as it is given, and of one goal what is proven of them."""
+def _proof_of(robust: Robust, task: Task, best: CertifiedOptimum, shown: Fitted, u: Complex) -> dict[str, object]:
+    """The best counterweights (K,) kg m of the machine as it is given, and of one goal what is proven of them.
+
+    Parameters
+    ----------
+    task : with the radii of what is cut.
+    """
     fields: dict[str, object] = {
         "nominal_counterweights": shown.counterweights,
         "nominal_balance_shafts": shown.balance_shafts,
     }
     if len(best.goals) > 1:
         return fields
-    square = scene.omega_squared
+    square, program = robust.scene.omega_squared, _nominal(robust).program
+    excess = program.values(u, _CLOSE).excess if program.ceilings or program.limited else 0.0
     return fields | {
-        "nominal_lower_bound": finite_or_null(best.proof.bound * square),
+        "nominal_lower_bound": finite_or_null(bound_beside(best.proof, excess) * square),
         "nominal_multipliers": multipliers_of(best.proof, square, {None: square}),
+        "nominal_implied_max_mass_kg": implied_max_mass(task.space.machine, best.limits.max_mass[None])[0],
     }
 
 

@@ -74,6 +74,12 @@ class Infeasibility(Model):
         " it is proven that the smallest that can be reached lies within them",
         examples=[{"1a": 412.5}],
     )
+    smallest_implied_max_mass_kg: dict[ResponseName, dict[Name, Kilograms]] = Field(
+        {},
+        description="the same of the smallest peak of a response that needs less: its bound counts with these, by"
+        " response",
+        examples=[{}],
+    )
     closest: Closest = Field(description="the best compromise with the ceilings", examples=[{"counterweights": []}])
     multipliers: InfeasibilityMultipliers = Field(
         description="the multipliers that prove the conflict and both bounds",

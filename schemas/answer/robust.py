@@ -8,7 +8,7 @@ from schemas.answer.counterweights import Counterweight, FittedShaft
 from schemas.answer.first_order import ResponsePeak
 from schemas.answer.proof import BoundMultipliers
 from schemas.base.model import Model
-from schemas.base.quantities import NewtonMetres, Newtons
+from schemas.base.quantities import Kilograms, Name, NewtonMetres, Newtons
 from schemas.base.units import Unit
 
 
@@ -83,4 +83,10 @@ class PriceOfRobustness(Model):
     )
     nominal_multipliers: BoundMultipliers | None = Field(
         None, description="of nominal_lower_bound; null likewise", examples=[None]
+    )
+    nominal_implied_max_mass_kg: dict[Name, Kilograms] = Field(
+        {},
+        description="of webs without a limit, or with one far beyond any need: limits that change nothing on that"
+        " machine, which nominal_lower_bound counts with",
+        examples=[{}],
     )

@@ -32,3 +32,23 @@ def test_openings_and_chords_are_those_of_each_plate() -> None:
     # analytic: a sector has no chord, that of a segment is at R cos a
     assert np.isnan(MIXED.chord(half)).tolist() == [True, False, True]
     assert MIXED.chord(half)[1] == pytest.approx(0.25 * np.cos(0.75))
+
+
+@pytest.mark.parametrize("below", [0.0, 1e-10, 1e-8, 1e-5, 1e-3, 0.5])
+def test_openings_near_a_right_angle_are_those_of_their_masses(below: float) -> None:
+    """Analytic: the mass of a sector is in proportion to its opening; of a segment it is found again."""
+    full = np.pi / 2
+    plates = Plates(
+        np.arange(2),
+        np.arange(2),
+        [
+            (np.array([0]), AnnularSector(np.array([0.05]), np.array([0.2]), np.array([100.0]), np.array([full]))),
+            (np.array([1]), Segment(np.array([0.0]), np.array([0.25]), np.array([300.0]), np.array([full]))),
+        ],
+    )
+    angle = full - np.full(2, below)
+    mass, unbalance = plates.mass(angle), plates.unbalance(angle)
+    for rounding in (-1e-15, 0.0, 1e-15):
+        found = plates.opened_by_both(mass, unbalance * (1.0 + rounding) / mass)
+        assert plates.mass(found) == pytest.approx(mass, rel=1e-13)
+        assert np.all(found <= full)

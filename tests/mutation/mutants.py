@@ -1,7 +1,7 @@
 """Mutants of a file: one small fault each, of kinds that happen when mechanics are written down."""
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import islice
 from typing import NamedTuple
 
@@ -24,6 +24,8 @@ _COMPARISONS: dict[type[ast.cmpop], type[ast.cmpop]] = {
     ast.In: ast.NotIn,
     ast.NotIn: ast.In,
 }
+#: characters of an expression by which a number is told
+_LONGEST = 60
 #: names of functions and fields, each with the one that it is taken for
 _TAKEN_FOR = {
     one: other
@@ -63,6 +65,19 @@ def count(source: str) -> int:
     return sum(1 for _ in _faults(ast.parse(source)))
 
 
+def names(source: str) -> set[str]:
+    """What the mutants of a file are told by: of what they are, and ``of: fault``."""
+    tree = ast.parse(source)
+    every = list(_faults(tree))
+    found = set()
+    for fault in every:
+        _, of = _statement(tree, getattr(fault.node, "lineno", 0))
+        old = getattr(fault.node, fault.field)
+        found |= {of, f"{of}: {fault()}"}
+        setattr(fault.node, fault.field, old)
+    return found
+
+
 def mutant(source: str, number: int) -> Mutant:
     """One mutant; what is annotated, documented or said to a reader is no arithmetic and stays."""
     tree = ast.parse(source)
@@ -89,6 +104,7 @@ def _statement(tree: ast.Module, line: int) -> tuple[frozenset[int], str]:
 
 
 def _faults(tree: ast.Module) -> Iterator["_Fault"]:
+    around = {child: node for node in ast.walk(tree) for child in ast.iter_child_nodes(node)}
     for node in _computing(tree):
         if isinstance(node, ast.BinOp) and type(node.op) in _OPERATORS and not _of_text(node):
             yield _Fault(node, "op", _OPERATORS[type(node.op)]())
@@ -108,20 +124,33 @@ def _faults(tree: ast.Module) -> Iterator["_Fault"]:
             isinstance(node, ast.Constant) and isinstance(node.value, int | float) and not isinstance(node.value, bool)
         ):
             value = node.value
-            yield _Fault(node, "value", value + 1 if isinstance(value, int) else 1.01 * value + 1e-3)
+            yield _Fault(
+                node, "value", value + 1 if isinstance(value, int) else 1.01 * value + 1e-3, _said(node, around)
+            )
 
 
 class _Fault(NamedTuple):
-    """A field of a node, and what comes in its place."""
+    """A field of a node, what comes in its place, and the expression by which it is told; the node if there is none."""
 
     node: ast.AST
     field: str
     value: object
+    said: ast.AST | None = None
 
     def __call__(self) -> str:
-        before = ast.unparse(self.node)
+        said = self.said or self.node
+        before = ast.unparse(said)
         setattr(self.node, self.field, self.value)
-        return f"{before} -> {ast.unparse(ast.fix_missing_locations(self.node))}"
+        return f"{before} -> {ast.unparse(ast.fix_missing_locations(said))}"
+
+
+def _said(number: ast.AST, around: Mapping[ast.AST, ast.AST]) -> ast.AST:
+    """What a number stands in: many of one function are alike, of which one may change nothing."""
+    said, home = number, around[number]
+    while isinstance(home, ast.Tuple | ast.UnaryOp | ast.Slice):
+        said, home = home, around[home]
+    home = home if isinstance(home, ast.expr) else said
+    return home if len(ast.unparse(home)) <= _LONGEST else number
 
 
 def _computing(node: ast.AST) -> Iterator[ast.AST]:

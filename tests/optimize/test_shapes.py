@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from optimizer.analyze import analyze
 from optimizer.errors import OutOfRange
+from optimizer.mechanics.shapes import plates
 from optimizer.optimize import optimize
 from optimizer.program.verdict import MASS_GAP, NOT_LIGHT
 from optimizer.solve import plates as certified_shapes
@@ -346,6 +347,22 @@ def test_more_than_a_plate_holds_is_refused() -> None:
     with pytest.raises(OutOfRange, match="holds") as refused:
         analyze(AnalyzeRequest.model_validate({"machine": machine, "counterweights": fitted}))
     assert refused.value.problems[0].path == ("counterweights", 0, "mass_kg")
+
+
+@pytest.mark.parametrize(("share", "taken"), [(1.0, True), (1.0 + 1e-13, True), (1.0 + 1e-9, False)])
+def test_a_full_plate_is_taken_with_the_rounding_of_its_mass_alone(share: float, taken: bool) -> None:
+    request = OptimizeRequest.model_validate(asked("segment"))
+    cut = plates(request.machine)
+    assert cut is not None
+    name = request.machine.webs[int(cut.webs[0])].name
+    mass = float(cut.mass(cut.most)[0]) * share
+    fitted = [{"web": name, "mass_kg": mass, "angle_deg": 0}]
+    body = AnalyzeRequest.model_validate({"machine": asked("segment")["machine"], "counterweights": fitted})
+    if taken:
+        assert analyze(body).counterweights[int(cut.webs[0])].mass_kg == mass
+    else:
+        with pytest.raises(OutOfRange, match="holds"):
+            analyze(body)
 
 
 def test_the_price_of_a_budget_is_its_slope_and_proves_the_bound() -> None:

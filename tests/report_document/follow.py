@@ -6,9 +6,10 @@ that no longer changes, fails tests/report_document/test_follows.py: a field pri
 
 import re
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from copy import deepcopy
-from functools import cache
+from dataclasses import dataclass
+from functools import cache, cached_property
 from itertools import takewhile
 from pathlib import Path
 from typing import Any, NamedTuple, get_args
@@ -16,8 +17,9 @@ from typing import Any, NamedTuple, get_args
 from optimizer.optimize import optimize
 from schemas.answer.answers import OptimizeAnswer
 from schemas.answer.outputs import OutputName
+from schemas.base.model import Model
 from schemas.request.report import ReportRequest
-from service.report.blocks import Document, Figure, Number, Paragraph, Table
+from service.report.blocks import Chapter, Document, Figure, Number, Paragraph, Table
 from service.report.document import document
 from tests.report_document.conftest import AT, asked
 
@@ -53,6 +55,84 @@ def pattern(path: Path_) -> str:
     return ".".join("[]" if isinstance(step, int) else step for step in path).replace(".[]", "[]")
 
 
+@dataclass(frozen=True)
+class Subject:
+    """What a document is about, and how the document is made of it; nothing is computed but what chapters derive."""
+
+    about: Model
+    rendered: Callable[[Any], Iterable[Chapter]]
+    #: how the names of leaves begin that no document shows
+    left_out: tuple[str, ...] = ()
+
+    @cached_property
+    def body(self) -> dict[str, Any]:
+        """What it is about, as plain values."""
+        return self.about.model_dump()
+
+    @cached_property
+    def unchanged(self) -> Places:
+        """Places of the document on what was found."""
+        return places(self.rendered(self.about))
+
+    @cached_property
+    def changes(self) -> list[Change]:
+        """One for each kind of leaf: the last of the largest; of a series its last number, both ways."""
+        kinds: dict[str, list[tuple[Path_, float]]] = {}
+        for path, value in leaves(self.body):
+            kinds.setdefault(pattern(path), []).append((path, abs(value)))
+        found = []
+        for name, members in kinds.items():
+            if name.startswith(self.left_out):
+                continue
+            largest = max(size for _, size in members)
+            series = self._in_series(members[-1][0])
+            # what is equal but for rounding is equal on every machine
+            path = [path for path, size in members if series or size >= _EQUAL * largest][-1]
+            found += [Change(path, how) for how in (("above", "below") if series else ("little",))]
+        return found
+
+    def _in_series(self, path: Path_) -> bool:
+        """Whether a number is one of a series of ordinates; an abscissa keeps its place in the order."""
+        if not isinstance(path[-1], int) or str(path[-2]).endswith(("angle_deg", "position_m")):
+            return False
+        return len(_at(self.body, path[:-1])) > _SERIES
+
+    def changed(self, change: Change) -> tuple[float, float, Any]:
+        """The number before and after, and the answer with nothing else changed."""
+        body = deepcopy(self.body)
+        *above, key = change.path
+        home = _at(body, tuple(above))
+        if isinstance(home, tuple):
+            home = list(home)
+            _at(body, tuple(above[:-1]))[above[-1]] = home
+        old = home[key]
+        if change.how == "little":
+            # an angle of a series stays below the next turn
+            new = old + 0.37 if isinstance(key, int) else 1.0137 * old or 0.0137
+        else:
+            # beside all others by a third of what they span, with digits of its own
+            beyond = max(home) - min(home) or 1.0
+            new = max(home) + 0.31337 * beyond if change.how == "above" else min(home) - 0.31337 * beyond
+        home[key] = new
+        return old, new, type(self.about).model_validate(body)
+
+    def follows(self, change: Change) -> list[str]:
+        """Places that change with a leaf: `=` those that show it itself, `~` those that follow from it."""
+        old, new, other = self.changed(change)
+        before, after = self.unchanged, places(self.rendered(other))
+        found = [place for place in {**before, **after} if before.get(place) != after.get(place)]
+        shown = [
+            ("= " if after.get(place) == new and (change.how != "little" or before.get(place) == old) else "~ ") + place
+            for place in found
+        ]
+        return shown or [NOWHERE]
+
+    def written(self) -> Iterator[str]:
+        """The table: a line for every kind of leaf, the places below it."""
+        for change in self.changes:
+            yield f"{change.name}\n" + "".join(f"    {place}\n" for place in self.follows(change))
+
+
 @cache
 def request() -> ReportRequest:
     """What the document is asked for."""
@@ -66,36 +146,15 @@ def answer() -> OptimizeAnswer:
     return optimize(request().alone)
 
 
-@cache
-def _body() -> dict[str, Any]:
-    return answer().model_dump()
-
-
-@cache
-def unchanged() -> Places:
-    """Places of the document on what was found."""
-    return places(rendered(answer()))
-
-
 def rendered(found: OptimizeAnswer) -> Document:
-    """The document on an answer; nothing is computed but what chapters derive from it."""
+    """The report on an answer, without versions and check."""
     return document(request(), found, (), AT)
 
 
 @cache
-def changes() -> list[Change]:
-    """One for each kind of leaf: the last of the largest; of a series its last number, both ways."""
-    kinds: dict[str, list[tuple[Path_, float]]] = {}
-    for path, value in leaves(_body()):
-        kinds.setdefault(pattern(path), []).append((path, abs(value)))
-    found = []
-    for members in kinds.values():
-        largest = max(size for _, size in members)
-        series = _in_series(members[-1][0])
-        # what is equal but for rounding is equal on every machine
-        path = [path for path, size in members if series or size >= _EQUAL * largest][-1]
-        found += [Change(path, how) for how in (("above", "below") if series else ("little",))]
-    return found
+def subject() -> Subject:
+    """The answer with its report."""
+    return Subject(answer(), lambda found: rendered(found).chapters)
 
 
 def leaves(node: Any, path: Path_ = ()) -> Iterator[tuple[Path_, float]]:
@@ -116,49 +175,10 @@ def _at(node: Any, path: Path_) -> Any:
     return node
 
 
-def _in_series(path: Path_) -> bool:
-    """Whether a number is one of a series of ordinates; an abscissa keeps its place in the order."""
-    if not isinstance(path[-1], int) or str(path[-2]).endswith(("angle_deg", "position_m")):
-        return False
-    return len(_at(_body(), path[:-1])) > _SERIES
-
-
-def changed(change: Change) -> tuple[float, float, OptimizeAnswer]:
-    """The number before and after, and the answer with nothing else changed."""
-    body = deepcopy(_body())
-    *above, key = change.path
-    home = _at(body, tuple(above))
-    if isinstance(home, tuple):
-        home = list(home)
-        _at(body, tuple(above[:-1]))[above[-1]] = home
-    old = home[key]
-    if change.how == "little":
-        # an angle of a series stays below the next turn
-        new = old + 0.37 if isinstance(key, int) else 1.0137 * old or 0.0137
-    else:
-        # beside all others by a third of what they span, with digits of its own
-        beyond = max(home) - min(home) or 1.0
-        new = max(home) + 0.31337 * beyond if change.how == "above" else min(home) - 0.31337 * beyond
-    home[key] = new
-    return old, new, OptimizeAnswer.model_validate(body)
-
-
-def follows(change: Change) -> list[str]:
-    """Places that change with a leaf: `=` those that show it itself, `~` those that follow from it."""
-    old, new, other = changed(change)
-    before, after = unchanged(), places(rendered(other))
-    found = [place for place in {**before, **after} if before.get(place) != after.get(place)]
-    shown = [
-        ("= " if after.get(place) == new and (change.how != "little" or before.get(place) == old) else "~ ") + place
-        for place in found
-    ]
-    return shown or [NOWHERE]
-
-
-def places(made: Document) -> Places:
+def places(chapters: Iterable[Chapter]) -> Places:
     """Every number, text and drawing of a document, by chapter, table, row and column."""
     found: dict[str, object] = {}
-    for chapter in made.chapters:
+    for chapter in chapters:
         for block in chapter.blocks:
             for name, value in _of_block(block):
                 label = f"{chapter.title} | {name}"
@@ -205,17 +225,11 @@ def _first(text: str) -> str:
     return re.split(r"[\d.:;,]", text, maxsplit=1)[0][:40].strip()
 
 
-def written() -> Iterator[str]:
-    """The table: a line for every kind of leaf, the places below it."""
-    for change in changes():
-        yield f"{change.name}\n" + "".join(f"    {place}\n" for place in follows(change))
-
-
-def stored() -> dict[str, list[str]]:
+def stored(table: Path = TABLE) -> dict[str, list[str]]:
     """The table as it is in the file."""
-    entries = re.split(r"\n(?! )", TABLE.read_text().strip())
+    entries = re.split(r"\n(?! )", table.read_text().strip())
     return {name: [place.strip() for place in places] for name, *places in map(str.splitlines, entries)}
 
 
 if __name__ == "__main__":
-    sys.stdout.writelines(written())
+    sys.stdout.writelines(subject().written())

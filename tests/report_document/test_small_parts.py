@@ -2,11 +2,15 @@
 
 import pytest
 
+from optimizer.optimize import optimize
+from schemas.answer.alternatives import Alternative
 from schemas.request.picture import PictureStyle
 from schemas.request.report import ReportRequest
 from service.drawings.svg import Drawing
 from service.report.accuracy_picture import _steps
-from service.report.blocks import _upwards
+from service.report.blocks import Number, Table, _upwards
+from service.report.chapters.alternatives import alternatives
+from service.report.chapters.answers import optimized
 from service.report.charts import axis
 from service.report.document import report
 from service.report.html import html
@@ -58,3 +62,38 @@ def test_only_a_machine_with_balance_shafts_has_their_mass() -> None:
     body = {"machine": single([shaft("back", -1)])}
     assert line in html(report(ReportRequest.model_validate(body), AT))
     assert line not in html(report(asked("2d12"), AT))
+
+
+@pytest.mark.parametrize(("best", "above"), [(0.5, "20 %"), (60.0, "20 %"), (0.0, "0 %")])
+def test_a_cheaper_choice_is_compared_with_the_best_however_small(best: float, above: str) -> None:
+    """Analytic: 1.2 of the best is 20 % above it; beside a best of nothing there is no share."""
+    answer = optimize(asked("2d12").alone)
+    assert answer.certificate is not None
+    other = Alternative.model_validate(
+        {
+            "minimised": "pieces",
+            "allowance": 0.3,
+            "objective": 1.2 * best,
+            "total_mass_kg": 41.0,
+            "pieces": 2,
+            "sizes": 1,
+            "lower_bound": 2.0,
+            "counterweights": [],
+        }
+    )
+    certificate = answer.certificate.model_copy(update={"objective": best})
+    shown = answer.model_copy(update={"certificate": certificate, "alternatives": (other,)})
+    ((_, block),) = (chapter.blocks for chapter in alternatives(shown))
+    assert isinstance(block, Table)
+    (row,) = block.rows
+    assert [cell.text if isinstance(cell, Number) else cell for cell in row] == [
+        "fewest counterweights", "30 %", above, "41", "2", "1", "2", "",
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("outputs", [[], ["stages"]])
+def test_stages_are_shown_where_they_are_asked_for(outputs: list[str]) -> None:
+    request = asked("2d12", outputs=outputs).alone
+    titles = [chapter.title for chapter in optimized(request, optimize(request))]
+    assert ("The eight balancing stages" in titles) == bool(outputs)
+    assert len(titles) == len(set(titles))

@@ -21,6 +21,14 @@ from tests.hard.bodies import drawn
         # webs of 1e15 kg and more in a scenario, which the machine as it is given has no use for
         ("scenarios", 88, 78, "nominal_optimum"),
         ("tolerances", 404, 78, "nominal_optimum"),
+        # a limit of 1e300 kg: 8e-8 kg are enough where masses are off, 2e-9 kg where none is
+        ("tolerances", 390, 79, "nominal_optimum"),
+        # plates of up to 9 kg: 5e-23 kg are enough for the moment by itself
+        ("plates", 267, 79, "smallest_moment"),
+        # a force of 9e22 N under a moment of 1e-10 N m, which is exceeded by the rounding of a mass of 2e19 kg
+        ("scenarios", 116, 80, "nominal_optimum"),
+        # a plate that is open to 89.999999 degrees, where an unbalance tells the opening to 1e-8
+        ("plates", 204, 80, "shape"),
         # nothing without counterweights, and no use for a budget of a gram; and 6e-14 N m of rounding beside no budget
         ("axis ceilings", 451, 78, "yardstick"),
         ("axis ceilings", 444, 78, "yardstick"),

@@ -1,0 +1,194 @@
+"""Plots read back (analytic): what is drawn has the values that the marks of its axes say, and is on the paper."""
+
+import math
+import re
+from collections.abc import Iterator
+from typing import NamedTuple
+from xml.etree import ElementTree
+
+import pytest
+
+from schemas.request.accuracy import AccuracyAnswer
+from service.drawings.svg import AFTER, FAINT, SERIES, Drawing
+from service.report import charts
+from service.report.accuracy_picture import draw
+from service.report.loci import Curve, locus
+from service.report.scatter import Column, scatter
+from tests.report_document.subjects import made
+
+Point = tuple[float, float]
+_NUMBER = r"-?\d+(?:\.\d+)?(?:e-?\d+)?"
+#: px between a mark and the line that it names, and what hundredths of a px make of a value
+_BESIDE, _ROUNDED = 6.0, 2e-3
+
+
+class Shape(NamedTuple):
+    """A line or a circle by its points, or a text by its place."""
+
+    tag: str
+    points: list[Point]
+    attributes: dict[str, str]
+    text: str
+
+
+def shapes(svg: str) -> Iterator[Shape]:
+    for one in ElementTree.fromstring(svg).iter():
+        tag = one.tag.rpartition("}")[2]
+        if tag == "path":
+            numbers = [float(each) for each in re.findall(_NUMBER, one.attrib["d"])]
+            yield Shape(tag, list(zip(numbers[::2], numbers[1::2], strict=True)), one.attrib, "")
+        elif tag == "circle":
+            yield Shape(tag, [(float(one.attrib["cx"]), float(one.attrib["cy"]))], one.attrib, "")
+        elif tag == "text":
+            turned = re.findall(_NUMBER, one.attrib.get("transform", ""))
+            x, y = (turned[-2:]) if turned else (one.attrib["x"], one.attrib["y"])
+            yield Shape(tag, [(float(x), float(y))], one.attrib, one.text or "")
+
+
+class Axis(NamedTuple):
+    """px at 0, and px to a unit."""
+
+    start: float
+    step: float
+
+    def value(self, place: float) -> float:
+        return (place - self.start) / self.step
+
+
+def marked(text: str) -> float | None:
+    """The number that a mark is."""
+    plain = (
+        text.replace("\N{MINUS SIGN}", "-").replace("\N{NO-BREAK SPACE}", "").replace("\N{NARROW NO-BREAK SPACE}", "")
+    )
+    return float(plain) if re.fullmatch(_NUMBER.replace("e-?", "e[+-]?"), plain) else None
+
+
+def axes(svg: str, logarithms: bool = False) -> tuple[Axis, Axis]:
+    """Both axes by their marks, each of which stands at a line of the grid; all marks of an axis agree."""
+    every = list(shapes(svg))
+    grid = [one.points for one in every if one.tag == "path" and len(one.points) == 2]
+    upright = [a[0] for a, b in grid if a[0] == b[0]]
+    level = [a[1] for a, b in grid if a[1] == b[1]]
+    found = []
+    for anchor, lines, side in (("middle", upright, 0), ("end", level, 1)):
+        marks = []
+        for one in every:
+            number = marked(one.text) if one.tag == "text" and one.attributes.get("text-anchor") == anchor else None
+            near = [line for line in lines if abs(line - one.points[0][side]) < _BESIDE] if one.points else []
+            if number is not None:
+                assert near, one
+                marks.append(
+                    (
+                        math.log10(number) if logarithms else number,
+                        min(near, key=lambda line: abs(line - one.points[0][side])),
+                    )
+                )
+        assert len(marks) >= 2
+        (low, start), (high, end) = min(marks), max(marks)
+        axis = Axis(start - low * (end - start) / (high - low), (end - start) / (high - low))
+        assert all(abs(axis.value(place) - number) < _ROUNDED * (high - low) for number, place in marks)
+        found.append(axis)
+    return found[0], found[1]
+
+
+def values(svg: str, points: list[Point], logarithms: bool = False) -> list[Point]:
+    """Points in the units of the axes."""
+    x, y = axes(svg, logarithms)
+    return [(x.value(across), y.value(upward)) for across, upward in points]
+
+
+def near(found: list[Point], wanted: list[Point]) -> bool:
+    """The same but for hundredths of a px."""
+    assert len(found) == len(wanted)
+    size = [max(abs(one[side]) for one in wanted) or 1.0 for side in (0, 1)]
+    return all(
+        abs(one[side] - other[side]) < _ROUNDED * size[side]
+        for one, other in zip(found, wanted, strict=True)
+        for side in (0, 1)
+    )
+
+
+def on_paper(svg: str) -> bool:
+    """Whether all that is drawn is inside the drawing, texts by their place."""
+    root = ElementTree.fromstring(svg)
+    _, _, width, height = map(float, root.attrib["viewBox"].split())
+    inside = []
+    for one in shapes(svg):
+        room = float(one.attributes["r"]) if one.tag == "circle" else 0.0
+        inside += [room <= x <= width - room and room <= y <= height - room for x, y in one.points]
+    return all(inside)
+
+
+def lines(svg: str, stroke: str) -> list[list[Point]]:
+    """Lines of a colour, longest first."""
+    found = [one.points for one in shapes(svg) if one.tag == "path" and one.attributes.get("stroke") == stroke]
+    return sorted(found, key=len, reverse=True)
+
+
+@pytest.mark.parametrize("factor", [1.0, 1e3])
+def test_lines_of_a_chart_have_their_values(factor: float) -> None:
+    places, first, second = [-0.4, 0.1, 0.3, 0.9], [3.0, -2.0, 7.0, 1.0], [1.0, 4.0, -5.0, 2.0]
+    of_lines = [
+        charts.Line(name, [factor * 40.0 * one for one in line]) for name, line in (("a", first), ("b", second))
+    ]
+    svg = charts.chart("load", "N", "z, m", places, of_lines).svg()
+    for line, stroke in ((first, SERIES[0]), (second, SERIES[1])):
+        found = values(svg, lines(svg, stroke)[0])
+        assert near(found, [(place, 40.0 * one) for place, one in zip(places, line, strict=True)])
+    assert any(one.text == ("load, kN" if factor > 1 else "load, N") for one in shapes(svg))
+    assert on_paper(svg)
+
+
+def test_designs_have_their_values_and_the_front_joins_those_that_none_beats() -> None:
+    across, upward = [3.0, 1.0, 2.0, 4.0], [10.0, 40.0, 20.0, 5.0]
+    svg = scatter(Column("mass", "kg", across), Column("force", "N", upward)).svg()
+    drawn = [one.points[0] for one in shapes(svg) if one.tag == "circle" and one.attributes["stroke"] == AFTER]
+    assert near(values(svg, drawn), list(zip(across, upward, strict=True)))
+    assert on_paper(svg)
+
+
+@pytest.mark.parametrize("turn", range(4))
+def test_a_circle_around_a_curve_is_where_it_is_and_on_the_paper(turn: int) -> None:
+    """Far from the origin, in every quadrant."""
+    centre = (30.0 + 10.0j) * 1j**turn
+    points = [centre + 8.0 * math.cos(angle / 9) + 5.0j * math.sin(angle / 9) for angle in range(57)]
+    svg = locus("force", "N", [Curve("A", points, centre, 8.0, SERIES[2])]).svg()
+    curve = lines(svg, SERIES[2])[0]
+    assert near(values(svg, curve[:-1]), [(one.real, one.imag) for one in points])
+    (circle,) = (one for one in shapes(svg) if one.tag == "circle" and float(one.attributes["r"]) > 5.0)
+    assert near(values(svg, circle.points), [(centre.real, centre.imag)])
+    x, y = axes(svg)
+    # equal scales, y upwards
+    assert x.step == pytest.approx(-y.step, rel=_ROUNDED)
+    assert float(circle.attributes["r"]) == pytest.approx(8.0 * x.step, rel=_ROUNDED)
+    assert on_paper(svg)
+
+
+def test_a_hodograph_has_its_peak_in_the_units_of_its_axes() -> None:
+    svg = charts.hodograph("force", "N", [charts.after("with", 30.0, 10.0, 25.0)]).svg()
+    found = values(svg, lines(svg, AFTER)[0])
+    farthest = max(found, key=lambda one: math.hypot(*one))
+    assert math.hypot(*farthest) == pytest.approx(30.0, rel=_ROUNDED)
+    assert math.degrees(math.atan2(farthest[1], farthest[0])) % 180 == pytest.approx(25.0, abs=1.1)
+    assert min(math.hypot(*one) for one in found) == pytest.approx(10.0, rel=_ROUNDED)
+    assert on_paper(svg)
+
+
+def test_methods_stand_at_their_time_and_error() -> None:
+    """On decades: a time of 1.9 ms and an error of 1.3e-3, of one method."""
+    answer = made("accuracy").about
+    assert isinstance(answer, AccuracyAnswer)
+    svg = draw("ladder", answer)
+    (row,) = answer.ladder
+    drawn = [one.points[0] for one in shapes(svg) if one.tag == "circle"]
+    found = values(svg, drawn, logarithms=True)
+    assert row.time_ms is not None
+    assert row.relative_error is not None
+    assert near(found, [(math.log10(row.time_ms), math.log10(row.relative_error))])
+    assert on_paper(svg)
+    assert any(one.text == "ladder" for one in shapes(svg))
+
+
+def test_colours_of_the_grid_are_not_those_of_lines() -> None:
+    assert FAINT not in SERIES
+    assert isinstance(charts.chart("a", "N", "z", [0.0, 1.0], [charts.Line("a", [1.0, 2.0])]), Drawing)
