@@ -48,8 +48,8 @@ XLSX = "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet"
 
 
 def json_bytes(found: "Model") -> bytes:
-    """An answer as JSON."""
-    return found.model_dump_json().encode()
+    """An answer as JSON, in bytes at once: all outputs are a third of a megabyte, which text would copy twice more."""
+    return found.__pydantic_serializer__.to_json(found)
 
 
 def given_bytes(asked: "Model") -> bytes:
