@@ -14,6 +14,7 @@ from optimizer.responses.piecewise_cubics import Index
 
 if TYPE_CHECKING:
     from optimizer.mechanics.kernel.curves import Sums
+    from optimizer.responses.kernel.motion import Motion
     from optimizer.responses.kernel.parts import Asked, Best, Known
 
 #: of what is expanded at points
@@ -37,17 +38,11 @@ class CurveSeries:
 
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
         """Values (m,) at angles (m,) rad within pieces, ends included."""
-        return self._about(curve, piece, angle, None, 0)[0][:, 0]
+        return self._about(curve, piece, angle, 0)[:, 0]
 
     def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
         """Taylor polynomials (m, 4) about centres (m,) rad within pieces, in units of half widths (m,)."""
-        return self._about(curve, piece, centre, None, 3)[0] * half[:, None] ** np.arange(4)
-
-    def rests(self, curve: Index, piece: Index, centre: Real, half: Real) -> Real:
-        """Bounds (m,) on what these leave out within half widths (m,) rad about centres."""
-        middle, radius = self._about(curve, piece, centre, half, 4)
-        found: Real = (np.abs(middle[:, 0]) + radius) * half**4
-        return found
+        return self._about(curve, piece, centre, 3) * half[:, None] ** np.arange(4)
 
     @cached_property
     def sums(self) -> "Sums":
@@ -59,21 +54,21 @@ class CurveSeries:
         number[:] = [READINGS.index(reading) for reading in self.readings]
         return Sums(number, *(in_order(np.asarray(each, complex)) for each in (self.weights, self.constant)))
 
-    def search(self, known: "Known", asked: "Asked", best: "Best") -> Complex:
-        """Peaks of the curves, from their pieces, and the curves there; nothing of it leaves what is compiled."""
+    def search(self, known: "Known", asked: "Asked", best: "Best", motion: "Motion | None") -> Complex:
+        """Peaks of the curves, or of one of them in motion, from their pieces, and the curves there, at rest."""
         from optimizer.mechanics.kernel.search import search
+        from optimizer.responses.kernel.motion import STILL
 
-        found: Complex = search(known, asked, best, self.rows.packed, self.sums, self._within)
+        moving = STILL if motion is None else motion
+        found: Complex = search(known, asked, best, self.rows.packed, self.sums, self._within, moving)
         return found
 
-    def _about(self, curve: Index, piece: Index, angle: Real, half: Real | None, order: int) -> tuple[Complex, Real]:
-        """Coefficients (m, order + 1) at angles (m,) rad; over half widths that of the last (m, 1) and its radius."""
+    def _about(self, curve: Index, piece: Index, angle: Real, order: int) -> Complex:
+        """Coefficients (m, order + 1) at angles (m,) rad."""
         from optimizer.mechanics.kernel.curves import series_of_curves
 
-        where, wide = (_integers(curve), _integers(piece), compact(angle)), _NO_WIDTHS if half is None else half
-        found: tuple[Complex, Real] = series_of_curves(
-            self.rows.packed, self.sums, self._within, *where, compact(wide), order
-        )
+        where = _integers(curve), _integers(piece), compact(angle), _NO_WIDTHS
+        found: Complex = series_of_curves(self.rows.packed, self.sums, self._within, *where, order)[0]
         return found
 
     @cached_property

@@ -26,6 +26,7 @@ from optimizer.numerics.arrays import Complex, Real, in_order, spread
 from optimizer.responses.piecewise_cubics import Index, Pieces
 
 if TYPE_CHECKING:
+    from optimizer.responses.kernel.motion import Motion
     from optimizer.responses.kernel.parts import Asked, Best, Known
 
 
@@ -278,17 +279,13 @@ class TurnCurves:
         """Series about other centres (m,) within pieces; the process that counts is that of the piece."""
         return self._series.cubics(curve, piece, centre, half)
 
-    def rests(self, curve: Index, piece: Index, centre: Real, half: Real) -> Real:
-        """Bounds within half widths (m,) rad about other centres."""
-        return self._series.rests(curve, piece, centre, half)
-
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
         """The curves at angles (m,) within pieces, ends included."""
         return self._series.values(curve, piece, angle)
 
-    def search(self, known: "Known", asked: "Asked", best: "Best") -> Complex:
-        """Peaks of the curves, compiled."""
-        return self._series.search(known, asked, best)
+    def search(self, known: "Known", asked: "Asked", best: "Best", motion: "Motion | None" = None) -> Complex:
+        """Peaks of the curves, or of one of them in motion."""
+        return self._series.search(known, asked, best, motion)
 
     @cached_property
     def _series(self) -> CurveSeries:
