@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from optimizer.mechanics.curve_series import forces
 from optimizer.mechanics.friction import reciprocating_friction
 from optimizer.mechanics.gas import gas_forces, switching_angles
 from optimizer.mechanics.kinematics import motion
@@ -50,11 +51,11 @@ def test_series_have_the_values_of_the_samples(style: str, exact: bool) -> None:
     expected, moving = _forces(plan, data, angle, exact, friction)
     series = RowSeries(turn.rows, angle[None], None, angle[None], 0)
     for reading in READINGS:
-        value, wanted = series.of(reading).middle[0, 0], getattr(expected, reading)
+        value, wanted = forces(series, reading)[0, ..., 0], getattr(expected, reading)
         assert value == pytest.approx(wanted, rel=1e-9, abs=1e-11 * np.max(np.abs(wanted))), reading
     _, loads = shaft_loads(expected.piston, moving, plan, angle)
     count = plan.reciprocating.mass.size
-    seen = series.of("on_shaft").middle[0, 0] * plan.reciprocating.crank_direction[:, None]
+    seen = forces(series, "on_shaft")[0, ..., 0] * plan.reciprocating.crank_direction[:, None]
     assert seen == pytest.approx(
         loads[:count] * np.exp(-1j * plan.sense * angle), rel=1e-9, abs=1e-11 * np.max(np.abs(loads))
     )

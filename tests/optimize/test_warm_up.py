@@ -10,7 +10,7 @@ import pytest
 from optimizer.choices.discrete.kernel import near_sums
 from optimizer.compile_kernels import any_limits, budgets, moving_curves
 from optimizer.compile_kernels import near_sums as sums
-from optimizer.mechanics.kernel import crossings, curves, readings, rows, search
+from optimizer.mechanics.kernel import crossings, curves, rows, search
 from optimizer.numerics.kernel import circle, knapsack
 from optimizer.program.kernel import bounds, cancelling, discs, interior_point, outlines, settling, symmetries, values
 from optimizer.responses.kernel import motion
@@ -59,9 +59,8 @@ def test_what_is_compiled_is_what_answers_need() -> None:
         outlines: ("worst_scaled", "worst_turned"),
         cancelling: ("least_changes",),
         rows: ("row_functions",),
-        readings: ("row_series",),
         crossings: ("crossings",),
-        curves: ("series_of_curves", "sums_of_rows"),
+        curves: ("sums_of_rows",),
         search: ("search",),
         knapsack: ("filled",),
         circle: ("smallest",),

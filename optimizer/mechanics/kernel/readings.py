@@ -7,7 +7,7 @@ import numpy as np
 
 from optimizer.mechanics.kernel.rows import COS, INERTIA, KEPT, SECANT, SIN, SIN_2, SIN_SQUARED
 from optimizer.mechanics.kernel.taylor import ALL, LANES, Series, constant, copied, product, scaled, summed
-from optimizer.numerics.compiling import inner, kernel
+from optimizer.numerics.compiling import inner, inner_with_arrays
 
 #: what may be asked of the rows; the first column counts from 0 in the compiled code
 READINGS = (
@@ -34,7 +34,7 @@ _NUMBERS = 10
 _NUMBER, _ANGLE, _DESIGN = np.arange(3)
 
 
-@kernel
+@inner_with_arrays
 def row_series(rows, functions, design, angles, reading):  # type: ignore[no-untyped-def]
     """Coefficients of a force of the rows: (2, order + 1, N, R, P) at points; of enclosures the middles (2, 1, N, R, P)
     and radii (N, R, P) of the last; P angles of each of designs (N,).
