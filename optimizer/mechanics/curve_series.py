@@ -46,8 +46,8 @@ class CurveSeries:
         return self._about(curve, piece, centre, 3) * half[:, None] ** np.arange(4)
 
     def over(self, points: RowSeries | None, bounds: RowSeries | None, half: Real) -> tuple[Complex, Real, Real]:
-        """Coefficients (J, P, order + 1) over the angles of series, in units of half widths (N, P), what they leave out
-        by bounds (J, P), and the size (J,) of what is added up; nothing of what is not given."""
+        """Coefficients (J, P, order + 1) over the angles of series, in units of half widths (N, P); by bounds what they
+        leave out (J, P), and of both the size (J,) of what is added up. Nothing of what is not given."""
         from optimizer.mechanics.kernel.curves import NOTHING, sums_of_rows
 
         nothing = repeat((NOTHING, None))
@@ -92,10 +92,11 @@ class CurveSeries:
 
     def _at(self, curve: Index, design: Index, angle: Real, within: Real, order: int) -> Complex:
         from optimizer.mechanics.kernel.curves import NOTHING, sums_of_rows
-        from optimizer.mechanics.kernel.rows import Places, row_functions
+        from optimizer.mechanics.kernel.rows import ALL_ROWS, Places, row_functions
 
         rows = self.rows.packed
-        functions = row_functions(rows, Places(design, angle, _NO_WIDTHS, within), order, self._pressed)
+        places = Places(design, angle, _NO_WIDTHS, within)
+        functions = row_functions(rows, places, order, self._pressed, ALL_ROWS)
         wide = np.ones((curve.size, 1))
         found: Complex = sums_of_rows(rows, self.sums, curve, functions, NOTHING, design, 1, wide)[0][:, 0]
         return found

@@ -59,7 +59,7 @@ class RowSeries:
         return self._functions_by_pressure.get(True) or self._functions_by_pressure.get(pressed)
 
     def _made(self, pressed: bool) -> "Iterator[tuple[Functions, slice]]":
-        from optimizer.mechanics.kernel.rows import Places, row_functions
+        from optimizer.mechanics.kernel.rows import ALL_ROWS, Places, row_functions
 
         rows, angles = self.data.packed, self.centre.shape[1]
         # the pressures may differ between designs that have all else in common
@@ -78,7 +78,7 @@ class RowSeries:
                 np.zeros(0) if half is None else _flat(half[:, place]),
                 _flat(within[:, place]),
             )
-            functions = row_functions(rows, places, self.order, pressed)
+            functions = row_functions(rows, places, self.order, pressed, ALL_ROWS)
             if parts == 1:
                 self._functions_by_pressure[pressed] = functions
             yield functions, place

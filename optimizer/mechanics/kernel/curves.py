@@ -41,7 +41,7 @@ class Sums(NamedTuple):
 @kernel
 def sums_of_rows(rows, sums, curve, points, bounds, design, angles, half):  # type: ignore[no-untyped-def]
     """Some curves (m,) over P angles of each of N designs (N,), m / N of each: coefficients (m, P, order + 1) in units
-    of half widths (N, P), what these leave out (m, P), and the size (m,) of what is added up.
+    of half widths (N, P); and beside bounds what these leave out (m, P), and the size (m,) of what is added up.
 
     Parameters
     ----------
@@ -52,7 +52,8 @@ def sums_of_rows(rows, sums, curve, points, bounds, design, angles, half):  # ty
     count, terms, order = sums.weights.shape[1], points.middle.shape[2], bounds.middle.shape[2] - 1
     curves, share = curve.size, max(curve.size // max(design.size, 1), 1)
     cubic = np.empty((curves, angles, terms), np.complex128)
-    rest, size = np.empty((curves, angles if order >= 0 else 0)), np.empty(curves)
+    sized = terms > 0 and order >= 0
+    rest, size = np.empty((curves, angles if order >= 0 else 0)), np.empty(curves if sized else 0)
     # coefficients and at last the bound's middle, each real and imaginary
     last = terms + 1 if order >= 0 else terms
     total, length = np.empty((2, last, angles)), np.empty((count, angles))
@@ -68,7 +69,7 @@ def sums_of_rows(rows, sums, curve, points, bounds, design, angles, half):  # ty
             if sums.reading[curve[j]] != reading:
                 continue
             n = j // share
-            if terms > 0 and n != of_lengths:
+            if sized and n != of_lengths:
                 of_lengths = n
                 for r in range(count):
                     for p in range(angles):
@@ -79,7 +80,7 @@ def sums_of_rows(rows, sums, curve, points, bounds, design, angles, half):  # ty
                 if weight == 0.0:
                     continue
                 most = abs(weight)
-                if terms > 0:
+                if sized:
                     for p in range(angles):
                         added[p] += most * length[r, p]
                 if order >= 0:
@@ -109,7 +110,8 @@ def sums_of_rows(rows, sums, curve, points, bounds, design, angles, half):  # ty
                 if order >= 0:
                     rest[j, p] = (_length(total[0, terms, p], total[1, terms, p]) + off[p]) * wide
                 largest = max(largest, added[p])
-            size[j] = largest + abs(constant)
+            if sized:
+                size[j] = largest + abs(constant)
     return cubic, rest, size
 
 
@@ -134,20 +136,26 @@ def series_of_curves(rows, sums, middle, curve, piece, angle, half, order):  # t
     bounded, count, terms = half.size > 0, curve.size, 1 if half.size > 0 else order + 1
     found, off = np.zeros((count, terms), np.complex128), np.zeros(count if bounded else 0)
     of_design = max(sums.weights.shape[0] // middle.shape[0], 1)
-    number, first = _alike(sums.weights.shape[1], curve // of_design, piece, angle, half)
+    number, first = _alike(sums.weights, curve, curve // of_design, piece, angle, half)
     wanted, pressed = _wanted(sums, curve)
-    step = max(1, _AT_ONCE // max(sums.weights.shape[1], 1))
+    count_of_rows = sums.weights.shape[1]
+    step = max(1, _AT_ONCE // max(count_of_rows, 1))
     for start in range(0, first.size, step):
         stop = min(start + step, first.size)
         design, centre, within = np.empty(stop - start, np.int64), np.empty(stop - start), np.empty(stop - start)
-        wide = np.empty(stop - start if bounded else 0)
+        wide, counted = np.empty(stop - start if bounded else 0), np.zeros((count_of_rows, stop - start), np.bool_)
         for q in range(stop - start):
             one = first[start + q]
             design[q], centre[q] = curve[one] // of_design, angle[one]
             within[q] = middle[design[q], piece[one]]
             if bounded:
                 wide[q] = half[one]
-        functions = row_functions(rows, Places(design, centre, wide, within), order, pressed)
+        for n in range(count):
+            q = number[n] - start
+            if q >= 0 and q < stop - start:
+                for r in range(count_of_rows):
+                    counted[r, q] = counted[r, q] or sums.weights[curve[n], r] != 0.0
+        functions = row_functions(rows, Places(design, centre, wide, within), order, pressed, counted)
         for reading in range(wanted.size):
             if not wanted[reading]:
                 continue
@@ -156,8 +164,10 @@ def series_of_curves(rows, sums, middle, curve, piece, angle, half, order):  # t
                 q = number[n] - start
                 if sums.reading[curve[n]] != reading or q < 0 or q >= stop - start:
                     continue
-                for r in range(sums.weights.shape[1]):
+                for r in range(count_of_rows):
                     weight = sums.weights[curve[n], r]
+                    if weight == 0.0:
+                        continue
                     for k in range(terms):
                         found[n, k] += weight * _vector(series, k, q, r)
                     if bounded:
@@ -169,21 +179,40 @@ def series_of_curves(rows, sums, middle, curve, piece, angle, half, order):  # t
 
 
 @inner_with_arrays
-def _alike(rows, design, piece, angle, half):  # type: ignore[no-untyped-def]
-    """Of places (m,) the number of each among those that differ, and which is the first of these."""
-    count = angle.size
+def _alike(weights, curve, design, piece, angle, half):  # type: ignore[no-untyped-def]
+    """Of places (m,) the number of each among those that differ, and which is the first of these; those of curves of
+    one row alone stand side by side."""
+    count, rows = angle.size, weights.shape[1]
     number, first = np.arange(count), np.arange(count)
     if count * rows <= _FEW:
         return number, first
-    order, different, last = np.argsort(angle), 0, 0
-    for k in range(count):
-        one = order[k]
-        other = k == 0 or angle[one] != angle[last] or piece[one] != piece[last] or design[one] != design[last]
-        if other or (half.size > 0 and half[one] != half[last]):
-            first[different] = one
-            different += 1
-        number[one], last = different - 1, one
+    kind = np.empty(count, np.int64)
+    for n in range(count):
+        kind[n] = _kind(weights[curve[n]])
+    order, different, last = np.argsort(angle), 0, -1
+    for row in range(rows + 1):
+        for k in range(count):
+            one = order[k]
+            if kind[one] != row:
+                continue
+            other = last < 0 or kind[last] != row or angle[one] != angle[last] or piece[one] != piece[last]
+            if other or design[one] != design[last] or (half.size > 0 and half[one] != half[last]):
+                first[different] = one
+                different += 1
+            number[one], last = different - 1, one
     return number, first[:different].copy()
+
+
+@inner
+def _kind(weights):  # type: ignore[no-untyped-def]
+    """The one row that counts, or else how many rows there are."""
+    row = -1
+    for r in range(weights.size):
+        if weights[r] != 0.0:
+            if row >= 0:
+                return weights.size
+            row = r
+    return weights.size if row < 0 else row
 
 
 @inner_with_arrays
