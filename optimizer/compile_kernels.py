@@ -32,6 +32,13 @@ def budgets() -> None:
     filled(np.ones((1, 1)), np.ones((1, 1)), np.ones(1))
 
 
+def moving_curves() -> None:
+    """Compile what brings curves into motion: one piece."""
+    from optimizer.responses.kernel.motion import STILL, in_motion
+
+    in_motion(STILL, np.ones(1), np.ones(1), np.ones((1, 4), complex), np.ones(1))
+
+
 def near_sums() -> None:
     """Compile what sums of options are compared by: two sums each."""
     from optimizer.choices.discrete.kernel.near_sums import ALL, gridded, near
@@ -44,7 +51,7 @@ def near_sums() -> None:
 def main() -> None:
     _say("compiling the kernels, once: half a minute on two cores")
     begun = time.perf_counter()
-    beside = get_context("spawn").Process(target=_alone, args=(follow_a_turn, match_parts, near_sums))
+    beside = get_context("spawn").Process(target=_alone, args=(follow_a_turn, moving_curves, match_parts, near_sums))
     beside.start()
     _alone(budgets, any_limits, plain_discs)
     beside.join()

@@ -48,8 +48,8 @@ XLSX = "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet"
 
 
 def json_bytes(answer: "Model") -> bytes:
-    """An answer as JSON."""
-    return answer.model_dump_json().encode()
+    """An answer as JSON, in bytes at once: all outputs are a third of a megabyte, which text would copy twice more."""
+    return answer.__pydantic_serializer__.to_json(answer)
 
 
 def request_bytes(request: "Model") -> bytes:

@@ -5,16 +5,18 @@ Whatever is asked for at an angle, the rows are expanded about it once, and each
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from optimizer.mechanics.curve_series import CurveSeries
 from optimizer.mechanics.whole_turn import TurnCurves
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, spread
 from optimizer.responses.piecewise_cubics import Index, Pieces
 
 if TYPE_CHECKING:
+    from optimizer.responses.kernel.motion import Motion
     from optimizer.responses.kernel.parts import Best, Cubics, Members
 
 
@@ -32,27 +34,27 @@ class CurveBatch:
     @cached_property
     def pieces(self) -> Pieces:
         """The curves piece by piece (J, P)."""
-        each = [part.pieces for part in self.parts]
-        centre, half, cubic, rest, size = (
-            np.concatenate([getattr(one, name) for one in each]) for name in ("centre", "half", "cubic", "rest", "size")
-        )
+        turn = self.parts[0].whole
+        cubic, rest, size = self._series.over(turn.points, turn.bounds, turn.half)
+        centre, half = (spread(each, rest.shape) for each in (turn.centre, turn.half))
+        for part, ends in zip(self.parts, pairwise(self.first.tolist()), strict=True):
+            own = slice(*ends)
+            alone = Pieces(centre[own], half[own], cubic[own], rest[own], size[own], source=part)
+            # whoever looks at the part alone finds them there
+            vars(part).setdefault("pieces", alone)
         return Pieces(centre, half, cubic, rest, size, source=self)
 
     def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
         """Series about centres (m,) within pieces."""
         return self._series.cubics(curve, piece, centre, half)
 
-    def rests(self, curve: Index, piece: Index, centre: Real, half: Real) -> Real:
-        """Bounds within half widths (m,) rad about centres."""
-        return self._series.rests(curve, piece, centre, half)
-
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
         """The curves at angles (m,) within pieces, ends included."""
         return self._series.values(curve, piece, angle)
 
-    def search(self, cubics: "Cubics", members: "Members", best: "Best") -> Complex:
-        """Peaks of the curves, compiled."""
-        return self._series.search(cubics, members, best)
+    def search(self, cubics: "Cubics", members: "Members", best: "Best", motion: "Motion | None" = None) -> Complex:
+        """Peaks of the curves, or of one of them in motion."""
+        return self._series.search(cubics, members, best, motion)
 
     @cached_property
     def _series(self) -> CurveSeries:

@@ -3,17 +3,19 @@ ask for it."""
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import repeat
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from optimizer.mechanics.row_data import RowData, compact
-from optimizer.mechanics.row_series import Reading
-from optimizer.numerics.arrays import Complex, Real, in_order
+from optimizer.mechanics.row_series import AT_ONCE, Reading, RowSeries
+from optimizer.numerics.arrays import Complex, Real, in_order, spread
 from optimizer.responses.piecewise_cubics import Index
 
 if TYPE_CHECKING:
     from optimizer.mechanics.kernel.curves import Sums
+    from optimizer.responses.kernel.motion import Motion
     from optimizer.responses.kernel.parts import Best, Cubics, Members
 
 #: of what is expanded at points
@@ -37,17 +39,28 @@ class CurveSeries:
 
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
         """Values (m,) at angles (m,) rad within pieces, ends included."""
-        return self._about(curve, piece, angle, None, 0)[0][:, 0]
+        return self._about(curve, piece, angle, 0)[:, 0]
 
     def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
         """Taylor polynomials (m, 4) about centres (m,) rad within pieces, in units of half widths (m,)."""
-        return self._about(curve, piece, centre, None, 3)[0] * half[:, None] ** np.arange(4)
+        return self._about(curve, piece, centre, 3) * half[:, None] ** np.arange(4)
 
-    def rests(self, curve: Index, piece: Index, centre: Real, half: Real) -> Real:
-        """Bounds (m,) on what these leave out within half widths (m,) rad about centres."""
-        middle, radius = self._about(curve, piece, centre, half, 4)
-        found: Real = (np.abs(middle[:, 0]) + radius) * half**4
-        return found
+    def over(self, points: RowSeries | None, bounds: RowSeries | None, half: Real) -> tuple[Complex, Real, Real]:
+        """Coefficients (J, P, order + 1) over the angles of series, in units of half widths (N, P); by bounds what they
+        leave out (J, P), and of both the size (J,) of what is added up. Nothing of what is not given."""
+        from optimizer.mechanics.kernel.curves import NOTHING, sums_of_rows
+
+        nothing = repeat((NOTHING, None))
+        each = (nothing if one is None else one.functions(self._pressed) for one in (points, bounds))
+        found = []
+        for (at, place), (over, other) in zip(*each, strict=False):
+            wide = compact(half[:, place or other])
+            of = self._every, at, over, np.arange(len(wide)), wide.shape[1], wide
+            found.append(sums_of_rows(self.rows.packed, self.sums, *of))
+        if len(found) == 1:
+            return found[0]
+        cubic, rest, size = zip(*found, strict=True)
+        return np.concatenate(cubic, axis=1), np.concatenate(rest, axis=1), np.max(size, axis=0)
 
     @cached_property
     def sums(self) -> "Sums":
@@ -59,22 +72,45 @@ class CurveSeries:
         number[:] = [READINGS.index(reading) for reading in self.readings]
         return Sums(number, *(in_order(np.asarray(each, complex)) for each in (self.weights, self.constant)))
 
-    def search(self, cubics: "Cubics", members: "Members", best: "Best") -> Complex:
-        """Peaks of the curves, from their pieces, and the curves there; nothing of it leaves what is compiled."""
+    def search(self, cubics: "Cubics", members: "Members", best: "Best", motion: "Motion | None") -> Complex:
+        """Peaks of the curves, or of one of them in motion, from their pieces, and the curves there, at rest."""
         from optimizer.mechanics.kernel.search import search
+        from optimizer.responses.kernel.motion import STILL
 
-        values: Complex = search(cubics, members, best, self.rows.packed, self.sums, self._within)
+        moving = STILL if motion is None else motion
+        values: Complex = search(cubics, members, best, self.rows.packed, self.sums, self._within, moving)
         return values
 
-    def _about(self, curve: Index, piece: Index, angle: Real, half: Real | None, order: int) -> tuple[Complex, Real]:
-        """Coefficients (m, order + 1) at angles (m,) rad; over half widths that of the last (m, 1) and its radius."""
-        from optimizer.mechanics.kernel.curves import series_of_curves
+    def _about(self, curve: Index, piece: Index, angle: Real, order: int) -> Complex:
+        """Coefficients (m, order + 1) at angles (m,) rad; so many at once as rows are expanded at."""
+        step, number, places = max(1, AT_ONCE // max(self.weights.shape[1], 1)), _integers(curve), compact(angle)
+        design = number // max(len(self.weights) // len(self.middle), 1)
+        within = self._within[design, piece]
+        parts = [slice(first, first + step) for first in range(0, max(number.size, 1), step)]
+        found = [self._at(number[part], design[part], places[part], within[part], order) for part in parts]
+        return found[0] if len(found) == 1 else np.concatenate(found)
 
-        where, wide = (_integers(curve), _integers(piece), compact(angle)), _NO_WIDTHS if half is None else half
-        found: tuple[Complex, Real] = series_of_curves(
-            self.rows.packed, self.sums, self._within, *where, compact(wide), order
-        )
+    def _at(self, curve: Index, design: Index, angle: Real, within: Real, order: int) -> Complex:
+        from optimizer.mechanics.kernel.curves import NOTHING, sums_of_rows
+        from optimizer.mechanics.kernel.rows import ALL_ROWS, Places, row_functions
+
+        rows = self.rows.packed
+        places = Places(design, angle, _NO_WIDTHS, within)
+        functions = row_functions(rows, places, order, self._pressed, ALL_ROWS)
+        wide = np.ones((curve.size, 1))
+        found: Complex = sums_of_rows(rows, self.sums, curve, functions, NOTHING, design, 1, wide)[0][:, 0]
         return found
+
+    @cached_property
+    def _pressed(self) -> bool:
+        """Whether gas is a part of any."""
+        from optimizer.mechanics.kernel.readings import WITHOUT_GAS
+
+        return any(reading not in WITHOUT_GAS for reading in self.readings)
+
+    @cached_property
+    def _every(self) -> Index:
+        return np.arange(len(self.weights))
 
     @cached_property
     def _within(self) -> Real:
@@ -84,3 +120,21 @@ class CurveSeries:
 def _integers(values: Index) -> Index:
     """Numbers as what is compiled takes them: of any other layout it would be compiled once more."""
     return in_order(np.asarray(values, np.int64))
+
+
+def forces(series: RowSeries, reading: Reading, bounded: bool = False) -> Complex | Real:
+    """A force of every row of N designs about the angles of series, N: coefficients (N, R, P, order + 1).
+
+    What shaft or frame bears is over the direction of the crank, as the shaft sees it: along - j s across.
+
+    Parameters
+    ----------
+    bounded : of series over pieces: what the last coefficient is at most (N, R, P).
+    """
+    designs, rows = series.data.designs, series.data.crank_radius.shape[-1]
+    every = spread(np.eye(rows), (designs, rows, rows)).reshape(-1, rows)
+    curves = CurveSeries(series.data, series.centre, (reading,), every, np.zeros(len(every)))
+    points, bounds = (None, series) if bounded else (series, None)
+    middle, most, _ = curves.over(points, bounds, np.ones((designs, series.centre.shape[1])))
+    found = most if bounded else middle
+    return found.reshape(designs, rows, *found.shape[1:])

@@ -5,14 +5,12 @@ Gas and friction do not depend on masses, so that a curve is affine in them, row
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from optimizer.mechanics.curve_series import CurveSeries
+from optimizer.mechanics.curve_series import forces
 from optimizer.mechanics.row_data import RowData
-from optimizer.mechanics.row_series import Reading, RowSeries, Taylor
+from optimizer.mechanics.row_series import Reading, RowSeries
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.responses.piecewise_cubics import Index
 
@@ -36,10 +34,10 @@ class RowParts:
     @cached_property
     def largest(self) -> Real:
         """What all parts of a curve come to together at most, (J, P)."""
-        middle = self._series(self.centre, None, 3).middle[:, 0]
+        middle = self._forces(self.centre, None, 3)
         reach = np.abs(self._fourth) * self.half**4
         for k in range(4):
-            reach = reach + np.abs(middle[k]) * self.half**k
+            reach = reach + np.abs(middle[..., k]) * self.half**k
         found: Real = np.abs(self.weights) @ reach
         return found
 
@@ -49,45 +47,33 @@ class RowParts:
 
     def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
         """Taylor polynomials (m, R, 4) about centres (m,) rad within pieces, in units of half widths (m,)."""
-        found = self._of_rows.cubics(*self._by_row(piece, centre, half)).reshape(piece.size, self.weights.shape[1], 4)
+        found = np.moveaxis(self._forces(centre, None, 3, piece), 0, 1) * half[:, None, None] ** np.arange(4)
         parts: Complex = self.weights[curve][..., None] * found
         return parts
 
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
         """Values (m, R) at angles (m,) rad within pieces, ends included."""
-        found = self._of_rows.values(*self._by_row(piece, angle)).reshape(piece.size, self.weights.shape[1])
-        parts: Complex = self.weights[curve] * found
+        parts: Complex = self.weights[curve] * self._forces(angle, None, 0, piece)[..., 0].T
         return parts
 
     def at(self, curve: int, angle: Real) -> Complex:
         """Values (n, R) at angles (n,) rad."""
-        found: Complex = self.weights[curve] * self._series(angle, None, 0).middle[0, 0].T
+        found: Complex = self.weights[curve] * self._forces(angle, None, 0)[..., 0].T
         return found
 
     @cached_property
     def _fourth(self) -> Real:
         """The same bounds for the forces of the rows, (R, P)."""
-        bounds = self._series(self.centre, self.half, 4)
-        assert bounds.radius is not None  # enclosures have one
-        found: Real = np.abs(bounds.middle[-1, 0]) + bounds.radius[0]
-        return found
-
-    @cached_property
-    def _of_rows(self) -> CurveSeries:
-        """The force of every row by itself."""
-        count = self.weights.shape[1]
-        return CurveSeries(self._inertia, self.centre[None], (self.reading,), np.eye(count), np.zeros(count))
-
-    def _by_row(self, *places: NDArray[Any]) -> tuple[NDArray[Any], ...]:
-        """Every row, and places (m,), at each of these all rows: (m R,)."""
-        count = self.weights.shape[1]
-        return np.tile(np.arange(count), places[0].size), *(np.repeat(place, count) for place in places)
+        return self._forces(self.centre, self.half, 4).real
 
     @cached_property
     def _inertia(self) -> RowData:
         """The rows without gas and friction."""
         return replace(self.rows, friction=np.zeros_like(self.rows.friction), area=None, traces=())
 
-    def _series(self, angle: Real, half: Real | None, order: int) -> Taylor:
-        wide = None if half is None else half[None]
-        return RowSeries(self._inertia, angle[None], wide, angle[None], order).of(self.reading)
+    def _forces(self, angle: Real, half: Real | None, order: int, piece: Index | None = None) -> Complex | Real:
+        """Of the rows about angles (n,) of pieces (n,): (R, n, order + 1), or what the last coefficient is at most in
+        widths (R, n)."""
+        within, wide = angle if piece is None else self.centre[piece], None if half is None else half[None]
+        series = RowSeries(self._inertia, angle[None], wide, within[None], order)
+        return forces(series, self.reading, bounded=half is not None)[0]

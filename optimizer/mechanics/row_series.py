@@ -1,6 +1,6 @@
-"""Forces of the rows as Taylor series in the shaft angle, at points or bounded over pieces of the turn.
+"""What forces of the rows are made of, as Taylor series in the shaft angle, at points or bounded over pieces of it.
 
-What they are made of, once however many forces are read from it, is compiled: :mod:`optimizer.mechanics.kernel.rows`.
+It is compiled (:mod:`optimizer.mechanics.kernel.rows`), and made once however many curves are read from it.
 
 Shapes: N designs or places, R rows, P angles.
 """
@@ -9,12 +9,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from optimizer.mechanics.row_data import RowData, compact
-from optimizer.numerics.arrays import Complex, Real, in_order, spread
+from optimizer.numerics.arrays import Real, spread
 from optimizer.responses.piecewise_cubics import Index
 
 if TYPE_CHECKING:
@@ -29,25 +29,12 @@ Reading = Literal[
 ]
 
 
-class Taylor(NamedTuple):
-    """Coefficients f^(k)/k! of functions of an angle.
-
-    middle : (order + 1, ...) at points; of enclosures the middles of the last alone, (1, ...). Complex for vectors
-        across the shaft.
-    radius : (...) of the enclosures; None at points.
-    """
-
-    middle: Real | Complex
-    radius: Real | None
-
-
 @dataclass(frozen=True)
 class RowSeries:
-    """Series of the rows about shaft angles, each (order + 1, N, R, P); worked out when asked for.
+    """Functions of the rows about shaft angles of N designs, to an order.
 
     centre, half : (N, P) rad; half None for series at points.
     within : (N, P) rad, angles that say which process counts.
-    of_design : (N,) which design each row of angles is of; by default each of its own.
     """
 
     data: RowData
@@ -55,53 +42,24 @@ class RowSeries:
     half: Real | None
     within: Real
     order: int
-    of_design: Index | None = None
 
     @cached_property
     def design(self) -> Index:
         """The design of each row of angles, (N,)."""
-        given = np.arange(self.data.designs) if self.of_design is None else self.of_design
-        return in_order(np.asarray(given, np.int64))
+        return np.arange(self.data.designs)
 
-    def of(self, reading: Reading) -> Taylor:
-        """Series of a force, N.
-
-        What shaft or frame bears is over the direction of the crank, as the shaft sees it: along - j s across.
-        """
-        parts, radius = self.parts(reading)
-        middle = parts[0] if len(parts) == 1 else parts[0] + 1j * parts[1]
-        return Taylor(middle, None if self.half is None else radius)
-
-    def parts(self, reading: Reading) -> tuple[Real, Real]:
-        """The same, of vectors real and imaginary parts (1 or 2, ...), and the radii."""
-        if reading not in self._readings:
-            self._readings[reading] = self._made(reading)
-        return self._readings[reading]
-
-    @cached_property
-    def _readings(self) -> dict[Reading, tuple[Real, Real]]:
-        return {}
-
-    def _made(self, reading: Reading) -> tuple[Real, Real]:
-        from optimizer.mechanics.kernel.readings import READINGS, WITHOUT_GAS, row_series
-
-        rows, number, pressed = self.data.packed, READINGS.index(reading), reading not in WITHOUT_GAS
-        if known := self._memo(pressed):
-            return row_series(rows, known, self.design, self.centre.shape[1], number)
-        found = [row_series(rows, made, self.design, angles, number) for made, angles in self._functions(pressed)]
-        if len(found) == 1:
-            return found[0]
-        parts, radius = (np.concatenate(each, axis=-1) for each in zip(*found, strict=True))
-        return parts, radius
+    def functions(self, pressed: bool) -> "Iterator[tuple[Functions, slice]]":
+        """What forces are made of, with gas where it is pressed, of some angles after the other; kept where these are
+        all."""
+        memo = self._memo(pressed)
+        return self._made(pressed) if memo is None else iter([(memo, slice(0, self.centre.shape[1]))])
 
     def _memo(self, pressed: bool) -> "Functions | None":
-        """What forces are made of, where that is kept: with gas it serves both."""
+        """With gas they serve both."""
         return self._functions_by_pressure.get(True) or self._functions_by_pressure.get(pressed)
 
-    def _functions(self, pressed: bool) -> "Iterator[tuple[Functions, int]]":
-        """What forces are made of, with gas where it is pressed, and of how many angles of a design: part by part, and
-        kept where one part is all."""
-        from optimizer.mechanics.kernel.rows import Places, row_functions
+    def _made(self, pressed: bool) -> "Iterator[tuple[Functions, slice]]":
+        from optimizer.mechanics.kernel.rows import ALL_ROWS, Places, row_functions
 
         rows, angles = self.data.packed, self.centre.shape[1]
         # the pressures may differ between designs that have all else in common
@@ -120,10 +78,10 @@ class RowSeries:
                 np.zeros(0) if half is None else _flat(half[:, place]),
                 _flat(within[:, place]),
             )
-            functions = row_functions(rows, places, self.order, pressed)
+            functions = row_functions(rows, places, self.order, pressed, ALL_ROWS)
             if parts == 1:
                 self._functions_by_pressure[pressed] = functions
-            yield functions, last - first
+            yield functions, place
 
     @cached_property
     def _functions_by_pressure(self) -> "dict[bool, Functions]":

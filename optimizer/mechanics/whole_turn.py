@@ -14,18 +14,19 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 
-from optimizer.mechanics.curve_series import CurveSeries
+from optimizer.mechanics.curve_series import CurveSeries, forces
 from optimizer.mechanics.indicated import SLIVER, TURN, Trace, entries, turns_of
 from optimizer.mechanics.kinematics import own_angle, steep_angles
 from optimizer.mechanics.layout import Layout
-from optimizer.mechanics.row_data import RowData, compact, shared
+from optimizer.mechanics.row_data import RowData, shared
 from optimizer.mechanics.row_parts import RowParts
-from optimizer.mechanics.row_series import Reading, RowSeries, Taylor
+from optimizer.mechanics.row_series import Reading, RowSeries
 from optimizer.mechanics.turn import Turn, panels
-from optimizer.numerics.arrays import Complex, Real, in_order, spread
+from optimizer.numerics.arrays import Complex, Real, spread
 from optimizer.responses.piecewise_cubics import Index, Pieces
 
 if TYPE_CHECKING:
+    from optimizer.responses.kernel.motion import Motion
     from optimizer.responses.kernel.parts import Best, Cubics, Members
 
 
@@ -113,8 +114,8 @@ class WholeTurn:
         """Tangential force of every row (N, R, n) N at the nodes of panels between breaks, which have leading axes."""
         nodes, middle = (each.reshape(-1, each.shape[-1]) for each in (turn.angle, turn.middle))
         places = shared(np.stack([nodes, middle], axis=1))
-        force: Real = RowSeries(self.rows, places[:, 0], None, places[:, 1], 0).of("tangential").middle[0]
-        return np.broadcast_to(force, (len(nodes), *force.shape[1:]))
+        series = RowSeries(self.rows, places[:, 0], None, places[:, 1], 0)
+        return forces(series, "tangential")[..., 0].real
 
     @cached_property
     def points(self) -> RowSeries:
@@ -189,12 +190,8 @@ class TurnCurves:
     @cached_property
     def pieces(self) -> Pieces:
         """The curves piece by piece (N C, P)."""
-        from optimizer.mechanics.kernel.curves import sums_of_rows
-
         whole = self.whole
-        (points, _), bounds = whole.points.parts(self.reading), whole.bounds.parts(self.reading)
-        weights, constant = (in_order(np.asarray(each, complex)) for each in (self.weights, self.constant))
-        cubic, rest, size = sums_of_rows(weights, constant, points, *bounds, compact(whole.half))
+        cubic, rest, size = self._series.over(whole.points, whole.bounds, whole.half)
         centre, half = (np.repeat(each, self.weights.shape[1], axis=0) for each in (whole.centre, whole.half))
         return Pieces(centre, half, cubic, rest, size, source=self)
 
@@ -235,9 +232,7 @@ class TurnCurves:
     @cached_property
     def _left_out(self) -> Real:
         """What polynomials of the quadrature's degree leave out of the pieces at most (N C, P)."""
-        bounds = self.whole.higher_bounds.of(self.reading)
-        left = _largest(bounds, self.weights) * self.whole.half[:, None] ** _GAUSS
-        return left.reshape(self.pieces.half.shape)
+        return self._series.over(None, self.whole.higher_bounds, self.whole.half)[1]
 
     @cached_property
     def _parts(self) -> Real:
@@ -257,56 +252,39 @@ class TurnCurves:
         angle = (centre + wide * ((2.0 * number + 1.0) / parts[piece] - 1.0))[..., None] + half[..., None] * _NODES
         shares = (half[..., None] * (_SHARES / (TURN * whole.turns))).reshape(len(half), -1)
         within = np.repeat(centre, _GAUSS, axis=-1)
-        series = RowSeries(whole.rows, angle.reshape(within.shape), None, within, 0).of(self.reading)
-        return _sums(series, self.weights, self.constant)[..., 0], shares[:, None]
+        return self._values(angle.reshape(within.shape), within), shares[:, None]
 
     def in_pieces(self, places: Real) -> Complex:
         """The curves (N C, P n) at places (n,) from -1 to 1 of every piece, at its ends the one-sided limits."""
         whole, count = self.whole, len(places)
         angle = whole.centre[..., None] + whole.half[..., None] * places
         within = np.repeat(whole.centre, count, axis=-1)
-        series = RowSeries(whole.rows, angle.reshape(within.shape), None, within, 0).of(self.reading)
-        return _sums(series, self.weights, self.constant)[..., 0].reshape(-1, within.shape[-1])
+        return self._values(angle.reshape(within.shape), within).reshape(-1, within.shape[-1])
 
     def at(self, angle: Real) -> Complex:
         """The curves (N C, n) at shaft angles (n,) rad; at a jump one of its limits or their middle."""
         places = np.broadcast_to(angle, (len(self.weights), len(angle)))
-        series = RowSeries(self.whole.rows, places, None, places, 0).of(self.reading)
-        return _sums(series, self.weights, self.constant)[..., 0].reshape(-1, len(angle))
+        return self._values(places, places).reshape(-1, len(angle))
+
+    def _values(self, angle: Real, within: Real) -> Complex:
+        """The curves (N, C, n) at angles (N, n) within pieces that hold others."""
+        series = RowSeries(self.whole.rows, angle, None, within, 0)
+        return self._series.over(series, None, within)[0].reshape(*self.weights.shape[:2], -1)
 
     def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
         """Series about other centres (m,) within pieces; the process that counts is that of the piece."""
         return self._series.cubics(curve, piece, centre, half)
 
-    def rests(self, curve: Index, piece: Index, centre: Real, half: Real) -> Real:
-        """Bounds within half widths (m,) rad about other centres."""
-        return self._series.rests(curve, piece, centre, half)
-
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
         """The curves at angles (m,) within pieces, ends included."""
         return self._series.values(curve, piece, angle)
 
-    def search(self, cubics: "Cubics", members: "Members", best: "Best") -> Complex:
-        """Peaks of the curves, compiled."""
-        return self._series.search(cubics, members, best)
+    def search(self, cubics: "Cubics", members: "Members", best: "Best", motion: "Motion | None" = None) -> Complex:
+        """Peaks of the curves, or of one of them in motion."""
+        return self._series.search(cubics, members, best, motion)
 
     @cached_property
     def _series(self) -> CurveSeries:
         whole, curves = self.whole, self.weights.shape[0] * self.weights.shape[1]
         weights, constant = self.weights.reshape(curves, -1), self.constant.reshape(curves)
         return CurveSeries(whole.rows, whole.centre, (self.reading,), weights, constant)
-
-
-def _sums(series: Taylor, weights: Complex | Real, constant: Complex | Real) -> Complex:
-    """From the series (k, N, R, P) of the rows to coefficients (N, C, P, k) of the curves."""
-    of_curves: Complex = np.matmul(weights, series.middle)
-    found = np.moveaxis(of_curves, 0, -1)
-    found[..., 0] += constant[..., None]
-    return found
-
-
-def _largest(bounds: Taylor, weights: Complex | Real) -> Real:
-    """Largest magnitude of the last coefficient of the curves, (N, C, P), from enclosures of the rows."""
-    assert bounds.radius is not None  # enclosures have one
-    found: Real = np.abs(weights @ bounds.middle[-1]) + np.abs(weights) @ bounds.radius
-    return found

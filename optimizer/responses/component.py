@@ -1,19 +1,14 @@
-"""What the frame sees along one axis of a vector that the shaft sees, and its exact peak.
-
-The shaft sees d(theta) of a force F = e^{j s theta} d on the frame, whose component along a unit vector e is
-Re(conj(e) e^{j s theta} d). Its Taylor polynomials are the products of those of d and of e^{j s theta}, and by
-Leibniz's rule no fourth derivative is larger than sum_k C(4, k) |d^(k)|: so its pieces are pieces all the same.
-"""
+"""Responses along one axis of the frame, of vectors that the shaft sees."""
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import comb, factorial
 
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.responses.curve import Curves, TurnResponse
-from optimizer.responses.piecewise_cubics import Index, Pieces, Source
+from optimizer.responses.moving_curves import Axis, MovingCurve, along
+from optimizer.responses.piecewise_cubics import Index, Pieces
 from optimizer.responses.worst_masses import Parts
 
 _DEGREE = 3
@@ -35,7 +30,7 @@ def component(response: TurnResponse, axis: str, sense: float) -> TurnResponse:
         response,
         name=f"{response.name}:{axis}",
         influence=(unit * response.influence).astype(complex),
-        curves=Component(response.curves, response.number, unit, sense),
+        curves=Component(response.curves, response.number, Axis(unit, sense)),
         number=0,
         turning=standing + sense,
         scalar=True,
@@ -44,12 +39,11 @@ def component(response: TurnResponse, axis: str, sense: float) -> TurnResponse:
 
 @dataclass(frozen=True)
 class Component:
-    """Re(unit e^{j s theta} d) of one of some curves d, as the only one (:class:`optimizer.responses.curve.Curves`)."""
+    """One of some curves along an axis, as the only one (:class:`optimizer.responses.curve.Curves`)."""
 
     curves: Curves
     number: int
-    unit: complex
-    sense: float
+    axis: Axis
 
     @property
     def period_deg(self) -> float:
@@ -57,14 +51,12 @@ class Component:
 
     @cached_property
     def pieces(self) -> Pieces:
-        whole, curve = self.curves.pieces, slice(self.number, self.number + 1)
-        centre, half, cubic = whole.centre[curve], whole.half[curve], whole.cubic[curve]
-        along, rest = self._source.product(cubic, centre, half), leibniz(cubic, whole.rest[curve], half)
-        return Pieces(centre, half, along, rest, whole.size[curve], self._source)
+        return along(self.curves.pieces, self.number, self.axis)
 
     @cached_property
     def parts(self) -> "_ComponentParts":
-        return _ComponentParts(self.curves.parts, self.pieces, self._source)
+        curve = MovingCurve(self.curves.pieces.source, self.number, self.axis)
+        return _ComponentParts(self.curves.parts, self.pieces, curve, self.axis)
 
     @property
     def mean(self) -> Complex:
@@ -91,62 +83,12 @@ class Component:
         return np.sqrt(np.sum(self._shares * pieces.rest**2, axis=-1)) + _ROUNDING * pieces.size
 
     def at(self, angle: Real) -> Complex:
-        seen = self.curves.at(angle)[self.number : self.number + 1]
-        return (self.unit * np.exp(1j * self.sense * angle) * seen).real.astype(complex)
-
-    @property
-    def _source(self) -> "_Component":
-        return _Component(self.curves.pieces.source, self.number, self.unit, self.sense)
+        return self.axis.along(self.curves.at(angle)[self.number : self.number + 1], angle)
 
     @property
     def _shares(self) -> Real:
         """Of the turn (1, P)."""
         return 2.0 * self.pieces.half / np.deg2rad(self.period_deg)
-
-
-def leibniz(cubic: Complex, rest: Real, half: Real) -> Real:
-    """What the product of a curve and e^{j s theta} leaves out of a Taylor polynomial of degree 3 (...).
-
-    Parameters
-    ----------
-    cubic, rest, half : (..., 4), (...), (...) of the curve, as in :class:`optimizer.responses.piecewise_cubics.Pieces`.
-    """
-    fourth = factorial(4) * rest
-    bound = fourth.copy()
-    for k in range(_DEGREE + 1):
-        # a derivative is that of the polynomial and what that leaves out of it
-        factors = [factorial(i) / factorial(i - k) for i in range(k, _DEGREE + 1)]
-        largest = np.sum(np.abs(cubic[..., k:]) * factors, axis=-1) + fourth / factorial(4 - k)
-        bound = bound + comb(4, k) * half ** (4 - k) * largest
-    return bound / factorial(4)
-
-
-@dataclass(frozen=True)
-class _Component:
-    """What finer pieces are made from."""
-
-    source: Source
-    number: int
-    unit: complex
-    sense: float
-
-    def product(self, cubic: Complex, centre: Real, half: Real) -> Complex:
-        """Taylor polynomials (..., 4) of the component from those of the curve."""
-        there = self.unit * np.exp(1j * self.sense * centre)
-        turning = [there * (1j * self.sense * half) ** k / factorial(k) for k in range(_DEGREE + 1)]
-        parts = [sum(turning[k - i] * cubic[..., i] for i in range(k + 1)) for k in range(_DEGREE + 1)]
-        return np.stack(parts, axis=-1).real.astype(complex)
-
-    def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
-        return self.product(self.source.cubics(curve + self.number, piece, centre, half), centre, half)
-
-    def rests(self, curve: Index, piece: Index, centre: Real, half: Real) -> Real:
-        cubic = self.source.cubics(curve + self.number, piece, centre, half)
-        return leibniz(cubic, self.source.rests(curve + self.number, piece, centre, half), half)
-
-    def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
-        seen = self.source.values(curve + self.number, piece, angle)
-        return (self.unit * np.exp(1j * self.sense * angle) * seen).real.astype(complex)
 
 
 @dataclass(frozen=True)
@@ -155,32 +97,33 @@ class _ComponentParts:
 
     parts: Parts
     pieces: Pieces
-    of: _Component
+    curve: MovingCurve
+    axis: Axis
 
     @property
     def largest(self) -> Real:
         """No more than of the vector."""
-        return self.parts.largest[self.of.number : self.of.number + 1]
+        return self.parts.largest[self.curve.number : self.curve.number + 1]
 
     def fourth(self, curve: Index, piece: Index) -> Real:
         centre, half = self.pieces.centre[0, piece], self.pieces.half[0, piece]
-        cubic = self.parts.cubics(curve + self.of.number, piece, centre, half)
-        known, width = self.parts.fourth(curve + self.of.number, piece), half[:, None]
+        cubic = self.parts.cubics(curve + self.curve.number, piece, centre, half)
+        rest = self.parts.fourth(curve + self.curve.number, piece) * half[:, None] ** 4
         # pieces without width hold nothing
-        power = np.where(width > 0.0, width, 1.0) ** 4
-        return leibniz(cubic, known * width**4, width) / power
+        return self._moved(cubic, rest, centre, half)[1] / np.where(half > 0.0, half, 1.0)[:, None] ** 4
 
     def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
-        cubic = self.parts.cubics(curve + self.of.number, piece, centre, half)
-        return self.of.product(cubic, centre[:, None], half[:, None])
+        cubic = self.parts.cubics(curve + self.curve.number, piece, centre, half)
+        return self._moved(cubic, np.zeros(cubic.shape[:-1]), centre, half)[0]
 
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
-        return self._seen(self.parts.values(curve + self.of.number, piece, angle), angle)
+        return self.axis.along(self.parts.values(curve + self.curve.number, piece, angle), angle[:, None])
 
     def at(self, curve: int, angle: Real) -> Complex:
-        return self._seen(self.parts.at(curve + self.of.number, angle), angle)
+        return self.axis.along(self.parts.at(curve + self.curve.number, angle), angle[:, None])
 
-    def _seen(self, values: Complex, angle: Real) -> Complex:
-        """Along the axis, of vectors (n, R) at angles (n,) rad."""
-        turned = self.of.unit * np.exp(1j * self.of.sense * angle)
-        return (turned[:, None] * values).real.astype(complex)
+    def _moved(self, cubic: Complex, rest: Real, centre: Real, half: Real) -> tuple[Complex, Real]:
+        """Cubics (m, R, 4) and what they leave out (m, R), of vectors about centres (m,)."""
+        wide = (np.repeat(each, rest.shape[-1]) for each in (centre, half))
+        along, left = self.curve.moved(cubic.reshape(-1, 4), rest.reshape(-1), *wide)
+        return along.reshape(cubic.shape), left.reshape(rest.shape)

@@ -18,7 +18,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, Reals, in_order
 from optimizer.numerics.enclosing_circle import Circle, smallest_circle
-from optimizer.responses.added_harmonics import Harmonics, moved
+from optimizer.responses.moving_curves import Harmonics, moved
 from optimizer.responses.piecewise_cubics import Bracket, Index, Pieces
 from optimizer.responses.worst_masses import Parts
 

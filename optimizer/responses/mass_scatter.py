@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.responses.added_harmonics import moved
 from optimizer.responses.curve import TurnResponse
+from optimizer.responses.moving_curves import moved
 from optimizer.responses.piecewise_cubics import Index
 from optimizer.responses.worst_masses import Worst, worst_peaks
 

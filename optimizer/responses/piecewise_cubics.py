@@ -11,7 +11,6 @@ Shapes: J curves of P pieces each. A vector across the shaft is complex, x + jy;
 Source: R. T. Farouki, The Bernstein polynomial basis: a centennial retrospective, CAGD 29 (2012).
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
@@ -22,11 +21,10 @@ from numpy.typing import NDArray
 from optimizer.numerics.arrays import Complex, Real, Reals, in_order
 
 if TYPE_CHECKING:
-    from optimizer.responses.kernel.parts import Best, Cubics, Members, Parts
+    from optimizer.responses.kernel.motion import Motion
+    from optimizer.responses.kernel.parts import Best, Cubics, Members
 
 Index = NDArray[np.intp]
-#: of pieces, what is asked and the best so far, which it improves: the curves (peaks,) there
-Search = Callable[["Cubics", "Members", "Best"], Complex]
 #: real for scalars, complex across the shaft
 Vector = NDArray[Any]
 
@@ -55,11 +53,16 @@ class Source(Protocol):
     def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
         """Taylor polynomials (m, 4) about other centres (m,) rad within given pieces."""
 
-    def rests(self, curve: Index, piece: Index, centre: Real, half: Real) -> Real:
-        """Bounds (m,) on what these leave out within half widths (m,) rad."""
-
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
         """Values (m,) at angles (m,) rad within given pieces; at their ends the one-sided limits."""
+
+    def search(self, cubics: "Cubics", members: "Members", best: "Best", motion: "Motion | None" = None) -> Complex:
+        """Peaks of the curves, or of one of them in motion, from their pieces: the curves (peaks,) there, at rest.
+
+        Parameters
+        ----------
+        best : so far, which it improves.
+        """
 
 
 @dataclass(frozen=True)
@@ -151,38 +154,7 @@ def _bracketed(
     members = Members(curve, peak, in_order(np.asarray(offset, complex)), share, ROUNDING * scale, sign)
     nowhere = np.zeros(count, np.int64)
     best = Best(np.full(count, np.nan), np.full(count, -np.inf), np.zeros(count), nowhere, nowhere.copy())
-    # a source that is compiled searches by itself
-    search: Search | None = getattr(pieces.source, "search", None)
-    value = _searched(pieces, members, best) if search is None else search(pieces.cubics, members, best)
+    value = pieces.source.search(pieces.cubics, members, best)
     there = value + members.offset[best.member]
     lower = np.where(sign == 0.0, np.abs(there), sign * there.real)
     return Bracket(best.angle, value, lower, best.upper + members.rounding)
-
-
-def _searched(pieces: Pieces, members: "Members", best: "Best") -> Vector:
-    """The same of any other source."""
-    from optimizer.responses.kernel.parts import MOST_CUTS, MOST_PARTS, Parts, first_open, narrowed, still_open
-
-    parts, cuts = first_open(pieces.cubics, members, best), 0
-    while parts.member.size:
-        fine, coarse, cuts = narrowed(parts, members, best, cuts)
-        every = [fine, _expanded(pieces, members, best, coarse)] if coarse.member.size else [fine]
-        parts = Parts(*map(np.concatenate, zip(*every, strict=True)))
-        parts = still_open(parts, members, best, MOST_PARTS if cuts < MOST_CUTS else 0)
-    return pieces.source.values(members.curve[best.member], best.piece, best.angle)
-
-
-def _expanded(pieces: Pieces, members: "Members", best: "Best", parts: "Parts") -> "Parts":
-    """The same parts (n,) by polynomials of their own, and where that does not help enough by bounds of their own."""
-    from optimizer.responses.kernel.parts import ENOUGH, Parts
-
-    curve, peak = members.curve[parts.member], members.group[parts.member]
-    centre, half, _, fourth = parts.place.T
-    cubic = np.array(pieces.source.cubics(curve, parts.piece, centre, half), dtype=complex)
-    cubic[:, 0] += members.offset[parts.member]
-    rest = fourth * half**4
-    steep = rest > ENOUGH * np.maximum(members.share * np.abs(best.lower), members.rounding)[peak]
-    if np.any(steep):
-        closer = pieces.source.rests(curve[steep], parts.piece[steep], centre[steep], half[steep])
-        rest[steep] = np.minimum(rest[steep], closer)
-    return Parts(parts.member, parts.piece, np.stack([centre, half, rest, rest / half**4], axis=-1), cubic)

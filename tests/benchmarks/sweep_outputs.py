@@ -33,8 +33,7 @@ _ELSE = "table, everything else"
 #: part of the work -> functions that do it; what they call belongs to the innermost part
 PARTS: dict[str, tuple[str, ...]] = {
     "what forces are made of": ("optimizer.mechanics.kernel.rows:row_functions",),
-    "readings": ("optimizer.mechanics.kernel.readings:row_series",),
-    "curves": ("optimizer.mechanics.kernel.curves:sums_of_rows",),
+    "readings, curves": ("optimizer.mechanics.kernel.curves:sums_of_rows",),
     "effects, integrals": ("optimizer.outputs.registry:simulated",),
     "brackets": ("optimizer.responses.piecewise_cubics:_bracketed",),
 }

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from optimizer.mechanics.curve_series import forces
 from optimizer.mechanics.friction import reciprocating_friction
 from optimizer.mechanics.gas import gas_forces, switching_angles
 from optimizer.mechanics.kinematics import motion
@@ -12,7 +13,7 @@ from optimizer.mechanics.rod import rod_forces, shaft_loads
 from optimizer.mechanics.row_data import row_data
 from optimizer.mechanics.row_series import Reading, RowSeries
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn, break_angles, whole_turn
-from optimizer.responses.piecewise_cubics import Bracket, Source
+from optimizer.responses.piecewise_cubics import Bracket
 from tests.analyze.driven import STYLES, arrays, random_driven
 
 READINGS = ("piston", "rod", "side", "tangential", "radial")
@@ -50,11 +51,11 @@ def test_series_have_the_values_of_the_samples(style: str, exact: bool) -> None:
     expected, moving = _forces(plan, data, angle, exact, friction)
     series = RowSeries(turn.rows, angle[None], None, angle[None], 0)
     for reading in READINGS:
-        value, wanted = series.of(reading).middle[0, 0], getattr(expected, reading)
+        value, wanted = forces(series, reading)[0, ..., 0], getattr(expected, reading)
         assert value == pytest.approx(wanted, rel=1e-9, abs=1e-11 * np.max(np.abs(wanted))), reading
     _, loads = shaft_loads(expected.piston, moving, plan, angle)
     count = plan.reciprocating.mass.size
-    seen = series.of("on_shaft").middle[0, 0] * plan.reciprocating.crank_direction[:, None]
+    seen = forces(series, "on_shaft")[0, ..., 0] * plan.reciprocating.crank_direction[:, None]
     assert seen == pytest.approx(
         loads[:count] * np.exp(-1j * plan.sense * angle), rel=1e-9, abs=1e-11 * np.max(np.abs(loads))
     )
@@ -158,28 +159,6 @@ def test_every_design_has_its_own_means() -> None:
     rows = replace(turn.rows, designs=6, inertia=np.repeat(turn.rows.inertia, 6, axis=0))
     found = whole_turn(rows, np.zeros((2, 3, 1)), means).means
     assert np.array_equal(found, means.reshape(6, count))
-
-
-def test_what_is_searched_compiled_is_what_is_searched_in_steps() -> None:
-    # independent: the same search by the curves' own expansions, of magnitudes, of extremes and of groups
-    turn = _driven(4, "w", friction=2e3)[0]
-    for reading, sign in (("on_shaft", 0.0), ("tangential", 1.0), ("side", -1.0)):
-        pieces = _peaks_of_rows(turn, reading).pieces
-        in_steps = replace(pieces, source=_InSteps(pieces.source))
-        count = len(pieces.half)
-        for group in (None, np.zeros(count, np.intp)):
-            found, expected = (
-                each.peaks(np.full(count, 50.0), 1e-10, group=group, sign=sign) for each in (pieces, in_steps)
-            )
-            for part, other in zip(found, expected, strict=True):
-                np.testing.assert_array_equal(part, other, err_msg=reading)
-
-
-class _InSteps:
-    """A source that lets nothing know that it is compiled."""
-
-    def __init__(self, source: Source) -> None:
-        self.cubics, self.rests, self.values = source.cubics, source.rests, source.values
 
 
 def test_more_places_than_are_expanded_at_once_are_as_few() -> None:

@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 
 from optimizer.choices.discrete.kernel import near_sums
-from optimizer.compile_kernels import any_limits, budgets
+from optimizer.compile_kernels import any_limits, budgets, moving_curves
 from optimizer.compile_kernels import near_sums as sums
-from optimizer.mechanics.kernel import crossings, curves, readings, rows, search
+from optimizer.mechanics.kernel import crossings, curves, rows, search
 from optimizer.numerics.kernel import circle, knapsack
 from optimizer.program.kernel import bounds, cancelling, discs, interior_point, outlines, settling, symmetries, values
+from optimizer.responses.kernel import motion
 from optimizer.responses.kernel import outlines as of_curves
-from optimizer.responses.kernel import parts
 from optimizer.studies.matching.kernel import joined, meeting, quarters
 from optimizer.warm_up import follow_a_turn, match_parts, plain_discs, warm_up
 
@@ -43,6 +43,7 @@ def test_what_is_compiled_is_what_answers_need() -> None:
     budgets()
     any_limits()
     follow_a_turn()
+    moving_curves()
     plain_discs()
     match_parts()
     sums()
@@ -58,14 +59,13 @@ def test_what_is_compiled_is_what_answers_need() -> None:
         outlines: ("worst_scaled", "worst_turned"),
         cancelling: ("least_changes",),
         rows: ("row_functions",),
-        readings: ("row_series",),
         crossings: ("crossings",),
-        curves: ("series_of_curves", "sums_of_rows"),
+        curves: ("sums_of_rows",),
         search: ("search",),
         knapsack: ("filled",),
         circle: ("smallest",),
         of_curves: ("farthest", "nearer", "outlines"),
-        parts: ("first_open", "narrowed", "still_open"),
+        motion: ("in_motion",),
         quarters: ("tabled",),
         joined: ("joined",),
         meeting: ("met",),

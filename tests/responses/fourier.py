@@ -6,13 +6,20 @@ from math import factorial
 
 import numpy as np
 
+from optimizer.mechanics.curve_series import CurveSeries
+from optimizer.mechanics.row_data import RowData
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.responses.kernel.motion import STILL, Motion
+from optimizer.responses.kernel.parts import Best, Cubics, Members
 from optimizer.responses.piecewise_cubics import Index, Pieces
 
 #: rad, width of the pieces
 _WIDEST = np.deg2rad(2.0)
 #: of a mean square, in units of the sum of the magnitudes of its orders
 _ROUNDING = 4 * np.finfo(float).eps
+_ONE, _NONE = np.ones((1, 1)), np.zeros((1, 1))
+#: a row that no curve counts
+_ROW = RowData(1, _NONE, _ONE, 0.2 * _ONE, 0.8 * _ONE, _ONE, _ONE, _NONE, exact=True, area=None)
 
 
 @dataclass(frozen=True)
@@ -36,7 +43,9 @@ class FourierCurves:
         half = np.full(shape, 0.5 * np.deg2rad(self.period_deg) / count)
         centre = half * (2.0 * np.arange(count) + 1.0)
         curve, piece = np.indices(shape)
-        cubic, rest = self.cubics(curve, piece, centre, half), self.rests(curve, piece, centre, half)
+        cubic = self.cubics(curve, piece, centre, half)
+        # the fourth derivative is at most the sum of its terms' magnitudes, everywhere
+        rest = np.sum(np.abs(self.coefficient[curve]) * (half[..., None] * self.order) ** 4, axis=-1) / 24.0
         return Pieces(centre, half, cubic, rest, np.sum(np.abs(self.coefficient), axis=-1), self)
 
     def at(self, angle: Real) -> Complex:
@@ -64,10 +73,22 @@ class FourierCurves:
         terms = self.coefficient[curve] * np.exp(1j * centre[..., None] * self.order)
         return np.stack([np.sum(terms * (1j * size) ** k, axis=-1) / factorial(k) for k in range(4)], axis=-1)
 
-    def rests(self, curve: Index, _piece: Index, _centre: Real, half: Real) -> Real:
-        """The fourth derivative is at most the sum of its terms' magnitudes, everywhere."""
-        return np.sum(np.abs(self.coefficient[curve]) * (half[..., None] * self.order) ** 4, axis=-1) / 24.0
-
     def values(self, curve: Index, _piece: Index, angle: Real) -> Complex:
         """Of the series."""
         return np.sum(self.coefficient[curve] * np.exp(1j * angle[:, None] * self.order), axis=-1)
+
+    def search(self, cubics: Cubics, members: Members, best: Best, motion: Motion | None = None) -> Complex:
+        """Harmonics that are added to what is 0."""
+        by, size, times = STILL if motion is None else motion, self.coefficient.astype(complex), self.order
+        if motion is not None:
+            size = size[by.first : by.first + 1]
+        if by.unit != 0.0:
+            size, times = size * by.unit, times + by.sense
+        if by.times.size:
+            size, times = np.concatenate([size, by.size], axis=-1), np.concatenate([times, by.times])
+        nothing = np.zeros((len(size), 1))
+        series = CurveSeries(_ROW, self.pieces.centre[:1], ("piston",), nothing, nothing[:, 0])
+        scalar = by.scalar or by.unit != 0.0
+        moving = Motion(0, 0j, 0.0, times.astype(float), np.ascontiguousarray(size), scalar)
+        series.search(cubics, members, best, moving)
+        return self.values(members.curve[best.member] + by.first, best.piece, best.angle)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from optimizer.responses.added_harmonics import Harmonics, moved
+from optimizer.responses.moving_curves import Harmonics, moved
 from tests.responses.fourier import FourierCurves
 
 

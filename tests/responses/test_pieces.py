@@ -5,9 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from optimizer.numerics.arrays import Complex, Real
 from optimizer.responses.curve import TurnResponse, floor, floors, peaks
-from optimizer.responses.piecewise_cubics import Index
 from tests.responses.fourier import FourierCurves
 
 TURN = 2.0 * np.pi
@@ -34,26 +32,6 @@ def test_a_magnitude_that_does_not_change_is_bracketed_as_well() -> None:
     found = _response([0, -2], [3.0, 2.0j]).peak(-3.0, 1e-10)
     assert found.lower == pytest.approx(2.0, rel=1e-10)
     assert 0 <= found.upper - found.lower <= 2e-10
-
-
-class _Counted(FourierCurves):
-    """Curves that count how often they are expanded anew."""
-
-    expanded = 0
-
-    def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
-        type(self).expanded += curve.size
-        return super().cubics(curve, piece, centre, half)
-
-
-def test_only_parts_that_may_hold_the_peak_are_expanded_anew() -> None:
-    # regression: 6; all parts of the pieces beside the peak were 96
-    curves = _Counted(np.array([0.0, -2.0]), np.array([[1.0 + 2.0j, -0.3 + 0.4j]]))
-    pieces = curves.pieces
-    _Counted.expanded = 0
-    found = pieces.peaks(np.array([0.5 - 1.0j]), 1e-12)
-    assert found.upper - found.lower <= 2e-12 * found.upper
-    assert 1 <= _Counted.expanded <= 12
 
 
 @settings(max_examples=40, deadline=None)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.mechanics.kernel.readings import READINGS, WITHOUT_GAS, row_series
-from optimizer.mechanics.kernel.rows import Places, row_functions
+from optimizer.mechanics.kernel.rows import Functions, Places, row_functions
 from optimizer.numerics.arrays import Complex
 from optimizer.numerics.compiling import inner, inner_with_arrays, kernel
 
@@ -20,6 +20,10 @@ _SINGLE = np.int64(1)
 _FEW = 64
 #: rows times places that are expanded at once, which bounds the memory
 _AT_ONCE = 50_000
+
+
+#: what no forces are made of
+NOTHING = Functions(np.zeros((0, 0, 0, 0)), np.zeros((0, 0, 0, 0)), np.zeros((0, 0)))
 
 
 class Sums(NamedTuple):
@@ -35,60 +39,79 @@ class Sums(NamedTuple):
 
 
 @kernel
-def sums_of_rows(weights, constant, points, bounds, radius, half):  # type: ignore[no-untyped-def]
-    """Pieces of N C curves: cubics (N C, P, 4) in units of half widths, what they leave out (N C, P), and the size
-    (N C,) of what is added up.
+def sums_of_rows(rows, sums, curve, points, bounds, design, angles, half):  # type: ignore[no-untyped-def]
+    """Some curves (m,) over P angles of each of N designs (N,), m / N of each: coefficients (m, P, order + 1) in units
+    of half widths (N, P); and beside bounds what these leave out (m, P), and the size (m,) of what is added up.
 
     Parameters
     ----------
-    weights, constant : (N, C, R), (N, C).
-    points : (1 or 2, 4, N, R, P) coefficients of the rows, of vectors real and imaginary parts.
-    bounds, radius : (1 or 2, 1, N, R, P), (N, R, P) enclosures of the fourth.
-    half : (N, P) rad.
+    curve : (m,) which of the curves that are sums.
+    points : what forces are made of, to one order.
+    bounds : the same bounded, to an order above it. Of either there may be none, :data:`NOTHING`.
     """
-    number, curves, rows = weights.shape
-    parts, pieces = points.shape[0], half.shape[1]
-    cubic = np.empty((number * curves, pieces, 4), np.complex128)
-    rest, size = np.empty((number * curves, pieces)), np.empty(number * curves)
-    # coefficients and the bound's middle, each real and imaginary
-    total, length = np.empty((2, 5, pieces)), np.empty((rows, pieces))
-    added, off = np.empty(pieces), np.empty(pieces)
-    for n in range(number):
-        for r in range(rows):
-            for p in range(pieces):
-                length[r, p] = _length(points[0, 0, n, r, p], points[1, 0, n, r, p] if parts > 1 else 0.0)
-        for c in range(curves):
+    count, terms, order = sums.weights.shape[1], points.middle.shape[2], bounds.middle.shape[2] - 1
+    curves, share = curve.size, max(curve.size // max(design.size, 1), 1)
+    cubic = np.empty((curves, angles, terms), np.complex128)
+    sized = terms > 0 and order >= 0
+    rest, size = np.empty((curves, angles if order >= 0 else 0)), np.empty(curves if sized else 0)
+    # coefficients and at last the bound's middle, each real and imaginary
+    last = terms + 1 if order >= 0 else terms
+    total, length = np.empty((2, last, angles)), np.empty((count, angles))
+    added, off = np.empty(angles), np.empty(angles)
+    wanted, _ = _wanted(sums, curve)
+    for reading in range(wanted.size):
+        if not wanted[reading]:
+            continue
+        series, _ = row_series(rows, points, design, angles, reading)
+        bound, radius = row_series(rows, bounds, design, angles, reading)
+        parts, of_lengths = max(series.shape[0], bound.shape[0]), -1
+        for j in range(curves):
+            if sums.reading[curve[j]] != reading:
+                continue
+            n = j // share
+            if sized and n != of_lengths:
+                of_lengths = n
+                for r in range(count):
+                    for p in range(angles):
+                        length[r, p] = _length(series[0, 0, n, r, p], series[1, 0, n, r, p] if parts > 1 else 0.0)
             total[:], added[:], off[:] = 0.0, 0.0, 0.0
-            for r in range(rows):
-                weight = weights[n, c, r]
+            for r in range(count):
+                weight = sums.weights[curve[j], r]
                 if weight == 0.0:
                     continue
-                share = abs(weight)
-                for p in range(pieces):
-                    added[p] += share * length[r, p]
-                    off[p] += share * radius[n, r, p]
-                for k in range(5):
-                    one = points[0, k, n, r] if k < 4 else bounds[0, 0, n, r]
-                    for p in range(pieces):
+                most = abs(weight)
+                if sized:
+                    for p in range(angles):
+                        added[p] += most * length[r, p]
+                if order >= 0:
+                    for p in range(angles):
+                        off[p] += most * radius[n, r, p]
+                for k in range(last):
+                    one = series[0, k, n, r] if k < terms else bound[0, 0, n, r]
+                    for p in range(angles):
                         total[0, k, p] += weight.real * one[p]
                     if weight.imag != 0.0:
-                        for p in range(pieces):
+                        for p in range(angles):
                             total[1, k, p] += weight.imag * one[p]
                     if parts > 1:
-                        other = points[1, k, n, r] if k < 4 else bounds[1, 0, n, r]
-                        for p in range(pieces):
+                        other = series[1, k, n, r] if k < terms else bound[1, 0, n, r]
+                        for p in range(angles):
                             total[0, k, p] -= weight.imag * other[p]
                             total[1, k, p] += weight.real * other[p]
-            curve, largest = n * curves + c, 0.0
-            for p in range(pieces):
+            constant, largest = sums.constant[curve[j]], 0.0
+            for p in range(angles):
                 wide = 1.0
-                for k in range(4):
-                    cubic[curve, p, k] = complex(total[0, k, p] * wide, total[1, k, p] * wide)
+                for k in range(max(terms, order)):
+                    if k < terms:
+                        cubic[j, p, k] = complex(total[0, k, p] * wide, total[1, k, p] * wide)
                     wide *= half[n, p]
-                cubic[curve, p, 0] += constant[n, c]
-                rest[curve, p] = (_length(total[0, 4, p], total[1, 4, p]) + off[p]) * wide
+                if terms > 0:
+                    cubic[j, p, 0] += constant
+                if order >= 0:
+                    rest[j, p] = (_length(total[0, terms, p], total[1, terms, p]) + off[p]) * wide
                 largest = max(largest, added[p])
-            size[curve] = largest + abs(constant[n, c])
+            if sized:
+                size[j] = largest + abs(constant)
     return cubic, rest, size
 
 
@@ -98,7 +121,7 @@ def _length(along, across):  # type: ignore[no-untyped-def]
     return abs(along) if across == 0.0 else np.hypot(along, across)
 
 
-@kernel
+@inner_with_arrays
 def series_of_curves(rows, sums, middle, curve, piece, angle, half, order):  # type: ignore[no-untyped-def]
     """Coefficients (m, order + 1) of curves (m,) at angles (m,) rad within pieces, and nothing (0,).
 
@@ -113,20 +136,26 @@ def series_of_curves(rows, sums, middle, curve, piece, angle, half, order):  # t
     bounded, count, terms = half.size > 0, curve.size, 1 if half.size > 0 else order + 1
     cubic, off = np.zeros((count, terms), np.complex128), np.zeros(count if bounded else 0)
     of_design = max(sums.weights.shape[0] // middle.shape[0], 1)
-    number, first = _alike(sums.weights.shape[1], curve // of_design, piece, angle, half)
+    number, first = _alike(sums.weights, curve, curve // of_design, piece, angle, half)
     wanted, pressed = _wanted(sums, curve)
-    step = max(1, _AT_ONCE // max(sums.weights.shape[1], 1))
+    count_of_rows = sums.weights.shape[1]
+    step = max(1, _AT_ONCE // max(count_of_rows, 1))
     for start in range(0, first.size, step):
         stop = min(start + step, first.size)
         design, centre, within = np.empty(stop - start, np.int64), np.empty(stop - start), np.empty(stop - start)
-        wide = np.empty(stop - start if bounded else 0)
+        wide, counted = np.empty(stop - start if bounded else 0), np.zeros((count_of_rows, stop - start), np.bool_)
         for q in range(stop - start):
             one = first[start + q]
             design[q], centre[q] = curve[one] // of_design, angle[one]
             within[q] = middle[design[q], piece[one]]
             if bounded:
                 wide[q] = half[one]
-        functions = row_functions(rows, Places(design, centre, wide, within), order, pressed)
+        for n in range(count):
+            q = number[n] - start
+            if q >= 0 and q < stop - start:
+                for r in range(count_of_rows):
+                    counted[r, q] = counted[r, q] or sums.weights[curve[n], r] != 0.0
+        functions = row_functions(rows, Places(design, centre, wide, within), order, pressed, counted)
         for reading in range(wanted.size):
             if not wanted[reading]:
                 continue
@@ -135,8 +164,10 @@ def series_of_curves(rows, sums, middle, curve, piece, angle, half, order):  # t
                 q = number[n] - start
                 if sums.reading[curve[n]] != reading or q < 0 or q >= stop - start:
                     continue
-                for r in range(sums.weights.shape[1]):
+                for r in range(count_of_rows):
                     weight = sums.weights[curve[n], r]
+                    if weight == 0.0:
+                        continue
                     for k in range(terms):
                         cubic[n, k] += weight * _vector(series, k, q, r)
                     if bounded:
@@ -148,21 +179,40 @@ def series_of_curves(rows, sums, middle, curve, piece, angle, half, order):  # t
 
 
 @inner_with_arrays
-def _alike(rows, design, piece, angle, half):  # type: ignore[no-untyped-def]
-    """Of places (m,) the number of each among those that differ, and which is the first of these."""
-    count = angle.size
+def _alike(weights, curve, design, piece, angle, half):  # type: ignore[no-untyped-def]
+    """Of places (m,) the number of each among those that differ, and which is the first of these; those of curves of
+    one row alone stand side by side."""
+    count, rows = angle.size, weights.shape[1]
     number, first = np.arange(count), np.arange(count)
     if count * rows <= _FEW:
         return number, first
-    order, different, last = np.argsort(angle), 0, 0
-    for k in range(count):
-        one = order[k]
-        other = k == 0 or angle[one] != angle[last] or piece[one] != piece[last] or design[one] != design[last]
-        if other or (half.size > 0 and half[one] != half[last]):
-            first[different] = one
-            different += 1
-        number[one], last = different - 1, one
+    kind = np.empty(count, np.int64)
+    for n in range(count):
+        kind[n] = _kind(weights[curve[n]])
+    order, different, last = np.argsort(angle), 0, -1
+    for row in range(rows + 1):
+        for k in range(count):
+            one = order[k]
+            if kind[one] != row:
+                continue
+            other = last < 0 or kind[last] != row or angle[one] != angle[last] or piece[one] != piece[last]
+            if other or design[one] != design[last] or (half.size > 0 and half[one] != half[last]):
+                first[different] = one
+                different += 1
+            number[one], last = different - 1, one
     return number, first[:different].copy()
+
+
+@inner
+def _kind(weights):  # type: ignore[no-untyped-def]
+    """The one row that counts, or else how many rows there are."""
+    row = -1
+    for r in range(weights.size):
+        if weights[r] != 0.0:
+            if row >= 0:
+                return weights.size
+            row = r
+    return weights.size if row < 0 else row
 
 
 @inner_with_arrays

@@ -7,7 +7,7 @@ import numpy as np
 
 from optimizer.mechanics.kernel.rows import COS, FUNCTIONS, INERTIA, SECANT, SIN, SIN_2, SIN_SQUARED
 from optimizer.mechanics.kernel.taylor import ALL, LANES, Series, constant, copied, product, scaled, summed
-from optimizer.numerics.compiling import inner, kernel
+from optimizer.numerics.compiling import inner, inner_with_arrays
 
 #: what may be asked of the rows; the first column counts from 0 in the compiled code
 READINGS = (
@@ -25,6 +25,20 @@ READINGS = (
 PISTON, ROD, ROD_WITHOUT_GAS, ROD_AT_REST, SIDE, TANGENTIAL, RADIAL, ON_SHAFT, ON_FRAME, GAS = range(len(READINGS))
 #: of these the gas is no part
 WITHOUT_GAS = ("rod_without_gas", "on_frame")
+#: of each reading, which of the functions it is made of beside the inertia
+_MADE_OF = np.zeros((len(READINGS), FUNCTIONS), np.bool_)
+_MADE_OF[:, INERTIA] = True
+for _reading, *_functions in (
+    (ROD, SECANT),
+    (ROD_WITHOUT_GAS, SECANT),
+    (ROD_AT_REST, SECANT),
+    (SIDE, SIN, SECANT),
+    (TANGENTIAL, SIN, SIN_2, SECANT),
+    (RADIAL, COS, SIN_SQUARED, SECANT),
+    (ON_SHAFT, COS, SIN, SIN_2, SIN_SQUARED, SECANT),
+    (ON_FRAME, COS, SIN),
+):
+    _MADE_OF[_reading, _functions] = True
 #: functions beside those that are kept
 _UNITY, _FACTOR, _FORCE, _OF_INERTIA, _OF_GAS = np.arange(FUNCTIONS, FUNCTIONS + 5)
 _PRESSURES = FUNCTIONS + 5
@@ -34,13 +48,14 @@ _NUMBERS = 10
 _NUMBER, _ANGLE, _DESIGN = np.arange(3)
 
 
-@kernel
+@inner_with_arrays
 def row_series(rows, functions, design, angles, reading):  # type: ignore[no-untyped-def]
     """Coefficients of a force of the rows: (2, order + 1, N, R, P) at points; of enclosures the middles (2, 1, N, R, P)
     and radii (N, R, P) of the last; P angles of each of designs (N,).
 
     The first part is along the crank, or all of a scalar; the second across it, against the sense of rotation.
     A force is the acceleration times m r omega^2, the friction and the gas, each times one function of the motion.
+    Where the functions of a row are not made its numbers mean nothing.
     """
     count, kept, terms, places = functions.middle.shape
     bounded, parts = functions.radius.shape[1] > 0, 2 if reading in (ON_SHAFT, ON_FRAME) else 1
@@ -60,7 +75,11 @@ def row_series(rows, functions, design, angles, reading):  # type: ignore[no-unt
     for r in range(count):
         for start in range(0, places, LANES):
             lanes = min(LANES, places - start)
+            if np.isnan(functions.way[r, start]):
+                continue
             for f in range(kept if pressed else FUNCTIONS):
+                if f < FUNCTIONS and not _MADE_OF[reading, f]:
+                    continue
                 to = f if f < FUNCTIONS else f - FUNCTIONS + _PRESSURES
                 for k in range(terms):
                     copied(functions.middle[r, f, k, start:], series.middle[to, k], lanes)

@@ -103,6 +103,10 @@ class Places(NamedTuple):
     within: Real
 
 
+#: which rows count where all do
+ALL_ROWS = np.zeros((0, 0), np.bool_)
+
+
 class Functions(NamedTuple):
     """What the forces of designs are made of: those that differ in masses, speed, friction and areas alone have them
     once.
@@ -110,7 +114,7 @@ class Functions(NamedTuple):
     middle : (R, 6 + C, order + 1, Q) acceleration over r omega^2, cos and sin of the crank angle, sin of twice the
         angle, sin^2, 1 / cos beta, and pressures [Pa] unless there are none.
     radius : the same of enclosures; without functions at points.
-    way : (R, Q) which way the row moves: 1 to the shaft.
+    way : (R, Q) which way the row moves: 1 to the shaft; nan where they are not made.
     """
 
     middle: Real
@@ -119,8 +123,14 @@ class Functions(NamedTuple):
 
 
 @kernel
-def row_functions(rows, places, order, pressed):  # type: ignore[no-untyped-def]
-    """What all readings of the rows are made of; without pressures where it is not pressed."""
+def row_functions(rows, places, order, pressed, counted):  # type: ignore[no-untyped-def]
+    """What all readings of the rows are made of; without pressures where it is not pressed.
+
+    Parameters
+    ----------
+    counted : (R, Q) which rows count at which places: of many side by side that do not they are not made. (0, 0) where
+        all count.
+    """
     bounded = places.half.size > 0
     designs, count = rows.motion.shape[:2]
     number, chambers = places.centre.size, rows.gas.shape[2] if pressed else 0
@@ -135,6 +145,9 @@ def row_functions(rows, places, order, pressed):  # type: ignore[no-untyped-def]
     for r in range(count):
         for first in range(0, number, LANES):
             lanes = min(LANES, number - first)
+            if counted.size > 0 and not np.any(counted[r, first : first + lanes]):
+                way[r, first : first + lanes] = np.nan
+                continue
             for p in range(lanes):
                 q = first + p
                 motion = rows.motion[places.design[q] if designs > 1 else 0, r]

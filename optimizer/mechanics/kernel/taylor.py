@@ -152,16 +152,14 @@ def power(series, a, exponent, out, lanes):  # type: ignore[no-untyped-def]
                 off[p] = 0.0
         for i in range(1, k + 1):
             one, other = middle[a, i], middle[out, k - i]
+            for p in range(lanes):
+                found[p] += (exponent[p] * i - (k - i)) * one[p] * other[p]
             if bounded:
+                # in a loop of its own: of as many arrays as both have together none would be taken several at a time
                 one_off, other_off = radius[a, i], radius[out, k - i]
                 for p in range(lanes):
-                    factor = exponent[p] * i - (k - i)
-                    found[p] += factor * one[p] * other[p]
                     wide = abs(one[p]) * other_off[p] + one_off[p] * (abs(other[p]) + other_off[p])
-                    off[p] += abs(factor) * wide
-            else:
-                for p in range(lanes):
-                    found[p] += (exponent[p] * i - (k - i)) * one[p] * other[p]
+                    off[p] += abs(exponent[p] * i - (k - i)) * wide
         if bounded:
             for p in range(lanes):
                 low, high = 1.0 / (base[p] - spread[p]), 1.0 / (base[p] + spread[p])

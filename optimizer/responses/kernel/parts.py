@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.numerics.compiling import inner, inner_with_arrays, kernel
+from optimizer.numerics.compiling import inner, inner_with_arrays
 from optimizer.numerics.polynomials import shifts, to_bernstein
 
 #: what may hold a peak is cut into so many parts: by its polynomial, or to be expanded anew, which leaves out 16^-4
@@ -152,7 +152,7 @@ def _extremes(cubic, sign):  # type: ignore[no-untyped-def]
     return np.sqrt(most), np.sqrt(first), np.sqrt(value)
 
 
-@kernel
+@inner_with_arrays
 def first_open(cubics, members, best):  # type: ignore[no-untyped-def]
     """The pieces that may hold a peak above the best value at a centre, by how far a cubic may be from it."""
     number, pieces = members.curve.size, cubics.half.shape[1]
@@ -191,7 +191,7 @@ def first_open(cubics, members, best):  # type: ignore[no-untyped-def]
     return still_open(parts, members, best, MOST_PARTS)
 
 
-@kernel
+@inner_with_arrays
 def still_open(parts, members, best, most_parts):  # type: ignore[no-untyped-def]
     """Those that may hold a peak above the best found, theirs included, unless there are too many."""
     number = parts.member.size
@@ -247,7 +247,7 @@ def _cut(parts, chosen, places, shift):  # type: ignore[no-untyped-def]
     return children
 
 
-@kernel
+@inner_with_arrays
 def narrowed(parts, members, best, cuts):  # type: ignore[no-untyped-def]
     """Cut what may hold peaks until none is left or some would have to be expanded anew: (cut, to be expanded, cuts).
 
