@@ -5,7 +5,6 @@ import io
 import json
 import os
 import subprocess
-import sys
 import time
 from collections.abc import Iterator, Mapping
 from contextlib import closing, contextmanager
@@ -16,9 +15,8 @@ from urllib.parse import urlsplit
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from tests.jobs.serving import DELAY
-
-ROOT = Path(__file__).parents[2]
+from tests.commands import Command
+from tests.jobs.serving import DELAY, VERSION
 
 
 class Service:
@@ -34,10 +32,11 @@ class Service:
     ) -> None:
         environment = {f"COUNTERWEIGHT_{name.upper()}": value for name, value in settings.items()}
         base = {"COUNTERWEIGHT_DATA_DIR": str(folder), "COUNTERWEIGHT_LEASE_S": "1", "COUNTERWEIGHT_SWEEP_WORKERS": "2"}
-        self.process = subprocess.Popen(
-            [sys.executable, "-m", "tests.jobs.serving"],
-            cwd=ROOT,
-            env={**os.environ, **base, **environment, DELAY: str(delay_s), **(more or {})},
+        self.process = Command(
+            "tests.jobs.serving",
+            environment={**os.environ, **base, **environment, DELAY: str(delay_s), **(more or {})},
+            # answers have read that of the mould
+            fresh=VERSION in (more or {}),
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
             text=True,

@@ -27,10 +27,11 @@ from service.jobs.piece import Unanswerable
 from service.jobs.retention import Retention
 from service.jobs.rows import Limits
 from service.jobs.store import QuotaExceeded, Store
+from tests.commands import ROOT
 from tests.jobs import synthetic
 from tests.jobs.flips import flip
 from tests.jobs.house import House
-from tests.jobs.process import ROOT, service
+from tests.jobs.process import service
 from tests.jobs.sweeps import analyses
 from tests.jobs.test_coordinator import threads, tiny_disk
 from tests.jobs.test_kills import SWEEP, expected

@@ -49,7 +49,7 @@ async def _given_back(target: Service, rest_mb: float) -> None:
 
 @pytest.mark.parametrize("times", [1, pytest.param(3, marks=pytest.mark.nightly)])
 def test_memory_of_stopped_readers_is_given_back(times: int) -> None:
-    with service() as target:
+    with service(fresh=True) as target:
         path = asyncio.run(_swept(target))
         rest_mb = target.memory_mb()[0]
         for _ in range(times):
