@@ -30,12 +30,14 @@ _PIPES = ("p2cread", "p2cwrite", "c2pread", "c2pwrite", "errread", "errwrite")
 
 
 class Command(subprocess.Popen):  # type: ignore[type-arg]
-    """``python -m module arguments`` in the folder of the project.
+    """``python -m module arguments`` with the packages of a folder, of the project if none is given.
 
     Parameters
     ----------
     environment : all of it; that of the tests if not given.
     fresh : started from nothing.
+    root : a folder with a copy of the project, whose packages it has.
+    cwd : where it runs, if not there.
     files : standard input, output and error, and whether they are text, as :class:`subprocess.Popen` takes them.
     """
 
@@ -45,13 +47,16 @@ class Command(subprocess.Popen):  # type: ignore[type-arg]
         *arguments: str,
         environment: Mapping[str, str] | None = None,
         fresh: bool = False,
+        root: Path = ROOT,
+        cwd: Path | None = None,
         **files: Any,
     ) -> None:
-        chosen = dict(os.environ if environment is None else environment)
-        unlike = any(chosen.get(name) != os.environ.get(name) for name in _AT_THE_START)
-        self._order = {"arguments": [module, *arguments], "environment": chosen, "folder": str(ROOT)}
-        self._fresh = fresh or unlike
-        super().__init__([sys.executable, "-m", module, *arguments], env=chosen, cwd=ROOT, **files)
+        before = _environment(root)
+        chosen = before if environment is None else dict(environment)
+        unlike = any(chosen.get(name) != before.get(name) for name in _AT_THE_START)
+        self._order = {"arguments": [module, *arguments], "environment": chosen, "folder": str(cwd or root)}
+        self._fresh, self._root = fresh or unlike, root
+        super().__init__([sys.executable, "-m", module, *arguments], env=chosen, cwd=cwd or root, **files)
 
     # all else, pipes before it and waiting after it, is as for what is started from nothing
     def _execute_child(self, *given: Any) -> None:
@@ -63,17 +68,15 @@ class Command(subprocess.Popen):  # type: ignore[type-arg]
         pipes = [values[name] for name in _PIPES]
         ends = [values[name] for name in ("p2cread", "c2pwrite", "errwrite")]
         streams = [own if end == -1 else end for own, end in enumerate(ends)]
-        self.pid = _mould().fork(json.dumps(self._order), streams)
+        self.pid = _mould(self._root).fork(json.dumps(self._order), streams)
         self._child_created = True
         self._close_pipe_fds(*pipes)  # type: ignore[attr-defined]
 
 
-def run(
-    module: str, *arguments: str, environment: Mapping[str, str] | None = None, fresh: bool = False
-) -> "subprocess.CompletedProcess[str]":
-    """What a command says and how it ends."""
+def run(module: str, *arguments: str, **more: Any) -> "subprocess.CompletedProcess[str]":
+    """What a command says and how it ends; further arguments are those of :class:`Command`."""
     files: dict[str, Any] = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
-    with Command(module, *arguments, environment=environment, fresh=fresh, text=True, **files) as command:
+    with Command(module, *arguments, text=True, **files, **more) as command:
         try:
             out, err = command.communicate(timeout=_WITHIN_S)
         except BaseException:
@@ -85,13 +88,14 @@ def run(
 class _Mould:
     """The process that is forked from, started when the first command is."""
 
-    def __init__(self) -> None:
+    def __init__(self, root: Path) -> None:
         self._lock = threading.Lock()
         self._asks, asked = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         with asked:
             self._process = subprocess.Popen(
                 [sys.executable, "-m", "tests.mould", str(asked.fileno())],
-                cwd=ROOT,
+                cwd=root,
+                env=_environment(root),
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL,
                 pass_fds=[asked.fileno()],
@@ -119,5 +123,10 @@ class _Mould:
 
 
 @cache
-def _mould() -> _Mould:
-    return _Mould()
+def _mould(root: Path) -> _Mould:
+    return _Mould(root)
+
+
+def _environment(root: Path) -> dict[str, str]:
+    """That of the tests; what is imported is that of a copy, if it is one."""
+    return dict(os.environ) if root == ROOT else {**os.environ, "PYTHONPATH": str(root)}

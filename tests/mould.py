@@ -14,7 +14,6 @@ import signal
 import socket
 import sys
 from multiprocessing import connection, forkserver
-from pathlib import Path
 
 #: what may be asked for at a time [bytes]
 LARGEST = 1 << 17
@@ -129,5 +128,4 @@ if __name__ == "__main__":
         asked.send(b"loaded")
         module = wait(asked)
     if module is not None:
-        sys.path[0] = str(Path.cwd())
         runpy.run_module(module, run_name="__main__", alter_sys=True)
