@@ -14,7 +14,7 @@ from service.fairness import length
 from service.fairness.faults import Busy
 from service.fairness.queue import FairQueue, Full, Turn
 from service.fairness.table import Resource, Share
-from service.workers.process import Dead, Haste, Start, Worker, WorkersFailed, forked
+from service.workers.process import Dead, Haste, Start, Worker, WorkersFailed, forked, preload
 from service.workers.task import Priority, Task
 from service.workers.worker import Answer, Crashed, Long, Outcome
 
@@ -90,6 +90,7 @@ class Pool:
         # of recent computations, short and long, for Retry-After [s]
         self._typical_s = {False: 0.1, True: length.BRIEF_S}
         self._closed = False
+        preload()
 
     @property
     def running(self) -> int:

@@ -12,11 +12,13 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
 
+import psutil
 import pyarrow as pa
 import pyarrow.parquet as pq
 
 from tests.commands import Command
 from tests.jobs.serving import DELAY, VERSION
+from tests.processes import fork_servers
 
 
 class Service:
@@ -52,6 +54,10 @@ class Service:
         # it has started all that it starts when it answers
         assert self.send("GET", "/healthz")[0] == 200
         return self
+
+    def workers(self) -> list[psutil.Process]:
+        """The processes that compute chunks, as no answer is asked for."""
+        return [worker for server in fork_servers(self.process.pid) for worker in server.children()]
 
     def send(self, method: str, path: str, body: object = None, **headers: str) -> tuple[int, dict[str, str], bytes]:
         return send(self.where, method, path, body, **headers)
