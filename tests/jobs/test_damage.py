@@ -42,7 +42,7 @@ def test_flips_are_refused_and_repaired(tmp_path: Path) -> None:
     assert flip(tmp_path, flips=30, seed=1) == (30, 30)
 
 
-@pytest.mark.parametrize(("name", "points"), [("crashes", 25), ("statements", 3)])
+@pytest.mark.parametrize(("name", "points"), [("crashes", 15), ("statements", 3)])
 def test_crashes_lose_nothing_and_leave_nothing(name: str, points: int) -> None:
     # a process of its own, as it forks; at all two thousand system calls and seven hundred statements: without --points
     command = [sys.executable, "-m", f"tests.jobs.{name}", "--points", str(points)]

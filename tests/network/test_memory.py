@@ -12,7 +12,7 @@ from tests.network.serving import Service, request, service
 
 _FORMATS = ("ndjson", "csv", "parquet", "arrow", "xlsx")
 #: streams, of so many addresses; rows of the sweep
-_STREAMS, _ADDRESSES, _ROWS = 24, 4, 200_000
+_STREAMS, _ADDRESSES, _ROWS = 24, 4, 100_000
 #: above rest, measured: 13 MB; without giving back more than 200 MB stay [MB]
 _ABOVE_MB = 60.0
 
