@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 import pytest
-from playwright.sync_api import BrowserContext, expect, sync_playwright
+from playwright.sync_api import Browser, BrowserContext, expect, sync_playwright
 
 from tests.browser import chromium
 from tests.browser.portal import Look, Portal
@@ -24,8 +24,8 @@ expect.set_options(timeout=PATIENCE_MS)
 
 # for this folder only: an event loop of playwright would keep the tests of others from running theirs
 @pytest.fixture(scope="package")
-def context(url: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[BrowserContext]:
-    """Chromium, headless: one for all, which keeps what it loaded and compiled once, as for a reader who comes back."""
+def browser() -> Iterator[Browser]:
+    """Chromium, headless."""
     path = chromium.find()
     if path is None:
         pytest.skip(chromium.MISSING)
@@ -34,14 +34,20 @@ def context(url: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Brow
         arguments = ["--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu", "--disable-background-networking"]
         # a page in a process of its own costs more than all that it does: 0.8 of 1.3 s of CPU
         arguments.append("--process-per-site")
-        # without a folder of its own it compiles the plots anew for each page, a tenth of a second
-        folder = tmp_path_factory.mktemp("chromium")
-        context = playwright.chromium.launch_persistent_context(folder, executable_path=path, args=arguments)
-        context.set_default_timeout(PATIENCE_MS)
-        # the process of the site ends with its last page, so one stays open
-        context.new_page().goto(f"{url}/healthz")
-        yield context
-        context.close()
+        found = playwright.chromium.launch(executable_path=path, args=arguments)
+        yield found
+        found.close()
+
+
+@pytest.fixture(scope="package")
+def context(browser: Browser, url: str) -> Iterator[BrowserContext]:
+    """One for all: what was loaded once is kept, as for a reader who comes back."""
+    context = browser.new_context()
+    context.set_default_timeout(PATIENCE_MS)
+    # the process of the site ends with its last page, so one stays open
+    context.new_page().goto(f"{url}/healthz")
+    yield context
+    context.close()
 
 
 @pytest.fixture
