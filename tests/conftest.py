@@ -13,6 +13,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 
+from service.workers.process import preload
 from tests.verification.every import check_answers
 
 if TYPE_CHECKING:
@@ -43,6 +44,9 @@ providers.is_local_module_file = lambda _: False
 # jsonschema compiles forty grammars of addresses with it when it is imported, nearly a second of every process; no test
 # asks for that format
 sys.modules["rfc3987_syntax"] = None  # type: ignore[assignment]
+
+# what processes that tests start are forked from, whichever of them is the first
+preload()
 
 # a certificate that its own answer refutes fails the test that asked for it, whatever that looks at
 check_answers()

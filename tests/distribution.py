@@ -15,8 +15,11 @@ TESTS = Path(__file__).parent
 WAITING = ("browser", "clients", "deploy", "docs", "freecad", "jobs", "network", "service")
 #: folders whose files share a server that is long in starting: one process runs all of it
 TOGETHER = ("browser", "clients", "freecad")
+#: of those, what would end last: from this file on another process runs it, in the order of the names
+HALVES = {"browser": "browser/test_paper.py"}
 #: what takes longest, the longest first; of the rest that of most tests
 LONG = (
+    "browser/test_paper.py",
     "browser",
     "freecad",
     "docs/test_guides.py",
@@ -60,7 +63,10 @@ class Distribution(LoadScopeScheduling):  # type: ignore[misc]
     def _split_scope(self, nodeid: str) -> str:
         name = nodeid.split("::", 1)[0].removeprefix("tests/")
         folder = name.split("/", 1)[0]
-        return folder if folder in TOGETHER else name
+        if folder not in TOGETHER:
+            return name
+        half = HALVES.get(folder)
+        return half if half is not None and name >= half else folder
 
     def _assign_work_unit(self, node: WorkerController) -> None:
         begins_waiting = self.nodes.index(node) % 2 == 0

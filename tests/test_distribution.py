@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from tests.distribution import LONG, TESTS, TOGETHER, WAITING, Distribution, waits
+from tests.distribution import HALVES, LONG, TESTS, TOGETHER, WAITING, Distribution, waits
 
 
 class Node:
@@ -58,6 +58,12 @@ def test_a_shared_server_is_started_by_one_process_and_what_is_long_comes_first(
     assert nodes[1].sent == collection[-30:]
 
 
+def test_a_folder_that_would_end_last_is_run_by_two() -> None:
+    halves = names("browser/test_form.py", 3), [*names("browser/test_paper.py", 1), *names("browser/test_trials.py", 2)]
+    _, nodes = distributed([*halves[0], *halves[1], *names("program/test_cone.py", 30)], 4)
+    assert [node.sent for node in nodes[:3]] == [halves[1], names("program/test_cone.py", 30), halves[0]]
+
+
 def test_nothing_is_left_or_sent_twice() -> None:
     collection = [one for number in range(9) for one in names(f"jobs/test_{number}.py", 1 + number % 4)]
     found, nodes = distributed(collection, 3)
@@ -69,7 +75,7 @@ def test_nothing_is_left_or_sent_twice() -> None:
     assert sorted(one for node in nodes for one in node.sent) == sorted(collection)
 
 
-@pytest.mark.parametrize("name", [*LONG, *WAITING, *TOGETHER])
+@pytest.mark.parametrize("name", [*LONG, *WAITING, *TOGETHER, *HALVES.values()])
 def test_what_is_named_is_there(name: str) -> None:
     assert (TESTS / name).exists()
 

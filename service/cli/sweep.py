@@ -131,9 +131,12 @@ def _require_fits(output: Path, request: "SweepRequest") -> None:
 
 
 def _desk(place: Path, workers: int | None, engine: str | None) -> "JobService":
+    import multiprocessing
+
     from service.jobs.desk import JobService
     from service.settings import Settings
 
+    multiprocessing.set_forkserver_preload(["service.jobs.preload"])
     given: dict[str, Any] = {} if workers is None else {"sweep_workers": workers}
     settings = Settings(data_dir=place, database_url=None, engine=engine or "processes", **_ALONE, **given)
     try:

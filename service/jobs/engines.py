@@ -4,7 +4,7 @@ import multiprocessing
 from collections.abc import Callable
 from concurrent.futures import Executor, Future, ProcessPoolExecutor
 from contextlib import suppress
-from multiprocessing.context import SpawnContext
+from multiprocessing.context import ForkServerContext
 from multiprocessing.process import BaseProcess
 from typing import Any, Protocol
 
@@ -125,14 +125,18 @@ class Processes:
         self._spool.remove()
 
 
-class _Recording(SpawnContext):
-    """Spawned, as forked threads and locks are no one's; recorded, as the executor cannot end a running worker."""
+class _Recording(ForkServerContext):
+    """Forked from a process of one thread, as the threads and locks of the service would be no one's.
+
+    What that process has loaded, who starts it says first: the service what answers need, the command line
+    :mod:`service.jobs.preload`. Recorded, as the executor cannot end a running worker.
+    """
 
     def __init__(self) -> None:
         self.processes: list[BaseProcess] = []
 
     def Process(self, *args: Any, **kwargs: Any) -> BaseProcess:  # type: ignore[override]
-        process = multiprocessing.get_context("spawn").Process(*args, **kwargs)
+        process = multiprocessing.get_context("forkserver").Process(*args, **kwargs)
         self.processes.append(process)
         return process
 

@@ -13,7 +13,7 @@ from service.jobs.kinds import KINDS
 from service.jobs.piece import ChunkResult, Stopped
 
 #: one thread each: as many workers as cores share the work already
-_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
+THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 
 
 def run(kind: str, request: bytes, start: int, stop: int, flag: str) -> ChunkResult:
@@ -40,7 +40,7 @@ def run(kind: str, request: bytes, start: int, stop: int, flag: str) -> ChunkRes
 
 def prepare(niceness: int) -> None:
     """Make a fresh process a worker: one thread, low priority, and no life without the service."""
-    for name in _THREADS:
+    for name in THREADS:
         os.environ[name] = "1"
     # Ctrl-C is for the service, which ends its workers
     signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -14,7 +14,7 @@ from service.fairness import length
 from service.fairness.faults import Busy
 from service.fairness.queue import FairQueue, Full, Turn
 from service.fairness.table import Resource, Share
-from service.workers.process import Dead, Haste, Start, Worker, WorkersFailed, forked
+from service.workers.process import Dead, Haste, Start, Worker, WorkersFailed, forked, preload
 from service.workers.task import Priority, Task
 from service.workers.worker import Answer, Crashed, Long, Outcome
 
@@ -94,6 +94,7 @@ class Pool:
         # workers that there always are, and their starts
         self._least = 0
         self._starts: Future[None] | None = None
+        preload()
 
     @property
     def running(self) -> int:

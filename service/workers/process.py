@@ -151,6 +151,11 @@ class Haste:
             self._timer = self._loop.call_later(max(left_s, _LOOK_S), self._look)
 
 
+def preload() -> None:
+    """Have the process that others are forked from load what answers need; to be called before it is started."""
+    multiprocessing.set_forkserver_preload(_PRELOAD)
+
+
 def forked(memory_bytes: int, folder: Path | None, first: bool) -> Worker:
     """A worker from the process that has loaded everything; the first one of all loads and compiles it.
 
@@ -158,7 +163,6 @@ def forked(memory_bytes: int, folder: Path | None, first: bool) -> Worker:
     ------
     WorkersFailed
     """
-    multiprocessing.set_forkserver_preload(_PRELOAD)
     with nullcontext() if first else _watched():
         return Worker(memory_bytes, folder)
 

@@ -152,11 +152,15 @@ class Portal:
         return [json.loads(request.post_data or "") for request in self.requests if urlsplit(request.url).path == path]
 
     def screenshot(self, name: str) -> None:
-        """For those who look (``SCREENSHOTS=1``): a picture of the whole page costs as much as to draw it."""
-        if not os.environ.get("SCREENSHOTS"):
-            return
-        ARTEFACTS.mkdir(parents=True, exist_ok=True)
-        self.page.screenshot(path=ARTEFACTS / f"{name}.png", full_page=True)
+        screenshot(self.page, name)
+
+
+def screenshot(page: Page, name: str) -> None:
+    """For those who look (``SCREENSHOTS=1``): a picture of the whole page costs as much as to draw it."""
+    if not os.environ.get("SCREENSHOTS"):
+        return
+    ARTEFACTS.mkdir(parents=True, exist_ok=True)
+    page.screenshot(path=ARTEFACTS / f"{name}.png", full_page=True)
 
 
 def ask(url: str, path: str, body: Any = None) -> Any:

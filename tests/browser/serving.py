@@ -3,12 +3,13 @@
 import os
 import re
 import subprocess
-import sys
 import time
 import urllib.request
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+
+from tests.commands import Command
 
 _READY_WITHIN_S = 300.0
 _URL = re.compile(r"http://127\.0\.0\.1:\d+")
@@ -18,11 +19,11 @@ _URL = re.compile(r"http://127\.0\.0\.1:\d+")
 def serving(folder: Path, **settings: str) -> Iterator[str]:
     """Address of a service that is ready; its data and its log are in the folder."""
     variables = {f"COUNTERWEIGHT_{name.upper()}": value for name, value in settings.items()}
-    environment = {**os.environ, "COUNTERWEIGHT_DATA_DIR": str(folder), "PYTHONUNBUFFERED": "1", **variables}
-    command = [sys.executable, "-m", "service", "serve", "--port", "0"]
+    environment = {**os.environ, "COUNTERWEIGHT_DATA_DIR": str(folder), **variables}
+    command = ("service", "serve", "--port", "0")
     with (
         (folder / "log").open("w") as log,
-        subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=log, text=True) as process,
+        Command(*command, environment=environment, stdout=subprocess.PIPE, stderr=log, text=True) as process,
     ):
         try:
             assert process.stdout is not None

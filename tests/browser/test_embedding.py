@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import BrowserContext, Page
 
-from tests.browser.portal import ARTEFACTS, ask
+from tests.browser.portal import ask, screenshot
 from tests.browser.serving import serving
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "portal"
@@ -90,8 +90,7 @@ def test_a_portal_gives_a_machine_and_takes_answer_and_picture(page: Page, sites
         "() => Math.abs(document.getElementById('service').clientHeight - "
         "parseFloat(document.getElementById('service').style.height)) <= 2"
     )
-    ARTEFACTS.mkdir(parents=True, exist_ok=True)
-    page.screenshot(path=ARTEFACTS / "embedded.png", full_page=True)
+    screenshot(page, "embedded")
     assert troubles == []
 
 

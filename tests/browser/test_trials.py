@@ -4,6 +4,7 @@ With SCREENSHOTS=1 pictures of each are left in `artefacts/portal`: wide, narrow
 first is there as a PDF.
 """
 
+from collections.abc import Sequence
 from typing import Any
 
 import pytest
@@ -15,14 +16,21 @@ from tests.browser.portal import ARTEFACTS, Portal, ask
 from tests.browser.test_accessibility import _serious
 from tests.browser.test_gas import COLUMNS
 
+#: where axe looks at the page of a trial, which takes seconds each time; at night wide and narrow
+BOTH = ("wide", "narrow")
+every_look = pytest.param(BOTH, marks=pytest.mark.nightly)
 
-def _look(portal: Portal, name: str) -> None:
-    """Screenshots, and what axe finds, wide and narrow, light and dark."""
-    found = {"wide": _serious(portal)}
+
+def _look(portal: Portal, name: str, looks: Sequence[str]) -> None:
+    """Screenshots, and what axe finds, wide and light or narrow and dark."""
+    found = {}
+    if "wide" in looks:
+        found["wide"] = _serious(portal)
     portal.screenshot(f"{name}-1280")
     portal.page.set_viewport_size({"width": 390, "height": 844})
     portal.page.emulate_media(color_scheme="dark")
-    found["narrow"] = _serious(portal)
+    if "narrow" in looks:
+        found["narrow"] = _serious(portal)
     # nothing is wider than the window
     assert portal.page.evaluate("document.documentElement.scrollWidth") <= 390
     portal.screenshot(f"{name}-390-dark")
@@ -30,7 +38,7 @@ def _look(portal: Portal, name: str) -> None:
     portal.page.emulate_media(color_scheme="light", media="print")
     portal.screenshot(f"{name}-print")
     portal.page.emulate_media(media="screen")
-    assert found == {"wide": [], "narrow": []}
+    assert found == {look: [] for look in looks}
 
 
 def _begun(portal: Portal, hand: Hand) -> Any:
@@ -40,7 +48,8 @@ def _begun(portal: Portal, hand: Hand) -> Any:
     return portal.bodies("/v1/optimize")[-1]
 
 
-def test_a_compressor_becomes_a_filed_report_with_castings(portal: Portal) -> None:
+@pytest.mark.parametrize("looks", [("narrow",), every_look])
+def test_a_compressor_becomes_a_filed_report_with_castings(portal: Portal, looks: Sequence[str]) -> None:
     portal.page.goto(f"{portal.url}/")
     hand = Hand(portal)
     hand.click("#new")
@@ -82,10 +91,11 @@ def test_a_compressor_becomes_a_filed_report_with_castings(portal: Portal) -> No
     # analytic: castings of at most two of the four sizes
     assert len(masses_kg - {0}) <= 2
     assert masses_kg <= {0, 10, 20, 30, 40}
-    _look(portal, "trial-a")
+    _look(portal, "trial-a", looks)
 
 
-def test_a_v_six_gets_bearings_and_gas(portal: Portal) -> None:
+@pytest.mark.parametrize("looks", [("wide",), every_look])
+def test_a_v_six_gets_bearings_and_gas(portal: Portal, looks: Sequence[str]) -> None:
     portal.page.goto(f"{portal.url}/")
     hand = Hand(portal)
     hand.click("#new")
@@ -118,7 +128,7 @@ def test_a_v_six_gets_bearings_and_gas(portal: Portal) -> None:
     assert len(request["machine"]["bearings"]) == 4
     assert "bearing load" in portal.page.locator("#answer h2").first.inner_text()
     portal.open_panel("picture-indicator")
-    _look(portal, "trial-b")
+    _look(portal, "trial-b", looks)
 
 
 def test_a_scroll_is_begun_from_nothing(portal: Portal) -> None:
@@ -147,4 +157,4 @@ def test_a_scroll_is_begun_from_nothing(portal: Portal) -> None:
     # what cancels is not said to have grown from nothing
     expect(portal.page.locator("#answer h2").first).to_have_text("0.40909 kg of counterweights: force −100 %")
     portal.open_panel("pin-loads")
-    _look(portal, "trial-c")
+    _look(portal, "trial-c", BOTH)

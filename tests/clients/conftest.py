@@ -2,7 +2,6 @@
 
 import importlib.util
 import subprocess
-import sys
 import time
 from collections.abc import Iterator
 from http.client import HTTPConnection
@@ -11,6 +10,8 @@ from types import ModuleType
 from urllib.parse import urlsplit
 
 import pytest
+
+from tests.commands import Command
 
 ROOT = Path(__file__).parents[2]
 CLIENT = ROOT / "examples" / "client" / "counterweight.py"
@@ -31,8 +32,8 @@ def counterweight() -> ModuleType:
 @pytest.fixture(scope="session")
 def url() -> Iterator[str]:
     """Where a service listens that is ready."""
-    command = [sys.executable, "-m", "service", "serve", "--port", "0"]
-    with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as process:
+    command = ("service", "serve", "--port", "0")
+    with Command(*command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as process:
         try:
             assert process.stdout is not None
             where = process.stdout.readline().split()[3]

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.commands import run
 from tests.docs.reading import ROOT, section
 
 _STEP = re.compile(
@@ -297,6 +298,14 @@ def copy(steps: list[re.Match[str]], tmp_path_factory: pytest.TempPathFactory) -
     return place
 
 
+def _asked(copy: Path, script: str, *arguments: str) -> None:
+    """A script runs without a fault, in a process of its own that has the packages of the copy."""
+    file = copy / "script.py"
+    file.write_text(script)
+    ran = run("tests.docs.recipes", str(file), *arguments, root=copy)
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+
+
 def _run(copy: Path, *arguments: str, timeout_s: float = 900.0) -> str:
     environment = {**os.environ, "PYTHONPATH": str(copy)}
     ran = subprocess.run(
@@ -320,24 +329,23 @@ def test_it_takes_as_many_files_as_it_says(heading: str) -> None:
 
 
 def test_effect_output_computation_and_limit_are_answered_swept_and_reported(copy: Path, tmp_path: Path) -> None:
-    # in one process, whose workers import once
-    _run(copy, "-c", _SCRIPT + _COMPUTED + _LIMITED, str(tmp_path))
+    _asked(copy, _SCRIPT + _COMPUTED + _LIMITED, str(tmp_path))
 
 
 def test_response_is_weighed_limited_traded_swept_reported_and_checked(copy: Path) -> None:
-    _run(copy, "-c", _RESPONDED)
+    _asked(copy, _RESPONDED)
 
 
 def test_case_is_solved_chosen_limited_reported_refused_and_checked(copy: Path) -> None:
-    _run(copy, "-c", (RECIPES / "case.py").read_text())
+    _asked(copy, (RECIPES / "case.py").read_text())
 
 
 def test_kind_of_choice_goes_with_goals_limits_groups_and_studies(copy: Path) -> None:
-    _run(copy, "-c", (RECIPES / "choice.py").read_text())
+    _asked(copy, (RECIPES / "choice.py").read_text())
 
 
 def test_the_output_is_shown_by_a_terminal(copy: Path) -> None:
-    shown = _run(copy, "-m", "service", "analyze", "examples/2d12.json", "--output", "obliquity")
+    shown = run("service", "analyze", "examples/2d12.json", "--output", "obliquity", root=copy).stdout
     assert "Lean of the rods" in shown
     assert re.search(r"largest angle of any rod, deg\W+\d", shown)
 
@@ -345,7 +353,7 @@ def test_the_output_is_shown_by_a_terminal(copy: Path) -> None:
 def test_the_computation_is_a_command(copy: Path, tmp_path: Path) -> None:
     body = tmp_path / "body.json"
     body.write_text('{"stroke_m": "280 mm", "speed_rpm": 500}')
-    shown = _run(copy, "-m", "service", "piston-speed", str(body))
+    shown = run("service", "piston-speed", str(body), root=copy).stdout
     # analytic: two strokes in a turn
     assert re.search(r"mean, m/s\W+4\.6", shown)
 

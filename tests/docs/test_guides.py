@@ -4,14 +4,17 @@ import os
 import re
 import subprocess
 import sys
+from importlib.metadata import entry_points
 from pathlib import Path
 
 import pytest
 
 from schemas.request.requests import OptimizeRequest
+from service.cli import main
 from service.documents.examples import bodies
 from service.report import pictures
 from tests.docs.reading import ROOT
+from tests.docs.shell import program
 
 GUIDES = sorted(path for folder in ("tutorial", "how-to") for path in (ROOT / "docs" / folder).glob("*.md"))
 _STEP = re.compile(r"```sh\n(.*?)```\n(?:\n```text\n(.*?)```)?", re.DOTALL)
@@ -40,21 +43,23 @@ def _same(one: str, other: str) -> bool:
 
 
 @pytest.mark.parametrize("path", GUIDES, ids=lambda path: f"{path.parent.name}/{path.stem}")
-def test_a_guide_is_followed(path: Path, url: str, tmp_path: Path) -> None:
+def test_a_guide_is_followed(path: Path, url: str, tmp_path: Path, tmp_path_factory: pytest.TempPathFactory) -> None:
     (tmp_path / "examples").symlink_to(ROOT / "examples")
     followed = steps(path)
     script = "".join(f"{code}\necho '{_MARK}'\n" for code, _ in followed).replace(_SERVICE, url)
-    environment = {**os.environ, "COLUMNS": "200", "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}"}
-    ran = subprocess.run(
-        ["bash", "-euo", "pipefail", "-c", script],
-        cwd=tmp_path,
-        env=environment,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        timeout=300,
-        check=False,
-    )
+    programs = tmp_path_factory.mktemp("programs")
+    path = f"{programs}:{Path(sys.executable).parent}:{os.environ['PATH']}"
+    with program(programs):
+        ran = subprocess.run(
+            ["bash", "-euo", "pipefail", "-c", script],
+            cwd=tmp_path,
+            env={**os.environ, "COLUMNS": "200", "PATH": path},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            timeout=300,
+            check=False,
+        )
     assert ran.returncode == 0, ran.stdout
     for (code, shown), output in zip(followed, ran.stdout.split(_MARK), strict=False):
         lines = iter(output.splitlines())
@@ -62,6 +67,11 @@ def test_a_guide_is_followed(path: Path, url: str, tmp_path: Path) -> None:
             assert any(says(line, wanted) for line in lines), (
                 f"{wanted}\nis not in order in what came of\n{code}{output}"
             )
+
+
+def test_the_program_runs_what_is_forked_here() -> None:
+    [program] = entry_points(group="console_scripts", name="counterweight")
+    assert program.load() is main
 
 
 def test_every_kind_of_page_is_there() -> None:

@@ -29,8 +29,9 @@ _HONEST = ("inaccurate, must be", "certified gap")
 
 
 def _search(count: int) -> settings:
+    # at night ten times as many
     return settings(
-        max_examples=_COUNT or count,
+        max_examples=_COUNT or count * settings.default.max_examples // 30,
         derandomize=not _COUNT,
         database=None,
         deadline=None,
@@ -51,7 +52,7 @@ def _answer(body: Body) -> OptimizeAnswer:
         raise
 
 
-@_search(25)
+@_search(15)
 @given(requests(max_webs=4))
 def test_no_answer_is_wrong(body: Body) -> None:
     """Independent: whatever the status, bounds, objective, limits, masses and peaks agree with the reference."""
@@ -68,7 +69,7 @@ def _above(fault: str) -> bool:
     return (fault.startswith("objective") and fault.endswith("above")) or "kg, least is" in fault
 
 
-@_search(60)
+@_search(30)
 @given(requests(ceilings=False), st.randoms(use_true_random=False))
 def test_no_point_is_below_the_bound(body: Body, rng: random.Random) -> None:
     """Analytic: random points within the limits never beat the certified bound."""
@@ -91,7 +92,7 @@ def test_no_point_is_below_the_bound(body: Body, rng: random.Random) -> None:
         assert bound <= value * (1 + mp.mpf("1e-13")) + sum(data.noise), _found(body)
 
 
-@_search(60)
+@_search(30)
 @given(requests())
 def test_optimal_keeps_its_word(body: Body) -> None:
     """Analytic: `optimal` means that gap, mass and limits hold in 100-digit numbers."""
@@ -101,7 +102,7 @@ def test_optimal_keeps_its_word(body: Body) -> None:
         assert not verdict.faults, _found(body, verdict.faults)
 
 
-@_search(60)
+@_search(30)
 @given(requests(), st.integers(-12, 12), st.integers(-6, 6))
 def test_units_by_powers_of_two_change_no_bit(body: Body, mass: int, length: int) -> None:
     """Analytic: kilograms and metres are counted in other units, and every figure only changes its exponent."""
@@ -133,7 +134,7 @@ def _inside(body: Body) -> bool:
     return True
 
 
-@_search(40)
+@_search(24)
 @given(requests(), st.randoms(use_true_random=False))
 def test_the_order_of_webs_does_not_matter(body: Body, rng: random.Random) -> None:
     """Analytic: objective and mass are those of the same machine."""
@@ -142,7 +143,7 @@ def test_the_order_of_webs_does_not_matter(body: Body, rng: random.Random) -> No
     _same(body, {**body, "machine": {**body["machine"], "webs": webs}})
 
 
-@_search(40)
+@_search(24)
 @given(requests(max_webs=4), st.integers(0, 3))
 def test_a_web_in_two_halves_is_the_same_web(body: Body, which: int) -> None:
     """Analytic: two webs of half the limit in one place do what one did."""

@@ -5,7 +5,6 @@ import io
 import json
 import os
 import subprocess
-import sys
 import time
 from collections.abc import Iterator, Mapping
 from contextlib import closing, contextmanager
@@ -13,12 +12,13 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
 
+import psutil
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from tests.jobs.serving import DELAY
-
-ROOT = Path(__file__).parents[2]
+from tests.commands import Command
+from tests.jobs.serving import DELAY, VERSION
+from tests.processes import fork_servers
 
 
 class Service:
@@ -34,10 +34,11 @@ class Service:
     ) -> None:
         environment = {f"COUNTERWEIGHT_{name.upper()}": value for name, value in settings.items()}
         base = {"COUNTERWEIGHT_DATA_DIR": str(folder), "COUNTERWEIGHT_LEASE_S": "1", "COUNTERWEIGHT_SWEEP_WORKERS": "2"}
-        self.process = subprocess.Popen(
-            [sys.executable, "-m", "tests.jobs.serving"],
-            cwd=ROOT,
-            env={**os.environ, **base, **environment, DELAY: str(delay_s), **(more or {})},
+        self.process = Command(
+            "tests.jobs.serving",
+            environment={**os.environ, **base, **environment, DELAY: str(delay_s), **(more or {})},
+            # answers have read that of the mould
+            fresh=VERSION in (more or {}),
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
             text=True,
@@ -53,6 +54,10 @@ class Service:
         # it has started all that it starts when it answers
         assert self.send("GET", "/healthz")[0] == 200
         return self
+
+    def workers(self) -> list[psutil.Process]:
+        """The processes that compute chunks, as no answer is asked for."""
+        return [worker for server in fork_servers(self.process.pid) for worker in server.children()]
 
     def send(self, method: str, path: str, body: object = None, **headers: str) -> tuple[int, dict[str, str], bytes]:
         return send(self.where, method, path, body, **headers)

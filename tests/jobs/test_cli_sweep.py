@@ -4,7 +4,6 @@ import json
 import os
 import signal
 import subprocess
-import sys
 import time
 from importlib import import_module
 from operator import attrgetter
@@ -20,10 +19,9 @@ from typer.testing import CliRunner, Result
 from optimizer.studies.sweep import run_chunk
 from schemas.sweep.request import SweepRequest
 from service.cli import app
-from tests.jobs.process import ROOT
+from tests.commands import Command
+from tests.commands import run as run_command
 from tests.jobs.sweeps import analyses, optimisations
-
-COMMAND = [sys.executable, "-m", "service", "sweep"]
 
 
 def expected(body: dict[str, Any]) -> pa.Table:
@@ -38,7 +36,7 @@ def written(folder: Path, body: dict[str, Any]) -> str:
 
 def run(*arguments: str) -> "subprocess.CompletedProcess[str]":
     env = {**os.environ, "COUNTERWEIGHT_DATABASE_URL": "postgresql://nobody@127.0.0.1:1/of-the-service"}
-    done = subprocess.run([*COMMAND, *arguments], cwd=ROOT, env=env, capture_output=True, text=True, timeout=300)
+    done = run_command("service", "sweep", *arguments, environment=env)
     assert "Traceback" not in done.stderr
     return done
 
@@ -75,19 +73,13 @@ def test_designs_without_a_certified_answer_give_1(tmp_path: Path) -> None:
     assert pa.ipc.open_file(tmp_path / "rows.arrow").read_all().equals(expected(analyses(4, 10)))
 
 
-def interruptible() -> None:
-    """In the child: tests that run in the background of a shell ignore SIGINT, and it would inherit that."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-
-
 @pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGKILL])
 def test_an_interrupted_sweep_goes_on(tmp_path: Path, ending: signal.Signals) -> None:
     # two chunks
     body, out = analyses(10, 10), tmp_path / "rows.parquet"
     arguments = [written(tmp_path, body), "-o", str(out), "--workers", "1"]
     # it stays at its second chunk, however late the signal comes
-    command = [sys.executable, "-m", "tests.jobs.held", "sweep", *arguments]
-    with subprocess.Popen(command, cwd=ROOT, stderr=subprocess.PIPE, text=True, preexec_fn=interruptible) as first:
+    with Command("tests.jobs.held", "sweep", *arguments, stderr=subprocess.PIPE, text=True) as first:
         results = tmp_path / "rows.parquet.sweep" / "results"
         deadline = time.monotonic() + 180
         while not any(path.is_file() for path in results.glob("*/0*")):

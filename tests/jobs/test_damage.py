@@ -27,10 +27,11 @@ from service.jobs.piece import Unanswerable
 from service.jobs.retention import Retention
 from service.jobs.rows import Limits
 from service.jobs.store import QuotaExceeded, Store
+from tests.commands import ROOT
 from tests.jobs import synthetic
 from tests.jobs.flips import flip
 from tests.jobs.house import House
-from tests.jobs.process import ROOT, service
+from tests.jobs.process import service
 from tests.jobs.sweeps import analyses
 from tests.jobs.test_coordinator import threads, tiny_disk
 from tests.jobs.test_kills import SWEEP, expected
@@ -41,7 +42,7 @@ def test_flips_are_refused_and_repaired(tmp_path: Path) -> None:
     assert flip(tmp_path, flips=30, seed=1) == (30, 30)
 
 
-@pytest.mark.parametrize(("name", "points"), [("crashes", 25), ("statements", 3)])
+@pytest.mark.parametrize(("name", "points"), [("crashes", 15), ("statements", 3)])
 def test_crashes_lose_nothing_and_leave_nothing(name: str, points: int) -> None:
     # a process of its own, as it forks; at all two thousand system calls and seven hundred statements: without --points
     command = [sys.executable, "-m", f"tests.jobs.{name}", "--points", str(points)]

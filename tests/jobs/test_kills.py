@@ -16,7 +16,6 @@ from tests.jobs.kills import kill
 from tests.jobs.process import service
 from tests.jobs.serving import VERSION
 from tests.jobs.sweeps import analyses
-from tests.processes import children
 
 SWEEP = analyses(20, 50)
 
@@ -39,7 +38,7 @@ def test_a_killed_worker(tmp_path: Path) -> None:
         path = headers["location"]
         killed = 0
         while killed < 2 and running.read(path)["state"] in ("queued", "running"):
-            for worker in children(running.process.pid, "spawn_main"):
+            for worker in running.workers():
                 if running.read(path)["done"] > 100 * killed:
                     with suppress(psutil.NoSuchProcess):
                         worker.kill()

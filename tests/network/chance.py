@@ -6,6 +6,7 @@ import time
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import cache
 from random import Random
 
 from service.computations import COMPUTATIONS, XLSX
@@ -70,8 +71,7 @@ class Sent:
 def requests(random: Random) -> Iterator[Sent]:
     """Hostile requests without end."""
     texts = [json.dumps(body) for body in bodies().values()]
-    books = [written(body) for body in bodies().values()]
-    bombs = [bomb() for bomb in BOMBS.values()]
+    books, bombs = _books(), _bombs()
     while True:
         shape = random.random()
         if random.random() < _WORKBOOKS:
@@ -86,6 +86,17 @@ def requests(random: Random) -> Iterator[Sent]:
             yield Sent(b"".join([one, *(_request(random, texts) for _ in range(count - 1))]), count)
         else:
             yield Sent(one)
+
+
+@cache
+def _books() -> list[Sheets]:
+    """The examples as sheets; to make them takes longer than to send them."""
+    return [written(body) for body in bodies().values()]
+
+
+@cache
+def _bombs() -> list[bytes]:
+    return [bomb() for bomb in BOMBS.values()]
 
 
 def _posted(path: str, content: bytes) -> bytes:

@@ -4,7 +4,6 @@ import asyncio
 import os
 import re
 import subprocess
-import sys
 import tempfile
 import time
 from collections.abc import AsyncIterable, Iterator, Mapping
@@ -15,9 +14,9 @@ from typing import IO
 
 import psutil
 
-from tests.processes import children
+from tests.commands import Command
+from tests.processes import fork_servers
 
-ROOT = Path(__file__).parents[2]
 _MB = 1e6
 
 
@@ -50,7 +49,7 @@ class Service:
 
     def workers(self) -> list[psutil.Process]:
         """The processes that compute answers: children of the one that they are forked from."""
-        return [worker for server in children(self.process.pid, "forkserver") for worker in server.children()]
+        return [worker for server in fork_servers(self.process.pid) for worker in server.children()]
 
     def memory_mb(self) -> tuple[float, float]:
         """Resident memory of the service, and of its largest worker [MB]."""
@@ -135,19 +134,18 @@ async def read(reader: asyncio.StreamReader) -> Reply:
 
 
 @contextmanager
-def service(**settings: str | int) -> Iterator[Service]:
-    """A service with some ``COUNTERWEIGHT_*`` settings, ready to compute; ended, and known to have ended, after it."""
+def service(fresh: bool = False, **settings: str | int) -> Iterator[Service]:
+    """A service with some ``COUNTERWEIGHT_*`` settings, ready to compute; ended, and known to have ended, after it.
+
+    Parameters
+    ----------
+    fresh : started from nothing, see :class:`tests.commands.Command`.
+    """
     with tempfile.TemporaryDirectory(prefix="counterweight-") as folder, open(f"{folder}/log", "w") as log:
         given = {"DATA_DIR": f"{folder}/data", **{name.upper(): str(value) for name, value in settings.items()}}
         environment = {**os.environ, **{f"COUNTERWEIGHT_{name}": value for name, value in given.items()}}
-        process = subprocess.Popen(
-            [sys.executable, "-m", "service", "serve", "--port", "0"],
-            cwd=ROOT,
-            env=environment,
-            stdout=subprocess.PIPE,
-            stderr=log,
-            text=True,
-        )
+        command = ("service", "serve", "--port", "0")
+        process = Command(*command, environment=environment, fresh=fresh, stdout=subprocess.PIPE, stderr=log, text=True)
         try:
             assert process.stdout is not None
             found = re.search(r"http://\S+:(\d+) ", process.stdout.readline())
@@ -170,4 +168,4 @@ def _wait(made: Service) -> None:
     deadline = time.monotonic() + 300
     while asyncio.run(made.ask("GET", "/readyz")).status != 200:
         assert time.monotonic() < deadline, made.log()
-        time.sleep(0.1)
+        time.sleep(0.02)

@@ -10,10 +10,10 @@ from tests.network.serving import Service
 
 #: every so many requests of the attacks that have thousands
 _EVERY = {
-    "no numbers": 61,
-    "lone surrogates": 61,
-    "lone surrogates, half-typed": 31,
-    "wrong types": 67,
+    "no numbers": 101,
+    "lone surrogates": 101,
+    "lone surrogates, half-typed": 37,
+    "wrong types": 137,
     "pointers into nowhere": 5,
     "paths astray": 7,
 }

@@ -11,7 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.network.serving import ROOT, Reply, read, request
+from tests.commands import ROOT
+from tests.network.serving import Reply, read, request
 
 _LIMITED = "import resource, runpy, sys; resource.setrlimit(resource.RLIMIT_NOFILE, ({n}, {n})); sys.argv[1:] = "
 #: every file may be a connection, whatever else is open: as where large answers wait in files

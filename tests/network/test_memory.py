@@ -14,7 +14,7 @@ from tests.network.serving import Service, request, service
 
 _FORMATS = ("ndjson", "csv", "parquet", "arrow", "xlsx")
 #: streams, of so many addresses; rows of the sweep
-_STREAMS, _ADDRESSES, _ROWS = 24, 4, 200_000
+_STREAMS, _ADDRESSES, _ROWS = 24, 4, 100_000
 #: above rest, measured: 13 MB; without giving back more than 200 MB stay [MB]
 _ABOVE_MB = 60.0
 
@@ -51,7 +51,7 @@ async def _given_back(target: Service, rest_mb: float) -> None:
 
 @pytest.mark.parametrize("times", [1, pytest.param(3, marks=pytest.mark.nightly)])
 def test_memory_of_stopped_readers_is_given_back(times: int) -> None:
-    with service() as target:
+    with service(fresh=True) as target:
         path = asyncio.run(_swept(target))
         rest_mb = target.memory_mb()[0]
         for _ in range(times):

@@ -26,7 +26,7 @@ from service.workers.worker import Answer, Crashed, NoRoom, Outcome, OutOfMemory
 from tests.network import tasks
 from tests.network.tasks import task
 from tests.network.test_length import SAMPLED
-from tests.processes import children
+from tests.processes import fork_servers
 
 
 def pool_of(size: int, places: int) -> Pool:
@@ -408,7 +408,7 @@ def stopped(pid: int) -> None:
 
 
 def fork_server() -> int:
-    [found] = children(os.getpid(), "forkserver")
+    [found] = fork_servers(os.getpid())
     return found.pid
 
 

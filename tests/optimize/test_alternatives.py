@@ -93,7 +93,7 @@ def test_the_machine_of_the_foundry() -> None:
         ],
         "catalogue": {"mass_step_kg": 0.5, "angle_step_deg": 5},
     }  # fmt: skip
-    found = optimized({"machine": body, "alternatives": [0.01, 0.05]})
+    found = optimized({"machine": body, "alternatives": [0.01, 0.05], "accuracy": {"time_limit_s": 2}})
     assert found.status == "optimal"
     pieces = {one.allowance: one for one in found.alternatives if one.minimised == "pieces"}
     assert (pieces[0.05].pieces, pieces[0.05].lower_bound) == (2, 2)

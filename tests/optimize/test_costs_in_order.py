@@ -206,7 +206,7 @@ def test_least_fitted_masses_are_made_light() -> None:
     goals = order_of(("external", 0.2), ("mass", 0.0))
     body = asked(machine, 1e-4, priorities=goals, moment_weight=0.0)
     # the mass stays open to the last digit, however long it is searched
-    body["accuracy"]["time_limit_s"] = 3
+    body["accuracy"]["time_limit_s"] = 0.5
     found = optimized(body)
     assert found.certificate is not None
     external, mass = found.certificate.goals

@@ -6,11 +6,9 @@ import re
 import signal
 import socket
 import subprocess
-import sys
 import time
 from collections.abc import Iterator
 from contextlib import closing
-from pathlib import Path
 from tempfile import TemporaryFile
 from typing import IO
 from urllib.parse import urlsplit
@@ -18,16 +16,15 @@ from urllib.parse import urlsplit
 import pytest
 
 from service.documents.examples import load
-
-ROOT = Path(__file__).parents[2]
+from tests.commands import Command, run
 
 
 def start(log: IO[str], **environment: str) -> "subprocess.Popen[str]":
-    """The server; what it logs goes into a file, which takes all of it."""
-    return subprocess.Popen(
-        [sys.executable, "-m", "service", "serve", "--port", "0"],
-        cwd=ROOT,
-        env={**os.environ, **environment},
+    """The server, from nothing; what it logs goes into a file, which takes all of it."""
+    return Command(
+        *("service", "serve", "--port", "0"),
+        environment={**os.environ, **environment},
+        fresh=True,
         stdout=subprocess.PIPE,
         stderr=log,
         text=True,
@@ -133,9 +130,7 @@ def test_an_orderly_end(ending: signal.Signals) -> None:
 
 def test_addresses_that_cannot_be_taken() -> None:
     def refused(*arguments: str, **environment: str) -> str:
-        command = [sys.executable, "-m", "service", "serve", *arguments]
-        env = {**os.environ, **environment}
-        done = subprocess.run(command, cwd=ROOT, env=env, capture_output=True, text=True, timeout=180)
+        done = run("service", "serve", *arguments, environment={**os.environ, **environment})
         assert (done.returncode, done.stdout) == (2, "")
         assert "Traceback" not in done.stderr
         return done.stderr

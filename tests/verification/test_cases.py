@@ -44,7 +44,11 @@ def test_values_of_the_first_order_are_evaluated_anew(name: str) -> None:
     assert {found[one] for one in ("objective", "before", "worst_case", "price")} == {"held"}
 
 
-@pytest.mark.parametrize("name", KINDS[::6])
+#: what takes seconds to check; what is made up of it, the nightly form looks at
+_LONG = ("four strokes",)
+
+
+@pytest.mark.parametrize("name", [one for one in KINDS[::6] if one not in _LONG])
 def test_nothing_that_is_made_up_passes(name: str) -> None:
     for way, request, answer in fabricated(name):
         assert verdict(request, answer) in ("broken", "refused", "not covered"), way

@@ -6,13 +6,16 @@ from optimizer.optimize import optimize
 from schemas.answer.answers import OptimizeAnswer
 from schemas.request.requests import OptimizeRequest
 from service.documents.examples import bodies
-from tests.verification.every import Spread, _checked
+from tests.verification.checking import Spread, require
+from tests.verification.every import _checked, unchecked
 
 
-def test_the_first_two_of_a_test_and_a_tenth_of_the_others() -> None:
+def test_the_first_of_a_test_and_a_tenth_of_the_others() -> None:
     spread = Spread(every=False)
-    assert [number for number in range(1, 41) if spread("one")] == [1, 2, 10, 20, 30, 40]
-    assert [number for number in range(1, 12) if spread("another")] == [1, 2, 10]
+    assert [number for number in range(1, 41) if spread("file::one (call)")] == [1, 10, 20, 30, 40]
+    # with all of its parameters it is one test
+    names = [f"file::another[{number}] (call)" for number in range(1, 12)]
+    assert [number for number, name in enumerate(names, 1) if spread(name)] == [1, 10]
 
 
 def test_every_one_at_night() -> None:
@@ -22,7 +25,7 @@ def test_every_one_at_night() -> None:
 
 def test_a_false_answer_fails_the_test_that_asked_for_it() -> None:
     request = OptimizeRequest.model_validate(bodies("")["2d12"])
-    right = optimize(request)
+    right = unchecked(optimize)(request)
     assert right.certificate is not None
     certificate = right.certificate.model_copy(update={"lower_bound": 1.001 * right.certificate.lower_bound})
     false = right.model_copy(update={"certificate": certificate})
@@ -31,5 +34,10 @@ def test_a_false_answer_fails_the_test_that_asked_for_it() -> None:
         return false
 
     with pytest.raises(AssertionError):
-        _checked(compute, Spread(every=False))(request)
-    assert _checked(lambda _: right, Spread(every=False))(request) is right
+        _checked(compute)(request)
+    assert _checked(lambda _: right)(request) is right
+    body = bodies("")["2d12"]
+    every = Spread(every=True)
+    require(body, right, every)
+    with pytest.raises(AssertionError):
+        require(body, false, every)
