@@ -105,7 +105,9 @@ def test_who_asks_without_end_gives_way_to_who_asks_now_and_then(pool: Pool, mon
         async with anyio.create_task_group() as group:
             # it computes until its niceness changes
             group.start_soon(niceness, "before", tasks.lowered, "one")
-            await anyio.wait_all_tasks_blocked()
+            with anyio.fail_after(60):
+                while not any(worker.computing_s > 0 for worker in pool._busy):
+                    await anyio.sleep(0.01)
             group.start_soon(niceness, "now and then", tasks.niceness, "another")
         async with anyio.create_task_group() as group:
             group.start_soon(niceness, "again", tasks.niceness, "another")
