@@ -21,7 +21,8 @@ from rich.console import Console
 from rich.table import Table
 
 from service.documents.examples import bodies
-from tests.network.serving import ROOT, read, request, service
+from tests.commands import ROOT
+from tests.network.serving import read, request, service
 
 BODY = json.dumps(bodies()["2d12"]).encode()
 CLIENTS = (1, 4, 16, 64)

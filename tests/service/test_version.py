@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from service.routes.version import processor
-from tests.network.serving import ROOT
+from tests.commands import ROOT
 
 _NAMES = ("NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES")
 #: what numba compiles for, and what this machine is and has
