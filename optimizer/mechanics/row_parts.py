@@ -68,7 +68,6 @@ class RowParts:
     def _fourth(self) -> Real:
         """The same bounds for the forces of the rows, (R, P)."""
         bounds = self._series(self.centre, self.half, 4)
-        assert bounds.radius is not None  # enclosures have one
         found: Real = np.abs(bounds.middle[-1, 0]) + bounds.radius[0]
         return found
 

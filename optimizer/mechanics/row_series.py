@@ -34,11 +34,11 @@ class Taylor(NamedTuple):
 
     middle : (order + 1, ...) at points; of enclosures the middles of the last alone, (1, ...). Complex for vectors
         across the shaft.
-    radius : (...) of the enclosures; None at points.
+    radius : (N, R, P) of the enclosures; (0, R, P) at points.
     """
 
     middle: Real | Complex
-    radius: Real | None
+    radius: Real
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,7 @@ class RowSeries:
         """
         parts, radius = self.parts(reading)
         middle = parts[0] if len(parts) == 1 else parts[0] + 1j * parts[1]
-        return Taylor(middle, None if self.half is None else radius)
+        return Taylor(middle, radius)
 
     def parts(self, reading: Reading) -> tuple[Real, Real]:
         """The same, of vectors real and imaginary parts (1 or 2, ...), and the radii."""

@@ -307,6 +307,5 @@ def _sums(series: Taylor, weights: Complex | Real, constant: Complex | Real) -> 
 
 def _largest(bounds: Taylor, weights: Complex | Real) -> Real:
     """Largest magnitude of the last coefficient of the curves, (N, C, P), from enclosures of the rows."""
-    assert bounds.radius is not None  # enclosures have one
     found: Real = np.abs(weights @ bounds.middle[-1]) + np.abs(weights) @ bounds.radius
     return found
