@@ -14,7 +14,7 @@ GUIDE, EXAMPLE = ROOT / "docs" / "operation.md", ROOT / "deploy" / ".env.example
 BEGIN, END = "<!-- settings: written by docs/settings.py -->\n", "<!-- /settings -->\n"
 
 #: what a default is that depends on the machine
-FOUND_AT_START = {
+MACHINE_DEPENDENT = {
     "concurrent_solves": "number of cores",
     "sweep_workers": "number of cores",
     "data_dir": "$XDG_DATA_HOME/counterweight",
@@ -54,7 +54,7 @@ def variable(name: str, field: FieldInfo) -> str:
 def default(name: str, field: FieldInfo) -> str:
     """A default as it is written in the environment, or in words if it is found at the start."""
     if field.default is PydanticUndefined:
-        return FOUND_AT_START[name]
+        return MACHINE_DEPENDENT[name]
     match field.default:
         case None:
             return ""
@@ -73,7 +73,7 @@ def table() -> str:
         lines += [f"**{about}**", "", "| variable | default | meaning |", "|---|---|---|"]
         for name, field in fields.items():
             value = default(name, field)
-            shown = value if name in FOUND_AT_START or not value else f"`{value}`"
+            shown = value if name in MACHINE_DEPENDENT or not value else f"`{value}`"
             lines.append(f"| `{variable(name, field)}` | {shown} | {field.description} |")
         lines.append("")
     return "\n".join(lines)
@@ -86,8 +86,8 @@ def environment() -> str:
         lines += ["", f"# ---- {about}"]
         for name, field in fields.items():
             value = default(name, field)
-            lines.append(f"# {field.description}" + (f" (default: {value})" if name in FOUND_AT_START else ""))
-            lines.append(f"#{variable(name, field)}={'' if name in FOUND_AT_START else value}")
+            lines.append(f"# {field.description}" + (f" (default: {value})" if name in MACHINE_DEPENDENT else ""))
+            lines.append(f"#{variable(name, field)}={'' if name in MACHINE_DEPENDENT else value}")
     return "\n".join(lines) + "\n" + COMPOSE
 
 

@@ -180,8 +180,8 @@ def _workbook(write: Reference, name: str) -> Form:
 #: what a browser may take from a document as it stands
 _STYLES = "img-src data:; style-src 'unsafe-inline'; "
 COMPUTATIONS: dict[str, Computation] = {
-    one.name: one
-    for one in (
+    computation.name: computation
+    for computation in (
         Computation(
             name="optimize",
             path="/v1/optimize",

@@ -13,7 +13,7 @@ from optimizer.crankshaft.units import unit_problems
 from optimizer.errors import refuse
 from schemas.base.model import FieldProblem
 from schemas.shaft.answer import ShaftAnswer
-from schemas.shaft.request import ShaftRequest
+from schemas.shaft.request import ShaftFrame, ShaftRequest
 
 #: of the length between the outermost faces, by which measures of one thing differ at most
 _TOLERANCE = 1e-5
@@ -27,15 +27,14 @@ def read_shaft(request: ShaftRequest) -> ShaftAnswer:
     OutOfRange
         if they show none, or more than one, or are in different units.
     """
-    shaft = _shown(request) if request.faces else _bare(request)
+    # without faces there are a frame and bodies, as a rule of the request says
+    shaft = _shown(request) if request.faces or request.frame is None else _bare(request.frame)
     rotor = rotor_of(request.bodies, shaft.frame, shaft.ends) if request.bodies else None
     return report(request, shaft, rotor)
 
 
-def _bare(request: ShaftRequest) -> Shaft:
-    """Without faces there are a frame and bodies, as a rule of the request says."""
-    assert request.frame is not None
-    return Shaft(frame_of(request.frame), Plates((), (), ()), (), None)
+def _bare(frame: ShaftFrame) -> Shaft:
+    return Shaft(frame_of(frame), Plates((), (), ()), (), None)
 
 
 def _shown(request: ShaftRequest) -> Shaft:

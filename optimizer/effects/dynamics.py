@@ -9,6 +9,7 @@ import numpy as np
 
 from optimizer.effects.effect import Context, Effect
 from optimizer.effects.inertia import RODS, rod_problems
+from optimizer.effects.machine_kinds import reciprocating
 from optimizer.effects.results import (
     FlywheelFigures,
     FrictionForces,
@@ -40,11 +41,6 @@ from schemas.machine.reciprocating import ReciprocatingMachine
 _WIDEST_PANEL = np.deg2rad(10.0)
 
 
-def _reciprocating(machine: Machine) -> ReciprocatingMachine:
-    assert isinstance(machine, ReciprocatingMachine)  # checked by the problems of every effect below
-    return machine
-
-
 def _motion_problems(machine: Machine) -> Iterator[FieldProblem]:
     if not isinstance(machine, ReciprocatingMachine):
         yield FieldProblem(("kind",), "only a reciprocating machine has this")
@@ -71,7 +67,7 @@ def _has_gas(machine: Machine) -> bool:
 
 
 def _friction_problems(machine: Machine) -> Iterator[FieldProblem]:
-    data = _reciprocating(machine).friction
+    data = reciprocating(machine).friction
     by_efficiency = data is not None and data.mechanical_efficiency is not None
     if by_efficiency and data is not None and data.indicated_power_W is None and not _has_gas(machine):
         message = "friction by the efficiency needs the indicated power, or the cylinders"
@@ -80,8 +76,8 @@ def _friction_problems(machine: Machine) -> Iterator[FieldProblem]:
 
 def _gas_rules(machine: Machine) -> Iterator[Rule]:
     layout = layout_of(machine)
-    yield from delivery_rules(_reciprocating(machine), layout)
-    yield from trace_rules(_reciprocating(machine), layout)
+    yield from delivery_rules(reciprocating(machine), layout)
+    yield from trace_rules(reciprocating(machine), layout)
 
 
 def _flywheel_problems(machine: Machine) -> Iterator[FieldProblem]:
@@ -104,14 +100,14 @@ def _kinematics(context: Context) -> Motion:
 
 def _gas(context: Context) -> GasCycle:
     layout = context.layout
-    data = chambers(_reciprocating(context.machine), layout.omega.shape)
-    records = traces(_reciprocating(context.machine), layout)
+    data = chambers(reciprocating(context.machine), layout.omega.shape)
+    records = traces(reciprocating(context.machine), layout)
     forces = gas_forces(data, context.results["kinematics"], layout, records)
     return GasCycle(data, layout, forces, context.fidelity.kinematics == "exact", records)
 
 
 def _friction(context: Context) -> FrictionForces:
-    data = _reciprocating(context.machine).friction
+    data = reciprocating(context.machine).friction
     assert data is not None  # the effect does not apply without it
     moving = context.results["kinematics"]
     omega, stroke = context.layout.omega, 2.0 * context.layout.reciprocating.crank_radius
@@ -237,7 +233,7 @@ def _torque_errors(context: Context) -> TorqueErrors:
 
 
 def _flywheel(context: Context) -> FlywheelFigures:
-    data = _reciprocating(context.machine).flywheel
+    data = reciprocating(context.machine).flywheel
     assert data is not None  # checked by the problems
     # delta = dE / (J omega^2), the design calculation of the 2D12 (2-28)
     ratio = context.results["torque_integrals"].fluctuation / context.layout.omega**2

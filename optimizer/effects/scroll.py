@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from optimizer.effects.effect import Context, Effect
+from optimizer.effects.machine_kinds import pinned_scroll
 from optimizer.errors import MissingInput
 from optimizer.pins.answer import pin_loads
 from schemas.base.angles import Angles
@@ -37,24 +38,22 @@ def _problems(machine: Machine) -> Iterator[FieldProblem]:
 
 
 def _rules(machine: Machine) -> Iterator[Rule]:
-    assert isinstance(machine, ScrollMachine)  # checked by the problems
-    if machine.tangential_gas_force_N is not None:
+    scroll, _ = pinned_scroll(machine)
+    if scroll.tangential_gas_force_N is not None:
         # the one range of a scroll machine that is wider than that of the pins
-        lever = machine.orbit_radius_m
+        lever = scroll.orbit_radius_m
         outside = (lever < LEAST_PIN_RADIUS_M) | (lever > LARGEST_PIN_RADIUS_M)
         message = f"must be between {LEAST_PIN_RADIUS_M:g} and {LARGEST_PIN_RADIUS_M:g} for pin loads"
         yield Rule(outside, ("orbit_radius_m",), message)
 
 
 def _pin_loads(context: Context) -> PinLoadsAnswer:
-    machine = context.machine
-    assert isinstance(machine, ScrollMachine)  # checked by the problems
-    assert isinstance(machine.anti_rotation, CrankPins)
-    if machine.anti_rotation.count * context.angle.size > MAX_LOADS:
+    machine, pins = pinned_scroll(context.machine)
+    if pins.count * context.angle.size > MAX_LOADS:
         path = ("angles", "step_deg")
         raise MissingInput([FieldProblem(path, f"pins times samples must be at most {MAX_LOADS}")])
     step = 360.0 / context.angle.size
-    return pin_loads(_question(machine, machine.anti_rotation, Angles(step_deg=step)))
+    return pin_loads(_question(machine, pins, Angles(step_deg=step)))
 
 
 SCROLL = (

@@ -69,7 +69,7 @@ def gas_forces(chambers: Chambers, motion: Motion, layout: Layout, traces: Seque
     stroke = 2.0 * layout.reciprocating.crank_radius[..., :, None, None]
     head = motion.displacement[..., None, :]
     # the crank side empties where the difference from the stroke has no digits left
-    crank = stroke - head if motion.remaining is None else motion.remaining[..., None, :]
+    crank = motion.remaining[..., None, :]
     heads = head_sides(chambers.area)[:, None]
     travel = np.where(heads, head, crank)
     clear = chambers.clearance[..., None] * stroke

@@ -23,8 +23,7 @@ class Motion:
     acceleration: Real  # m/s^2
     rod_angle_sine: Real  # sin beta = lam sin phi
     rod_angle_cosine: Real
-    #: m, stroke - displacement without cancellation; None where that is not known
-    remaining: Real | None = None
+    remaining: Real  # m, stroke - displacement without cancellation
 
     @property
     def tangential_factor(self) -> Real:

@@ -47,11 +47,10 @@ def mirrored(response: TurnResponse, shafts: BalanceWebs) -> TurnResponse:
     Re(h v) is Re(conj(h) conj(v)), so that it is affine in the one as in the other.
     """
     assert response.scalar  # of a vector it is not
-    assert response.turning is not None  # something of a scalar turns
     own = response.influence.size - shafts.ratio.size
     back = np.concatenate([np.zeros(own, dtype=bool), shafts.ratio == -1.0])
     return replace(
         response,
         influence=np.where(back, np.conj(response.influence), response.influence),
-        turning=np.where(back, -response.turning, response.turning),
+        turning=None if response.turning is None else np.where(back, -response.turning, response.turning),
     )

@@ -59,7 +59,6 @@ class RowWork:
         It repeats with every turn.
         """
         rows, moving = self.layout.reciprocating, motion(self.layout, angle)
-        assert moving.remaining is not None  # of the exact motion
         own = np.mod(moving.crank_angle, TURN)
         stroke = 2.0 * rows.crank_radius[..., None]
         # both ways count from the outer dead centre
@@ -72,7 +71,8 @@ class RowWork:
             # a chamber counts from the dead centre at which it is smallest
             since = np.mod(own[..., None, :] + np.where(heads, 0.0, 0.5 * TURN), TURN)
             travel, rest = np.where(heads, moved, left), np.where(heads, left, moved)
-            gas = _gas_work(self.chambers, stroke[..., None], travel, rest, since < 0.5 * TURN, self._switching)
+            switching = switching_travels(self.chambers, self.layout)
+            gas = _gas_work(self.chambers, stroke[..., None], travel, rest, since < 0.5 * TURN, switching)
             work += np.sum(gas - self._indicated[..., None] * (since / TURN), axis=-2)
         found: Real = np.sum(work, axis=-2)
         return found
@@ -100,11 +100,6 @@ class RowWork:
         if self.chambers is None or self.indicated is not None:
             return self.indicated
         return indicated_work(self.chambers, self.layout)
-
-    @cached_property
-    def _switching(self) -> tuple[Real, Real]:
-        assert self.chambers is not None  # there is gas
-        return switching_travels(self.chambers, self.layout)
 
 
 def _gas_work(

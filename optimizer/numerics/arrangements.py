@@ -6,15 +6,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 
-def arrangements(times: NDArray[np.int64], places: int, most: int) -> NDArray[np.int64] | None:
-    """Numbers of kinds (N, places) of all arrangements, in rising order; None where there are more than ``most``.
+def few_arrangements(times: NDArray[np.int64], places: int, most: int) -> NDArray[np.int64] | None:
+    """The same as :func:`arrangements`; None where there are more than ``most``."""
+    return None if _number(times, places) > most else arrangements(times, places)
+
+
+def arrangements(times: NDArray[np.int64], places: int) -> NDArray[np.int64]:
+    """Numbers of kinds (N, places) of all arrangements, in rising order.
 
     Parameters
     ----------
     times : (kinds,) how many there are of every kind, together at least as many as places.
     """
-    if _number(times, places) > most:
-        return None
     left, chosen = np.asarray(times)[None, :], np.zeros((1, 0), dtype=np.int64)
     for _ in range(places):
         before, kind = np.nonzero(left)

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from optimizer.effects.machine_kinds import reciprocating
 from optimizer.effects.results import GasCycle
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.angles import direction
@@ -28,8 +29,7 @@ _READINGS: tuple[Reading, ...] = ("piston", "rod", "rod_at_rest")
 
 
 def _figure(scene: Prepared, fitted: Complex | None) -> Loads:
-    machine = scene.machine
-    assert isinstance(machine, ReciprocatingMachine)  # of the kinematics
+    machine = reciprocating(scene.machine)
     result, integrals = scene.results["torque"], scene.results["torque_integrals"]
     beyond = result.total - integrals.mean
     inertia = _inertia(scene, machine)
@@ -222,8 +222,7 @@ def _searches(scene: Prepared, _fitted: Complex | None) -> Iterator[Search]:
 
 
 def _columns(scene: Prepared, fitted: Complex) -> dict[str, Real]:
-    machine = scene.machine
-    assert isinstance(machine, ReciprocatingMachine)  # of the kinematics
+    machine = reciprocating(scene.machine)
     friction, mean = scene.results.get("friction"), scene.results["torque_integrals"].mean
     constant = 0.0 if friction is None else friction.torque
     results = {

@@ -5,12 +5,12 @@ from typing import Any
 
 import numpy as np
 
+from optimizer.effects.machine_kinds import pinned_scroll
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.output import Columns, Output
 from optimizer.pins.loads import LoadShapes, PeriodicTable, gas_torques, peaks
-from schemas.machine.scroll_machine import CrankPins, ScrollMachine
 from schemas.scroll.over_turn import ForceTable, TorqueTable
 from schemas.scroll.pin_loads import PinLoads
 
@@ -26,11 +26,9 @@ def _columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
     Radius, lever and a constant torque are factors, so that designs with the same table and number of pins share one
     search of the turn.
     """
-    machine = scene.machine
-    assert isinstance(machine, ScrollMachine)  # missing inputs otherwise
-    assert isinstance(machine.anti_rotation, CrankPins)
-    pins = np.broadcast_to(np.asarray(machine.anti_rotation.count, dtype=float), scene.layout.omega.shape)
-    factor = 2.0 / (pins * machine.anti_rotation.pin_circle_radius_m)
+    machine, guide = pinned_scroll(scene.machine)
+    pins = np.broadcast_to(np.asarray(guide.count, dtype=float), scene.layout.omega.shape)
+    factor = 2.0 / (pins * guide.pin_circle_radius_m)
     if machine.drive_bearing.carries:
         # one pin or two hold nothing where the eccentric lies along them
         factor = np.where(pins < 3.0, np.nan, factor)

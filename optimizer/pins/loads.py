@@ -26,7 +26,7 @@ from optimizer.numerics.arrays import Complex, Real
 
 #: pins whose places leave a line by less than this share of their span are on it; so near a dead point, in radians,
 #: the loads are of the order of 1e6 times the usual ones and mean nothing
-ON_ONE_LINE = 1e-6
+COLLINEAR = 1e-6
 _PANEL_DEG = 0.5
 _BISECTIONS = 48
 
@@ -162,7 +162,7 @@ def dead_points(place: Complex) -> Real:
     The levers are all equal where the eccentric lies along a line through all pins.
     """
     major, minor, along = principal(place - np.mean(place), np.ones(place.shape))
-    if minor > ON_ONE_LINE * major:
+    if minor > COLLINEAR * major:
         return np.zeros(0)
     return _both_ways(np.rad2deg(along))
 
@@ -178,7 +178,7 @@ def _both_ways(angle_deg: Real) -> Real:
 def at_dead_point(angle_deg: Real, dead_deg: Real) -> np.ndarray:
     """Whether shaft angles (...) are at one of the dead points (d,)."""
     away = np.mod(angle_deg[..., None] - dead_deg + 180.0, 360.0) - 180.0
-    return np.any(np.abs(away) <= np.rad2deg(ON_ONE_LINE), axis=-1)
+    return np.any(np.abs(away) <= np.rad2deg(COLLINEAR), axis=-1)
 
 
 @dataclass(frozen=True)

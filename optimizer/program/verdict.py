@@ -29,7 +29,7 @@ OPTIMAL_LIGHTEST = (
     "Proven optimal: the gap to the lower bound is within the requested gap, and every limit is kept. The total mass is"
     " proven minimum to 1e-4 of its reference value."
 )
-NOT_KEPT = "The ceilings are neither kept nor proven infeasible: they lie on the boundary of the feasible peaks."
+ON_THE_BOUNDARY = "The ceilings are neither kept nor proven infeasible: they lie on the boundary of the feasible peaks."
 NOT_CLOSE = "The objective is not certified to the requested gap."
 NOT_LIGHT = "The total mass is not certified as minimum."
 CONTRADICTED = "Nothing is proven: a bound contradicts the answer, which is a fault of the service."
@@ -136,7 +136,7 @@ def verdict(claim: Claim, tolerance: float) -> Verdict:
     said = np.maximum.reduce([1 * ~light, 2 * ~close, 3 * ~kept, 4 * false])
     return Verdict(
         np.where(optimal, "optimal", "inaccurate"),
-        np.array([why, NOT_LIGHT, NOT_CLOSE, NOT_KEPT, CONTRADICTED])[said],
+        np.array([why, NOT_LIGHT, NOT_CLOSE, ON_THE_BOUNDARY, CONTRADICTED])[said],
         np.where(nothing[..., None], np.nan, bound),
         np.where(nothing[..., None], np.nan, gap),
         np.where(nothing, np.nan, relative),

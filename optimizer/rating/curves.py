@@ -9,7 +9,7 @@ from schemas.rating.request import RatingRequest
 #: where the customary figures are from
 SOURCE = "design calculation of the 2D12-90/2-20 compressor"
 #: what is said of a figure that the request gives itself
-GIVEN = "request"
+REQUEST = "request"
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from optimizer.rating.built import StageBuilt, build, piston_speed
 from optimizer.rating.choice import chosen
 from optimizer.rating.curves import (
-    GIVEN,
+    REQUEST,
     TEMPERATURE_SOURCE,
     discharge_losses,
     suction_losses,
@@ -114,9 +114,9 @@ def _sources(request: RatingRequest, stage: CompressionStage) -> CoefficientSour
     curve = temperature_coefficients(request)
     customary = TEMPERATURE_SOURCE if curve is None else curve.source
     return CoefficientSources(
-        suction_pressure_loss=suction_losses(request).source if stage.suction_pressure_loss is None else GIVEN,
-        discharge_pressure_loss=discharge_losses(request).source if stage.discharge_pressure_loss is None else GIVEN,
-        temperature_coefficient=customary if stage.temperature_coefficient is None else GIVEN,
+        suction_pressure_loss=suction_losses(request).source if stage.suction_pressure_loss is None else REQUEST,
+        discharge_pressure_loss=discharge_losses(request).source if stage.discharge_pressure_loss is None else REQUEST,
+        temperature_coefficient=customary if stage.temperature_coefficient is None else REQUEST,
     )
 
 

@@ -145,11 +145,12 @@ def peaks(responses: Sequence[TurnResponse], unbalance: Complex, tolerance: Real
         return peaks_about(responses, offset, tolerance)
     # what turns makes another curve of each
     tolerances = np.broadcast_to(tolerance, len(responses))
+    added = [response.harmonics(unbalance) for response in responses]
     brackets = [
         peaks_about([response], offset[k : k + 1], tolerances[k])
-        if response.turning is None
-        else _moving(response, unbalance, tolerances[k])
-        for k, response in enumerate(responses)
+        if by is None
+        else _moving(response, by, tolerances[k])
+        for k, (response, by) in enumerate(zip(responses, added, strict=True))
     ]
     return Bracket(*(np.concatenate(part) for part in zip(*brackets, strict=True)))
 
@@ -181,10 +182,8 @@ def peaks_about(
     return Bracket(*(np.concatenate(part)[order] for part in zip(*brackets, strict=True)))
 
 
-def _moving(response: TurnResponse, unbalance: Complex, tolerance: Reals) -> Bracket:
+def _moving(response: TurnResponse, by: Harmonics, tolerance: Reals) -> Bracket:
     """Peak (1,) of a curve to which counterweights add what turns; its value is that without them all the same."""
-    by = response.harmonics(unbalance)
-    assert by is not None  # that is what turns
     brackets = moved(response.curves.pieces, response.number, by).peaks(np.zeros(1, dtype=complex), tolerance)
     return brackets._replace(value=brackets.value - by.at(brackets.angle))
 

@@ -19,7 +19,7 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import beside
 from optimizer.numerics.arrays import Complex
-from optimizer.program.cuts.optimum import CertifiedOptimum, over_turn
+from optimizer.program.cuts.optimum import over_turn
 from optimizer.program.limits import Limits
 from optimizer.program.reference.solver import Solver
 from optimizer.solve.caps import cost
@@ -89,8 +89,9 @@ def _cheaper(
     """
     allowances = sorted(set(every))
     program = robust.goals().program
-    first, size = over_turn(program, robust.wanted.relative_gap, False, robust.left_s), float(program.units[-1])
-    assert isinstance(first, CertifiedOptimum)  # the best choice keeps the ceilings
+    # the best choice keeps the ceilings
+    first = over_turn(program, robust.wanted.relative_gap, False, robust.left_s).certain()
+    size = float(program.units[-1])
     costs, seconds = Costs(program, first, (), choices, solver, size=size), robust.left_s
     # to the last digit, as it is answered
     offered = [Choice(*masses_and_angles(robust.task.machine, u, program.limits), u, COMPARED) for u in incumbents]

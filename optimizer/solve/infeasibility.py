@@ -297,6 +297,5 @@ def _under_ceilings(task: Task, goals: Goals) -> list[str]:
 
 def _least(program: Problem, group: Group, solver: Solver) -> CertifiedOptimum:
     """The smallest value of one group."""
-    found = optimum(program.changed(goals=(Goal("alone", (group,)),)), _ALONE, False, solver)
-    assert isinstance(found, CertifiedOptimum)  # without ceilings nothing is out of reach
-    return found
+    # without ceilings nothing is out of reach
+    return optimum(program.changed(goals=(Goal("alone", (group,)),)), _ALONE, False, solver).certain()

@@ -49,6 +49,10 @@ class Solution:
         """All fields of the answer."""
         return {**self.shown.fields, "certificate": self.certificate, **self.fields}
 
+    def certain(self) -> "Solution":
+        """This one, where there has to be one."""
+        return self
+
 
 @dataclass(frozen=True)
 class Infeasible:
@@ -67,6 +71,16 @@ class Infeasible:
         """All fields of the answer."""
         nothing = {"counterweights": (), "total_mass_kg": None, "certificate": None}
         return nothing | {"infeasibility": self.infeasibility}
+
+    def certain(self) -> Solution:
+        """Nothing, where there has to be a solution.
+
+        Raises
+        ------
+        ArithmeticError
+            whatever it is: the proof contradicts that there is no ceiling.
+        """
+        raise ArithmeticError(f"{self.reason} There is no ceiling.")
 
 
 def multipliers_of(proof: Proof, omega_squared: float, speeds: Speeds) -> BoundMultipliers:

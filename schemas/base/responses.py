@@ -72,8 +72,8 @@ class ResponseFields:
 PAIR = ("force", "moment")
 #: in the order of answers
 RESPONSES: dict[str, ResponseFields] = {
-    each.name: each
-    for each in (
+    fields.name: fields
+    for fields in (
         ResponseFields("force", "N", "force", along={"x": "force along x", "y": "force along y"}),
         ResponseFields("moment", "N m", "moment", along={"x": "horizontal couple", "y": "vertical couple"}),
         # beside these two

@@ -53,7 +53,7 @@ KINDS: dict[str, CaseKind] = {
     # beside this one
 }
 #: fields of a request about the machine as it is given
-AS_GIVEN: Mapping[str, Any] = {field: kind.default for field, kind in KINDS.items()}
+NOMINAL: Mapping[str, Any] = {field: kind.default for field, kind in KINDS.items()}
 
 
 def stated(request: Scene) -> Iterator[str]:

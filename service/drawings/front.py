@@ -11,7 +11,7 @@ from service.drawings.layout import CrankMachine, Fitted, Layout, OrbitMachine, 
 from service.drawings.outline import bounded, points, turned
 from service.drawings.svg import AFTER, FAINT, INK, MUTED, SERIES, Drawing, Point, shortened
 
-Each = TypeVar("Each", bound=tuple[float, str, object])
+Entry = TypeVar("Entry", bound=tuple[float, str, object])
 
 #: width and height, and how far the machine and the axes of its rows reach, px
 SIZE, _MACHINE, _AXES = 400.0, 144.0, 164.0
@@ -246,7 +246,7 @@ def _web_names(view: _View, weights: Sequence[Fitted], shapes: Sequence[Shape]) 
         yield Label((x + 3.5 * len(text) * math.cos(math.radians(first.angle_deg)), y), text, AFTER)
 
 
-def _grouped(items: Iterable[Each]) -> Iterator[tuple[float, list[Each]]]:
+def _grouped(items: Iterable[Entry]) -> Iterator[tuple[float, list[Entry]]]:
     """Items by their angle."""
     for angle, group in groupby(sorted(items, key=lambda item: item[0]), key=lambda item: item[0]):
         yield angle, list(group)

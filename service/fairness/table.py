@@ -13,7 +13,7 @@ Resource = Literal[
 ]  # fmt: skip
 _MB = 1_000_000
 #: every so many-th connection is kept for clients who have at most so many
-_KEPT, _FEW = 10, 8
+_RESERVE_SHARE, _FEW = 10, 8
 
 
 class Refusal(NamedTuple):
@@ -59,7 +59,7 @@ ANY = Share("places to wait", inf, inf)
 
 def connections(altogether: int, per_client: int) -> Share:
     """Open connections, some of which are kept for clients who have few."""
-    reserve = altogether // _KEPT
+    reserve = altogether // _RESERVE_SHARE
     return Share("open connections", per_client, altogether - reserve, min(_FEW, per_client), reserve, NO_ROOM)
 
 

@@ -12,7 +12,7 @@ from service.common.headers import joined
 Offer = TypeVar("Offer")
 Name = TypeVar("Name", bound=str)
 #: headers that are kept with what they prefer: clients send the same few again and again
-_SHORT, _KEPT = 256, 256
+_SHORT, _CACHE_SIZE = 256, 256
 
 
 class NotAcceptable(ValueError):
@@ -35,7 +35,7 @@ def preferred(header: str, offered: Sequence[Name]) -> Name | None:
     None where the client accepts none.
     """
     offered = tuple(offered)
-    return (_known if len(header) <= _SHORT else _preferred)(header, offered)
+    return (_cached if len(header) <= _SHORT else _preferred)(header, offered)
 
 
 def _preferred(header: str, offered: tuple[Name, ...]) -> Name | None:
@@ -45,7 +45,7 @@ def _preferred(header: str, offered: tuple[Name, ...]) -> Name | None:
     return best if liked[best] > 0 else None
 
 
-_known = lru_cache(_KEPT)(_preferred)
+_cached = lru_cache(_CACHE_SIZE)(_preferred)
 
 
 def negotiate(request: Request, offered: Mapping[str, Offer]) -> Offer | None:

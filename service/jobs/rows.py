@@ -11,8 +11,8 @@ from service.jobs.tables import chunks, jobs, schema
 _ID = re.compile(r"[0-9a-f]{32}")
 JOB = [jobs.c[name] for name in FIELDS]
 # put together once, as they are asked at every turn
-_FOUND: Select[tuple[object, ...]] = select(*JOB).where(jobs.c.id == bindparam("job"), jobs.c.state != REMOVED)
-_LOCKED = _FOUND.with_for_update()
+_BY_ID: Select[tuple[object, ...]] = select(*JOB).where(jobs.c.id == bindparam("job"), jobs.c.state != REMOVED)
+_LOCKED = _BY_ID.with_for_update()
 
 
 class UnknownJob(LookupError):
@@ -39,7 +39,7 @@ def find(connection: Connection, job: str, lock: bool = False) -> Job | None:
     # a database may choke on what is no id
     if _ID.fullmatch(job) is None:
         return None
-    row = connection.execute(_LOCKED if lock else _FOUND, {"job": job}).mappings().first()
+    row = connection.execute(_LOCKED if lock else _BY_ID, {"job": job}).mappings().first()
     return None if row is None else job_from(row)
 
 

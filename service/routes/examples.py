@@ -16,7 +16,7 @@ from service.http.cached_document import CachedDocument
 from service.http.operations import BINARY, parameters, problems, ref, unchanged
 
 router = APIRouter(tags=["examples"])
-_KEPT = {"parameters": parameters("If-None-Match")}
+_REVALIDATION = {"parameters": parameters("If-None-Match")}
 
 
 @router.get(
@@ -25,7 +25,7 @@ _KEPT = {"parameters": parameters("If-None-Match")}
     summary="All examples",
     response_model=Examples,
     responses={**unchanged(), **problems()},
-    openapi_extra=_KEPT,
+    openapi_extra=_REVALIDATION,
 )
 async def list_examples(request: Request) -> Response:
     return _listed(request.scope.get("root_path", "")).answer(request)
@@ -37,7 +37,7 @@ async def list_examples(request: Request) -> Response:
     summary="An example, ready to be posted",
     response_class=Response,
     responses={**unchanged({"application/json": {"schema": ref(OptimizeRequest)}}), **problems(404)},
-    openapi_extra=_KEPT,
+    openapi_extra=_REVALIDATION,
 )
 async def read_example(request: Request, name: str) -> Response:
     """The very body one can post to `/v1/optimize`."""
@@ -50,7 +50,7 @@ async def read_example(request: Request, name: str) -> Response:
     summary="An example as a workbook, to be changed into one's own and posted",
     response_class=Response,
     responses={**unchanged({XLSX: BINARY}, "Content-Disposition"), **problems(404, 422)},
-    openapi_extra=_KEPT,
+    openapi_extra=_REVALIDATION,
 )
 @in_threads
 def read_template(

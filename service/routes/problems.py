@@ -15,7 +15,7 @@ from service.http.operations import TEXT, accept, parameters, problems, unchange
 router = APIRouter(tags=["problems"])
 
 _JSON, _HTML, _PLAIN = "application/json", "text/html", "text/plain"
-_FORMS = {each: each for each in (_JSON, _HTML, _PLAIN)}
+_FORMS = {media_type: media_type for media_type in (_JSON, _HTML, _PLAIN)}
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'none'"
 
 

@@ -53,7 +53,7 @@ _ENDS = [needs("sweeps", "compute")]
 _STARTS = [needs("sweeps")]
 _BLOCK_BYTES = 262_144
 _NO_STORE = {"Cache-Control": "no-store"}
-_BY_MEDIA_TYPE: Mapping[str, Name] = {known.media_type.split(";")[0]: name for name, known in FORMATS.items()}
+_BY_MEDIA_TYPE: Mapping[str, Name] = {format_.media_type.split(";")[0]: name for name, format_ in FORMATS.items()}
 _ROWS = {
     **{media_type: content_of(media_type) for media_type in _BY_MEDIA_TYPE},
     "application/json": {"schema": {"type": "object"}},

@@ -21,7 +21,7 @@ from service.tables.lines import Cell, Lines
 #: share of the objective without counterweights that what is off may cost
 ALLOWANCE = 0.01
 #: errors up to which the rise of a convex objective is at most in proportion to them [deg, per cent]
-_KNOWN = 1.0
+_LARGEST_ERROR = 1.0
 
 HEADS = (
     "web", "optimum, kg", "as built, kg", "difference, kg", "tolerance, +- kg",
@@ -102,7 +102,7 @@ def tolerance(answer: OptimizeAnswer) -> Tolerance:
         return Tolerance(None, None)
     room = ALLOWANCE * proof.yardstick
     share, angle = (
-        min(room / per, _KNOWN) if per > 0.0 else _KNOWN
+        min(room / per, _LARGEST_ERROR) if per > 0.0 else _LARGEST_ERROR
         for per in (rise.objective_rise_per_percent, rise.objective_rise_per_deg)
     )
     return Tolerance(share / 100.0, angle)

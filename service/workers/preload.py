@@ -25,8 +25,8 @@ try:
     from service.computations import COMPUTATIONS
     from service.workers import worker  # noqa: F401
 
-    for _one in COMPUTATIONS.values():
-        resolve_name(_one.request)
+    for _computation in COMPUTATIONS.values():
+        resolve_name(_computation.request)
     for _needed in ("optimize", "analyze"):
         resolve_name(COMPUTATIONS[_needed].compute)
     if find_spec("cvxpy") is None:

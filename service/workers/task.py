@@ -14,7 +14,7 @@ from service.guard.sizes import SizeLimits
 #: its priority, and how many bytes follow that say what to do, and with what
 _HEAD = struct.Struct("!BIQ")
 #: of what to do there are some for each computation
-_KEPT = 256
+_CACHE_SIZE = 256
 
 
 class Priority(IntEnum):
@@ -64,12 +64,12 @@ class Task:
 
 
 # pickled and read once: dozens of names cost more than to check a request
-@lru_cache(_KEPT)
+@lru_cache(_CACHE_SIZE)
 def _serialize(*order: object) -> bytes:
     return pickle.dumps(order)
 
 
-@lru_cache(_KEPT)
+@lru_cache(_CACHE_SIZE)
 def _deserialize(order: bytes) -> tuple[Computation, Form, SizeLimits, Coding | None, bool, bool]:
     found: tuple[Computation, Form, SizeLimits, Coding | None, bool, bool] = pickle.loads(order)
     return found

@@ -34,6 +34,7 @@ def table_motion() -> Motion:
         series.acceleration,
         exact.rod_angle_sine,
         exact.rod_angle_cosine,
+        exact.remaining,
     )
 
 

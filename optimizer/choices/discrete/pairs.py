@@ -34,7 +34,7 @@ _SAMPLE, _WIDE, _SEED = 4_096, 16.0, 20_261_126
 #: lines of cells that hold what is near
 _LINES = 3.0
 #: sums that are looked at between two looks at the time
-_LOOKED = 20_000_000
+_SUMS_A_LOOK = 20_000_000
 #: sums that are looked at, for each sum of a half and each pair that may be evaluated
 _LOOKS = 200
 
@@ -124,7 +124,7 @@ class Pairs:
                     return True
                 met, start, looked = near(
                     first, sums, *ball.second.lists, grid.slab, *grid.cut, taken, start, reach**2,
-                    np.array([at_once, _LOOKED]),
+                    np.array([at_once, _SUMS_A_LOOK]),
                 )  # fmt: skip
                 looks, found, at_once = looks - looked, found + met.shape[1], min(2 * at_once, self.at_once)
                 if met.shape[1]:

@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from optimizer.effects.machine_kinds import reciprocating
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex, Real
@@ -103,9 +104,7 @@ def _driver(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
 
 
 def _machine(scene: Prepared) -> ReciprocatingMachine:
-    machine = scene.machine
-    assert isinstance(machine, ReciprocatingMachine)  # no other has loads
-    return machine
+    return reciprocating(scene.machine)
 
 
 _OF_ROWS = ("largest_gas_N.", "largest_inertia_N.", "piston_rod_N.")

@@ -79,6 +79,10 @@ class CertifiedOptimum:
         """Of the objective."""
         return self.goals[-1].proof
 
+    def certain(self) -> "CertifiedOptimum":
+        """This one, where there has to be one."""
+        return self
+
     def counting(self, value: float) -> "CertifiedOptimum":
         """With the mass proven for all that come to no more than this value: that of counterweights which rounding has
         put above what was counted as an optimum."""
@@ -114,6 +118,16 @@ class Unkept:
     limits: Limits
     certify_s: float
     method: str = METHOD
+
+    def certain(self) -> CertifiedOptimum:
+        """Nothing, where there has to be an optimum: without ceilings, or where some counterweights keep them.
+
+        Raises
+        ------
+        ArithmeticError
+            whatever it is: the proof contradicts what is known.
+        """
+        raise ArithmeticError(f"an excess of {self.proof.bound:g} is proven where the ceilings are kept")
 
 
 def over_turn(

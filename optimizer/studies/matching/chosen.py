@@ -25,7 +25,6 @@ from optimizer.program.certificate import Multipliers, normalised, objective_low
 from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
-from optimizer.solve.solution import Solution
 from optimizer.solve.solve import solve
 from optimizer.studies.matching.problem import Minorants, Problem
 from schemas.base.rules import Path
@@ -126,11 +125,11 @@ class Chosen:
         left = max(self.until - time.thread_time(), _SHORTEST_S)
         task = Task(machine, self.request.objective, self._posed.fidelity, float(gap), left)
         scene = prepare(self._posed, machine=machine)
-        found = solve(task, scene, self.solver, in_full=False)
-        assert isinstance(found, Solution)  # without ceilings nothing is infeasible
-        proof = found.certificate
+        # without ceilings nothing is infeasible
+        solution = solve(task, scene, self.solver, in_full=False).certain()
+        proof = solution.certificate
         bound = -np.inf if proof.lower_bound is None else proof.lower_bound / scene.omega_squared
-        return proof.objective / scene.omega_squared, bound, Fitted(found.mass, found.angle)
+        return proof.objective / scene.omega_squared, bound, Fitted(solution.mass, solution.angle)
 
     def _minorants(self, program: Statement, multipliers: Multipliers, mass: Real) -> Minorants:
         """The bounds as functions of the vectors of the parts."""

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.numerics.arrangements import arrangements
+from optimizer.numerics.arrangements import few_arrangements
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.studies.matching.bound import Plane, plane
 from optimizer.studies.matching.problem import Minorants, Places, Problem
@@ -40,7 +40,7 @@ class Half(NamedTuple):
 def _arranged(places: Places) -> Real | None:
     """All different arrangements of a class (N, rows), masses row by row; None where there are too many."""
     masses, times = np.unique(places.mass, return_counts=True)
-    result = arrangements(times, int(np.sum(places.row >= 0)), _SUMS)
+    result = few_arrangements(times, int(np.sum(places.row >= 0)), _SUMS)
     return None if result is None else masses[result]
 
 

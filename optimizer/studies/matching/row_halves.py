@@ -30,7 +30,7 @@ _PAIRS, _RAISED = 4.0, 2.0
 _CELLS = 24
 #: sets between two looks at the time, at first and at most; pairs that are looked at between them
 _FEW, _MANY = 4, 64
-_LOOKED = 20_000_000
+_SUMS_A_LOOK = 20_000_000
 #: roundings by which windows are wider
 _ROUNDINGS = 16.0
 
@@ -150,7 +150,9 @@ class _Class:
     def look(self, some: slice, level: float) -> tuple[float, int, Real]:
         """Below a level: the smallest peak of some sets, of how many, and the masses (n,) in the order of the class."""
         sets = Sets(*(each[some] for each in self._scaled))
-        reached, done, result = joined(self._quarters, self._tables, self._window, self._peaks, sets, level, _LOOKED)
+        reached, done, result = joined(
+            self._quarters, self._tables, self._window, self._peaks, sets, level, _SUMS_A_LOOK
+        )
         mass = np.empty_like(result)
         mass[self._place] = result
         return float(reached), int(done), mass

@@ -156,8 +156,8 @@ class _Front:
         least = self.request.objective.least_mass and "mass" not in self.traded.names
         asked = self.request.accuracy.relative_gap
         share = min(1.0, float(np.min(self.size / unit)))
-        result = over_turn(self.traded.along(anchor, unit), share * asked, least)
-        assert isinstance(result, CertifiedOptimum)  # the ends have kept the ceilings
+        # the ends have kept the ceilings
+        result = over_turn(self.traded.along(anchor, unit), share * asked, least).certain()
         masses, angles = masses_and_angles(self.machine, result.point.unbalance, result.limits)
         u = unbalance(masses, angles, result.limits.radius)
         values, excess = self.traded.values(u), self.traded.excess(u)

@@ -12,17 +12,17 @@ from schemas.sweep.crank_orders import CrankOrders
 
 @lru_cache(maxsize=4)
 def orders(request: CrankOrders) -> Real:
-    """Angles (N, throws) deg of the first of all orders that are one machine, in rising order."""
+    """Angles (N, throws) deg of the first of all orders that are one machine, in rising order.
+
+    How many there may be is a rule of the request.
+    """
     times = np.array(request.times)
     if request.alike:
         # the first of them begins with the first angle
-        rest = arrangements(
-            times - np.eye(times.size, dtype=np.int64)[0], int(np.sum(times)) - 1, request.sequence_count
-        )
-        result = None if rest is None else np.concatenate([np.zeros((len(rest), 1), dtype=np.int64), rest], axis=1)
+        rest = arrangements(times - np.eye(times.size, dtype=np.int64)[0], int(np.sum(times)) - 1)
+        result = np.concatenate([np.zeros((len(rest), 1), dtype=np.int64), rest], axis=1)
     else:
-        result = arrangements(times, int(np.sum(times)), request.sequence_count)
-    assert result is not None  # there are no more than are looked through
+        result = arrangements(times, int(np.sum(times)))
     own = _code(result, times.size)
     for symmetry in request.symmetries:
         image = np.array(symmetry.image)[result]
