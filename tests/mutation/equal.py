@@ -35,6 +35,8 @@ _PROGRAM: dict[str, str] = {
     "methods/compiled.py _solve: reachable > 0 -> reachable > 1": _STEERS,
     "methods/compiled.py _solve: unit > 0 -> unit > 1": _STEERS,
     "methods/compiled.py plain_discs: 0 < norms.constant.shape[-1] < 3 -> 1 < norms.constant.shape[-1] < 3": _SPEED,
+    "methods/implied_bounds.py responses: np.abs(row - other) <= _SAME -> np.abs(row - other) < _SAME": "rows that"
+    " differ by their rounding may count as one or as two",
     "methods/rounding.py _RUNGS": _STEERS,
 }
 _FORMULATION: dict[str, str] = {
