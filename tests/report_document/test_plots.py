@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 import pytest
 
 from schemas.request.accuracy import AccuracyAnswer
-from service.drawings.svg import AFTER, FAINT, SERIES, Drawing
+from service.drawings.svg import AFTER, FAINT, INK, MUTED, SERIES, Drawing
 from service.report import charts
 from service.report.accuracy_picture import draw
 from service.report.loci import Curve, locus
@@ -171,7 +171,36 @@ def test_a_hodograph_has_its_peak_in_the_units_of_its_axes() -> None:
     assert math.hypot(*farthest) == pytest.approx(30.0, rel=_ROUNDED)
     assert math.degrees(math.atan2(farthest[1], farthest[0])) % 180 == pytest.approx(25.0, abs=1.1)
     assert min(math.hypot(*one) for one in found) == pytest.approx(10.0, rel=_ROUNDED)
+    x, y = axes(svg)
+    assert x.step == pytest.approx(-y.step, rel=1e-9)
     assert on_paper(svg)
+
+
+@pytest.mark.parametrize(
+    ("svg", "dark"),
+    [
+        (charts.hodograph("force", "N", [charts.after("with", 30.0, 10.0, 25.0)]).svg(), MUTED),
+        (locus("force", "N", [Curve("A", [3 + 4j, 5 - 2j, -1j], 3 + 1j, 4.0, SERIES[2])]).svg(), MUTED),
+        (charts.chart("load", "N", "z", [-1.0, 0.0, 1.0], [charts.Line("a", [3.0, -2.0, 1.0])]).svg(), INK),
+    ],
+)
+def test_the_line_of_nothing_is_darker_than_the_others(svg: str, dark: str) -> None:
+    _, y = axes(svg)
+    level = [one for one in shapes(svg) if one.tag == "path" and len({point[1] for point in one.points}) == 1]
+    grid = [one for one in level if one.attributes.get("stroke-width") == "0.8"]
+    assert len(grid) > 2
+    for one in grid:
+        nothing = abs(y.value(one.points[0][1])) < _ROUNDED
+        assert (one.attributes["stroke"] == dark) == nothing
+
+
+@pytest.mark.parametrize(("values", "room"), [([100.0, 200.0], 3.0), ([7.0, 7.0], 0.7), ([0.0, 0.0], 1.0)])
+def test_an_axis_around_values_has_a_little_room_on_either_side(values: list[float], room: float) -> None:
+    """Analytic: 3 % of what they span, or 10 % of one that is alone."""
+    low, high, marks = charts.spread(values)
+    assert (min(values) - low, high - max(values)) == (pytest.approx(room), pytest.approx(room))
+    assert low <= min(marks) <= max(marks) <= high
+    assert len(marks) >= 2
 
 
 def test_methods_stand_at_their_time_and_error() -> None:
