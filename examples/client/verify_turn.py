@@ -135,6 +135,8 @@ def unreachable(request: Place, answer: Place, budget: Place, said: Place) -> Cl
         yield EVIDENCE, implied, None, ONE
     yield from closest(request, machine, said / "closest")
     if len(program.parts) == 1 and not (program.scattered or program.first.all or program.first.geared):
+        # a scenario alone is a machine of its own
+        machine = program.first.machine
         yield from smallest(machine, Place({}), said, proofs, implied)
         for name, unit in NAMES.items():
             lowest, found = (said / f"smallest_{name}{part}_{unit}" for part in ("_lower_bound", ""))
