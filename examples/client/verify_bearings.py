@@ -51,10 +51,16 @@ def magnitude(claim: str, place: Place, name: str, unit: str, peak: Peak, off: f
     value, bracket = place / f"{name}_{unit}", place / f"{name}_bracket_{unit}"
     yield within(claim, value, peak.low * (1 - PEAK), peak.high, off)
     ends = list(bracket)
-    yield claim, bracket, ONE if len(ends) == 2 else -ONE, ONE
+    yield rising(claim, bracket)
     if len(ends) == 2:
         yield within(claim, ends[0], peak.low * (1 - PEAK), peak.high, off)
         yield within(claim, ends[1], peak.low, peak.high * (1 + PEAK), off)
+
+
+def rising(claim: str, bracket: Place) -> Claim:
+    """A bracket has a lower end and then an upper one."""
+    ends = [one.double() for one in bracket]
+    return claim, bracket, ONE if len(ends) == 2 and ends[0] <= ends[1] else -ONE, ONE
 
 
 def where(claim: str, place: Place, loads: Loads, curve: Periodic, peak: Peak) -> Claim:
@@ -205,7 +211,7 @@ def _bending(loads: Loads, place: Place, fitted: Optional[Fitted]) -> Claims:
     low, high = max(one.low for one in found), max(one.high for one in found)
     yield within("main_bearings", place / "peak_Nm", low * (1 - PEAK), high, off)
     ends = list(place / "peak_bracket_Nm")
-    yield "main_bearings", place / "peak_bracket_Nm", ONE if len(ends) == 2 else -ONE, ONE
+    yield rising("main_bearings", place / "peak_bracket_Nm")
     if len(ends) == 2:
         yield within("main_bearings", ends[0], low * (1 - PEAK), high, off)
         yield within("main_bearings", ends[1], low, high * (1 + PEAK), off)

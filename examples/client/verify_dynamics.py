@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import degrees, inf, radians, sqrt
 from typing import Iterable, List, NamedTuple, Optional, Sequence, Tuple
 
-from verify_bearings import PEAK, SAMPLE, sampled, within
+from verify_bearings import PEAK, SAMPLE, rising, sampled, within
 from verify_claims import Claim, Claims, same
 from verify_gas import TURN, Cycle, force
 from verify_harmonics import Peak
@@ -154,7 +154,7 @@ def signed(claim: str, place: Place, name: str, peak: Peak, off: float, sign: in
     wide = PEAK * abs(low) + off
     yield _between(claim, place / f"{name}_N", low - wide, high + off, sign)
     ends = list(place / f"{name}_bracket_N")
-    yield claim, place / f"{name}_bracket_N", ONE if len(ends) == 2 else -ONE, ONE
+    yield rising(claim, place / f"{name}_bracket_N")
     if len(ends) == 2:
         first, last = ends[::sign]
         yield _between(claim, first, low - wide, high + off, sign)

@@ -12,6 +12,7 @@ from math import factorial, perm
 from typing import Any, Dict, Iterator, List, Mapping, NamedTuple, Sequence, Tuple
 
 from verify_claims import Claims, near, same
+from verify_form import form
 from verify_machine import NAMES, Machine, Responses
 from verify_numbers import ABOUT_ONE, ONE, SPECK, ZERO, Number, Place, Unreadable, largest, real
 from verify_orders import first_order
@@ -36,6 +37,7 @@ class Parts(NamedTuple):
 
 def matching(request: Place, answer: Place) -> Claims:
     """Claims of an assignment of parts to rows."""
+    yield from form(answer, ("match",))
     asked = request / "machine"
     rows = [(k, n) for k, throw in enumerate(asked / "throws") for n, _ in enumerate(throw / "rows")]
     classes, nuts = list(_classes(request, rows)), _nuts(request)

@@ -135,6 +135,8 @@ def unreachable(request: Place, answer: Place, budget: Place, verdict: Place) ->
         yield EVIDENCE, implied, None, ONE
     yield from closest(request, machine, verdict / "closest")
     if len(program.parts) == 1 and not (program.scattered or program.first.all or program.first.geared):
+        # a scenario alone is a machine of its own
+        machine = program.first.machine
         yield from smallest(machine, Place({}), verdict, proofs, implied)
         for name, unit in NAMES.items():
             lowest, attained = (verdict / f"smallest_{name}{part}_{unit}" for part in ("_lower_bound", ""))

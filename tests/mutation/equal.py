@@ -4,7 +4,7 @@ _STEERS = "it leads a search: every point is judged, and every bound proven, by 
 _SPEED = "it says how the same is computed, and how fast"
 _ALIKE = "both come to the same there"
 _FINER = "finer or coarser than is needed, within what is told of it"
-_LOOKS = "a hundredth of the width of a line: nobody can see it"
+_LOOKS = "a hundredth of the width of a line, or a px of the sample of a line in a legend: nobody can see it"
 _SIDES = "the moment is the same from either side"
 _OPEN = "of open sides nothing is used"
 _MECHANICS: dict[str, str] = {
@@ -35,6 +35,8 @@ _PROGRAM: dict[str, str] = {
     "methods/compiled.py _solve: reachable > 0 -> reachable > 1": _STEERS,
     "methods/compiled.py _solve: unit > 0 -> unit > 1": _STEERS,
     "methods/compiled.py plain_discs: 0 < norms.constant.shape[-1] < 3 -> 1 < norms.constant.shape[-1] < 3": _SPEED,
+    "methods/implied_bounds.py responses: np.abs(row - other) <= _SAME -> np.abs(row - other) < _SAME": "rows that"
+    " differ by their rounding may count as one or as two",
     "methods/rounding.py _RUNGS": _STEERS,
 }
 _FORMULATION: dict[str, str] = {
@@ -46,6 +48,10 @@ _SERVICE: dict[str, str] = {
     "jobs/coordinator.py _AT_A_TIME": _SPEED,
     "jobs/coordinator.py _collect_rows: len(came) > _AT_A_TIME -> len(came) >= _AT_A_TIME": _SPEED,
     "jobs/coordinator.py stop: self._thread.join(6) -> self._thread.join(7)": _FINER,
+    "report/chapters/bearing_loci.py _turned: -1j * sense -> -1j / sense": "a sense is 1 or -1",
+    "report/charts.py hodograph: one.major / factor * (x.end - x.start) / (x.high - x.low) < _DOT"
+    " -> one.major / factor * (x.end - x.start) / (x.high - x.low) <= _DOT": _ALIKE,
+    "report/charts.py chart: place[0] + 22 -> place[0] + 23": _LOOKS,
     "report/accuracy_picture.py _axes: 0.8 -> 0.809": _LOOKS,
 }
 #: `file of: fault`, of the function or name that it stands in; without a fault all that stands there

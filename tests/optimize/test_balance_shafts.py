@@ -7,11 +7,12 @@ import pytest
 from pydantic import ValidationError
 
 from optimizer.analyze import analyze
-from optimizer.formulation.balance_shafts import fitted
+from optimizer.formulation.balance_shafts import chosen, fitted
 from schemas.answer.answers import OptimizeAnswer
 from schemas.front.pareto import ParetoRequest
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.accuracy import AccuracyRequest
+from schemas.request.objective import Objective
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep.request import SweepRequest
 from tests.optimize.machines import throw, web
@@ -288,3 +289,17 @@ def test_nobody_near_is_better_over_all_orders(rotation: str) -> None:
             one["mass_kg"] = min(place["max_mass_kg"], one["mass_kg"] * (1.0 + scale * rng.normal()))
             one["angle_deg"] += 90.0 * scale * rng.normal()
         assert sampled(other) >= found.certificate.lower_bound * (1.0 - 2e-3)
+
+
+@pytest.mark.parametrize(
+    ("ratio", "orders", "drawn"), [(-1, "first", 330.0), (-1, "all", 30.0), (1, "first", 30.0), (-2, "first", 30.0)]
+)
+def test_a_shaft_that_turns_backwards_is_drawn_as_the_mirror_image_of_its_phasor(
+    ratio: int, orders: str, drawn: float
+) -> None:
+    """Analytic: its unbalance at shaft angle 0 is the conjugate of what the program of the first order adds up."""
+    machine = ReciprocatingMachine.model_validate(single([shaft("one", ratio)]))
+    objective = Objective.model_validate({"orders": orders})
+    (there,) = chosen(machine, objective, np.array([1.0, 0.25]), np.array([70.0, 30.0])).balance_shafts
+    assert there.counterweights[0].angle_deg == pytest.approx(drawn, abs=1e-12)
+    assert there.counterweights[0].mass_kg == 0.25

@@ -1,5 +1,6 @@
 """Programs over the turn by cuts: what they reach and what they prove."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import cvxpy as cp
@@ -10,8 +11,10 @@ from hypothesis import strategies as st
 
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.certificate import mass_lower_bound, objective_lower_bound
+from optimizer.program.cuts.attempts import FREELY, WITHIN, Attempt
 from optimizer.program.cuts.optimum import CertifiedOptimum, Unkept, over_turn
 from optimizer.program.cuts.semi_infinite import Goal, Problem
+from optimizer.program.cuts.stage import Search
 from optimizer.program.solution import CEILING_ROUNDING
 from optimizer.responses.curve import floor
 from tests.program.cases import random_point
@@ -240,3 +243,19 @@ def test_a_share_of_everything_makes_the_second_goal_the_only_one() -> None:
     program, best = priorities(0, 100.0)
     alone = found(program.alone(1))
     assert best.goals[1].value == pytest.approx(alone.goals[0].value, abs=2e-6 * float(program.yardsticks[1]))
+
+
+@pytest.mark.parametrize(("ceiling", "attempts"), [(None, FREELY), (1e3, WITHIN)])
+def test_a_solver_that_finds_nothing_is_asked_in_every_way_once(
+    ceiling: float | None, attempts: Sequence[Attempt], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Then the point of rest is the answer, with what rest proves."""
+    tried: list[Attempt] = []
+    monkeypatch.setattr(Search, "_solved", lambda _self, _statement, attempt: tried.append(attempt))
+    program = bearings(1)
+    if ceiling is not None:
+        program = program.changed(limited=tuple((q, ceiling) for q in range(len(program.quantities))))
+    best = found(program)
+    assert tuple(tried) == attempts
+    assert not np.any(best.point.unbalance)
+    assert 0.0 <= best.goals[-1].lower_bound < best.goals[-1].value

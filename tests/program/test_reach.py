@@ -1,5 +1,7 @@
 """How far webs without a limit have to be looked into."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -84,3 +86,25 @@ def test_what_is_blended_stays_in_its_sector() -> None:
     for target in (12.0, 15.0, 40.0):
         found = _blended(program, far, safe, target)
         assert np.all(np.abs(within.into(found) - found) <= 4e-16 * np.abs(found))
+
+
+@pytest.mark.parametrize("turn", [0.0, 100.0, 180.0, 260.0])
+@pytest.mark.parametrize("half_angle", [30.0, 100.0])
+def test_the_reach_of_webs_in_sectors_does_not_depend_on_where_these_point(turn: float, half_angle: float) -> None:
+    """Analytic: what turns with everything else is the same; a web alone carries its response by itself."""
+    influence, most, apart = np.array([[0.5, -1.5]]), np.array([3.0]), np.zeros(1, bool)
+    straight = limits(2, half_angle)
+    turned = replace(straight, centre=direction(turn) * straight.centre)
+    told = carrying_mass(influence, turned, most, apart)
+    assert told == pytest.approx(carrying_mass(influence, straight, most, apart), rel=1e-6)
+    # the lighter web reaches what is to be carried, or the heavier one does
+    assert 3.0 / 1.5 * (1 - 1e-9) <= told < np.inf
+
+
+@pytest.mark.parametrize("ceiling", [12.0, 15.0])
+def test_a_response_that_is_small_and_limited_is_one(ceiling: float) -> None:
+    """Analytic: |10 + u| is at most its ceiling, so that |u| is at most 10 kg m more."""
+    force = Response("force", "N", Phasors(np.asarray(10.0 + 0j), np.asarray(0j)), np.ones(1))
+    free = replace(limits(1, 90.0), free=np.ones(1, bool))
+    program = statement(combined([weighted_peak(force, 1.0)], "sum"), [(force, ceiling)], free)
+    assert within_reach(program, SOLVER).limits.max_mass == pytest.approx([(10.0 + ceiling) / 0.25], rel=1e-6)

@@ -116,6 +116,18 @@ class Subject:
         home[key] = new
         return old, new, type(self.about).model_validate(body)
 
+    def changed_together(self) -> tuple[dict[str, float], Any]:
+        """All but series changed at once, each a little and by a share of its own: the new numbers by their names."""
+        body, found = deepcopy(self.body), dict[str, float]()
+        for number, change in enumerate(one for one in self.changes if one.how == "little"):
+            *above, key = change.path
+            for length, step in enumerate(above):
+                home = _at(body, tuple(above[:length]))
+                home[step] = list(home[step]) if isinstance(home[step], tuple) else home[step]
+            home = _at(body, tuple(above))
+            home[key] = found[change.name] = (home[key] or 1.0) * (1.001 + 1e-5 * number)
+        return found, type(self.about).model_validate(body)
+
     def follows(self, change: Change) -> list[str]:
         """Places that change with a leaf: `=` those that show it itself, `~` those that follow from it."""
         old, new, other = self.changed(change)

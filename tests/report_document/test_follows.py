@@ -54,6 +54,15 @@ def test_the_report_changes_where_a_figure_stands_and_nowhere_else(name: str) ->
     assert subject().follows(change) == FOLLOWS[name]
 
 
+def test_every_figure_stands_in_its_place_when_all_are_changed_at_once() -> None:
+    """What is shown itself; what follows from several has no number of its own."""
+    numbers, other = subject().changed_together()
+    shown = places(rendered(other).chapters)
+    wanted = {place[2:]: numbers[name] for name in numbers for place in FOLLOWS[name] if place.startswith("= ")}
+    assert len(wanted) > 130
+    assert {place: shown.get(place) for place in wanted} == wanted
+
+
 def test_every_kind_of_figure_of_the_answer_is_in_the_table() -> None:
     assert [one.name for one in subject().changes] == list(FOLLOWS)
 

@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 import pytest
 
 from schemas.request.accuracy import AccuracyAnswer
-from service.drawings.svg import AFTER, FAINT, SERIES, Drawing
+from service.drawings.svg import AFTER, FAINT, INK, MUTED, SERIES, Drawing
 from service.report import charts
 from service.report.accuracy_picture import draw
 from service.report.loci import Curve, locus
@@ -147,20 +147,23 @@ def test_designs_have_their_values_and_the_front_joins_those_that_none_beats() -
     assert on_paper(svg)
 
 
+@pytest.mark.parametrize("factor", [1.0, 1e3])
 @pytest.mark.parametrize("turn", range(4))
-def test_a_circle_around_a_curve_is_where_it_is_and_on_the_paper(turn: int) -> None:
+def test_a_circle_around_a_curve_is_where_it_is_and_on_the_paper(turn: int, factor: float) -> None:
     """Far from the origin, in every quadrant."""
     centre = (30.0 + 10.0j) * 1j**turn
     points = [centre + 8.0 * math.cos(angle / 9) + 5.0j * math.sin(angle / 9) for angle in range(57)]
-    svg = locus("force", "N", [Curve("A", points, centre, 8.0, SERIES[2])]).svg()
-    curve = lines(svg, SERIES[2])[0]
-    assert near(values(svg, curve[:-1]), [(one.real, one.imag) for one in points])
+    curve = Curve("A", [40.0 * factor * one for one in points], 40.0 * factor * centre, 320.0 * factor, SERIES[2])
+    svg = locus("force", "N", [curve]).svg()
+    points, centre = [40.0 * one for one in points], 40.0 * centre
+    drawn = lines(svg, SERIES[2])[0]
+    assert near(values(svg, drawn[:-1]), [(one.real, one.imag) for one in points])
     (circle,) = (one for one in shapes(svg) if one.tag == "circle" and float(one.attributes["r"]) > 5.0)
     assert near(values(svg, circle.points), [(centre.real, centre.imag)])
     x, y = axes(svg)
     # equal scales, y upwards
     assert x.step == pytest.approx(-y.step, rel=_ROUNDED)
-    assert float(circle.attributes["r"]) == pytest.approx(8.0 * x.step, rel=_ROUNDED)
+    assert float(circle.attributes["r"]) == pytest.approx(320.0 * x.step, rel=_ROUNDED)
     assert on_paper(svg)
 
 
@@ -171,7 +174,37 @@ def test_a_hodograph_has_its_peak_in_the_units_of_its_axes() -> None:
     assert math.hypot(*farthest) == pytest.approx(30.0, rel=_ROUNDED)
     assert math.degrees(math.atan2(farthest[1], farthest[0])) % 180 == pytest.approx(25.0, abs=1.1)
     assert min(math.hypot(*one) for one in found) == pytest.approx(10.0, rel=_ROUNDED)
+    x, y = axes(svg)
+    assert x.step == pytest.approx(-y.step, rel=1e-9)
     assert on_paper(svg)
+
+
+@pytest.mark.parametrize(
+    ("svg", "dark"),
+    [
+        (charts.hodograph("force", "N", [charts.after("with", 30.0, 10.0, 25.0)]).svg(), MUTED),
+        (locus("force", "N", [Curve("A", [3 + 4j, 5 - 2j, -1j], 3 + 1j, 4.0, SERIES[2])]).svg(), MUTED),
+        (charts.chart("load", "N", "z", [-1.0, 0.0, 1.0], [charts.Line("a", [3.0, -2.0, 1.0])]).svg(), INK),
+    ],
+)
+def test_the_line_of_nothing_is_darker_than_the_others(svg: str, dark: str) -> None:
+    """That of a chart along one axis, of what is on equal scales along both."""
+    for side, axis in enumerate(axes(svg)):
+        along = [one for one in shapes(svg) if one.tag == "path" and len({point[side] for point in one.points}) == 1]
+        grid = [one for one in along if one.attributes.get("stroke-width") == "0.8"]
+        assert len(grid) > 2
+        for one in grid if side == 1 or dark == MUTED else ():
+            nothing = abs(axis.value(one.points[0][side])) < _ROUNDED
+            assert (one.attributes["stroke"] == dark) == nothing
+
+
+@pytest.mark.parametrize(("values", "room"), [([100.0, 200.0], 3.0), ([7.0, 7.0], 0.7), ([0.0, 0.0], 1.0)])
+def test_an_axis_around_values_has_a_little_room_on_either_side(values: list[float], room: float) -> None:
+    """Analytic: 3 % of what they span, or 10 % of one that is alone."""
+    low, high, marks = charts.spread(values)
+    assert (min(values) - low, high - max(values)) == (pytest.approx(room), pytest.approx(room))
+    assert low <= min(marks) <= max(marks) <= high
+    assert len(marks) >= 2
 
 
 def test_methods_stand_at_their_time_and_error() -> None:

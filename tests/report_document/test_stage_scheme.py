@@ -89,3 +89,19 @@ def test_many_rows_are_not_all_drawn() -> None:
     found = optimize(request).gas
     assert found is not None
     assert len(list(indicators(request.machine, found.model_copy(update={"rows": found.rows * 5})))) == 8
+
+
+def test_heads_of_arrows_are_small_and_slender() -> None:
+    """Analytic: both sides of a head are 8 px long and 30 degrees off the arrow, so that all three are alike."""
+    machine, found = stages_of("2d12")
+    heads = 0
+    for cell in cells(machine, found):
+        paths = [each.get("d") or "" for each in cell.iter(f"{_SVG}path")]
+        areas = [path.strip("MZ").split("L") for path in paths if path.endswith("Z")]
+        for corners in (each for each in areas if len(each) == 3):
+            heads += 1
+            tip, one, other = (complex(*map(float, corner.split())) for corner in corners)
+            assert abs(one - tip) == pytest.approx(8.0, abs=0.02)
+            assert abs(other - tip) == pytest.approx(8.0, abs=0.02)
+            assert abs(one - other) == pytest.approx(8.0, abs=0.03)
+    assert heads > 5

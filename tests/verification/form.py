@@ -8,6 +8,7 @@ from pydantic import BaseModel
 from schemas.answer.answers import OptimizeAnswer
 from schemas.answer.outputs import OutputFields
 from schemas.front.pareto import ParetoAnswer
+from schemas.match.answer import MatchAnswer
 
 #: parts of which nothing is looked at, whatever they hold
 _UNKNOWN = {"trades", "counts"}
@@ -18,7 +19,8 @@ _OUTPUTS = {*OutputFields.model_fields} - {*_KNOWN}
 
 def fields(model: type[BaseModel] = OptimizeAnswer, path: str = "") -> dict[str, tuple[str, ...]]:
     """Names of the fields of every object of an answer, by its place; `*` for all of a list."""
-    found = {path: tuple(name for name in model.model_fields if path or name not in OutputFields.model_fields)}
+    named = {name: field.alias or name for name, field in model.model_fields.items()}
+    found = {path: tuple(alias for name, alias in named.items() if path or name not in OutputFields.model_fields)}
     for name, field in model.model_fields.items():
         if path or name not in _OUTPUTS:
             for where, inner in _models(field.annotation, f"{path}/{name}"):
@@ -41,6 +43,7 @@ def _models(annotation: Any, path: str) -> list[tuple[str, type[BaseModel]]]:
 
 
 def all_fields() -> dict[str, tuple[str, ...]]:
-    """Of single answers, and of fronts, whose places begin with `/pareto`, but for trades of other responses."""
-    fronts = fields(ParetoAnswer, "/pareto")
-    return fields() | {path: names for path, names in fronts.items() if not _UNKNOWN & {*path.split("/")}}
+    """Of single answers, of matching, and of fronts but for trades of other responses, each by its place."""
+    fronts = fields(ParetoAnswer, "/pareto").items()
+    known = {path: names for path, names in fronts if not _UNKNOWN & {*path.split("/")}}
+    return fields() | fields(MatchAnswer, "/match") | known

@@ -147,3 +147,24 @@ def test_scenarios_move_planes_of_their_own(path: str, orders: str) -> None:
     assert checker().verify(body, answer)["verdict"] == "held"
     moved["changes"] = []
     assert broken(body, answer)
+
+
+@pytest.mark.parametrize(
+    ("path", "value"),
+    [("throws/0/rows/0/reciprocating_mass_kg", 9.0), ("throws/1/position_m", 0.12), ("speed_rpm", 700.0)],
+)
+def test_floors_of_a_scenario_alone_are_those_of_its_machine(path: str, value: float) -> None:
+    """Regression: the checker took them from the machine as it is given. Without limits what turns is cancelled."""
+    body = copy.deepcopy(SINGLE["infeasible without limits"])
+    changes = [{"path": f"/machine/{path}", "value": value}]
+    body["scenarios"] = [{"name": "changed", "weight": 0.7, "changes": changes}]
+    answer = json.loads(optimize(OptimizeRequest.model_validate(body)).model_dump_json())
+    assert answer["status"] == "infeasible"
+    for proof in ("smallest_force", "smallest_moment"):
+        for term in answer["infeasibility"]["multipliers"][proof]["terms"]:
+            term["x"] = term["y"] = 0.0
+    assert not broken(body, answer)
+    for field in ("smallest_force_lower_bound_N", "smallest_moment_lower_bound_Nm"):
+        wrong = copy.deepcopy(answer)
+        wrong["infeasibility"][field] *= 1.0001
+        assert broken(body, wrong), field

@@ -1,5 +1,6 @@
 """Gas, friction and inertia in the checker: pressures, works, peaks and all outputs of them."""
 
+from collections.abc import Iterator
 from functools import cache
 from math import pi
 from typing import Any
@@ -170,3 +171,23 @@ def test_pressures_have_the_units_of_the_service(text: str) -> None:
     """Independent: the units of the schema."""
     place = part("numbers").Place({"discharge_pressure_Pa": text}, "request")
     assert (place / "discharge_pressure_Pa").double() == parse_quantity(text, "Pa")
+
+
+def brackets(node: Any) -> Iterator[list[float]]:
+    """Every bracket of an answer that is wider than nothing."""
+    for name, value in node.items() if isinstance(node, dict) else enumerate(node) if isinstance(node, list) else ():
+        if "bracket" in str(name) and value[0] < value[1]:
+            yield value
+        yield from brackets(value)
+
+
+def test_both_ends_of_a_bracket_stand_in_their_order() -> None:
+    request, answer = pair("four strokes")
+    every = list(brackets(answer))
+    assert len(every) > 4
+    # of bearings, of rods, and of bending moments
+    for bracket in (every[0], every[len(every) // 2], answer["main_bearings"]["bending"]["peak_bracket_Nm"]):
+        bracket.reverse()
+        assert broken(request, answer)
+        bracket.reverse()
+    assert not broken(request, answer)

@@ -56,7 +56,17 @@ def fewer_rows(answer: Answer) -> None:
     answer["rows"].pop()
 
 
-@pytest.mark.parametrize("tampered", [swap_names, double, drop, elsewhere, lighter, fewer_rows])
+def without_mass(answer: Answer) -> None:
+    del answer["assignments"][0]["mass_kg"]
+
+
+def without_proof(answer: Answer) -> None:
+    del answer["certificate"]["lower_bound"]
+
+
+@pytest.mark.parametrize(
+    "tampered", [swap_names, double, drop, elsewhere, lighter, fewer_rows, without_mass, without_proof]
+)
 def test_what_is_wrong_with_it_is_broken(files: tuple[Answer, Answer], tampered: Callable[[Answer], None]) -> None:
     request, answer = copy.deepcopy(files)
     tampered(answer)
