@@ -46,7 +46,7 @@ def test_every_feature_is_legal_somewhere(base: str) -> None:
 def test_some_pairs(half: int) -> None:
     outcomes = [ask(base, pair) for base, pair in some_pairs()[half::2]]
     assert not _faults(outcomes)
-    assert sum(each.kind == "answered" for each in outcomes) >= 60
+    assert sum(each.kind == "answered" for each in outcomes) >= 55
 
 
 @pytest.mark.parametrize("combination", some_pairs()[::9], ids=_short)
