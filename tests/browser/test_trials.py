@@ -31,8 +31,8 @@ def _look(portal: Portal, name: str, looks: Sequence[str]) -> None:
     portal.page.emulate_media(color_scheme="dark")
     if "narrow" in looks:
         found["narrow"] = _serious(portal)
-    # nothing is wider than the window
-    assert portal.page.evaluate("document.documentElement.scrollWidth") <= 390
+    # nothing is wider than the window, once plots have the width that there is
+    portal.page.wait_for_function("() => document.documentElement.scrollWidth <= 390")
     portal.screenshot(f"{name}-390-dark")
     portal.page.set_viewport_size({"width": 1280, "height": 900})
     portal.page.emulate_media(color_scheme="light", media="print")

@@ -1,6 +1,7 @@
 """``accuracy.relative_gap`` is honoured both ways, and the certificate says what was reached.
 
-``HARD_SEARCH=2000 pytest tests/hard/test_asked_gap.py`` searches that many machines; otherwise a few, always the same.
+``CHECKED_ANSWERS=every HARD_SEARCH=2000 pytest tests/hard/test_asked_gap.py`` searches that many machines; otherwise a
+few, always the same.
 Expected numbers are analytic (what the bounds of one answer say of another) or independent (100-digit evaluation).
 """
 

@@ -1,6 +1,7 @@
 """Searches for requests that break the certificate or the status; what they find is kept in cases/found.json.
 
-``HARD_SEARCH=2000 pytest tests/hard/test_search.py`` searches that many at random; otherwise a few, always the same.
+``CHECKED_ANSWERS=every HARD_SEARCH=2000 pytest tests/hard/test_search.py`` searches that many at random; otherwise a
+few, always the same.
 Expected numbers are independent (the 100-digit reference) or analytic (symmetries of the problem).
 """
 

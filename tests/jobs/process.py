@@ -17,7 +17,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from tests.commands import Command
-from tests.jobs.serving import DELAY, VERSION
+from tests.jobs.serving import DELAY
 from tests.processes import fork_servers
 
 
@@ -37,8 +37,6 @@ class Service:
         self.process = Command(
             "tests.jobs.serving",
             environment={**os.environ, **base, **environment, DELAY: str(delay_s), **(more or {})},
-            # answers have read that of the mould
-            fresh=VERSION in (more or {}),
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
             text=True,

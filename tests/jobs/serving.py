@@ -27,8 +27,9 @@ def slow(kind: str, request: bytes, start: int, stop: int, flag: str) -> ChunkRe
 
 def serve(**given: Any) -> None:
     if VERSION in os.environ:
-        # before any answer has read it
+        # answers of what it was forked from have read the other one
         schemas.base.version.version = lambda _: os.environ[VERSION]
+        schemas.base.version.package_version.cache_clear()
     # workers import this module as well, and need none of these
     from optimizer.studies.sweep import plan
     from service.app import create_app

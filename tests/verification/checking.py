@@ -26,9 +26,9 @@ class Spread:
         self._every = every
         self._counts = Counter[str]()
 
-    def __call__(self, test: str | None) -> bool:
+    def __call__(self, test: str) -> bool:
         """Whether the next answer of a test is checked; it is named as pytest names it, parameters and phase behind."""
-        function = (test or "").partition("[")[0]
+        function = test.partition("[")[0]
         self._counts[function] += 1
         count = self._counts[function]
         return self._every or count <= _FIRST or count % _STEP == 0
@@ -51,7 +51,7 @@ def require(request: Any, answer: Any, spread: Spread = _spread) -> None:
     AssertionError
         if the answer is one of those that are checked, and a claim of it is broken.
     """
-    if spread(os.environ.get("PYTEST_CURRENT_TEST")):
+    if is_checked(spread):
         # a dictionary is what a request was made of; tests may put arrays where JSON has lists
         text = (
             json.dumps(request, default=lambda array: array.tolist())
@@ -61,6 +61,12 @@ def require(request: Any, answer: Any, spread: Spread = _spread) -> None:
         sent = json.loads(text)
         found = broken(sent, json.loads(answer.model_dump_json()))
         assert not found, "\n".join([*found, text])
+
+
+def is_checked(spread: Spread = _spread) -> bool:
+    """Whether the next answer is one of those; outside of tests each is."""
+    test = os.environ.get("PYTEST_CURRENT_TEST")
+    return test is None or spread(test)
 
 
 def broken(request: Any, answer: Any) -> list[str]:

@@ -6,7 +6,7 @@ from optimizer.optimize import optimize
 from schemas.answer.answers import OptimizeAnswer
 from schemas.request.requests import OptimizeRequest
 from service.documents.examples import bodies
-from tests.verification.checking import Spread, require
+from tests.verification.checking import Spread, is_checked, require
 from tests.verification.every import _checked, unchecked
 
 
@@ -21,6 +21,13 @@ def test_the_first_of_a_test_and_a_tenth_of_the_others() -> None:
 def test_every_one_at_night() -> None:
     spread = Spread(every=True)
     assert all(spread("one") for _ in range(40))
+
+
+def test_every_one_outside_of_tests(monkeypatch: pytest.MonkeyPatch) -> None:
+    spread = Spread(every=False)
+    assert [number for number in range(1, 12) if is_checked(spread)] == [1, 10]
+    monkeypatch.delenv("PYTEST_CURRENT_TEST")
+    assert all(is_checked(spread) for _ in range(12))
 
 
 def test_a_false_answer_fails_the_test_that_asked_for_it() -> None:
