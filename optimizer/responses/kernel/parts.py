@@ -123,9 +123,16 @@ def _size(value, sign):  # type: ignore[no-untyped-def]
     return _length(value) if sign == 0.0 else sign * value.real
 
 
-@inner_with_arrays
-def _extremes(cubic, sign):  # type: ignore[no-untyped-def]
-    """What a polynomial is not above, and its values at both ends."""
+@inner
+def _reach(value):  # type: ignore[no-untyped-def]
+    """Magnitude but for rounding, for a third of its price where squares have all their digits."""
+    square = value.real * value.real + value.imag * value.imag
+    return np.sqrt(square) if 1e-280 < square < 1e280 else abs(value)
+
+
+@inner
+def _extremes(cubic, sign, square):  # type: ignore[no-untyped-def]
+    """What a polynomial is not above, and its values at both ends; by what it squares to (7,), which it overwrites."""
     if sign != 0.0:
         most = -np.inf
         for j in range(4):
@@ -136,7 +143,7 @@ def _extremes(cubic, sign):  # type: ignore[no-untyped-def]
             if j == 0:
                 first = value
         return most, first, value
-    square = np.zeros(7)
+    square[:] = 0.0
     for i in range(4):
         for k in range(4):
             square[i + k] += cubic[i].real * cubic[k].real + cubic[i].imag * cubic[k].imag
@@ -166,7 +173,7 @@ def first_open(known, asked, best):  # type: ignore[no-untyped-def]
                 # how far the curve may be from the middle of a piece
                 most[m, p] = middle + known.rest[curve, p]
                 for i in range(1, 4):
-                    most[m, p] += _length(known.cubic[curve, p, i])
+                    most[m, p] += _reach(known.cubic[curve, p, i])
                 _keep(best, group, middle - known.rest[curve, p], known.centre[curve, p], p, m)
     count = 0
     for m in range(members):
@@ -195,10 +202,10 @@ def first_open(known, asked, best):  # type: ignore[no-untyped-def]
 def still_open(parts, asked, best, most_parts):  # type: ignore[no-untyped-def]
     """Those that may hold a peak above the best found, theirs included, unless there are too many."""
     number = parts.member.size
-    most = np.empty(number)
+    most, square = np.empty(number), np.empty(7)
     for n in range(number):
         place, member = parts.place[n], parts.member[n]
-        largest, first, last = _extremes(parts.cubic[n], asked.sign[asked.group[member]])
+        largest, first, last = _extremes(parts.cubic[n], asked.sign[asked.group[member]], square)
         most[n] = largest + place[_REST]
         angle = place[_CENTRE] - place[_HALF] if first >= last else place[_CENTRE] + place[_HALF]
         _keep(best, asked.group[member], max(first, last) - place[_REST], angle, parts.piece[n], member)
