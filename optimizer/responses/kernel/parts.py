@@ -11,6 +11,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.compiling import inner, inner_with_arrays
+from optimizer.numerics.kernel.circle import length
 from optimizer.numerics.polynomials import shifts, to_bernstein
 
 #: what may hold a peak is cut into so many parts: by its polynomial, or to be expanded anew, which leaves out 16^-4
@@ -124,13 +125,6 @@ def _size(value, sign):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _reach(value):  # type: ignore[no-untyped-def]
-    """Magnitude but for rounding, for a third of its price where squares have all their digits."""
-    square = value.real * value.real + value.imag * value.imag
-    return np.sqrt(square) if 1e-280 < square < 1e280 else abs(value)
-
-
-@inner
 def _extremes(cubic, sign, square):  # type: ignore[no-untyped-def]
     """What a polynomial is not above, and its values at both ends; by what it squares to (7,), which it overwrites."""
     if sign != 0.0:
@@ -173,7 +167,7 @@ def first_open(known, asked, best):  # type: ignore[no-untyped-def]
                 # how far the curve may be from the middle of a piece
                 most[m, p] = middle + known.rest[curve, p]
                 for i in range(1, 4):
-                    most[m, p] += _reach(known.cubic[curve, p, i])
+                    most[m, p] += length(known.cubic[curve, p, i])
                 _keep(best, group, middle - known.rest[curve, p], known.centre[curve, p], p, m)
     count = 0
     for m in range(members):
