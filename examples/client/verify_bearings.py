@@ -240,5 +240,6 @@ def all_orders(loads: Loads, answer: Place, fitted: Optional[Fitted]) -> Claims:
             sides.append(("after", loads.with_weights(name, fitted.turning, fitted.on_shafts)))
         for side, curve in sides:
             found = peak_of(curve, shown)
-            off = SAMPLE * loads.size_of(name)
+            # what weights add may be all that there is
+            off = SAMPLE * (loads.size_of(name) + found.high)
             yield within("turn", shown / side / f"{name}_peak_{unit}", found.low * (1 - 2e-8), found.high, off)

@@ -37,12 +37,10 @@ class CurveBatch:
         turn = self.parts[0].whole
         cubic, rest, size = self._series.over(turn.points, turn.bounds, turn.half)
         centre, half = (spread(each, rest.shape) for each in (turn.centre, turn.half))
+        pieces = Pieces(centre, half, cubic, rest, size, source=self)
         for part, ends in zip(self.parts, pairwise(self.first.tolist()), strict=True):
-            own = slice(*ends)
-            alone = Pieces(centre[own], half[own], cubic[own], rest[own], size[own], source=part)
-            # whoever looks at the part alone finds them there
-            vars(part).setdefault("pieces", alone)
-        return Pieces(centre, half, cubic, rest, size, source=self)
+            part.take(pieces, slice(*ends))
+        return pieces
 
     def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
         """Series about centres (m,) within pieces."""

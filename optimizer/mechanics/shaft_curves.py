@@ -9,7 +9,7 @@ finitely many responses, and no error. Everything is over omega^2.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -44,9 +44,7 @@ class ShaftCurves:
 
     def first(self, count: int) -> "ShaftCurves":
         """The first curves of each design alone."""
-        curves = self.curves
-        some = replace(curves, weights=curves.weights[:, :count], constant=curves.constant[:, :count])
-        return ShaftCurves(some, self.webs[..., :count, :])
+        return ShaftCurves(self.curves.first(count), self.webs[..., :count, :])
 
     def responses(self, names: Sequence[str], unit: str) -> tuple[TurnResponse, ...]:
         """The curves of one machine as responses."""

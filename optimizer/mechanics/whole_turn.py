@@ -187,6 +187,17 @@ class TurnCurves:
         weights, constant = (each[number : number + 1] for each in (self.weights, self.constant))
         return TurnCurves(self.whole.of_design(number), self.reading, weights, constant)
 
+    def first(self, count: int) -> "TurnCurves":
+        """The first curves of each design alone."""
+        some = TurnCurves(self.whole, self.reading, self.weights[:, :count], self.constant[:, :count])
+        if len(self.weights) == 1 and "pieces" in vars(self):
+            some.take(self.pieces, slice(0, count))
+        return some
+
+    def take(self, pieces: Pieces, own: slice) -> None:
+        """Have those of a batch, where these curves have none yet."""
+        vars(self).setdefault("pieces", pieces.part(own, self))
+
     @cached_property
     def pieces(self) -> Pieces:
         """The curves piece by piece (N C, P)."""

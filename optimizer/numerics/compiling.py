@@ -20,7 +20,12 @@ class _MachineCode(FunctionCache):  # type: ignore[misc]
         # what makes arrays; numba's own loads every function that it knows as well
         rtsys.initialize(target_context)
         with self._guard_against_spurious_io_errors():
-            return self._load_overload(sig, target_context)
+            try:
+                return self._load_overload(sig, target_context)
+            except (AttributeError, ImportError):
+                # what another version has left names types that are no more: it is compiled anew
+                self.flush()
+        return None
 
 
 def _cached(**options: bool) -> Callable[[Any], Any]:

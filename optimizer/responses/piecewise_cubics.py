@@ -88,6 +88,10 @@ class Pieces:
         """How far the curves may be from the middle of their pieces, (J, P)."""
         return np.sum(np.abs(self.cubic[..., 1:]), axis=-1) + self.rest
 
+    def part(self, own: slice, source: Source) -> "Pieces":
+        """Those of some of the curves, from a source of these alone."""
+        return Pieces(self.centre[own], self.half[own], self.cubic[own], self.rest[own], self.size[own], source)
+
     @cached_property
     def cubics(self) -> "Cubics":
         """What is compiled takes them as."""

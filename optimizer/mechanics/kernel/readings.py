@@ -5,7 +5,7 @@ Shapes: N designs, R rows, P angles of each, Q places: the angles of all designs
 
 import numpy as np
 
-from optimizer.mechanics.kernel.rows import COS, FUNCTIONS, INERTIA, SECANT, SIN, SIN_2, SIN_SQUARED
+from optimizer.mechanics.kernel.row_numbers import COS, FUNCTIONS, INERTIA, SECANT, SIN, SIN_2, SIN_SQUARED
 from optimizer.mechanics.kernel.taylor import ALL, LANES, Series, constant, copied, product, scaled, summed
 from optimizer.numerics.compiling import inner, inner_with_arrays
 

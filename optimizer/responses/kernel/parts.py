@@ -11,6 +11,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.compiling import inner, inner_with_arrays
+from optimizer.numerics.kernel.circle import length
 from optimizer.numerics.polynomials import shifts, to_bernstein
 
 #: what may hold a peak is cut into so many parts: by its polynomial, or to be expanded anew, which leaves out 16^-4
@@ -123,9 +124,9 @@ def _size(value, sign):  # type: ignore[no-untyped-def]
     return _length(value) if sign == 0.0 else sign * value.real
 
 
-@inner_with_arrays
-def _extremes(cubic, sign):  # type: ignore[no-untyped-def]
-    """What a polynomial is not above, and its values at both ends."""
+@inner
+def _extremes(cubic, sign, square):  # type: ignore[no-untyped-def]
+    """What a polynomial is not above, and its values at both ends; by what it squares to (7,), which it overwrites."""
     if sign != 0.0:
         most = -np.inf
         for j in range(4):
@@ -136,7 +137,7 @@ def _extremes(cubic, sign):  # type: ignore[no-untyped-def]
             if j == 0:
                 first = value
         return most, first, value
-    square = np.zeros(7)
+    square[:] = 0.0
     for i in range(4):
         for k in range(4):
             square[i + k] += cubic[i].real * cubic[k].real + cubic[i].imag * cubic[k].imag
@@ -166,7 +167,7 @@ def first_open(cubics, members, best):  # type: ignore[no-untyped-def]
                 # how far the curve may be from the middle of a piece
                 most[m, p] = middle + cubics.rest[curve, p]
                 for i in range(1, 4):
-                    most[m, p] += _length(cubics.cubic[curve, p, i])
+                    most[m, p] += length(cubics.cubic[curve, p, i])
                 _keep(best, group, middle - cubics.rest[curve, p], cubics.centre[curve, p], p, m)
     count = 0
     for m in range(number):
@@ -195,10 +196,10 @@ def first_open(cubics, members, best):  # type: ignore[no-untyped-def]
 def still_open(parts, members, best, most_parts):  # type: ignore[no-untyped-def]
     """Those that may hold a peak above the best found, theirs included, unless there are too many."""
     number = parts.member.size
-    most = np.empty(number)
+    most, square = np.empty(number), np.empty(7)
     for n in range(number):
         place, member = parts.place[n], parts.member[n]
-        largest, first, last = _extremes(parts.cubic[n], members.sign[members.group[member]])
+        largest, first, last = _extremes(parts.cubic[n], members.sign[members.group[member]], square)
         most[n] = largest + place[_REST]
         angle = place[_CENTRE] - place[_HALF] if first >= last else place[_CENTRE] + place[_HALF]
         _keep(best, members.group[member], max(first, last) - place[_REST], angle, parts.piece[n], member)
