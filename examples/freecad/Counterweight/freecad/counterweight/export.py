@@ -48,9 +48,5 @@ def _drawing_request(machine):
     """The counterweights of the answer, to be drawn."""
     request, answer = json.loads(machine.Request), json.loads(machine.Answer)
     names = ("web", "mass_kg", "angle_deg")
-    fitted = [
-        {name: counterweight[name] for name in names}
-        for counterweight in answer["counterweights"]
-        if counterweight["mass_kg"] > 0
-    ]
+    fitted = [{name: weight[name] for name in names} for weight in answer["counterweights"] if weight["mass_kg"] > 0]
     return {"machine": request["machine"], "counterweights": fitted}
