@@ -40,6 +40,9 @@ _PROGRAM: dict[str, str] = {
     "methods/rounding.py _RUNGS": _STEERS,
 }
 _FORMULATION: dict[str, str] = {
+    "counterweights.py too_heavy: one.mass_kg > most.get(str(one.web), np.inf) * (1.0 + _ABOVE_ENVELOPE)"
+    " -> one.mass_kg >= most.get(str(one.web), np.inf) * (1.0 + _ABOVE_ENVELOPE)": "a mass above what is held by 1e-12"
+    " exactly may be taken or not",
     "groups.py _masses: mass is not None and angle is None -> mass is not None or angle is None": "angles are"
     " compared with their masses beside",
 }

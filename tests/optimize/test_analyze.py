@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from optimizer.analyze import analyze
+from optimizer.formulation.simulation import turns_over
+from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.requests import AnalyzeRequest
 from tests.optimize.machines import first_order, machine, random_machine, row, throw, web
 from tests.verification.checking import optimized
@@ -67,3 +69,13 @@ def test_only_what_was_asked_for_is_answered() -> None:
     ran = {name for name, use in found.effects.items() if use.simulated}
     assert ran == {"rotating_inertia", "reciprocating_inertia", "second_order", "higher_orders"}
     assert {use.needed_by for name, use in found.effects.items()} == {("orders",), ()}
+
+
+@pytest.mark.parametrize(("needs", "turns"), [(["kinematics"], 1), (["gas"], 2), (["torque"], 2), ([], 1)])
+def test_results_go_over_two_revolutions_only_where_they_hold_gas(needs: list[str], turns: int) -> None:
+    """Of a pressure that repeats after two; what holds none of it repeats after one."""
+    table = {"angle_deg": [0, 180, 360, 540, 720], "pressure_Pa": [9e5, 3e5, 1e5, 1e5, 9e5]}
+    cylinder = {"bore_m": 0.1, "ambient_pressure_Pa": 1e5, "pressure": {"head": table, "cycle_turns": 2}}
+    rod = {"length_m": 0.4, "mass_kg": 2.0}
+    body = machine([throw(0.0, 0.0, [row(0.0, 3.0, connecting_rod=rod, cylinder=cylinder)])], [])
+    assert turns_over(ReciprocatingMachine.model_validate(body), needs) == turns
