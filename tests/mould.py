@@ -5,16 +5,29 @@ its fork server is forked beforehand, as it would load the same once more. Run b
 the socket that it is asked on.
 """
 
+import atexit
 import ctypes
 import gc
+import importlib
 import json
 import os
 import runpy
 import signal
 import socket
 import sys
+import threading
 from multiprocessing import connection, forkserver
 
+#: by the service and by its commands, beside what its workers load
+_LOADED = (
+    "service.app",
+    "service.cli",
+    "service.jobs.preload",
+    "service.jobs.export",
+    "service.watch.logs",
+    "service.wire.server",
+    "uvicorn.lifespan.on",
+)
 #: what may be asked for at a time [bytes]
 LARGEST = 1 << 17
 #: of linux/prctl.h
@@ -43,10 +56,10 @@ def load() -> None:
     # the other allocator of Arrow, which nobody uses then, has a thread
     os.environ["JE_ARROW_MALLOC_CONF"] = "background_thread:false"
     # first, as it tells the libraries to have one thread
-    from service.workers import preload  # isort: split
-    from optimizer.studies.sweep import run_chunk  # noqa: F401
-
-    assert preload.failure is None, preload.failure
+    failure = importlib.import_module("service.workers.preload").failure
+    assert failure is None, failure
+    for name in _LOADED:
+        importlib.import_module(name)
     # which ignores them, as what is forked from it does
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -121,6 +134,15 @@ def fork_fork_server() -> None:
     own._forkserver_address, own._forkserver_alive_fd, own._forkserver_pid = address, held, pid
 
 
+def leave(code: int) -> None:
+    """End as the interpreter does, but for taking apart all that is loaded: that takes longer than most commands."""
+    threading._shutdown()
+    atexit._run_exitfuncs()
+    if not sys.stdout.closed:
+        sys.stdout.flush()
+    os._exit(code)
+
+
 if __name__ == "__main__":
     # the name of the module is in the way of whoever unpickles what `__main__` has
     load()
@@ -128,4 +150,11 @@ if __name__ == "__main__":
         asked.send(b"loaded")
         module = wait(asked)
     if module is not None:
-        runpy.run_module(module, run_name="__main__", alter_sys=True)
+        try:
+            runpy.run_module(module, run_name="__main__", alter_sys=True)
+        except SystemExit as end:
+            # of texts and other objects the interpreter makes something itself
+            if end.code is not None and not isinstance(end.code, int):
+                raise
+            leave(end.code or 0)
+        leave(0)

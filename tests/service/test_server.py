@@ -19,12 +19,12 @@ from service.documents.examples import load
 from tests.commands import Command, run
 
 
-def start(log: IO[str], **environment: str) -> "subprocess.Popen[str]":
-    """The server, from nothing; what it logs goes into a file, which takes all of it."""
+def start(log: IO[str], fresh: bool = False, **environment: str) -> "subprocess.Popen[str]":
+    """The server, from nothing or forked; what it logs goes into a file, which takes all of it."""
     return Command(
         *("service", "serve", "--port", "0"),
         environment={**os.environ, **environment},
-        fresh=True,
+        fresh=fresh,
         stdout=subprocess.PIPE,
         stderr=log,
         text=True,
@@ -116,9 +116,9 @@ def test_odd_headers(server: tuple[str, int], odd: bytes) -> None:
     assert re.match(rb"HTTP/1.1 4\d\d ", first)
 
 
-@pytest.mark.parametrize("ending", [signal.SIGTERM, signal.SIGINT])
-def test_an_orderly_end(ending: signal.Signals) -> None:
-    with TemporaryFile("w+") as log, start(log) as process:
+@pytest.mark.parametrize(("ending", "fresh"), [(signal.SIGTERM, True), (signal.SIGINT, False)])
+def test_an_orderly_end(ending: signal.Signals, fresh: bool) -> None:
+    with TemporaryFile("w+") as log, start(log, fresh) as process:
         where = address(process)
         assert status(where, "GET", "/healthz") == 200
         process.send_signal(ending)
