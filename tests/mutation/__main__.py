@@ -71,7 +71,7 @@ ROOMS = {
         ),
         0.9,
     ),
-    "formulation": Room("optimizer/formulation/*.py", ("tests/optimize",), 0.9),
+    "formulation": Room("optimizer/formulation/*.py", ("tests/optimize", "tests/outputs/test_counterweights.py"), 0.9),
     "verify": Room("examples/client/verify*.py", ("tests/verification",), 0.9),
     "guard": Room(
         "service/guard/*.py",

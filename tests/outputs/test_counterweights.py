@@ -58,6 +58,21 @@ def test_what_rounding_left_outside_is_printed_inside(
     assert np.array_equal(stacked[1], [printed, printed])
 
 
+@pytest.mark.parametrize(
+    ("off", "share"), [(0.0, 1.0), (40.0, 1.0), (50.0, np.cos(np.pi / 18)), (100.0, 0.5), (170.0, 0.0)]
+)
+def test_what_lies_outside_a_sector_is_brought_to_the_nearest_point_of_its_edge(off: float, share: float) -> None:
+    """Analytic: the foot of the perpendicular on the edge, at 40 degrees from the middle; behind it nothing."""
+    sector = {"centre_deg": 20.0, "half_angle_deg": 40.0}
+    webs = [{**web("a", 0.1, 100.0, 0.1), "sector": sector}]
+    data = ReciprocatingMachine.model_validate(
+        {**machine([throw(0.0, 0.0, [], rotating=1.0)], webs), "speed_rpm": 60.0}
+    )
+    mass, angle = masses_and_angles(data, 0.3 * np.exp(1j * np.deg2rad([20.0 + off])), limits(data))
+    assert mass == pytest.approx([3.0 * share], abs=1e-12)
+    assert angle == pytest.approx([20.0 + min(off, 40.0) if share > 0 else 0.0], abs=1e-9)
+
+
 def _fitted(own: int | None, **more: Any) -> tuple[Counterweight, ...]:
     """Webs at 0.1, 0.5, half-way, and 0.9 m along two throws at 0 and 1 m; 2 kg at 100 degrees on each but the last."""
     webs = [web(name, place, 5.0, 0.25) for name, place in zip("abcd", (0.1, 0.5, 0.9, 0.95), strict=True)]
