@@ -214,7 +214,9 @@ def test_the_pins_turn(portal: Portal, url: str) -> None:
     assert [one.get("clearance_m", 0) for one in asked["pins"]] == pytest.approx([0, 1e-5, 0])
     peaks = [one["peak_N"] for one in ask(url, "/v1/scroll/pin-loads", asked)["pins"]]
     loads = panel.locator("table", has_text="peak load, N")
-    expect(loads.locator("tbody tr").nth(1).locator("td").first).to_have_text(f"{peaks[1]:.5g}")
+    # any of them may be what it was before
+    for row, peak in enumerate(peaks):
+        expect(loads.locator("tbody tr").nth(row).locator("td").first).to_have_text(f"{peak:.5g}")
     assert [number(row[1]) for row in cells(loads)] == pytest.approx(peaks, rel=1e-4)
     expect(panel.locator(".wait")).to_have_text("")
     panel.get_by_label("stiffness, N/µm, pin 3").fill("soft")

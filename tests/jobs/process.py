@@ -38,7 +38,6 @@ class Service:
             "tests.jobs.serving",
             environment={**os.environ, **base, **environment, DELAY: str(delay_s), **(more or {})},
             stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
             text=True,
         )
 
@@ -46,7 +45,7 @@ class Service:
         """Until it listens."""
         assert self.process.stdout is not None
         parts = urlsplit(self.process.stdout.readline().strip())
-        assert parts.hostname is not None
+        assert parts.hostname is not None, f"it ended with {self.process.wait()}"
         assert parts.port is not None
         self.where = (parts.hostname, parts.port)
         # it has started all that it starts when it answers

@@ -42,8 +42,8 @@ _PROGRAM: dict[str, str] = {
 _FORMULATION: dict[str, str] = {
     "formulate.py shape_facts: np.asarray(across.x) == across.y -> np.asarray(across.x) != across.y": "designs are"
     " put together that have the same facts: whether yes or no is of no account",
-    "counterweights.py too_heavy: one.mass_kg > most.get(str(one.web), np.inf) * (1.0 + _ABOVE_ENVELOPE)"
-    " -> one.mass_kg >= most.get(str(one.web), np.inf) * (1.0 + _ABOVE_ENVELOPE)": "a mass above what is held by 1e-12"
+    "counterweights.py too_heavy: weight.mass_kg > most.get(str(weight.web), np.inf) * (1.0 + _ABOVE_ENVELOPE)"
+    " -> weight.mass_kg >= most.get(str(weight.web), np.inf) * (1.0 + _ABOVE_ENVELOPE)": "a mass above what is held by 1e-12"
     " exactly may be taken or not",
     "groups.py _masses: mass is not None and angle is None -> mass is not None or angle is None": "angles are"
     " compared with their masses beside",
