@@ -43,8 +43,8 @@ _FORMULATION: dict[str, str] = {
     "formulate.py shape_facts: np.asarray(across.x) == across.y -> np.asarray(across.x) != across.y": "designs are"
     " put together that have the same facts: whether yes or no is of no account",
     "counterweights.py too_heavy: weight.mass_kg > most.get(str(weight.web), np.inf) * (1.0 + _ABOVE_ENVELOPE)"
-    " -> weight.mass_kg >= most.get(str(weight.web), np.inf) * (1.0 + _ABOVE_ENVELOPE)": "a mass above what is held by 1e-12"
-    " exactly may be taken or not",
+    " -> weight.mass_kg >= most.get(str(weight.web), np.inf) * (1.0 + _ABOVE_ENVELOPE)": "a mass above what is held by"
+    " 1e-12 exactly may be taken or not",
     "groups.py _masses: mass is not None and angle is None -> mass is not None or angle is None": "angles are"
     " compared with their masses beside",
 }
@@ -54,8 +54,8 @@ _SERVICE: dict[str, str] = {
     "jobs/coordinator.py _collect_rows: len(came) > _AT_A_TIME -> len(came) >= _AT_A_TIME": _SPEED,
     "jobs/coordinator.py stop: self._thread.join(6) -> self._thread.join(7)": _FINER,
     "report/chapters/bearing_loci.py _turned: -1j * sense -> -1j / sense": "a sense is 1 or -1",
-    "report/charts.py hodograph: one.major / factor * (x.end - x.start) / (x.high - x.low) < _DOT"
-    " -> one.major / factor * (x.end - x.start) / (x.high - x.low) <= _DOT": _ALIKE,
+    "report/charts.py hodograph: ellipse.major / factor * (x.end - x.start) / (x.high - x.low) < _DOT"
+    " -> ellipse.major / factor * (x.end - x.start) / (x.high - x.low) <= _DOT": _ALIKE,
     "report/charts.py chart: place[0] + 22 -> place[0] + 23": _LOOKS,
     "report/accuracy_picture.py _axes: 0.8 -> 0.809": _LOOKS,
 }
