@@ -131,7 +131,7 @@ def echoing() -> Iterator[Target]:
 
 def measure(clients: Sequence[int], seconds: float) -> Iterator[tuple[Target, int, bool, Seen]]:
     """Every number of clients on kept and on new connections; service and echo take turns."""
-    with service(log_level="warning", rate_limit="") as running, echoing() as echo:
+    with service(fresh=True, log_level="warning", rate_limit="") as running, echoing() as echo:
         ours = Target("service", running.process.pid, running.port, "/v1/optimize")
         for target in (ours, echo):
             asyncio.run(asked(target, 2, kept=True, seconds=min(1.0, seconds)))

@@ -113,7 +113,7 @@ def main() -> int:
     total, failures = 0, 0
     statuses: Counter[int] = Counter()
     # however slow the machine is: what takes too long is answered 503, and that is not what is looked for
-    with service(log_level="warning", request_timeout_s=_PATIENCE_S) as target:
+    with service(fresh=True, log_level="warning", request_timeout_s=_PATIENCE_S) as target:
         before, worker = target.memory_mb()
         print(f"before: {before:.0f} MB and {worker:.0f} MB a worker")
         print(f"{'attack':<24}{'requests':>9}{'slowest s':>11}{'service MB':>12}{'worker MB':>11}  answers")

@@ -319,7 +319,7 @@ def main() -> int:
     }
     if given.only is not None:
         presses = {name: one for name, one in presses.items() if name == "nobody" or name.startswith(given.only)}
-    with service(log_level="warning", rate_limit="") as target:
+    with service(fresh=True, log_level="warning", rate_limit="") as target:
         target.sweep = asyncio.run(start_sweep(target))  # type: ignore[attr-defined]
         print(f"at rest: {held_mb(target):.0f} MB")
         for name, (press, clients, addresses) in presses.items():

@@ -115,7 +115,7 @@ def main() -> int:
     parser.add_argument("--clients", type=int, default=64)
     parser.add_argument("--seconds", type=float, default=120.0)
     given = parser.parse_args()
-    with service(log_level="warning") as target:
+    with service(fresh=True, log_level="warning") as target:
         errors = _show("alone", asyncio.run(load(target, given.clients, given.seconds)), given.seconds)
         sweep = asyncio.run(start_sweep(target))
         errors += _show("with a sweep", asyncio.run(load(target, given.clients, given.seconds)), given.seconds)
