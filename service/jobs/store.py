@@ -3,8 +3,9 @@
 import time
 import uuid
 from collections.abc import Callable, Collection, Sequence
+from functools import cache
 
-from sqlalchemy import ColumnElement, Connection, and_, func, insert, or_, select, update
+from sqlalchemy import ColumnElement, Connection, Select, and_, bindparam, func, insert, or_, select, update
 from sqlalchemy.exc import IntegrityError
 
 from service.jobs import room, rows
@@ -161,16 +162,15 @@ class Store:
         UnknownJob
             if there is no job ``before``.
         """
-        wanted = select(*JOB).where(jobs.c.state != REMOVED, jobs.c.kind.in_(kinds))
+        values: dict[str, object] = {"kinds": list(kinds), "limit": limit}
         if owner is not None:
-            wanted = wanted.where(jobs.c.owner == owner)
+            values["owner"] = owner
         with self._database.read() as connection:
             if before is not None:
                 last = rows.get(connection, before)
-                older = and_(jobs.c.created == last.created, jobs.c.id < last.id)
-                wanted = wanted.where(or_(jobs.c.created < last.created, older))
-            wanted = wanted.order_by(jobs.c.created.desc(), jobs.c.id.desc()).limit(limit)
-            return [job_from(row) for row in connection.execute(wanted).mappings()]
+                values |= {"created": last.created, "id": last.id}
+            listed = connection.execute(_page(owner is not None, before is not None), values)
+            return [job_from(row) for row in listed.mappings()]
 
     def counts(self) -> dict[str, tuple[int, int, int, int]]:
         """By state: number of jobs, their finished rows, and those of them that failed or are invalid."""
@@ -247,6 +247,18 @@ class Store:
                 rows.change(connection, job, **again)
                 rows.settle(connection, job, self._clock(), self._limits.keep_s)
             return rows.get(connection, job)
+
+
+@cache
+def _page(owned: bool, later: bool) -> Select[tuple[object, ...]]:
+    """The statement of a page, of one owner and after a job if so; put together once, as it is asked at every look."""
+    wanted = select(*JOB).where(jobs.c.state != REMOVED, jobs.c.kind.in_(bindparam("kinds", expanding=True)))
+    if owned:
+        wanted = wanted.where(jobs.c.owner == bindparam("owner"))
+    if later:
+        created, job = bindparam("created", type_=jobs.c.created.type), bindparam("id", type_=jobs.c.id.type)
+        wanted = wanted.where(or_(jobs.c.created < created, and_(jobs.c.created == created, jobs.c.id < job)))
+    return wanted.order_by(jobs.c.created.desc(), jobs.c.id.desc()).limit(bindparam("limit"))
 
 
 def _by_key(connection: Connection, order: Order) -> tuple[Job, str, bytes] | None:
