@@ -15,6 +15,9 @@ _MECHANICS: dict[str, str] = {
     "row_data.py _opened: np.where(closed, suction, 1.0) -> np.where(closed, suction, 1.011)": _OPEN,
     "row_work.py beside_mean: own < 0.5 * TURN -> own <= 0.5 * TURN": _ALIKE,
     "turn.py _NODES": _FINER,
+    "turn.py fluctuation: np.max(end, axis=-1) -> np.min(end, axis=-1)": "the integral ends as it begins, at 0: every"
+    " end of a panel is the beginning of another, of which the largest is taken anyway",
+    "whole_turn.py in_pieces: within.shape[-1] -> within.shape[+1]": "it has two axes",
     "whole_turn.py _LEFT_OUT: (1e-11, 512) -> (1e-11, 513)": _FINER,
     "whole_turn.py _parts: 1 -> 2": _FINER,
     "whole_turn.py _parts: 1.0 / _GAUSS -> 1.011 / _GAUSS": _FINER,
