@@ -148,7 +148,7 @@ class _Fault(NamedTuple):
 def _said(small: ast.AST, around: Mapping[ast.AST, ast.AST]) -> ast.AST:
     """What a number or a field stands in: many of one function are alike, of which one may change nothing."""
     said, home = small, around[small]
-    while isinstance(home, ast.Tuple | ast.UnaryOp | ast.Slice):
+    while isinstance(home, ast.Tuple | ast.UnaryOp | ast.Slice | ast.keyword):
         said, home = home, around[home]
     home = home if isinstance(home, ast.expr) else said
     return home if len(ast.unparse(home)) <= _LONGEST else small

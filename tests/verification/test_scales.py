@@ -8,6 +8,8 @@ from optimizer.optimize import optimize
 from schemas.request.requests import OptimizeRequest
 from service.verification import checker
 from tests.hard.bodies import drawn
+from tests.optimize.machines import machine, row, throw, web
+from tests.verification.test_curves import part
 
 
 @pytest.mark.parametrize(
@@ -44,3 +46,15 @@ def test_what_cancels_is_judged_by_its_parts(mode: str, number: int, seed: int, 
     }
     assert found[claim] == "held"
     assert "broken" not in found.values()
+
+
+@pytest.mark.parametrize("size", [1e-6, 0.5, 20.0])
+def test_the_lightest_that_cancels_a_row_of_any_size(size: float) -> None:
+    """Analytic: a force by a kilogram on the web of the larger radius, and no row of nothing."""
+    place, real = part("numbers").Place, part("numbers").real
+    body = {"machine": machine([throw(0.0, 0.0, [row(0.0, 1.0)])], [web("a", 0.0, 4.0, 0.1), web("b", 0.2, 4.0, 0.4)])}
+    asked = place(body, "request")
+    built = part("machine").Machine(asked / "machine", asked / "objective", place(None), place(None))
+    rows = {name: {name: part("numbers").ONE} for name in ("force", "moment")}
+    found = part("program").Statement(built, place({}), rows).lightest({"force": real(size), "moment": real(0.0)})
+    assert float(found) == pytest.approx(size / (0.4 * float(built.square)), rel=1e-12)
