@@ -49,6 +49,8 @@ _PROGRAM: dict[str, str] = {
     "methods/rounding.py brought: moved.size == len(u) -> moved.size != len(u)": "what is as it was has nothing to make"
     " up for, and lies within the limits: with it or without it, the others come to the same",
     "cuts/proof.py _MEAN: 64 * np.finfo(float).eps -> 65 * np.finfo(float).eps": _FINER,
+    "reference/modelling.py _vector_duals: np.zeros(0, complex) -> np.zeros(1, complex)": "it is multiplied with the"
+    " influences of none",
     "reference/solver.py _MASS_ATTEMPTS: _ATTEMPTS[1] -> _ATTEMPTS[2]": _STEERS,
 }
 _FORMULATION: dict[str, str] = {
@@ -63,6 +65,7 @@ _FORMULATION: dict[str, str] = {
 _VERIFY: dict[str, str] = {
     "verify_gas.py slopes: max -> min": "what encloses steeper slopes encloses these, in more pieces",
     "verify_harmonics.py rod: wide ** 2 -> wide ** 3": "wide is not below 1: a larger bound calls for more samples",
+    "verify_program.py lightest: sizes[row].low > 0 -> sizes[row].low > 1": "it counts the smallest steps of numbers",
     "verify_pressed.py _sizes: each > 1e-14 -> each >= 1e-14": "no size is 1e-14 to the bit, which is of no account",
     "verify_values.py response: max -> min": "up to there a peak is of no interest: without it every peak is enclosed",
     "verify_weights.py counterweights: total_mass * machine.wide -> total_mass / machine.wide": "it is 1 with its"

@@ -77,13 +77,6 @@ def test_optimum_is_certified_and_agrees_with_a_plain_model(seed: int, case: tup
     assert looser * (1 - 1e-6) - 1e-9 <= least.mass <= tighter * (1 + 1e-5) + 1e-9
 
 
-def test_without_ceilings_there_are_no_multipliers_of_them() -> None:
-    problem = random_statement(100, *COMBINATIONS[0])
-    assert not problem.ceilings.names
-    found = SOLVER.smallest_objective(problem, 1e-9)
-    assert found.multipliers.ceiling.shape == (0,)
-
-
 @pytest.mark.parametrize(("gap", "share"), [(1e-3, 1e-6), (1e-8, 1e-8)])
 def test_the_least_mass_is_among_optima_whatever_gap_is_enough(gap: float, share: float) -> None:
     """Property: it costs a millionth of the objective without counterweights, or the gap where that is smaller."""
