@@ -9,6 +9,7 @@ from optimizer.formulation.limits import _force_per_kg
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.objective import Objective
 from tests.optimize.machines import machine, row, throw, web
+from tests.program.test_problem import problem
 
 
 def _machine(**more: object) -> ReciprocatingMachine:
@@ -29,3 +30,10 @@ def test_a_kilogram_pulls_by_its_radius_and_the_square_of_the_highest_speed() ->
     assert _force_per_kg(_machine()) == pytest.approx([0.1 * omega**2, 0.2 * omega**2], rel=1e-14)
     fast = _force_per_kg(_machine(overspeed_rpm=1200.0))
     assert fast == pytest.approx([0.4 * omega**2, 0.8 * omega**2], rel=1e-14)
+
+
+@pytest.mark.parametrize(("later", "allowance"), [((), 0.0), ((("mass", 0.2),), 0.1)])
+def test_what_nothing_comes_after_may_not_be_exceeded(later: tuple[tuple[str, float], ...], allowance: float) -> None:
+    """A goal keeps its allowance for those after it; the least mass that always follows has none of it."""
+    order = [{"goal": goal, "allowance": part} for goal, part in (("external", 0.1), *later)]
+    assert [goal.allowance for goal in problem("v60", priorities=order).goals] == [allowance]
