@@ -367,6 +367,7 @@ def test_what_a_version_does_not_know_is_told_from_what_is_wrong() -> None:
 def test_one_thread_and_none_of_what_has_been_stopped(house: House) -> None:
     with house.coordinator(threads()) as coordinator:
         before = coordinator._thread
+        assert before is not None
         coordinator.start()
         assert coordinator._thread is before
     stopped = house.coordinator_on(threads())

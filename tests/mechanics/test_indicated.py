@@ -56,7 +56,7 @@ def turn_of(body: dict[str, Any]) -> WholeTurn:
 
 
 @pytest.mark.parametrize("rotation", ["ccw", "cw"])
-@pytest.mark.parametrize("start", [0.0, 100.0, 460.0])
+@pytest.mark.parametrize("start", [0.0, 100.0, 460.0, 620.0])
 def test_pressure_is_linear_between_the_entries_of_two_turns(start: float, rotation: str) -> None:
     body = engine([start], [cylinder(UNEVEN, dead_centre_deg=start)], rotation=rotation)
     angle = np.linspace(-300.0, 1500.0, 1801)

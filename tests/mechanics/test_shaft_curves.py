@@ -1,5 +1,7 @@
 """Bearing loads and bending moments as responses over the turn: the values of the samples, and closed forms."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -13,7 +15,7 @@ from optimizer.mechanics.kinematics import motion
 from optimizer.mechanics.layout import Layout, layout
 from optimizer.mechanics.rod import shaft_loads
 from optimizer.mechanics.row_data import row_data
-from optimizer.mechanics.shaft_curves import bearing_loads, bending_moments
+from optimizer.mechanics.shaft_curves import bearing_loads, bending_moments, stations
 from optimizer.mechanics.whole_turn import break_angles, whole_turn
 from optimizer.numerics.arrays import Real
 from optimizer.responses.curve import floor
@@ -57,8 +59,8 @@ def test_responses_have_the_values_of_the_samples(model) -> None:  # type: ignor
         found = (response.at(angle) + response.offset(u)) * turned * square
         assert found == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.max(np.abs(carried)))
     bent = bending_moments(turn, plan, places, model)
-    stations = np.array([float(response.name.removeprefix("bending:")) for response in bent])
-    for response, expected in zip(bent, bending_moment(places, carried, where, loads, stations), strict=True):
+    corners = np.array([float(response.name.removeprefix("bending:")) for response in bent])
+    for response, expected in zip(bent, bending_moment(places, carried, where, loads, corners), strict=True):
         found = (response.at(angle) + response.offset(u)) * turned * square
         assert found == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.max(np.abs(carried)))
 
@@ -77,3 +79,28 @@ def test_one_throw_between_two_bearings(rod: float | None, share: float, radius:
         assert found.circle.centre == pytest.approx((1.0 + share) / 2, abs=5e-4)
         if rod is None:
             assert response.peak(0.0, 1e-12).upper == pytest.approx(1.0, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("places", "bent"),
+    [
+        # analytic: an end of the shaft and a bearing outside of all loads bend nothing
+        ([-0.5, 0.5], [0.0]),
+        ([-0.25, 0.25], [-0.25, 0.0, 0.25]),
+        # every load on a bearing of its own: the first plane stands for all
+        ([-0.5, 0.0, 0.5], [-0.5]),
+    ],
+)
+def test_planes_in_which_the_shaft_is_bent(places: list[float], bent: list[float]) -> None:
+    plan = _one_throw(None)
+    turn = whole_turn(row_data(plan, True, None, None), break_angles(plan))
+    responses = bending_moments(turn, plan, np.array(places), simple_spans_influence)
+    assert [response.name for response in responses] == [f"bending:{plane!r}" for plane in bent]
+
+
+def test_planes_that_coincide_in_every_design_count_once() -> None:
+    """Analytic: webs at -0.5 and 0.5 m, a throw at 0, bearings below the webs; then the first web 0.1 m further in."""
+    plan, places = _one_throw(None), np.array([-0.5, 0.5])
+    assert stations(plan, places).tolist() == [-0.5, 0.0, 0.5]
+    both = replace(plan, webs=replace(plan.webs, position=np.array([[-0.5, 0.5], [-0.4, 0.5]])))
+    assert stations(both, places).tolist() == [[-0.5, -0.5, 0.0, 0.5], [-0.5, -0.4, 0.0, 0.5]]

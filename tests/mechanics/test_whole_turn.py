@@ -151,6 +151,19 @@ def test_designs_together_are_as_designs_alone(reading: Reading) -> None:
             assert np.array_equal(part, np.concatenate(each))
 
 
+def test_a_design_taken_alone_keeps_its_curves() -> None:
+    # property: to the bit, with the weights and constants of that design
+    turn, _, _ = _driven(1, STYLES[0], friction=1e3)
+    inertia = turn.rows.inertia * np.array([[1.0], [1.1], [0.7]])
+    cut = [np.repeat(each, 3, axis=0) for each in (turn.centre, turn.half)]
+    weights = np.random.default_rng(2).normal(size=(3, 2, turn.rows.crank_radius.shape[-1]))
+    whole = WholeTurn(replace(turn.rows, designs=3, inertia=inertia), *cut)
+    curves = whole.curves("rod", weights, 1e3 * weights[..., 0])
+    angle = np.linspace(0.1, 6.0, 7)
+    for number, expected in enumerate(curves.at(angle).reshape(3, 2, -1)):
+        np.testing.assert_array_equal(curves.of_design(number).at(angle), expected)
+
+
 def test_every_design_has_its_own_means() -> None:
     """Analytic: the mean of a tangential force is that of its design, however many axes the designs come in."""
     turn, _, _ = _driven(1, STYLES[0])

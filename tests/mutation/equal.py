@@ -15,6 +15,9 @@ _MECHANICS: dict[str, str] = {
     "row_data.py _opened: np.where(closed, suction, 1.0) -> np.where(closed, suction, 1.011)": _OPEN,
     "row_work.py beside_mean: own < 0.5 * TURN -> own <= 0.5 * TURN": _ALIKE,
     "turn.py _NODES": _FINER,
+    "turn.py fluctuation: np.max(end, axis=-1) -> np.min(end, axis=-1)": "the integral ends as it begins, at 0: every"
+    " end of a panel is the beginning of another, of which the largest is taken anyway",
+    "whole_turn.py in_pieces: within.shape[-1] -> within.shape[+1]": "it has two axes",
     "whole_turn.py _LEFT_OUT: (1e-11, 512) -> (1e-11, 513)": _FINER,
     "whole_turn.py _parts: 1 -> 2": _FINER,
     "whole_turn.py _parts: 1.0 / _GAUSS -> 1.011 / _GAUSS": _FINER,
@@ -32,12 +35,23 @@ _PROGRAM: dict[str, str] = {
     " -> abs(circle.radius - before) >= _STEADY * circle.radius": _ALIKE,
     "cuts/stage.py run: 0.0 -> 0.001": _STEERS,
     "methods/cascade.py _under_ceilings: nearest.objective <= -AMPLE -> nearest.objective < -AMPLE": _ALIKE,
+    "methods/compiled.py _programs: np.add.reduce(mass, axis=-1, keepdims=True)"
+    " -> np.add.reduce(mass, axis=+1, keepdims=True)": "it has two axes",
     "methods/compiled.py _solve: reachable > 0 -> reachable > 1": _STEERS,
     "methods/compiled.py _solve: unit > 0 -> unit > 1": _STEERS,
     "methods/compiled.py plain_discs: 0 < norms.constant.shape[-1] < 3 -> 1 < norms.constant.shape[-1] < 3": _SPEED,
     "methods/implied_bounds.py responses: np.abs(row - other) <= _SAME -> np.abs(row - other) < _SAME": "rows that"
     " differ by their rounding may count as one or as two",
+    "methods/polish.py lightened: _ROOM_FOR_MASS * before.mass < worth_less * np.minimum(limits.max_mass,"
+    " limits.max_total_mass) -> _ROOM_FOR_MASS * before.mass <= worth_less * np.minimum(limits.max_mass,"
+    " limits.max_total_mass)": _STEERS,
     "methods/rounding.py _RUNGS": _STEERS,
+    "methods/rounding.py brought: moved.size == len(u) -> moved.size != len(u)": "what is as it was has nothing to make"
+    " up for, and lies within the limits: with it or without it, the others come to the same",
+    "cuts/proof.py _MEAN: 64 * np.finfo(float).eps -> 65 * np.finfo(float).eps": _FINER,
+    "reference/modelling.py _vector_duals: np.zeros(0, complex) -> np.zeros(1, complex)": "it is multiplied with the"
+    " influences of none",
+    "reference/solver.py _MASS_ATTEMPTS: _ATTEMPTS[1] -> _ATTEMPTS[2]": _STEERS,
 }
 _FORMULATION: dict[str, str] = {
     "formulate.py shape_facts: np.asarray(across.x) == across.y -> np.asarray(across.x) != across.y": "designs are"
@@ -48,9 +62,19 @@ _FORMULATION: dict[str, str] = {
     "groups.py _masses: mass is not None and angle is None -> mass is not None or angle is None": "angles are"
     " compared with their masses beside",
 }
+_VERIFY: dict[str, str] = {
+    "verify_gas.py slopes: max -> min": "what encloses steeper slopes encloses these, in more pieces",
+    "verify_harmonics.py rod: wide ** 2 -> wide ** 3": "wide is not below 1: a larger bound calls for more samples",
+    "verify_program.py lightest: sizes[row].low > 0 -> sizes[row].low > 1": "it counts the smallest steps of numbers",
+    "verify_pressed.py _sizes: each > 1e-14 -> each >= 1e-14": "no size is 1e-14 to the bit, which is of no account",
+    "verify_values.py response: max -> min": "up to there a peak is of no interest: without it every peak is enclosed",
+    "verify_weights.py counterweights: total_mass * machine.wide -> total_mass / machine.wide": "it is 1 with its"
+    " rounding to both sides",
+}
 _SERVICE: dict[str, str] = {
     "guard/keys.py caller: record.expires < time.time() -> record.expires <= time.time()": "no clock stands still",
     "jobs/coordinator.py _AT_A_TIME": _SPEED,
+    "jobs/coordinator.py _begin: 0 -> 1": "of a chunk of rows it is not read: a selection alone covers any",
     "jobs/coordinator.py _collect_rows: len(came) > _AT_A_TIME -> len(came) >= _AT_A_TIME": _SPEED,
     "jobs/coordinator.py stop: self._thread.join(6) -> self._thread.join(7)": _FINER,
     "report/chapters/bearing_loci.py _turned: -1j * sense -> -1j / sense": "a sense is 1 or -1",
@@ -66,6 +90,7 @@ EQUAL = {
         ("optimizer/mechanics", _MECHANICS),
         ("optimizer/program", _PROGRAM),
         ("optimizer/formulation", _FORMULATION),
+        ("examples/client", _VERIFY),
         ("service", _SERVICE),
     )
     for where, why in each.items()

@@ -113,13 +113,14 @@ def _faults(tree: ast.Module) -> Iterator["_Fault"]:
         elif isinstance(node, ast.BoolOp):
             yield _Fault(node, "op", ast.Or() if isinstance(node.op, ast.And) else ast.And())
         elif isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
-            yield _Fault(node, "op", ast.UAdd())
+            said = _said(node, around) if isinstance(node.operand, ast.Constant) else node
+            yield _Fault(node, "op", ast.UAdd(), said)
         elif isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not):
             yield _Fault(node, "operand", ast.UnaryOp(ast.Not(), node.operand))
         elif isinstance(node, ast.Name) and node.id in _TAKEN_FOR and isinstance(node.ctx, ast.Load):
             yield _Fault(node, "id", _TAKEN_FOR[node.id])
         elif isinstance(node, ast.Attribute) and node.attr in _TAKEN_FOR and isinstance(node.ctx, ast.Load):
-            yield _Fault(node, "attr", _TAKEN_FOR[node.attr])
+            yield _Fault(node, "attr", _TAKEN_FOR[node.attr], _said(node, around))
         elif (
             isinstance(node, ast.Constant) and isinstance(node.value, int | float) and not isinstance(node.value, bool)
         ):
@@ -144,13 +145,13 @@ class _Fault(NamedTuple):
         return f"{before} -> {ast.unparse(ast.fix_missing_locations(said))}"
 
 
-def _said(number: ast.AST, around: Mapping[ast.AST, ast.AST]) -> ast.AST:
-    """What a number stands in: many of one function are alike, of which one may change nothing."""
-    said, home = number, around[number]
-    while isinstance(home, ast.Tuple | ast.UnaryOp | ast.Slice):
+def _said(small: ast.AST, around: Mapping[ast.AST, ast.AST]) -> ast.AST:
+    """What a number or a field stands in: many of one function are alike, of which one may change nothing."""
+    said, home = small, around[small]
+    while isinstance(home, ast.Tuple | ast.UnaryOp | ast.Slice | ast.keyword):
         said, home = home, around[home]
     home = home if isinstance(home, ast.expr) else said
-    return home if len(ast.unparse(home)) <= _LONGEST else number
+    return home if len(ast.unparse(home)) <= _LONGEST else small
 
 
 def _computing(node: ast.AST) -> Iterator[ast.AST]:

@@ -86,3 +86,9 @@ def test_numbers_of_one_function_are_told_apart() -> None:
     """What is said of one of them hides no other."""
     found = names("def f(a):\n    return g(a, 0) + (a[0] if a > 0 else -0)\n")
     assert {"f: g(a, 0) -> g(a, 1)", "f: a[0] -> a[1]", "f: a > 0 -> a > 1"} <= found
+
+
+def test_fields_of_one_function_are_told_apart() -> None:
+    found = names("def f(a, b):\n    return np.maximum(np.max(a), np.max(b)) + a.lower[-1]\n")
+    assert {"f: np.max(a) -> np.min(a)", "f: np.max(b) -> np.min(b)"} <= found
+    assert {"f: a.lower[-1] -> a.upper[-1]", "f: a.lower[-1] -> a.lower[+1]"} <= found

@@ -6,6 +6,7 @@ import re
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -198,6 +199,9 @@ def test_an_answer_says_what_is_left_of_the_rate(made: tuple[Path, dict[str, str
         found = [re.fullmatch(r'"key";r=(\d+);t=(\d+)', one.headers["ratelimit"]) for one in told]
         assert [one[1] for one in found if one] == ["4", "3", "2"]
         assert all(0 < int(one[2]) <= 60 for one in found if one)
+        # another key has as much of its own
+        other = client.get("/v1/nothing", headers={"X-API-Key": made[1]["bob"]})
+        assert other.headers["ratelimit"].startswith('"key";r=4;')
         # nobody has a rate on a page for everybody, nor without a limit
         assert "ratelimit" not in client.get("/healthz").headers
         assert "ratelimit" not in client.get("/v1/nothing").headers
@@ -268,6 +272,19 @@ def test_keys_come_and_go_while_the_service_runs(tmp_path: Path, monkeypatch: py
     assert known.caller(old) is None
     file.write_text("nonsense")
     # a file that is wrong for a moment takes nobody's key away
+    assert known.caller(new) is not None
+
+
+def test_the_file_is_looked_at_no_more_often_than_it_may(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    now = 1000.0
+    monkeypatch.setattr(keys, "time", SimpleNamespace(monotonic=lambda: now, time=time.time))
+    (_, first), (new, second) = keys.make("a", ("read",)), keys.make("a", ("read",))
+    keys.write(tmp_path / "keys", [first])
+    known = keys.Keys(tmp_path / "keys")
+    keys.write(tmp_path / "keys", [first, second])
+    now += 0.9 * keys._LOOK_S
+    assert known.caller(new) is None
+    now += 0.2 * keys._LOOK_S
     assert known.caller(new) is not None
 
 

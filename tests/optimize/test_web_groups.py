@@ -209,6 +209,10 @@ def test_holes_that_leave_the_mass_open_are_alike_by_their_angles(mirrored: bool
     first = [(None, 10.0), (None, 50.0)]
     assert _same_options(first, 0.0, [(None, 90.0 + side * 50.0), (None, 90.0 + side * 10.0)], 90.0, mirrored)
     assert not _same_options(first, 0.0, [(None, 90.0 + side * 50.0), (None, 91.0 + side * 10.0)], 90.0, mirrored)
+    # what rounding leaves is no difference, a ten-thousandth of a degree is one
+    for off, same in ((1e-10, True), (1e-4, False)):
+        other = [(None, 90.0 + side * 50.0), (None, 90.0 + side * 10.0 + off)]
+        assert _same_options(first, 0.0, other, 90.0, mirrored) == same
 
 
 def test_masses_that_leave_the_angle_open_are_alike_in_any_order() -> None:

@@ -39,6 +39,18 @@ def test_one_throw_between_two_bearings(rod: float | None, radius: float, share:
     assert found.main_bearings is not None
 
 
+def test_a_web_without_a_limit_beside_others_that_have_one() -> None:
+    """Analytic: as where no web has one, as each needs no more; what it could be of use is told of that web alone."""
+    machine = one_throw(None)
+    for web, most in zip(machine["webs"], (9.0, None), strict=True):
+        web["max_mass_kg"] = most
+    found, proof = answered(machine, bearing_weight=1, **ALONE)
+    assert proof.objective == pytest.approx(0.25, abs=2.5e-6)
+    (limit,) = proof.implied_max_mass_kg.items()
+    assert limit[0] == machine["webs"][1]["name"]
+    assert found.counterweights[1].mass_kg < limit[1] < np.inf
+
+
 def test_one_throw_shakes_with_all_orders() -> None:
     """Published in the mathematics of this project: lam 0.3, a web takes the single's 1.3 down to .6964692."""
     machine = one_throw(1.0 / 0.3)

@@ -77,6 +77,16 @@ def test_optimum_is_certified_and_agrees_with_a_plain_model(seed: int, case: tup
     assert looser * (1 - 1e-6) - 1e-9 <= least.mass <= tighter * (1 + 1e-5) + 1e-9
 
 
+@pytest.mark.parametrize(("gap", "share"), [(1e-3, 1e-6), (1e-8, 1e-8)])
+def test_the_least_mass_is_among_optima_whatever_gap_is_enough(gap: float, share: float) -> None:
+    """Property: it costs a millionth of the objective without counterweights, or the gap where that is smaller."""
+    problem = random_statement(100, *COMBINATIONS[0])
+    rest = float(problem.objective(np.zeros(problem.limits.radius.size, complex)))
+    sharp, found = solve(problem, least_mass=False), solve(problem, gap)
+    assert found.mass < sharp.mass
+    assert 0.1 * share * rest <= found.objective - sharp.objective <= 1.001 * share * rest
+
+
 @pytest.mark.parametrize("case", COMBINATIONS)
 def test_answers_lie_within_the_limits(case: tuple) -> None:
     problem = random_statement(500, *case)

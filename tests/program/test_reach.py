@@ -9,6 +9,7 @@ from optimizer.mechanics.angles import direction
 from optimizer.numerics.arrays import Complex
 from optimizer.program.limits import Limits
 from optimizer.program.methods.implied_bounds import _masses_by_inverse, carrying_mass, within_reach
+from optimizer.program.methods.semicontinuous_bounds import _subset_mass
 from optimizer.program.reference.solver import _blended
 from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.solution import evaluated
@@ -42,6 +43,12 @@ def test_webs_that_are_told_by_what_they_change(webs: int, scale: float) -> None
 def test_one_web_is_told_by_one_response() -> None:
     """Analytic: half a unit a kilogram, and one unit at most."""
     assert _masses_by_inverse(np.array([[0.5]]), np.array([1.0])) == pytest.approx([2.0], rel=1e-12)
+
+
+def test_a_response_that_a_web_does_not_change_tells_nothing_of_it() -> None:
+    """Analytic: 4 at most of the response of which a kilogram changes 2, and nothing of another one."""
+    influence = np.array([[0.0, 1.0], [2.0, 3.0]])
+    assert _subset_mass(influence, limits(2, STEEP), [0], np.array([0.0, 4.0]), np.zeros(2, bool)) == 2.0
 
 
 def test_webs_that_cannot_be_told_apart_are_not() -> None:

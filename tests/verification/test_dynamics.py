@@ -191,3 +191,15 @@ def test_both_ends_of_a_bracket_stand_in_their_order() -> None:
         assert broken(request, answer)
         bracket.reverse()
     assert not broken(request, answer)
+
+
+@pytest.mark.parametrize("reading", ["side", "tangential", "radial"])
+@pytest.mark.parametrize("ratio", [0.05, 0.3, 0.8])
+def test_sizes_of_what_a_rod_makes_of_a_force(reading: str, ratio: float) -> None:
+    """Independent: the Fourier series of numpy; sums of its sizes and of those of its slopes in a frame that turns."""
+    pressed, count, frame = part("pressed"), 1024, -0.3
+    values = [pressed.READINGS[reading](pressed.motion(ratio, 2 * pi * n / count)) for n in range(count)]
+    sizes, orders = np.abs(np.fft.fft(values)) / count, np.fft.fftfreq(count, 1 / count)
+    for power, found in enumerate(pressed._sizes(reading, ratio, frame)):
+        assert found == pytest.approx(np.sum(np.abs(orders - frame) ** power * sizes), rel=2e-4)
+        assert found > np.sum(np.abs(orders - frame) ** power * sizes)

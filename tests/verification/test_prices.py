@@ -7,6 +7,12 @@ import pytest
 from tests.verification.test_curves import part
 
 
+@pytest.mark.parametrize(("off", "held"), [(0.0, True), (0.9e-9, True), (1.1e-9, False), (-1.1e-9, False)])
+def test_a_price_is_held_up_to_what_rounding_leaves_of_it(off: float, held: bool) -> None:
+    stated = part("prices").Priced("max_mass", "a", 1e-8, 1e3, "kg", True)
+    assert _held(stated, [{"limit": "max_mass", "web": "a", "value": 1e-8 + off, "unit": "N/kg"}], 1e-9) == held
+
+
 def _held(stated: Any, told: list[Any], dust: float = 0.0) -> bool:
     place = part("numbers").Place(told, "answer", "shadow_prices")
     claims = part("prices").listed_prices(place, [stated], 1.0, "N", 1e-9, 1.0, dust)

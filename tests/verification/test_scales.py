@@ -1,6 +1,7 @@
 """Genuine answers of machines of extreme scales: rounding of what cancels breaks no claim."""
 
 import json
+from math import radians, sin
 
 import pytest
 
@@ -8,6 +9,8 @@ from optimizer.optimize import optimize
 from schemas.request.requests import OptimizeRequest
 from service.verification import checker
 from tests.hard.bodies import drawn
+from tests.optimize.machines import machine, row, throw, web
+from tests.verification.test_curves import part
 
 
 @pytest.mark.parametrize(
@@ -44,3 +47,37 @@ def test_what_cancels_is_judged_by_its_parts(mode: str, number: int, seed: int, 
     }
     assert found[claim] == "held"
     assert "broken" not in found.values()
+
+
+@pytest.mark.parametrize("size", [1e-6, 0.5, 20.0])
+def test_the_lightest_that_cancels_a_row_of_any_size(size: float) -> None:
+    """Analytic: a force by a kilogram on the web of the larger radius, and no row of nothing."""
+    place, real = part("numbers").Place, part("numbers").real
+    body = {"machine": machine([throw(0.0, 0.0, [row(0.0, 1.0)])], [web("a", 0.0, 4.0, 0.1), web("b", 0.2, 4.0, 0.4)])}
+    asked = place(body, "request")
+    built = part("machine").Machine(asked / "machine", asked / "objective", place(None), place(None))
+    rows = {name: {name: part("numbers").ONE} for name in ("force", "moment")}
+    found = part("program").Statement(built, place({}), rows).lightest({"force": real(size), "moment": real(0.0)})
+    assert float(found) == pytest.approx(size / (0.4 * float(built.square)), rel=1e-12)
+
+
+def _full_plate(opening_deg: float) -> bool:
+    """Whether it is held that a plate of up to 60 degrees either way is open so far."""
+    angle, areal, inner, outer = radians(opening_deg), 78.5, 0.1, 0.3
+    mass = areal * angle * (outer**2 - inner**2)
+    shape = {
+        "half_angle_deg": opening_deg,
+        "inertia_kg_m2": areal * angle * (outer**4 - inner**4) / 2,
+        "outer_radius_m": outer,
+        "chord_height_m": None,
+    }
+    lever = 2 / 3 * areal * (outer**3 - inner**3) * sin(angle) / mass
+    entry = part("numbers").Place({"mass_kg": mass, "radius_m": lever, "shape": shape}, "answer", "counterweights")
+    plate = part("plates").Plate(False, inner, outer, areal, radians(60.0))
+    return all(room.high >= 0 for _, _, room, _ in part("weights")._cut(plate, entry))
+
+
+@pytest.mark.parametrize(("opening_deg", "held"), [(45.0, True), (60.0, True), (60.0 + 1e-9, False)])
+def test_a_plate_is_open_as_far_as_it_may_be_and_no_further(opening_deg: float, held: bool) -> None:
+    """Analytic: sectors of rings; the last is heavier by less than figures are printed to."""
+    assert _full_plate(opening_deg) == held
