@@ -16,7 +16,7 @@ import signal
 import socket
 import sys
 import threading
-from multiprocessing import connection, forkserver
+from multiprocessing import forkserver
 
 #: by the service and by its commands, beside what its workers load
 _LOADED = (
@@ -114,9 +114,10 @@ def become(command: dict[str, object], files: list[int]) -> str:
 
 def fork_fork_server() -> None:
     """Have multiprocessing find its fork server running; it ends with the last process that it may be asked by."""
-    address = connection.arbitrary_address("AF_UNIX")
     with socket.socket(socket.AF_UNIX) as listener:
-        listener.bind(address)
+        # a free name, and no file: the path of one may have 107 characters, and folders of tests have nearly as many
+        listener.bind("")
+        address = listener.getsockname()
         listener.listen()
         alive, held = os.pipe()
         pid = os.fork()

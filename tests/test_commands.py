@@ -4,6 +4,7 @@ import json
 import os
 import signal
 import subprocess
+from pathlib import Path
 
 import psutil
 import pytest
@@ -50,3 +51,11 @@ def test_what_is_told_to_an_interpreter_starts_one() -> None:
 
     assert "tests.mould" in started(COUNTERWEIGHT_LOG_LEVEL="debug")
     assert "tests.mould" not in started(PYTHONPATH="/nowhere")
+
+
+def test_the_folder_of_its_temporary_files_may_have_any_name(tmp_path: Path) -> None:
+    # addresses of sockets that are files have 107 characters at most
+    folder = tmp_path / ("x" * 100)
+    folder.mkdir()
+    known = run("service", "schema", "optimize", environment={**os.environ, "TMPDIR": str(folder)})
+    assert (known.returncode, known.stderr) == (0, "")
