@@ -1,13 +1,18 @@
 """Figures in tables of chapters: whose they are, and how they are written."""
 
+import json
 from types import SimpleNamespace
 from typing import Any
 
+from optimizer.optimize import optimize
 from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.requests import OptimizeRequest
+from service.documents.examples import load
 from service.report.blocks import Number, Paragraph, Table, settled
 from service.report.chapters.balance_quality import balance_quality
 from service.report.chapters.built import _cells
 from service.report.chapters.inputs import _reciprocating
+from service.report.chapters.loads import loads
 from service.tables.as_built import HEADS
 from tests.optimize.machines import machine, row, throw, web
 
@@ -52,3 +57,15 @@ def test_a_tolerance_alone_is_written_as_one() -> None:
 def test_nothing_is_not_below_a_gap() -> None:
     shown = [cell.text for cell in (settled(value, 0.0, 0.5) for value in (0.1, 0.0, 0.5)) if isinstance(cell, Number)]
     assert [text.startswith("<") for text in shown] == [True, False, False]
+
+
+def test_cylinders_are_counted_from_1() -> None:
+    request = OptimizeRequest.model_validate(json.loads(load("2d12")) | {"outputs": ["loads"]})
+    found = optimize(request).loads
+    assert found is not None
+    assert isinstance(request.machine, ReciprocatingMachine)
+    tables = [block for block in loads(request.machine, found).blocks if isinstance(block, Table)]
+    (covers,) = (block for block in tables if any("cylinder" in column.title for column in block.columns))
+    numbers = [cover.cylinder for row in found.rows for cover in row.covers]
+    assert min(numbers) == 0
+    assert [_plain(line[1]) for line in covers.rows] == [number + 1 for number in numbers]
