@@ -82,6 +82,11 @@ _SERVICE: dict[str, str] = {
     " -> ellipse.major / factor * (x.end - x.start) / (x.high - x.low) <= _DOT": _ALIKE,
     "report/charts.py chart: place[0] + 22 -> place[0] + 23": _LOOKS,
     "report/accuracy_picture.py _axes: 0.8 -> 0.809": _LOOKS,
+    "report/charts.py _ends: 0.03 * (high - low) -> 0.0313 * (high - low)": _LOOKS,
+    "report/scatter.py _LEFT: (72.0, 14.0, 34.0, 320.0) -> (72.721, 14.0, 34.0, 320.0)": _LOOKS,
+    "report/scatter.py scatter: drawing.line([(x, _TOP), (x, bottom + 4)], FAINT, 0.8)"
+    " -> drawing.line([(x, _TOP), (x, bottom + 4)], FAINT, 0.809)": _LOOKS,
+    "report/stage_scheme.py _vector: vector.direction_deg + 180.0 -> vector.direction_deg - 180.0": _ALIKE,
 }
 #: `file of: fault`, of the function or name that it stands in; without a fault all that stands there
 EQUAL = {
