@@ -101,6 +101,7 @@ class FairQueue:
         self._pressure = Loads(clock)
         self._pressing: set[str] = set()
         self._running: Counter[str] = Counter()
+        self._begun: set[Turn] = set()
         self._above = 0
         #: set while anybody waits
         self.crowded = asyncio.Event()
@@ -118,6 +119,10 @@ class FairQueue:
         """Whether an owner has more than one turn, or waits for one."""
         return self._running[owner] > 1 or owner in self._waiting
 
+    def gives_way(self, turn: Turn) -> bool:
+        """Whether the owner of a turn asks without end while somebody has one who asks now and then."""
+        return not turn.seldom and any(other.seldom for other in self._begun)
+
     def turn(self, owner: str) -> Turn:
         """A turn to wait for, and to have."""
         return Turn(self, owner)
@@ -128,6 +133,7 @@ class FairQueue:
             return
         turn.ended = True
         if turn.begun:
+            self._begun.remove(turn)
             self._running[turn.owner] -= 1
             if not self._running[turn.owner]:
                 del self._running[turn.owner]
@@ -189,6 +195,7 @@ class FairQueue:
         turn.begun, turn.begun_at, turn.above = True, self._clock(), not self._is_free()
         turn.seldom = self._had_little(turn.owner)
         self._above += turn.above
+        self._begun.add(turn)
         self._running[turn.owner] += 1
         self._accounts.take(turn.owner, 1)
         self._loads.take(turn.owner)

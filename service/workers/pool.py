@@ -168,14 +168,12 @@ class Pool:
 
     def _priority(self, turn: Turn) -> Priority:
         """That of a turn which has just begun; who asks without end gives way to who asks now and then."""
-        if self._short.more(turn.owner):
+        if self._short.more(turn.owner) or self._short.gives_way(turn):
             return Priority.FURTHER
-        others = {worker: other for worker, other in self._busy.items() if other.begun and not other.ended}
-        if not turn.seldom:
-            return Priority.FURTHER if any(other.seldom for other in others.values()) else Priority.FIRST
-        for worker, other in others.items():
-            if not other.seldom:
-                worker.lower(Priority.FURTHER)
+        if turn.seldom:
+            for worker, other in self._busy.items():
+                if other.begun and not other.ended and not other.seldom:
+                    worker.lower(Priority.FURTHER)
         return Priority.FIRST
 
     async def _computed(self, task: Task, priority: Priority, short: Turn, long: Turn) -> Outcome | Long:

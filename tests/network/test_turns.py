@@ -122,6 +122,25 @@ def test_who_has_nothing_begins_at_once_though_another_one_has_everything() -> N
     play(FairQueue(2, 20, 20), story)
 
 
+def test_who_asks_without_end_gives_way_as_long_as_another_computes() -> None:
+    turns = FairQueue(2, 20, 20)
+
+    async def story(_: Asked) -> None:
+        busy, later, other = turns.turn("a"), turns.turn("a"), turns.turn("b")
+        turns.ask(busy)
+        turns.clock.seconds += 5.0
+        busy.end()
+        turns.ask(later)
+        assert (later.seldom, turns.gives_way(later)) == (False, False)
+        turns.ask(other)
+        assert (other.seldom, turns.gives_way(other), turns.gives_way(later)) == (True, False, True)
+        other.end()
+        assert not turns.gives_way(later)
+        later.end()
+
+    play(turns, story)
+
+
 def test_owners_who_ask_without_end_leave_two_to_who_asks_now_and_then() -> None:
     async def story(asked: Asked) -> None:
         for name in ("a0", "b0", "c0", "a1", "b1", "c1", "a2", "b2", "c2"):
