@@ -224,13 +224,13 @@ def perform(task: Task) -> Outcome | Long:
     try:
         body, said = _read(task)
         with said:
-            stream = check(task.computation.asks, body)
-            task.limits.require(stream)
-            if not task.long and long_by_size(stream, task.computation.answer is None):
+            request = check(task.computation.asks, body)
+            task.limits.require(request)
+            if not task.long and long_by_size(request, task.computation.answer is None):
                 return Long()
             with error_log() as faults:
-                found = task.computation.function(stream)
-        content = task.form.content(stream, found)
+                found = task.computation.function(request)
+        content = task.form.content(request, found)
         coding = None if task.form.compressed or len(content) <= SMALL_BYTES else task.coding
         if coding is not None:
             content = coded(content, coding)
