@@ -1,9 +1,11 @@
-"""A service as a process, for all tests that need no settings of their own."""
+"""A service as a process, for all tests that need no settings of their own, and a pool of two short computations."""
 
 from collections.abc import Iterator
 
 import pytest
 
+from service.workers.pool import Pool
+from tests.network.pools import pool_of
 from tests.network.serving import Service, service
 
 
@@ -11,3 +13,10 @@ from tests.network.serving import Service, service
 def target() -> Iterator[Service]:
     with service() as made:
         yield made
+
+
+@pytest.fixture
+def pool() -> Iterator[Pool]:
+    made = pool_of(2, 2)
+    yield made
+    made.close()

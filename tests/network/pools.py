@@ -1,0 +1,33 @@
+"""A pool of workers, and what becomes of tasks that it is asked at once."""
+
+import anyio
+
+from service.fairness.table import shares
+from service.settings import Settings
+from service.workers.pool import Pool
+from service.workers.worker import Outcome
+
+
+def pool_of(size: int, places: int) -> Pool:
+    """A pool of so many short computations at a time, for which so many may wait, all of them of one client."""
+    settings = Settings(concurrent_solves=size, queue_length=places, queue_length_each=places)
+    return Pool(shares(settings), timeout_s=180, memory_mb=2000)
+
+
+def run(pool: Pool, *asked: object) -> list[Outcome | Exception]:
+    """The outcomes of tasks that are given at once."""
+    found: list[Outcome | Exception] = [AssertionError()] * len(asked)
+
+    async def one(index: int) -> None:
+        try:
+            found[index] = await pool.run(asked[index], "one")  # type: ignore[arg-type]
+        except Exception as error:
+            found[index] = error
+
+    async def everything() -> None:
+        async with anyio.create_task_group() as group:
+            for index in range(len(asked)):
+                group.start_soon(one, index)
+
+    anyio.run(everything)
+    return found
