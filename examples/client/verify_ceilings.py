@@ -8,7 +8,7 @@ from typing import Dict, Iterator, NamedTuple, Sequence
 from verify_claims import Claims
 from verify_first import CEILING
 from verify_numbers import Place, real
-from verify_program import CEILINGS
+from verify_program import CEILINGS, Statement, weighed
 from verify_values import Value
 from verify_weights import UNSURE
 
@@ -41,6 +41,13 @@ def limited(value: Value) -> Iterator[Limited]:
         yield Limited("bending_ceiling", bending.double(least=0), f"bending:{plane!r}")
 
 
+def _called(value: Value, response: str) -> float:
+    """What a ceiling is measured by where nothing is there and nothing allowed: what is weighed calls for that much."""
+    machine, goal = value.part.machine, value.part.goal
+    sizes = Statement(machine, goal, {"sum": weighed(goal, machine)}).sizes
+    return float(sizes[response]) if response in sizes else 0.0
+
+
 def margins(place: Place, there: Sequence[Value], rest: Sequence[Value], optimal: bool) -> Claims:
     """That an optimal answer keeps the ceilings; returns which share of each is left at least."""
     rooms: Dict[str, float] = {}
@@ -50,7 +57,9 @@ def margins(place: Place, there: Sequence[Value], rest: Sequence[Value], optimal
             # broken is what exceeds the ceiling for certain, as in the first order
             room = most - peak.low
             if room < 0:
-                room += CEILING * max(most, nothing.under(response).high)
+                bare = nothing.under(response)
+                size = max(most, bare.high)
+                room += CEILING * (size if most > 0 or bare.low > 0 else max(size, _called(value, response)))
             yield "ceilings", place, real(room) if optimal or room >= 0 else None, real(max(most, peak.high))
             # a ceiling that the rounding of what cancels comes near to may be listed or not
             unsure = peak.high - peak.low > UNSURE * most

@@ -95,9 +95,10 @@ def optimum(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> 
     lowest = proof / "continuous_lower_bound" if chosen else lowest
     yield near("objective", objective, value)
     yield near("before", proof / "objective_without_counterweights", rest)
-    # nothing that exceeds no ceiling by more is better
+    # nothing that exceeds no ceiling by more is better; any masses beside a choice keep them
+    slack = {} if chosen else over
     multipliers, priced = proof / "multipliers", partial(priced_at, dict.fromkeys(rows, lowest.number(0.0)))
-    yield from proven("lower_bound", lowest, statement, multipliers / "objective", implied, over, priced)
+    yield from proven("lower_bound", lowest, statement, multipliers / "objective", implied, slack, priced)
     if proof / "yardstick":
         yield yardstick(statement, proof / "yardstick", rest, implied)
     asks_least = (goal / "least_mass").read((bool,), "true or false", True)

@@ -140,8 +140,9 @@ class Program:
                 continue
             factors = part.of_ceiling(name)
             cap = cap - self.off.besides * total(map(abs, factors))
-            if cap.high < 0:
+            if cap.low < 0:
                 # below what turns against the shaft, or what is off: the more is paid for it the more is proven
+                cap = Number(cap.low, min(cap.high, 0))
                 more = (row / "value").number(least=0) - lengths.get((row / "name").text(), ZERO)
                 more = largest(more, ZERO)
                 pulls.least = pulls.least - more * cap
