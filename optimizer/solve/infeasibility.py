@@ -14,17 +14,13 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
 from optimizer.mechanics.shapes import closed, plates
 from optimizer.outputs.first_order import added_peaks, first_order, smallest_peaks, smallest_proofs
-from optimizer.program.certificate import Multipliers, objective_lower_bound
 from optimizer.program.cuts.dominance import Group, Weighed
 from optimizer.program.cuts.optimum import METHOD, CertifiedOptimum, Unkept
-from optimizer.program.cuts.proof import Proof
 from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.limits import Limits
 from optimizer.program.optimum import optimum
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import Row, weighted_peak
-from optimizer.program.solution import CEILING_ROUNDING
-from optimizer.program.statement import Statement
 from optimizer.program.verdict import INFEASIBLE
 from optimizer.solve.cut_plates import cut_plates
 from optimizer.solve.proof import implied_max_mass, named_excess
@@ -57,7 +53,7 @@ class ImpliedMasses(NamedTuple):
     """Largest masses that proofs count with where those of the machine are larger, by web, kg."""
 
     together: dict[str, float]
-    alone: dict[str, dict[str, float]]  # of responses whose smallest peak is proven for less
+    alone: dict[str, dict[str, float]]  # of responses whose smallest peak is proven for others
 
 
 class StatedCeiling(NamedTuple):
@@ -157,19 +153,7 @@ def unreachable(
     for name in limited:
         of_name = {limit.quantity: limit for limit in goals.limited if alone.quantities[limit.quantity].name == name}
         groups[name] = Group(weighed=tuple(Weighed(q, limit.omega_squared / square) for q, limit in of_name.items()))
-    # one reach for all that is proven here
-    common, least = alone.limits, {name: _least(alone, group, solver) for name, group in groups.items()}
-    most = np.max([within.max_mass, *(peak.limits.max_mass for peak in least.values())], axis=0)
-    if np.any(most != alone.limits.max_mass):
-        common = replace(alone.limits, max_mass=most)
-        if failure is not None and np.any(most != within.max_mass):
-            again = _conflict(
-                goals.program, failure, common, {name: peak.proof for name, peak in least.items()}, solver
-            )
-            # where the conflict is proven for less only, all is proven for that
-            common, failure = (within, failure) if again is None else (common, again)
-        alone = alone.changed(limits=common)
-        least = {name: _least(alone, group, solver) for name, group in groups.items()}
+    least = {name: _least(alone, group, solver) for name, group in groups.items()}
     peaks = {
         name: Smallest(goal.value * square, goal.lower_bound * square, multipliers_of(goal.proof, square, goals.speeds))
         for name, (goal,) in ((name, smallest.goals) for name, smallest in least.items())
@@ -191,17 +175,17 @@ def unreachable(
         scales, proof = goals.program.excess_scales(failure.proof.cuts), failure.proof
         conflict = named_excess(proof.with_pieces, proof.multipliers, scales, goals.speeds)
         scenarios = _scenarios(goals.program, failure, solver)
-    implied = _implied(task.space.machine, common, {name: peak.limits for name, peak in least.items()})
+    implied = _implied(task.space.machine, within, {name: peak.limits for name, peak in least.items()})
     infeasibility = report(scene, shown, (*exact, *both), together, peaks, implied, conflict, scenarios)
     spent = (0.0 if failure is None else failure.certify_s) + sum(peak.certify_s for peak in least.values())
     return Infeasible("infeasible", INFEASIBLE, infeasibility, spent, METHOD if failure is None else failure.method)
 
 
 def _implied(machine: Machine, together: Limits, alone: Mapping[str, Limits]) -> ImpliedMasses:
-    """The masses of proofs within limits, of each response by itself where it is proven for less."""
-    less = {name: each for name, each in alone.items() if np.any(each.max_mass < together.max_mass)}
+    """The masses within which the conflict is proven, and of each response by itself where that counts with others."""
+    others = {name: limits for name, limits in alone.items() if np.any(limits.max_mass != together.max_mass)}
     return ImpliedMasses(
-        _masses_within(machine, together), {name: _masses_within(machine, each) for name, each in less.items()}
+        _masses_within(machine, together), {name: _masses_within(machine, limits) for name, limits in others.items()}
     )
 
 
@@ -215,35 +199,6 @@ def _masses_within(machine: Machine, limits: Limits) -> dict[str, float]:
     mass = cut.mass_of(limits.reach[cut.webs]) * _CUT
     of_plates = {machine.webs[k].name: float(each) for k, each in zip(cut.webs, mass, strict=True)}
     return {name: of_plates.get(name, each) for name, each in implied.items()}
-
-
-def _conflict(
-    program: Problem, failure: Unkept, limits: Limits, alone: Mapping[str, Proof], solver: Solver
-) -> Unkept | None:
-    """The proof that ceilings conflict within larger limits; None where that is proven for less only.
-
-    Parameters
-    ----------
-    alone : of the smallest peak of each response by itself. Where a ceiling is below it, what proves it proves the
-        conflict as well.
-    """
-    excess, rows = replace(failure.proof.statement, limits=limits), failure.proof.statement.names.rows
-    peaks = ((n, alone[name].multipliers) for n, name in enumerate(rows) if name in alone)
-    proofs = (_own_ceiling(excess, n, peak) for n, peak in peaks if peak.term.size == peak.row.size == 1)
-    for multipliers in (failure.proof.multipliers, *proofs):
-        bound = float(objective_lower_bound(excess, multipliers))
-        if bound > CEILING_ROUNDING:
-            return replace(
-                failure, proof=replace(failure.proof, bound=bound, statement=excess, multipliers=multipliers)
-            )
-    again = optimum(program.changed(limits=limits), 1.0, False, solver)
-    return again if isinstance(again, Unkept) else None
-
-
-def _own_ceiling(excess: Statement, ceiling: int, peak: Multipliers) -> Multipliers:
-    """The proof of a smallest peak as one of the smallest excess: all on the row of its own ceiling."""
-    only = (np.arange(excess.row.size) == ceiling).astype(float)
-    return Multipliers(peak.term * only, peak.row * only, np.zeros_like(excess.ceilings.norms.constant))
 
 
 def _alone(task: Task, goals: Goals, omega_squared: float) -> dict[str, tuple[Row, ...]]:

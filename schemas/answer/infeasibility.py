@@ -71,13 +71,13 @@ class Infeasibility(Model):
     )
     implied_max_mass_kg: dict[Name, Kilograms] = Field(
         description="largest masses that the bounds count with, of webs without a limit or with one beyond any need:"
-        " it is proven that the smallest that can be reached lies within them",
+        " it is proven that what comes closest lies within them",
         examples=[{"1a": 412.5}],
     )
     smallest_implied_max_mass_kg: dict[ResponseName, dict[Name, Kilograms]] = Field(
         {},
-        description="the same of the smallest peak of a response that needs less: its bound counts with these, by"
-        " response",
+        description="the same of the smallest peak of a response by itself where its bound counts with other masses,"
+        " by response",
         examples=[{}],
     )
     closest: Closest = Field(description="the best compromise with the ceilings", examples=[{"counterweights": []}])
