@@ -211,7 +211,8 @@ def _claim(
     lower_bound: float,
 ) -> Claim:
     """What is claimed of the counterweights as they are fitted."""
-    size = float(program.yardsticks[-1])
+    # the counterweights that the proofs count with can change no more
+    size = float(program.yardsticks_within(optimum.limits)[-1])
     *before, (bound, rounding) = (_bound(goal.proof, u, values.excess) for goal in optimum.goals)
     # what goals before the last are proven to need, these counterweights need as well
     against = [least > value + off for (least, off), value in zip(before, values.goals[:-1], strict=True)]

@@ -188,13 +188,17 @@ class Problem:
         Where that is 0, what the counterweights that cancel everything in the program could change of it, as
         :func:`optimizer.program.verdict.yardstick` has it.
         """
+        return self.yardsticks_within(self.limits)
+
+    def yardsticks_within(self, limits: Limits) -> Real:
+        """(goals,) what gaps are relative to, with limits that may be implied."""
         if self.finite is not None:
-            return yardstick(self.finite)[None]
+            return yardstick(self.finite if limits is self.limits else replace(self.finite, limits=limits))[None]
         rest = self.at_rest.goals
         if np.all(rest > 0):
             return rest
         posed = self.begun
-        reach = np.minimum(self.limits.reach, natural_reach(posed))
+        reach = np.minimum(limits.reach, natural_reach(posed))
         of_term = np.sum(np.abs(posed.norms.influence) * reach, axis=-1)
         change = self.of_goals(np.bincount(posed.group[posed.row], of_term, len(self.groups)).astype(float))
         return np.where(rest > 0, rest, change)
