@@ -91,7 +91,9 @@ class Limits:
         return u * np.where(over, self.max_total_mass / np.where(over, mass, 1.0), 1.0)[..., None]
 
     def support(self, g: Complex) -> Real:
-        """Largest Re(conj(g_k) v) over unit-disc vectors v in sector k (docs/mathematics.md section 5), (..., K).
+        """Largest Re(conj(g_k) v) over unit vectors v in sector k (docs/mathematics.md section 5), (..., K).
+
+        It is below 0 where all of them point away, so that no rounding makes a gain of it.
 
         Of alike webs the mean of theirs, with vectors that are alike.
         """
@@ -102,7 +104,7 @@ class Limits:
         across = np.abs(rotated.imag)
         inside = across * self.half_angle_cos <= rotated.real * self.half_angle_sin
         edge = rotated.real * self.half_angle_cos + across * self.half_angle_sin
-        return np.where(self.free | inside, np.abs(g), np.maximum(edge, 0.0))
+        return np.where(self.free | inside, np.abs(g), edge)
 
     def opening(self, g: Complex) -> Real:
         """Growth of :meth:`support` per radian of half-angle, 1/rad (..., K)."""

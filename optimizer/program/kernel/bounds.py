@@ -93,7 +93,7 @@ def bounds(  # type: ignore[no-untyped-def]
                 along = -slope.real * centre[n, k].real - slope.imag * centre[n, k].imag
                 across = abs(slope.real * centre[n, k].imag - slope.imag * centre[n, k].real)
                 if across * cosine[n, k] > along * sine[n, k]:
-                    support = max(along * cosine[n, k] + across * sine[n, k], 0.0)
+                    support = along * cosine[n, k] + across * sine[n, k]
             gain[k] = max(radius[n, k] * (support + rounding) - mass_cost, 0.0)
         dear[m] = off > DEAR * size
         fill(gain, max_mass[n], budget[n], order[0], order[1], masses)

@@ -14,7 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from optimizer.numerics.arrays import Complex
-from optimizer.program.certificate import nothing_proven
+from optimizer.program.certificate import Multipliers, nothing_proven, objective_lower_bound
 from optimizer.program.kernel.finer_numbers import finest
 from optimizer.program.methods.compiled import ENOUGH, TARGET, suits_kernel
 from optimizer.program.methods.feasibility_phase import (
@@ -126,15 +126,21 @@ def _by_all(
 
 
 def _single_web(statement: Statement, solution: Solution) -> Solution:
-    """The better of a point and of what each web comes to alone, exact of the only term.
+    """The better of a point and of what each web comes to alone, exact of the only term, and what that term proves.
 
-    Where one web does 1e10 times as much with a kilogram as another, no units suit both in a solver.
+    Where one web does 1e10 times as much with a kilogram as another, no units suit both in a solver. What is left of
+    the term at an optimum points along its multiplier (the projection onto a convex set).
     """
     constant, influence = statement.norms.constant[0], statement.norms.influence[0]
     does = influence != 0
     alone = statement.limits.into(np.diag(np.where(does, -constant / np.where(does, influence, 1.0), 0.0)))
     best = solution.moved_to(statement, alone[np.argmin(statement.objective(alone))])
-    return best if best.below_ceilings and best.objective < solution.objective else solution
+    solution = best if best.below_ceilings and best.objective < solution.objective else solution
+    left = constant + influence @ solution.unbalance
+    if left == 0:
+        return solution
+    along = Multipliers(np.array([left / abs(left)]), np.ones(1), np.zeros_like(statement.ceilings.norms.constant))
+    return solution.bounded(float(objective_lower_bound(statement, along)), along)
 
 
 def _better_of(first: Solution, second: Solution, share: float) -> Solution:
