@@ -27,7 +27,7 @@ def test_support_is_the_largest_projection_on_the_sector(half_angle: float) -> N
     one = np.ones(1)
     limits = Limits(one, one, np.array([False]), direction(np.array([25.0])), one * edge.real, one * edge.imag,
                     np.asarray(np.inf))  # fmt: skip
-    arc = np.concatenate([[0.0], direction(25.0 + np.linspace(-half_angle, half_angle, 20001))])
+    arc = direction(25.0 + np.linspace(-half_angle, half_angle, 20001))
     for angle in np.linspace(0, 360, 73):
         g = 1.7 * direction(np.array([angle]))
         expected = np.max((np.conj(g) * arc).real)

@@ -35,6 +35,18 @@ from tests.verification.test_curves import part
         # nothing without counterweights, and no use for a budget of a gram; and 6e-14 N m of rounding beside no budget
         ("axis ceilings", 451, 78, "yardstick"),
         ("axis ceilings", 444, 78, "yardstick"),
+        # nothing without counterweights, and 0.04 kg are as much as the proof counts with
+        ("axis ceilings", 864, 83, "yardstick"),
+        # a moment of nothing, of which nothing is allowed, beside a force of 58 N
+        ("balance shafts", 135, 83, "ceilings"),
+        # ceilings that conflict within 1000 kg at a radius of 5e7 m; a peak by itself counts with 6e21 kg there
+        ("balance shafts", 1381, 83, "conflict"),
+        # a moment of 10 N m that turns against the shaft, the rounding of which is 1e12 N m
+        ("balance shafts", 1871, 83, "conflict"),
+        # any masses keep a ceiling that no choice in time does
+        ("catalogue", 5488, 83, "objective"),
+        # 5e18 kg at a radius of 6e4 m, in a sector that points away
+        ("catalogue", 1337, 83, "smallest_force"),
     ],
 )
 def test_what_cancels_is_judged_by_its_parts(mode: str, number: int, seed: int, claim: str) -> None:
