@@ -114,17 +114,18 @@ def verdict(claim: Claim, tolerance: float) -> Verdict:
     false = (over > claim.rounding).all(axis=-1) | claim.contradicted
     bound, gap = np.where(over > 0, claim.value, claim.lower_bound), np.maximum(-over, 0.0)
     relative = np.maximum.reduce(relative_gap(gap, claim.yardstick), axis=-1)
-    mass_yardstick = np.maximum(claim.mass, claim.mass_resolution)
+    mass_yardstick, kept = np.maximum(claim.mass, claim.mass_resolution), claim.excess <= CEILING_TOLERANCE
     if claim.mass_lower_bound is None:
         mass_bound, mass_gap, light = np.zeros_like(claim.mass), np.zeros_like(claim.mass), np.ones_like(false)
     else:
-        false = false | (claim.mass_lower_bound > claim.mass * (1.0 + _MASS_ROUNDING))
+        # the bound is of what keeps the ceilings
+        false = false | (kept & (claim.mass_lower_bound > claim.mass * (1.0 + _MASS_ROUNDING)))
         mass_bound = np.minimum(claim.mass_lower_bound, claim.mass)
         mass_gap = relative_gap(claim.mass - mass_bound, mass_yardstick)
         light = mass_gap <= MASS_GAP
     if false.any():
         _LOG.error("a lower bound is above the value of an answer: %d of %d", np.sum(false), false.size)
-    kept, close = claim.excess <= CEILING_TOLERANCE, relative <= tolerance
+    close = relative <= tolerance
     why = OPTIMAL if claim.mass_lower_bound is None else OPTIMAL_LIGHTEST
     optimal = ~false & kept & close & light
     if optimal.all() and tolerance < np.inf:

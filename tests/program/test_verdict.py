@@ -10,7 +10,15 @@ from optimizer.numerics.arrays import Real
 from optimizer.program.limits import Limits
 from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.statement import Statement
-from optimizer.program.verdict import CONTRADICTED, NOT_LIGHT, OPTIMAL_LIGHTEST, Claim, mass_resolution, verdict
+from optimizer.program.verdict import (
+    CONTRADICTED,
+    NOT_LIGHT,
+    ON_THE_BOUNDARY,
+    OPTIMAL_LIGHTEST,
+    Claim,
+    mass_resolution,
+    verdict,
+)
 from optimizer.responses.response import Phasors, Response
 
 
@@ -94,3 +102,11 @@ def test_a_contradiction_is_a_fault_that_is_said(false: Claim, caplog: pytest.Lo
     for figure in (found.lower_bound, found.gap, found.relative_gap, found.mass_lower_bound, found.mass_gap):
         assert np.all(np.isnan(figure))
     assert [record.levelno for record in caplog.records] == [logging.ERROR]
+
+
+def test_no_mass_is_proven_of_what_exceeds_a_ceiling(caplog: pytest.LogCaptureFixture) -> None:
+    light = replace(_claim(mass=1.0, mass_bound=4.0), excess=np.asarray(0.5))
+    judged = verdict(light, 1e-6)
+    assert (judged.status, judged.reason) == ("inaccurate", ON_THE_BOUNDARY)
+    assert judged.mass_lower_bound == 1.0
+    assert not caplog.records
