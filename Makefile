@@ -149,13 +149,14 @@ audit: licences
 clean:
 	rm -rf .venv build artefacts
 
+# its own pip would take three seconds: that of $(PYTHON) brings uv, which brings the rest;
+# an older checkout was installed by a name that is not ours
 .venv/runtime: requirements.txt deploy/uv.txt deploy/install.sh pyproject.toml
 	@echo "first of two steps: $$(grep -c == requirements.txt) packages into .venv; then the kernels"
-	test -x $(bin)/python || $(PYTHON) -m venv .venv
-	deploy/install.sh .venv requirements.txt
-	# an older checkout was installed by a name that is not ours
-	$(pip) uninstall --yes counterweight 2> /dev/null
-	$(pip) install --no-deps --no-build-isolation --editable .
+	test -x $(bin)/python || $(PYTHON) -m venv --without-pip .venv
+	PYTHON="$(PYTHON)" deploy/install.sh .venv requirements.txt
+	! ls -d .venv/lib/python*/site-packages/counterweight-[0-9]* > /dev/null 2>&1 || $(pip) uninstall --yes counterweight
+	deploy/install.sh .venv --editable .
 	touch $@
 
 .venv/development: requirements-dev.txt .venv/runtime

@@ -1,0 +1,74 @@
+"""How a list is installed: by uv, or by the pip that there is, and never without saying so."""
+
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+#: what is called says so, fails where the test says that it does, and brings what it is to bring
+_PROGRAM = """#!/bin/sh
+name=$(basename "$0")
+echo "$name $*" >> "$CALLS"
+case "$FAILS" in *"($name)"*) exit 1 ;; esac
+case "$*" in
+    *uv.txt) cp "$0" "$PROGRAMS/uv" ;;
+    "-m ensurepip") cp "$0" "$PROGRAMS/pip3" ;;
+esac
+"""
+
+
+def _calls(folder: Path, present: tuple[str, ...], fails: str, *what: str) -> tuple[list[str], str]:
+    """What is called, and what is said, in an environment with these programs."""
+    programs = folder / "env" / "bin"
+    programs.mkdir(parents=True)
+    for path in (folder / "machine", *(programs / name for name in ("python", *present))):
+        path.write_text(_PROGRAM)
+        path.chmod(0o755)
+    calls = folder / "calls"
+    machine = {"PYTHON": str(folder / "machine"), "PIP_INDEX_URL": "https://mirror"}
+    environment = os.environ | machine | {"CALLS": str(calls), "FAILS": fails, "PROGRAMS": str(programs)}
+    done = subprocess.run(
+        [ROOT / "deploy/install.sh", folder / "env", *what],
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return [line.replace(str(folder), "") for line in calls.read_text().splitlines()], done.stdout
+
+
+def test_a_list_is_installed_by_uv_which_the_pip_beside_brings(tmp_path: Path) -> None:
+    calls, _ = _calls(tmp_path, (), "", "list.txt")
+    assert calls[-2].startswith("machine -m pip --python /env/bin/python")
+    assert "--require-hashes --requirement" in calls[-2]
+    assert calls[-2].endswith("deploy/uv.txt")
+    assert calls[-1].startswith("uv pip install --python /env/bin/python")
+
+
+def test_uv_that_is_there_installs_by_hash(tmp_path: Path) -> None:
+    calls, said = _calls(tmp_path, ("uv",), "", "list.txt")
+    options = "--no-deps --require-hashes --requirement list.txt"
+    assert calls[-1] == f"uv pip install --python /env/bin/python --no-progress {options}"
+    assert said == ""
+
+
+def test_a_checkout_is_installed_where_it_lies(tmp_path: Path) -> None:
+    calls, _ = _calls(tmp_path, ("uv",), "", "--editable", ".")
+    assert calls[-1].endswith("--quiet --no-deps --no-build-isolation --editable .")
+
+
+@pytest.mark.parametrize("what", [("list.txt",), ("--editable", ".")])
+def test_without_uv_pip_installs_the_same_and_it_is_said(tmp_path: Path, what: tuple[str, ...]) -> None:
+    calls, said = _calls(tmp_path, ("uv", "pip"), "(uv)", *what)
+    assert calls[-1].startswith("pip --disable-pip-version-check install ")
+    assert calls[-1].endswith(" ".join(what))
+    assert said.startswith("without uv: pip installs")
+
+
+def test_where_no_pip_is_the_environment_gets_its_own(tmp_path: Path) -> None:
+    calls, said = _calls(tmp_path, ("uv",), "(machine)(uv)", "list.txt")
+    assert "python -m ensurepip" in calls
+    assert calls[-1].startswith("pip3 --disable-pip-version-check install ")
+    assert said.startswith("without uv")
