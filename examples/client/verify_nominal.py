@@ -57,10 +57,13 @@ def nominal_optimum(request: Place, machine: Machine, parts: Sequence[Part], off
     yield within("nominal_optimum", worst, of_all.low, of_all.high, WIDE * of_all.high + wide)
     lowest = place / "nominal_lower_bound"
     gap = (request / "accuracy" / "relative_gap").double(usual_gap(request / "machine"), least=0)
-    near_it = lowest and best.double() - lowest.double() <= gap * rest.high + wide
-    yield "nominal_optimum", best, ONE if near_it else None, ONE
-    if lowest:
-        yield "nominal_optimum", lowest, real(best.double() - lowest.double() + wide), ONE
+    if not lowest:
+        yield "nominal_optimum", best, None, ONE
+        return
+    above = best.double() - lowest.double() + wide
+    # what is proven may be less than was sought: how much less is not told
+    near_it = above <= gap * rest.high + 2 * wide
+    yield "nominal_optimum", lowest, real(above) if near_it or above < 0 else None, ONE
 
 
 def fixed_alone(machine: Machine, there: Fitted) -> Fitted:
