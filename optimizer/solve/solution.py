@@ -2,13 +2,14 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from optimizer.formulation.balance_shafts import Fitted
 from optimizer.formulation.simulation import Prepared
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.certificate import Multipliers as MultipliersOfProgram
+from optimizer.program.certificate import nothing_proven
 from optimizer.program.cuts.optimum import CertifiedOptimum
 from optimizer.program.cuts.proof import Proof
 from optimizer.solve.proof import (
@@ -108,6 +109,9 @@ class Proofs(NamedTuple):
         speeds : omega^2 by scenario, that ceilings are over.
         """
         proof, of_mass = optimum.proof, optimum.mass_proof
+        if of_mass is not None and of_mass.bound <= 0.0:
+            # that no mass is below 0 needs no multipliers, and those that were sought may be beyond all numbers
+            of_mass = replace(of_mass, multipliers=nothing_proven(of_mass.statement))
         if of_mass is not None and of_mass.statement is proof.statement and of_mass.laid is proof.laid:
             bounds: dict[Bounded, MultipliersOfProgram] = {"objective": proof.multipliers, "mass": of_mass.multipliers}
             return cls(*physical_bounds(proof.with_pieces, bounds, omega_squared, speeds))
