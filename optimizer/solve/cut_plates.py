@@ -11,11 +11,16 @@ from optimizer.formulation.limits import limits
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
 from optimizer.mechanics.plates import Plates
-from optimizer.mechanics.shapes import fitted, plates
+from optimizer.mechanics.shapes import closed, fitted, plates
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.equal_castings import Alike
 from optimizer.program.limits import Limits
 from optimizer.program.methods.plate_sizes import SAME_SIZE
+from optimizer.solve.proof import implied_max_mass
+from schemas.machine.machine import Machine
+
+#: masses of plates are told with room for their rounding
+_CUT = 1.0 + 1e-9
 
 
 class CutPlates(NamedTuple):
@@ -70,3 +75,18 @@ def limits_of_cut(stated: Limits, reached: Limits, of_machine: Plates, edge: Rea
     most[..., of_machine.webs] = stated.max_mass[..., of_machine.webs]
     margin[..., of_machine.webs] = of_machine.lever(edge)
     return replace(stated, max_mass=most, marginal_radius=margin)
+
+
+def implied_masses(machine: Machine, limits: Limits) -> dict[str, float]:
+    """Masses of limits that proofs count with where those of the machine are larger, kg by web.
+
+    Of a plate it is what is cut for its unbalance.
+    """
+    smallest = closed(machine)
+    implied, cut = implied_max_mass(smallest, limits.max_mass[None])[0], plates(machine)
+    if cut is None or not implied:
+        return implied
+    # within rounding of what is cut
+    mass = cut.mass_of(limits.reach[cut.webs]) * _CUT
+    of_plates = {machine.webs[k].name: float(each) for k, each in zip(cut.webs, mass, strict=True)}
+    return {name: of_plates.get(name, each) for name, each in implied.items()}

@@ -12,7 +12,6 @@ from optimizer.formulation.formulate import limited as limited_responses
 from optimizer.formulation.goals import Goals
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
-from optimizer.mechanics.shapes import closed, plates
 from optimizer.outputs.first_order import added_peaks, first_order, smallest_peaks, smallest_proofs
 from optimizer.program.cuts.dominance import Group, Weighed
 from optimizer.program.cuts.optimum import METHOD, CertifiedOptimum, Unkept
@@ -22,8 +21,8 @@ from optimizer.program.optimum import optimum
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import Row, weighted_peak
 from optimizer.program.verdict import INFEASIBLE
-from optimizer.solve.cut_plates import cut_plates
-from optimizer.solve.proof import implied_max_mass, named_excess
+from optimizer.solve.cut_plates import cut_plates, implied_masses
+from optimizer.solve.proof import named_excess
 from optimizer.solve.solution import Infeasible, multipliers_of
 from schemas.answer.infeasibility import Closest, Infeasibility, SmallestPeak
 from schemas.answer.limits import CeilingField
@@ -35,8 +34,6 @@ from schemas.machine.machine import Machine
 _ALONE = 1e-7
 #: share of the largest multiplier of a conflict from which on a ceiling takes part in it
 _TAKES_PART = 1e-6
-#: masses of plates are told with room for their rounding
-_CUT = 1.0 + 1e-9
 #: so many responses of a conflict are looked at by themselves
 _MOST_AT_FAULT = 6
 
@@ -185,20 +182,8 @@ def _implied(machine: Machine, together: Limits, alone: Mapping[str, Limits]) ->
     """The masses within which the conflict is proven, and of each response by itself where that counts with others."""
     others = {name: limits for name, limits in alone.items() if np.any(limits.max_mass != together.max_mass)}
     return ImpliedMasses(
-        _masses_within(machine, together), {name: _masses_within(machine, limits) for name, limits in others.items()}
+        implied_masses(machine, together), {name: implied_masses(machine, limits) for name, limits in others.items()}
     )
-
-
-def _masses_within(machine: Machine, limits: Limits) -> dict[str, float]:
-    """Masses of limits where those of the machine are larger, of a plate what is cut for its unbalance."""
-    smallest = closed(machine)
-    implied, cut = implied_max_mass(smallest, limits.max_mass[None])[0], plates(machine)
-    if cut is None or not implied:
-        return implied
-    # within rounding of what is cut
-    mass = cut.mass_of(limits.reach[cut.webs]) * _CUT
-    of_plates = {machine.webs[k].name: float(each) for k, each in zip(cut.webs, mass, strict=True)}
-    return {name: of_plates.get(name, each) for name, each in implied.items()}
 
 
 def _alone(task: Task, goals: Goals, omega_squared: float) -> dict[str, tuple[Row, ...]]:

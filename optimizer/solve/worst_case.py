@@ -13,6 +13,7 @@ from optimizer.formulation.goals import Goals, bearing_responses, formulate
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
 from optimizer.numerics.arrays import Complex
+from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.cuts.brackets import Brackets
 from optimizer.program.cuts.cut import Quantity
 from optimizer.program.cuts.optimum import CertifiedOptimum, Unkept
@@ -20,9 +21,8 @@ from optimizer.program.optimum import optimum
 from optimizer.program.reference.solver import Solver
 from optimizer.responses.curve import TurnResponse
 from optimizer.solve.answer_fields import bound_beside, fitted
-from optimizer.solve.cut_plates import cut_plates
+from optimizer.solve.cut_plates import cut_plates, implied_masses
 from optimizer.solve.infeasibility import out_of_reach
-from optimizer.solve.proof import implied_max_mass
 from optimizer.solve.solution import Infeasible, Solution, finite_or_null, multipliers_of
 from optimizer.solve.uncertain_program import MachineOfCase, Measure, Robust
 from schemas.answer.first_order import ResponsePeak
@@ -61,22 +61,24 @@ def _beside_nominal(robust: Robust, goals: Goals, solution: Solution, solver: So
     best, late = _nominal_optimum(robust, solver)
     if best is None:
         return with_worst_case(robust, solution, None, late)
+    implied = implied_masses(task.space.machine, best.limits)
     # of the masses that are printed, like every figure
     task, scene, goals, mass, angle = cut_plates(task, scene, goals, best.point.unbalance, best.limits)
     if goals.program.plates is not None:
         best = best.within(goals.program.limits)
     u = unbalance(mass, angle, best.limits.radius)
-    return with_worst_case(
-        robust, solution, u, late, _proof_of(robust, task, best, chosen(task.machine, task.objective, mass, angle), u)
-    )
+    shown = chosen(task.machine, task.objective, mass, angle)
+    return with_worst_case(robust, solution, u, late, _proof_of(robust, best, shown, u, implied))
 
 
-def _proof_of(robust: Robust, task: Task, best: CertifiedOptimum, shown: Fitted, u: Complex) -> dict[str, object]:
+def _proof_of(
+    robust: Robust, best: CertifiedOptimum, shown: Fitted, u: Complex, implied: Mapping[str, float]
+) -> dict[str, object]:
     """The best counterweights (K,) kg m of the machine as it is given, and of one goal what is proven of them.
 
     Parameters
     ----------
-    task : with the radii of what is cut.
+    implied : masses that the proof counts with, kg by web.
     """
     fields: dict[str, object] = {
         "nominal_counterweights": shown.counterweights,
@@ -89,7 +91,7 @@ def _proof_of(robust: Robust, task: Task, best: CertifiedOptimum, shown: Fitted,
     return fields | {
         "nominal_lower_bound": finite_or_null(bound_beside(best.proof, excess) * square),
         "nominal_multipliers": multipliers_of(best.proof, square, {None: square}),
-        "nominal_implied_max_mass_kg": implied_max_mass(task.space.machine, best.limits.max_mass[None])[0],
+        "nominal_implied_max_mass_kg": implied,
     }
 
 
@@ -179,8 +181,10 @@ def _nominal_optimum(robust: Robust, solver: Solver) -> tuple[CertifiedOptimum |
     if left == 0.0:
         return None, True
     found = optimum(nominal.program, wanted.relative_gap, wanted.least_mass, solver, left)
-    late = isinstance(found, CertifiedOptimum) and found.timed_out
-    return found if isinstance(found, CertifiedOptimum) and not late else None, late
+    if isinstance(found, Unkept) or found.timed_out:
+        return None, isinstance(found, CertifiedOptimum)
+    # what is neither kept nor proven to be out of reach is no optimum
+    return found if found.point.values.excess <= CEILING_TOLERANCE else None, False
 
 
 def _price(robust: Robust, u: Complex, best: Complex | None) -> dict[str, float | None]:
