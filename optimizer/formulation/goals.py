@@ -74,6 +74,13 @@ class Goals:
     program: Problem  # over omega^2 of the machine as it is given
     limited: tuple[Limited, ...]  # as in the program
     cases: tuple[Case, ...]
+    #: the problem with all changes of masses among which a peak has its largest, wherever counterweights are
+    of_all_masses: Callable[[], Problem] | None = None  # None where no masses scatter
+
+    @property
+    def anywhere(self) -> Problem:
+        """The problem as it holds of all counterweights, not of those alone by which changes of masses were sought."""
+        return self.program if self.of_all_masses is None else self.of_all_masses()
 
     @property
     def speeds(self) -> Mapping[str | None, float]:

@@ -122,7 +122,7 @@ def solution_of(
         {
             "active_limits": touched,
             "shadow_prices": prices,
-            "sensitivity": sensitivity(program, u, values, square) if in_full and not turning else None,
+            "sensitivity": sensitivity(goals, u, values, square) if in_full and not turning else None,
         },
         optimum.certify_s,
         optimum.method if search is None else search.ended.method,

@@ -4,10 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from optimizer.formulation.goals import Goals
 from optimizer.numerics.arrays import Complex
 from optimizer.program.cuts.cut import EXACT
 from optimizer.program.cuts.misplacement import largest_last_goals
-from optimizer.program.cuts.semi_infinite import Problem, Values
+from optimizer.program.cuts.semi_infinite import Values
 from optimizer.program.misplacement import farthest_by_angle, farthest_by_mass
 from optimizer.program.statement import Statement
 from schemas.answer.robust import Sensitivity
@@ -33,16 +34,17 @@ def _of_cone_program(statement: Statement, u: Complex, omega_squared: float) -> 
     return _rises(as_it_is, by_angle, by_mass, omega_squared)
 
 
-def sensitivity(program: Problem, u: Complex, values: Values, omega_squared: float) -> Sensitivity:
+def sensitivity(goals: Goals, u: Complex, values: Values, omega_squared: float) -> Sensitivity:
     """Of the last goal of a problem.
 
     Parameters
     ----------
-    values : what the program comes to with counterweights (K,) kg m.
+    values : what its program comes to with counterweights (K,) kg m.
     """
+    program = goals.anywhere
     if program.finite is not None:
         return _of_cone_program(program.finite, u, omega_squared)
-    if program.scatter != EXACT:
+    if program.scatter != EXACT or program is not goals.program:
         # of the counterweights as they should be, whatever they are allowed to be off by
         program = replace(program, scatter=EXACT)
         values = program.values(u, _CLOSE)

@@ -39,7 +39,7 @@ from schemas.base.target import pointer
 from schemas.request.scenarios import Tolerances
 
 #: a corner that is worse by less than this share is as good as known
-_ALIKE = 1e-12
+_ALIKE = 1e-14
 #: times that corners are added before it ends with what is proven
 MOST_ROUNDS = 60
 
@@ -165,9 +165,17 @@ class Robust:
 
     def goals(self) -> Goals:
         """The program with the changes of masses that are known."""
-        cases = [machine.case(signs) for machine, signs in zip(self.machines, self._signs, strict=True)]
+        goals = self._goals(self._signs)
+        return replace(goals, of_all_masses=self._of_all_masses) if self.scatters and self._measures else goals
+
+    def _goals(self, signs: Sequence[Sequence[Real]]) -> Goals:
+        cases = [machine.case(known) for machine, known in zip(self.machines, signs, strict=True)]
         (machine, objective), fidelity = self.space, self.task.fidelity
         return formulate(machine, objective, cases, self.scene.omega_squared, fidelity, self.scatter, self.scatters)
+
+    def _of_all_masses(self) -> Problem:
+        every = [np.concatenate([machine.corners(each) for each in self._measures]) for machine in self.machines]
+        return self._goals([list(np.unique(corners, axis=0)) for corners in every]).program
 
     def learnt(self, u: Complex) -> bool:
         """Whether counterweights (K,) have shown changes of masses that are worse than those known before."""
@@ -193,8 +201,10 @@ class Robust:
         for _ in range(MOST_ROUNDS):
             asked = self.goals()
             found = self._cut(asked.program, solver) or optimum(asked.program, gap, least, solver, self.left_s)
-            if isinstance(found, Unkept) or found.timed_out or not self.learnt(found.point.unbalance):
+            if isinstance(found, Unkept) or not self.learnt(found.point.unbalance):
                 return asked, found
+            if found.timed_out:
+                break
         # judged by all that is known: the gap tells what is left open
         return self.goals(), found
 
