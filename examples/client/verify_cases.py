@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import product
 from math import radians, sin, sqrt
 from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Sequence
 
@@ -26,6 +27,8 @@ CASES: Dict[str, Stated] = {
 FIELDS = " tolerances mass_relative unbalance_kg_m reciprocating_mass_relative priorities goal allowance " + "".join(
     f" {name} {one.fields} " for name, one in CASES.items()
 )
+#: rows whose masses are off one way or the other, all ways of them
+MOST_ROWS = 8
 #: fields that say where the plane of the moments is
 PLANES = ("position_m", "orbiting_position_m", "reference_plane_m")
 #: the goal that a part of the objective belongs to
@@ -56,8 +59,6 @@ class Scatter(NamedTuple):
 def scatter(request: Place) -> Scatter:
     """A mass off by up to d and an angle by up to a move an unbalance by max |(1 + d) e^{ja} - 1| of itself."""
     said = request / "tolerances"
-    if (said / "reciprocating_mass_relative").double(0.0) > 0:
-        raise NotCovered(said / "reciprocating_mass_relative")
     mass, angle = (said / "mass_relative").double(0.0, least=0), (said / "angle_deg").double(0.0, least=0)
     if mass == 0 and angle == 0:
         return Scatter(ZERO, (said / "unbalance_kg_m").number(0.0, least=0))
@@ -66,6 +67,20 @@ def scatter(request: Place) -> Scatter:
         raise NotCovered(request / "machine" / "web_groups")
     share = sqrt(mass**2 + 4 * (1 + mass) * sin(radians(min(angle, 180.0) / 2)) ** 2)
     return Scatter(real(share) * ABOUT_ONE, (said / "unbalance_kg_m").number(0.0, least=0))
+
+
+def corners(request: Place, machine: Machine) -> List[Machine]:
+    """Every machine whose reciprocating masses are off by all that they may be; none where they are not off.
+
+    A peak is convex in the masses, so it is largest at one of them.
+    """
+    field = request / "tolerances" / "reciprocating_mass_relative"
+    share, rows = field.number(0.0, least=0), sum(mass.counter is not ZERO for mass in machine.masses)
+    if share.high == 0 or rows == 0:
+        return []
+    if rows > MOST_ROWS:
+        raise NotCovered(field)
+    return [machine.off(signs) for signs in product((share, -share), repeat=rows)]
 
 
 class Case(NamedTuple):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import nan
+from math import isnan, nan
 from typing import Dict, Iterator, NamedTuple, Sequence
 
 from verify_claims import Claims
@@ -10,7 +10,7 @@ from verify_first import CEILING
 from verify_numbers import Place, real
 from verify_program import CEILINGS, Statement, weighed
 from verify_values import Value
-from verify_weights import UNSURE
+from verify_weights import TOUCHED, UNSURE
 
 #: fields of an objective that limit loads of the shaft
 LOADED = ("bearing_ceiling_N", "specific_load_ceiling_Pa", "bending_ceiling_Nm")
@@ -64,5 +64,12 @@ def margins(place: Place, there: Sequence[Value], rest: Sequence[Value], optimal
             # a ceiling that the rounding of what cancels comes near to may be listed or not
             unsure = peak.high - peak.low > UNSURE * most
             share = nan if unsure else 1 - peak.high / most if most > 0 else 0.0
-            rooms[limit] = min(rooms.get(limit, share), share)
+            rooms[limit] = _tighter(rooms.get(limit, share), share)
     return rooms
+
+
+def _tighter(first: float, second: float) -> float:
+    """The smaller room; where one of them is not told, the other only if it is none."""
+    known = [room for room in (first, second) if not isnan(room)]
+    least = min(known, default=nan)
+    return least if len(known) == 2 or least <= TOUCHED - UNSURE else nan

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Dict, List, NamedTuple, Optional, Sequence, Tuple
+from typing import Dict, Iterable, List, NamedTuple, Optional, Sequence, Tuple
 
 from verify_answer import Fitted
 from verify_bearings import SAMPLE
-from verify_cases import Case, Scatter, goal_of
+from verify_cases import Case, Scatter, corners, goal_of, peak
 from verify_curves import Turn
 from verify_loads import Loads
-from verify_machine import ON_FRAME, Responses, over
-from verify_numbers import ABOUT_ONE, ONE, ZERO, J, NotCovered, Number, Place, largest, real, total
+from verify_machine import ON_FRAME, Mass, over
+from verify_numbers import ABOUT_ONE, ONE, SPECK, ZERO, J, NotCovered, Number, Place, largest, real, total
 from verify_program import CEILINGS, Statement
 from verify_program import Term as Length
 from verify_shafts import Geared, geared
@@ -22,6 +22,8 @@ FIELDS = (
 )
 #: of balance shafts
 SHAFTS = " balance_shafts speed_ratio x_m y_m roll_weight "
+#: share by which one corner may be worse than another that counts as bad
+ALIKE = Number(-real(2e-14).high, real(2e-14).high)
 #: case, goal and kind
 Group = Tuple[Optional[str], int, str]
 
@@ -73,6 +75,14 @@ class Part:
         self.geared = geared(request / "machine", machine, mirrored=not self.all)
         backwards = any(one.ratio == -1 for one in self.geared)
         self.exact = Statement(machine, goal, self.rows if external else {}, not self.all, backwards)
+        #: where reciprocating masses are off: every peak has a corner of its own, and so has a row of its own
+        self.corners = corners(request, machine)
+        if self.corners and self.over_turn:
+            raise NotCovered(request / "tolerances" / "reciprocating_mass_relative")
+        self.machines = self.corners or [machine]
+        rows = {name: {name: weight} for name, weight in external.items()}
+        at_corners = [Statement(each, goal, rows, False, backwards) for each in self.corners]
+        self.statements = at_corners or [self.exact]
 
     @cached_property
     def loads(self) -> Loads:
@@ -84,18 +94,46 @@ class Part:
         webs = zip(fitted.turning, self.machine.webs)
         return fitted._replace(turning=[one._replace(position=web.position) for one, web in webs])
 
-    def term(self, cut: Place) -> Term:
+    def worst(self, cuts: Sequence[Place], allowed: Number) -> Statement:
+        """The statement in which the cuts of one row of the first order prove most: any of its corners proves it."""
+        if not self.corners:
+            return self.exact
+        y = {
+            ((cut / "response").text(), (cut / "part").text("co", "counter")): (cut / "x").number()
+            + J * (cut / "y").number()
+            for cut in cuts
+        }
+        if not y.keys() <= self.statements[0].terms.keys():
+            raise NotCovered(cuts[0])
+
+        def proves(statement: Statement) -> float:
+            terms = {key: statement.terms[key] for key in y}
+            floors = {each.row: statement.floor[each.row] for each in terms.values()}
+            of_floors = total(floors.values()) * allowed
+            return float(of_floors + total(y[key].along(each.start) for key, each in terms.items()))
+
+        return max(self.statements, key=proves)
+
+    def term(self, cut: Place, statement: Statement) -> Term:
+        """A cut; ``statement``: of the machine whose first order it is about."""
         response, row = (cut / "response").text(), (cut / "row").text()
         kind, _, name = response.partition(":")
         y = (cut / "x").number() + J * (cut / "y").number()
         if kind not in self.weights or self.weights[kind].high <= 0 or not self.turn.knows(response):
             raise NotCovered(cut)
         if not cut / "angle_deg" and not (kind == "bearing" and self.mean):
-            exact = self.exact.terms.get((response, (cut / "part").text("co", "counter")))
+            exact = statement.terms.get((response, (cut / "part").text("co", "counter")))
             if exact is None:
                 raise NotCovered(cut)
-            floor = self.exact.floor[exact.row]
-            return Term(row, self._group("first"), exact.start, self.of_first_order(exact), y, floor)
+            floor = statement.floor[exact.row]
+            return Term(
+                row,
+                self._group(response if self.corners else "first"),
+                exact.start,
+                self.of_first_order(exact),
+                y,
+                floor,
+            )
         if kind == "bearing" and self.mean:
             return self._mean(response, row, y)
         weight, degrees = self.weights[kind] * ABOUT_ONE, (cut / "angle_deg").double()
@@ -143,12 +181,31 @@ class Part:
     def _arm(self, response: str, shaft_web: Geared) -> Number:
         return self.turn.factor(response, shaft_web.web.position) * self.machine.square
 
-    def value(self, responses: Responses, off: Scatter, sizes: Sequence[Number]) -> Number:
+    def value(self, weights: Sequence[Mass], off: Scatter, sizes: Sequence[Number]) -> Number:
         """The objective of the first order where counterweights of these sizes [kg m] are off."""
-        rows = self.exact.values(responses)
-        for term in self.exact.terms.values():
-            rows[term.row] = rows[term.row] + off.of(self.of_first_order(term), sizes)
-        return largest(ZERO, *rows.values())
+        most: Dict[str, Number] = {}
+        parts: Dict[str, Number] = {}
+        for statement in self.statements:
+            responses = statement.machine.responses(weights)
+            rows = statement.values(responses)
+            for term in statement.terms.values():
+                rows[term.row] = rows[term.row] + off.of(self.of_first_order(term), sizes)
+            most = {name: largest(row, most.get(name, ZERO)) for name, row in rows.items()}
+            for name in rows if self.corners else ():
+                co, counter = responses[name]
+                parts[name] = largest((abs(co) + abs(counter)) * self.weights[name], parts.get(name, ZERO))
+        # what is left at one corner is rounded by what cancels at another
+        for name, size in parts.items():
+            most[name] = most[name] + SPECK * size + ALIKE * most[name]
+        return total(most.values()) if self.corners and self.apart else largest(ZERO, *most.values())
+
+    def together(self, rows: Iterable[float]) -> float:
+        """The same of rows whose largest values are known."""
+        return sum(rows) if self.corners and self.apart else max(rows, default=0.0)
+
+    def peak(self, weights: Sequence[Mass], name: str, off: Scatter, sizes: Sequence[Number]) -> Number:
+        """The largest of a response of the first order, likewise."""
+        return largest(ZERO, *(peak(each, each.responses(weights), name, off, sizes) for each in self.machines))
 
     def _group(self, kind: str) -> Group:
         goal = goal_of(kind, self.named)

@@ -6,7 +6,7 @@ from typing import Dict, List, NamedTuple, Sequence
 
 from verify_answer import Fitted
 from verify_bearings import within
-from verify_cases import Scatter, nominal, peak
+from verify_cases import Scatter, nominal
 from verify_ceilings import margins
 from verify_claims import Claims, near
 from verify_cuts import Part
@@ -82,20 +82,20 @@ def _exactly(request: Place, answer: Place, program: Program, fitted: Fitted) ->
     found = fitted.first
     proof, worst, price = answer / "certificate", answer / "worst_case", answer / "price_of_robustness"
     sizes, nothing = off_sizes(program.machine, fitted), [ZERO for _ in found]
-    parts = [(part, part.machine.responses(part.placed(fitted).first)) for part in program.parts]
-    value = largest(ZERO, *(part.value(responses, program.off, sizes) for part, responses in parts))
-    rest = largest(ZERO, *(part.value(part.machine.laden, program.off, nothing) for part, _ in parts))
+    parts = [(part, part.placed(fitted).first) for part in program.parts]
+    value = largest(ZERO, *(part.value(weights, program.off, sizes) for part, weights in parts))
+    rest = largest(ZERO, *(part.value(part.machine.there, program.off, nothing) for part, _ in parts))
     # what is off by itself is multiplied in doubles too
     yield near("objective", proof / "objective", value * ABOUT_ONE)
     yield near("before", proof / "objective_without_counterweights", rest * ABOUT_ONE)
     if worst:
         yield near("worst_case", worst / "objective", value * ABOUT_ONE)
         for name, unit in NAMES.items():
-            peaks = [peak(part.machine, responses, name, program.off, sizes) for part, responses in parts]
+            peaks = [part.peak(weights, name, program.off, sizes) for part, weights in parts]
             yield near("worst_case", worst / f"{name}_peak_{unit}", largest(*peaks) * ABOUT_ONE)
         for one in worst / "responses":
             name = (one / "response").text(*ON_FRAME)
-            peaks = [peak(part.machine, responses, name, program.off, sizes) for part, responses in parts]
+            peaks = [part.peak(weights, name, program.off, sizes) for part, weights in parts]
             yield "worst_case", one / "response", ONE, ONE
             yield near("worst_case", one / "peak", largest(*peaks) * ABOUT_ONE)
     if price:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from typing import Callable, Dict, Iterator, NamedTuple, Optional, Sequence, Tuple
 
 from verify_numbers import (
@@ -116,10 +117,24 @@ class Machine:
         self.there = [Mass(mass * web.radius, direction(angle), ZERO, web.position) for web, mass, angle in there]
         self.fixed = total(mass for _, mass, _ in there)
         self.left = largest(self.budget - self.fixed, ZERO) if self.budget is not None else None
-        self.before = self._plus(dict.fromkeys(ON_FRAME, (ZERO, ZERO)), masses)
+        self.refresh()
+
+    def refresh(self) -> None:
+        """What the masses do, without counterweights and with those that are there."""
+        self.before = self._plus(dict.fromkeys(ON_FRAME, (ZERO, ZERO)), self.masses)
         self.laden = self.responses(self.there)
         #: phasors of higher orders without balance shafts, where they were needed; None where a row has no rod
         self.higher: Dict[int, Optional[Responses]] = {}
+
+    def off(self, shares: Sequence[Number]) -> Machine:
+        """Where what moves along the rows is off by these shares, row by row."""
+        left, found = iter(shares), copy(self)
+        found.masses = [
+            mass if mass.counter is ZERO else mass._replace(product=mass.product * (ONE + next(left)))
+            for mass in self.masses
+        ]
+        found.refresh()
+        return found
 
     def responses(self, weights: Sequence[Mass]) -> Responses:
         """With counterweights."""

@@ -58,13 +58,16 @@ class Misplaced(Value):
         if self.part.all:
             yield from super()._external()
             return
-        statement, worst = self.part.exact, worst_by_angle if self.by_angle else worst_by_mass
-        rows: Dict[str, float] = {row: float(floor) for row, floor in statement.floor.items()}
+        worst = worst_by_angle if self.by_angle else worst_by_mass
         vectors = self._vectors()
-        for term in statement.terms.values():
-            moved = [(one * factor).middle() for one, factor in zip(vectors, self.part.of_first_order(term))]
-            rows[term.row] += worst(term.start.middle(), moved, ANGLE if self.by_angle else SHARE)
-        value = max(rows.values(), default=0.0)
+        most_of: Dict[str, float] = {}
+        for statement in self.part.statements:
+            rows: Dict[str, float] = {row: float(floor) for row, floor in statement.floor.items()}
+            for term in statement.terms.values():
+                moved = [(one * factor).middle() for one, factor in zip(vectors, self.part.of_first_order(term))]
+                rows[term.row] += worst(term.start.middle(), moved, ANGLE if self.by_angle else SHARE)
+            most_of = {row: max(value, most_of.get(row, 0.0)) for row, value in rows.items()}
+        value = self.part.together(most_of.values())
         yield Range(value, value)
 
     def _vectors(self) -> List[Number]:

@@ -48,6 +48,8 @@ class Program:
         every = cases(request, machine, answer / "reference_plane_m")
         self.parts = {case.name: Part(case, weights, self.named) for case in every}
         self.first = next(iter(self.parts.values()))
+        #: what is proven may be a mean of several corners, whose shares are not told
+        self.mixed = bool(self.first.corners)
         self.webs = [*machine.webs, *(one.web for one in self.first.geared)]
         #: of the last bound: what it rises by per kg m on each web
         self.slopes: List[Number] = []
@@ -73,7 +75,12 @@ class Program:
         found, size = list(proof / "terms"), self.first
         if len(found) * (len(size.turn.rows) + len(self.machine.masses) + len(self.webs)) > MOST:
             raise NotCovered(proof / "terms")
-        return [self._part(one).term(one) for one in found]
+        allowed = {(each / "name").text(): (each / "value").number(least=0) for each in proof / "rows"}
+        cuts: Dict[Tuple[Part, str], List[Place]] = {}
+        for one in found:
+            cuts.setdefault((self._part(one), (one / "row").text()), []).append(one)
+        worst = {key: key[0].worst(of_row, allowed.get(key[1], ZERO)) for key, of_row in cuts.items()}
+        return [part.term(one, worst[part, (one / "row").text()]) for one in found for part in [self._part(one)]]
 
     def reached(self, terms: List[Term], fitted: Fitted) -> Number:
         """What counterweights come to of the last goal, at the angles of the cuts."""

@@ -54,7 +54,8 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
     reached = program.reached(terms, fitted)
     yield "cuts", proof, value + noise + real(NOTHING) - reached if objective else None, largest(value, reached)
     of_objective = multipliers / "objective"
-    yield from _proven("lower_bound", of_any_mass, program.bound(of_objective, terms, implied), implied, of_objective)
+    found = program.bound(of_objective, terms, implied)
+    yield from _proven("lower_bound", of_any_mass, found, implied, of_objective, mixed=program.mixed)
     slopes = program.slopes
     yield from _earlier(program, proof, implied)
     least = proof / "mass_lower_bound_kg"
@@ -63,8 +64,8 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
         yield EVIDENCE, multipliers / "mass", None, ONE
     elif least and multipliers / "mass":
         limit, of_mass = (proof / "mass_objective_limit").number(), multipliers / "mass"
-        found_least = program.bound(of_mass, program.terms(of_mass), implied, ONE, limit)
-        yield from _proven("mass_lower_bound", least, found_least, implied, of_mass, machine.fixed)
+        found = program.bound(of_mass, program.terms(of_mass), implied, ONE, limit)
+        yield from _proven("mass_lower_bound", least, found, implied, of_mass, machine.fixed, program.mixed)
         yield "mass_lower_bound", proof / "mass_objective_limit", limit + noise - value, abs(value)
     size, mass = proof / "mass_yardstick_kg", fitted.mass + fitted.on_shafts_mass
     if size and abs(size.number() - mass).low <= (mass * SPECK).high:
@@ -88,7 +89,7 @@ def _earlier(program: Program, proof: Place, implied: Place) -> Claims:
             continue
         so_far = program.up_to(n)
         found = so_far.bound(one / "multipliers", so_far.terms(one / "multipliers"), implied)
-        yield from _proven("goals", one / "lower_bound", found, implied, one / "multipliers")
+        yield from _proven("goals", one / "lower_bound", found, implied, one / "multipliers", mixed=program.mixed)
 
 
 def _nominal(request: Place, machine: Machine, answer: Place) -> Claims:
@@ -126,7 +127,7 @@ def unreachable(request: Place, answer: Place, budget: Place, verdict: Place) ->
     # what a comparison of all choices proves has no multipliers
     place = proofs / "conflict" if proofs / "conflict" else verdict / "conflict"
     room = None if least is None else least - STEP
-    if room is not None and room.high < 0 and (program.scattered or None not in program.parts):
+    if room is not None and room.high < 0 and (program.scattered or program.mixed or None not in program.parts):
         # how the cases share what is exceeded is not told
         room = None
     yield "conflict", place, room, ONE
@@ -134,7 +135,8 @@ def unreachable(request: Place, answer: Place, budget: Place, verdict: Place) ->
         yield EVIDENCE, proofs / "conflict", None, ONE
         yield EVIDENCE, implied, None, ONE
     yield from closest(request, machine, verdict / "closest")
-    if len(program.parts) == 1 and not (program.scattered or program.first.all or program.first.geared):
+    first = program.first
+    if len(program.parts) == 1 and not (program.scattered or program.mixed or first.all or first.geared):
         # a scenario alone is a machine of its own
         machine = program.first.machine
         yield from smallest(machine, Place({}), verdict, proofs, implied)
@@ -152,12 +154,15 @@ def _proven(
     implied: Place,
     proof: Place,
     besides: Number = ZERO,
+    mixed: bool = False,
 ) -> Claims:
-    """``besides``: what is there in any case."""
+    """``besides``: what is there in any case. ``mixed``: how cases share what is proven is not told."""
     least, believed = bound
     if believed:
         yield "reach", implied, None, ONE
     room = None if least is None or not entry else least + besides - entry.number()
+    if mixed and room is not None and room.high < 0:
+        room = None
     yield claim, entry, room, largest(abs(entry.number(0.0)), abs(least or ZERO))
     if room is not None:
         yield EVIDENCE, proof, None, ONE

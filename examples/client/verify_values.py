@@ -7,11 +7,11 @@ from typing import Iterator, List, NamedTuple, Sequence
 
 from verify_answer import Fitted
 from verify_bearings import SAMPLE, peak_of
-from verify_cases import Scatter, grown, peak
+from verify_cases import Scatter, grown
 from verify_cuts import Part
 from verify_harmonics import Curve
 from verify_machine import ON_FRAME, Machine
-from verify_numbers import ZERO, Number
+from verify_numbers import ZERO, Number, largest
 from verify_program import phasors
 
 
@@ -73,15 +73,15 @@ class Value:
         if name not in ON_FRAME:
             return self.response(response)
         if not self.part.all:
-            machine, weights = self.part.machine, self.fitted.first
-            co, counter = phasors(machine.responses(weights), response)
-            return _range(abs(co) + abs(counter) + grown(machine, name, self.off, off_sizes(machine, self.fitted)))
+            sizes = off_sizes(self.part.machine, self.fitted)
+            every = [(each, phasors(each.responses(self.fitted.first), response)) for each in self.part.machines]
+            grow = (abs(co) + abs(counter) + grown(each, name, self.off, sizes) for each, (co, counter) in every)
+            return _range(largest(ZERO, *grow))
         return self.response(name, axis=axis)
 
     def of_first_order(self, name: str) -> Range:
         """A peak of the first order."""
-        machine, sizes = self.part.machine, off_sizes(self.part.machine, self.fitted)
-        return _range(peak(machine, machine.responses(self.fitted.first), name, self.off, sizes))
+        return _range(self.part.peak(self.fitted.first, name, self.off, off_sizes(self.part.machine, self.fitted)))
 
     def bearings(self) -> Range:
         """The largest load."""
@@ -111,7 +111,7 @@ class Value:
                     yield self._weighed(name, float(weights[name]))
             return
         sizes = off_sizes(self.part.machine, self.fitted)
-        value = self.part.value(self.part.machine.responses(self.fitted.first), self.off, sizes)
+        value = self.part.value(self.fitted.first, self.off, sizes)
         yield _range(value)
 
     def _bearings(self) -> Iterator[Range]:

@@ -10,6 +10,8 @@ from schemas.request.requests import OptimizeRequest
 from service.verification import checker
 from tests.hard.bodies import drawn
 from tests.optimize.machines import machine, row, throw, web
+from tests.verification.answers import pair
+from tests.verification.checking import broken
 from tests.verification.test_curves import part
 
 
@@ -59,6 +61,55 @@ def test_what_cancels_is_judged_by_its_parts(mode: str, number: int, seed: int, 
     }
     assert found[claim] == "held"
     assert "broken" not in found.values()
+
+
+@pytest.mark.parametrize(
+    ("mode", "number", "seed", "share"),
+    [
+        # other masses are the worst where counterweights are off
+        ("scenarios", 14, 85, 0.1),
+        # a speed of 3e-7 rpm, at which what proves that no mass is below 0 is beyond all numbers
+        ("plates", 32, 85, 0.001),
+        # a bound of the machine as it is that counts with less than its plates
+        ("plates", 128, 85, 0.001),
+        # no time to look for the worst masses of what was come to
+        ("plates", 135, 86, 1.0),
+        # a ceiling whose peak is lost in rounding in a scenario
+        ("scenarios", 98, 86, 0.1),
+        # a ring of 8e11 kg that may weigh nothing, beside 1e-9 kg
+        ("plates", 51, 87, 1.0),
+        # two ways to be off whose peaks differ by 3e-13
+        ("tolerances", 29, 88, 0.02),
+        # ceilings that the best of the machine as it is does not keep
+        ("axis ceilings", 100, 88, 0.001),
+    ],
+)
+def test_masses_that_are_off_are_judged_at_every_corner(mode: str, number: int, seed: int, share: float) -> None:
+    sent = drawn(number, seed, mode)
+    assert sent is not None
+    sent["tolerances"] = (sent.get("tolerances") or {}) | {"reciprocating_mass_relative": share}
+    answer = optimize(OptimizeRequest.model_validate(sent))
+    judged = checker().verify(json.loads(json.dumps(sent)), json.loads(answer.model_dump_json()))
+    assert "broken" not in {each["verdict"] for each in judged["claims"]}
+
+
+def test_every_figure_of_masses_that_are_off_is_covered() -> None:
+    """One of them changed at a time: the worst case, its peaks, its proof and what a degree costs are caught."""
+    request, answer = pair("tolerances of rows")
+    judged = checker().verify(request, answer)
+    assert (judged["verdict"], judged["checked"]) == ("held", judged["leaves"])
+    places = (
+        ("certificate", "objective"),
+        ("certificate", "lower_bound"),
+        ("worst_case", "force_peak_N"),
+        ("price_of_robustness", "nominal"),
+        ("sensitivity", "objective_rise_per_deg"),
+    )
+    for room, field in places:
+        value = answer[room][field]
+        answer[room][field] = value * 1.001
+        assert broken(request, answer), field
+        answer[room][field] = value
 
 
 @pytest.mark.parametrize("size", [1e-6, 0.5, 20.0])
