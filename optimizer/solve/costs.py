@@ -14,8 +14,8 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.choices.catalogue import Catalogue
+from optimizer.choices.clock import Clock
 from optimizer.choices.discrete.ample import light_sizes, offer_light_sets
-from optimizer.choices.discrete.clock import Clock
 from optimizer.choices.discrete.exchange import start
 from optimizer.choices.discrete.lightest import lighter, lightest
 from optimizer.choices.discrete.neighbourhoods import neighbourhoods

@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from optimizer.choices.clock import Clock, Pace
 from optimizer.choices.discrete import ample, branch, halves, pairs, sums
-from optimizer.choices.discrete.clock import Clock, Pace
 from optimizer.choices.discrete.exchange import start
 from optimizer.choices.discrete.options import EQUAL, Incumbent, Options
 from optimizer.choices.discrete.pairs import Pairs

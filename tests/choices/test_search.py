@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from optimizer.choices.clock import Clock, Pace
 from optimizer.choices.discrete import branch, halves, pairs, search, sums
-from optimizer.choices.discrete.clock import Clock, Pace
 from optimizer.choices.discrete.options import EQUAL, Incumbent, Options
 from optimizer.choices.discrete.search import EXHAUSTED, TREE, BestSet
 from optimizer.program.limits import Limits

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.clock import Clock
 from optimizer.choices.discrete.few_slots import CLOSE, PAIRS, SUMS, improve
 from optimizer.choices.discrete.halves import exhaust
 from optimizer.choices.discrete.light_sizes import LightSizes

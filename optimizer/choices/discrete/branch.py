@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from optimizer.choices.clock import Clock, Pace
 from optimizer.choices.discrete.bound import proven, uphill
-from optimizer.choices.discrete.clock import Clock, Pace
 from optimizer.choices.discrete.few import at_most, costs, offer_few
 from optimizer.choices.discrete.options import Incumbent, Options
 from optimizer.choices.discrete.relaxed import apart, on_first, relaxed

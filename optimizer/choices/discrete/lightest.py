@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.clock import Clock
 from optimizer.choices.discrete.halves import Halves, halves
 from optimizer.choices.discrete.options import Incumbent, Options
 from optimizer.choices.discrete.pairs import Pairs

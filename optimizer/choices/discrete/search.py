@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from optimizer.choices.clock import Clock
 from optimizer.choices.discrete.ample import light_sizes, offer_light_sets
 from optimizer.choices.discrete.branch import Tree, branch
-from optimizer.choices.discrete.clock import Clock
 from optimizer.choices.discrete.exchange import neighbourhoods, start
 from optimizer.choices.discrete.few_slots import lightest_near
 from optimizer.choices.discrete.halves import exhaust

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.clock import Clock
 from optimizer.choices.semicontinuous.places import Places, wrapped
 from optimizer.choices.semicontinuous.solved import Solved, solved
 from optimizer.numerics.arrays import Complex, Real

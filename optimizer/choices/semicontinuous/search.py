@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.clock import Clock
 from optimizer.choices.discrete.search import TREE
 from optimizer.choices.semicontinuous.inside import Incumbent, lightened, sharing
 from optimizer.choices.semicontinuous.places import Places, root

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.choices.discrete.clock import Clock, Pace
+from optimizer.choices.clock import Clock, Pace
 from optimizer.choices.semicontinuous.bound import proven, uphill
 from optimizer.choices.semicontinuous.inside import Incumbent, cones, improved
 from optimizer.choices.semicontinuous.places import WIDEST, Places
