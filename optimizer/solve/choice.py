@@ -13,7 +13,7 @@ import numpy as np
 
 from optimizer.choices.construction import feasible_set
 from optimizer.choices.discrete.options import EQUAL
-from optimizer.choices.feasible_set import Choice, FeasibleSet
+from optimizer.choices.feasible_set import Choice, FeasibleSet, SearchResult
 from optimizer.formulation.balance_shafts import chosen
 from optimizer.formulation.goals import Goals
 from optimizer.formulation.simulation import Prepared
@@ -29,7 +29,7 @@ from optimizer.program.reference.solver import Solver
 from optimizer.solve.answer_fields import Candidate, solution_of
 from optimizer.solve.caps import NO_CAPS, Caps, cost
 from optimizer.solve.costs import Costs
-from optimizer.solve.cutting_plane_rounds import Ended, Start, in_rounds
+from optimizer.solve.cutting_plane_rounds import Start, in_rounds
 from optimizer.solve.infeasibility import out_of_reach, unreachable
 from optimizer.solve.solution import Infeasible, Solution, finite_or_null
 from optimizer.solve.statuses import SearchProof, search_status
@@ -112,7 +112,7 @@ class _Stage(NamedTuple):
 
     best: CertifiedOptimum  # of any masses at any angles, under the same
     picked: Choice
-    outcome: Ended
+    outcome: SearchResult
     contradicted: bool  # the choice comes to less than any is proven to
 
 

@@ -21,7 +21,7 @@ from optimizer.choices.discrete.lightest import lighter, lightest
 from optimizer.choices.discrete.neighbourhoods import neighbourhoods
 from optimizer.choices.discrete.options import EQUAL, Incumbent, Options
 from optimizer.choices.discrete.search import EXHAUSTED
-from optimizer.choices.feasible_set import Choice, FeasibleSet
+from optimizer.choices.feasible_set import Choice, FeasibleSet, SearchResult
 from optimizer.numerics.arrays import Complex
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.cuts.dominance import Group
@@ -32,7 +32,7 @@ from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import total_mass
 from optimizer.program.statement import Statement
 from optimizer.solve.caps import NO_CAPS, Caps, cost
-from optimizer.solve.cutting_plane_rounds import Ended, Start, in_rounds
+from optimizer.solve.cutting_plane_rounds import Start, in_rounds
 from optimizer.solve.few_webs import UNKNOWN, FewWebs, compare_on_few_webs, few_webs, lightened
 from schemas.request.objective import Cost
 
@@ -48,7 +48,7 @@ _COUNTS = ((40, 120), (80, 300))
 #: share of the time in which the fewest castings are made lighter
 _LIGHTER = 0.1
 #: where a set was found that was compared with others; what that proves is told beside it
-COMPARED = Ended(True, -np.inf, 0, EXHAUSTED, False, None, 0, 0)
+COMPARED = SearchResult(True, -np.inf, 0, EXHAUSTED)
 
 
 def _of_parts(options: Options, chosen: np.ndarray) -> Options:

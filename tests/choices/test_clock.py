@@ -153,7 +153,7 @@ def test_a_tree_that_rounding_leaves_open_does_not_say_that_time_was_over(monkey
     at_rest = float(problem.at_rest)
     asked = search.SearchGoal(1e-9 * at_rest, 0.0, at_rest, _LONG)
     monkeypatch.setattr(tree, "_bounded", lambda *_: (0.0, []))
-    found = search.search(problem, least, relaxed, 0.0, asked, own_solver())
+    _, found = search.search(problem, least, relaxed, 0.0, asked, own_solver())
     assert (found.ended, found.nodes) == ("rounding", 1)
     assert statuses.ended(found).startswith("The search has divided all that can be chosen")
 
