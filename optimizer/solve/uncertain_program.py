@@ -216,7 +216,7 @@ def _scenarios(task: Task, nominal: Prepared, share: float) -> Iterator[MachineO
         lacking = list(missing(machine, objective))
         if lacking:
             raise MissingInput(FieldProblem(changes, f"{pointer(path)}: {message}") for path, message in lacking)
-        scene = prepare(nominal.request, ("residual",), effects_of_objective(objective), (), machine)
+        scene = prepare(nominal.request, ("residual",), effects_of_objective(objective), machine)
         yield MachineOfCase(DesignSpace(machine, objective), replace(scene, objective=objective), name, weight, share)
 
 

@@ -50,7 +50,7 @@ class Picture:
     draw: Callable[[OptimizeRequest, OptimizeAnswer], Drawing]
 
     def __call__(self, request: OptimizeRequest) -> Drawing:
-        drawing = self.draw(request, optimize(request.model_copy(update={"outputs": self.outputs})))
+        drawing = self.draw(request, optimize(request, outputs=self.outputs))
         return styled(drawing, request.picture) if isinstance(request, PictureRequest) else drawing
 
 

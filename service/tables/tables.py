@@ -33,7 +33,7 @@ class Table:
     lines: Callable[[OptimizeRequest, OptimizeAnswer], Lines]
 
     def __call__(self, request: OptimizeRequest) -> Lines:
-        return self.lines(request, optimize(request.model_copy(update={"outputs": self.outputs})))
+        return self.lines(request, optimize(request, outputs=self.outputs))
 
 
 def _foundation_loads(_request: OptimizeRequest, answer: OptimizeAnswer) -> Lines:

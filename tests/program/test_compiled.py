@@ -51,7 +51,7 @@ def run(problem: Statement, least_mass: bool = True) -> BothStages:
 def formulated(case: Case) -> tuple[Statement, float]:
     """The program of a hard case, per omega^2, and omega^2."""
     request = OptimizeRequest.model_validate(case.body)
-    scene = prepare(request, always=("residual",))
+    scene = prepare(request, ("residual",))
     return cone_program(request.machine, request.objective, scene.responses, scene.omega_squared), scene.omega_squared
 
 

@@ -53,7 +53,7 @@ def accuracy(request: AccuracyRequest) -> AccuracyAnswer:
     """The ladders of methods and of simulations for a machine; least mass is off, whatever was asked."""
     start = time.perf_counter()
     # outputs play no part: what they would miss must not refuse the ladder
-    scene = prepare(request, outputs=("residual",))
+    scene = prepare(request, ("residual",))
     measured = (_as_made if request.as_made else _of_any_mass)(request, scene, Solver())
     return AccuracyAnswer(
         **measured,

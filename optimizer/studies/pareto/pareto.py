@@ -59,7 +59,7 @@ def pareto(request: ParetoRequest, solver: Solver | None = None) -> ParetoAnswer
     start = time.perf_counter()
     if request.responses is not None:
         needed(request, request.responses, request.machine)
-    scene = prepare(request, outputs=("residual",))
+    scene = prepare(request, ("residual",))
     solving = time.perf_counter()
     machines = _machines(request)
     plain = request.responses is None and request.counts is None
