@@ -12,7 +12,6 @@ from optimizer.program.equal_castings import Alike
 from optimizer.program.equal_unknowns import apart, united
 from optimizer.program.methods.cascade import cascade
 from optimizer.program.methods.compiled import both_stages, suits_kernel
-from optimizer.program.methods.feasibility_phase import Unreachable
 from optimizer.program.methods.single import Target, interior_point
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
@@ -50,9 +49,9 @@ def solved(program: Statement, alike: Alike | None, share: Real, gap: Real, leas
         near = max(float(share[n]), _CLOSE * float(one.at_rest))
         asked = Target(near, max(float(gap[n]), near), least_mass)
         answer = cascade(one, asked, solver, interior_point(one, asked))
-        if isinstance(answer, Unreachable):
-            points[n], nowhere[n] = answer.closest, answer.excess > CEILING_TOLERANCE
-            continue
         points[n] = answer.unbalance
-        multipliers.put(n, answer.multipliers)
+        if answer.conflict is None:
+            multipliers.put(n, answer.multipliers)
+        else:
+            nowhere[n] = answer.excess > CEILING_TOLERANCE
     return Solved(points, multipliers, nowhere)

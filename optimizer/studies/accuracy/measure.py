@@ -16,7 +16,6 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.outputs.registry import prepare
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import ceiling_allowance
-from optimizer.program.methods.feasibility_phase import Unreachable
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import Solver
@@ -90,7 +89,7 @@ def _of_any_mass(request: AccuracyRequest, scene: Prepared, solver: Solver) -> d
     rows: tuple[AccuracyRow, ...] = ()
     rest = float(statement.objective(np.zeros(statement.limits.radius.shape, complex)))
     best = optima(statement.alone(), _SHARPEST, False, solver).single()
-    if isinstance(best, Unreachable):
+    if best.conflict is not None:
         status = "infeasible"
     elif rest == 0.0 or not np.any(usable):
         status = "nothing_to_choose"

@@ -13,9 +13,9 @@ from optimizer.mechanics.fixed_weights import beside, fixed_masses
 from optimizer.numerics.arrays import Real
 from optimizer.outputs.first_order import first_order, floor
 from optimizer.outputs.registry import prepare
-from optimizer.program.methods.feasibility_phase import Unreachable
 from optimizer.program.methods.symmetry import symmetric
 from optimizer.program.reference.solver import Solver
+from optimizer.program.solution import Solution
 from optimizer.program.verdict import Claim, mass_resolution, verdict
 from optimizer.solve.prices import touched_limits
 from optimizer.solve.process_solver import own_solver
@@ -122,7 +122,7 @@ def _front(request: ParetoRequest, machine: Machine, scene: Prepared, solver: So
     traded = trade(machine, request.objective, scene.responses, scene.omega_squared)
     result = front(traded, request.points, request.accuracy.relative_gap, request.objective.least_mass, solver)
     solve_s = time.perf_counter() - start
-    if isinstance(result, Unreachable):
+    if isinstance(result, Solution):
         return _Made(_infeasible(request, machine, scene, solver), solve_s, result.certify_s)
     certify_s = sum(point.solution.certify_s for point in result.points)
     return _Made(_certified(request, machine, scene, result), solve_s, certify_s)
