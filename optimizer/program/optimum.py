@@ -4,7 +4,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Complex
 from optimizer.program.certificate import objective_lower_bound
-from optimizer.program.cuts.optimum import TIME_LIMIT_S, CertifiedOptimum, Reached, Unkept, over_turn
+from optimizer.program.cuts.optimum import TIME_LIMIT_S, CertifiedOptimum, GoalLevel, Unkept, over_turn
 from optimizer.program.cuts.proof import Proof
 from optimizer.program.cuts.semi_infinite import Problem, Values
 from optimizer.program.cuts.stage import Point
@@ -74,5 +74,5 @@ def solution(
     if least_mass:
         of_mass = Proof(float(optima.mass_lower_bound[0]), statement, optima.mass_multipliers.chosen(0))
     of_goal = Proof(float(optima.lower_bound[0]), statement, optima.multipliers.chosen(0))
-    goals = (Reached(program.goals[-1].name, value, of_goal, value),)
+    goals = (GoalLevel(program.goals[-1].name, value, of_goal, value),)
     return CertifiedOptimum(point, goals, of_mass, target, statement.limits, spent, method)

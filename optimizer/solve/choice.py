@@ -21,7 +21,7 @@ from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import fixed_masses
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.program.cuts.optimum import CertifiedOptimum, Reached, Unkept, next_goal, semicontinuous_limits
+from optimizer.program.cuts.optimum import CertifiedOptimum, GoalLevel, Unkept, next_goal, semicontinuous_limits
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.limits import Limits
 from optimizer.program.optimum import optimum
@@ -154,7 +154,7 @@ class _Course:
     caps: Caps = NO_CAPS
     incumbent: Choice | None = None  # that keeps all so far
     closed: bool = True  # the gaps of all goals are the asked ones
-    _reached: list[Reached] = field(default_factory=list)
+    _reached: list[GoalLevel] = field(default_factory=list)
 
     def smallest(self, later: int, reserve_s: float) -> bool:
         """Make the next goal small that is no cost; whether a choice was found that keeps the ceilings."""
@@ -179,7 +179,7 @@ class _Course:
         self.closed &= left <= max(choice_gap * size, EQUAL * size)
         # choices that are this near are equal, which leaves room for the brackets by which they are judged
         most = max(value, outcome.lower_bound + goal.allowance * size) + EQUAL * size if later else value
-        self._reached.append(Reached(goal.name, value, best.proof, most))
+        self._reached.append(GoalLevel(goal.name, value, best.proof, most))
         if self.task.objective.priorities and outcome.feasible:
             square = self.robust.scene.omega_squared
             least = finite_or_null(self._bound(outcome.lower_bound, value, EQUAL * size) * square)
@@ -233,7 +233,7 @@ class _Course:
 
 
 def _limits(
-    task: Task, program: Problem, best: CertifiedOptimum, before: Sequence[Reached], incumbent: Choice | None
+    task: Task, program: Problem, best: CertifiedOptimum, before: Sequence[GoalLevel], incumbent: Choice | None
 ) -> Limits:
     """Limits that hold some best choice for the last goal.
 

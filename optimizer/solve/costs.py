@@ -25,7 +25,7 @@ from optimizer.choices.feasible_set import Choice, FeasibleSet, SearchResult
 from optimizer.numerics.arrays import Complex
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.cuts.dominance import Group
-from optimizer.program.cuts.optimum import CertifiedOptimum, Reached, Unkept, next_goal, over_turn
+from optimizer.program.cuts.optimum import CertifiedOptimum, GoalLevel, Unkept, next_goal, over_turn
 from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.limits import Limits
 from optimizer.program.reference.solver import Solver
@@ -77,7 +77,7 @@ class Costs:
 
     program: Problem
     best: CertifiedOptimum
-    reached: Sequence[Reached]
+    reached: Sequence[GoalLevel]
     choices: Callable[[Limits], FeasibleSet]  # within limits that hold the best of them
     solver: Solver
     caps: Caps = NO_CAPS

@@ -25,7 +25,7 @@ from optimizer.program.cuts.optimum import CertifiedOptimum, Unkept
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import Optima, optima
-from optimizer.program.methods.plate_sizes import Cut, equal_sizes, total_mass, unlike
+from optimizer.program.methods.plate_sizes import CutWeights, equal_sizes, total_mass, unlike
 from optimizer.program.methods.rounding import dust
 from optimizer.program.methods.symmetry import symmetric
 from optimizer.program.optimum import solution
@@ -95,7 +95,7 @@ class _Round(NamedTuple):
     """What is found with what tangents prove."""
 
     proven: Optima
-    cut: Cut
+    cut: CutWeights
     called_for: Complex  # (K,) unbalances that the tangents call for, kg m
 
 
@@ -164,7 +164,7 @@ class _Task:
             u = symmetric(whole, u[None], self.kinds)[0]
         angle = self.opened(u)
         mass = float(total_mass(whole, self.plates, u, angle))
-        return _Round(proven, Cut(u, angle, mass), called_for)
+        return _Round(proven, CutWeights(u, angle, mass), called_for)
 
     def lightest(self, tried: Sequence[_Round]) -> _Round:
         """The last round, or the lightest of all cuts with the largest bound of the mass: proofs hold for all cuts."""
@@ -177,7 +177,7 @@ class _Task:
         optima = [attempt.cut for attempt in tried if self._keeps(proven, attempt.cut)]
         return _Round(proven, self._between(optima), last.called_for) if optima else last
 
-    def _between(self, optima: Sequence[Cut]) -> Cut:
+    def _between(self, optima: Sequence[CutWeights]) -> CutWeights:
         """The lightest of some cuts and of what lies between it and them: objective and mass are convex."""
         lightest = min(optima, key=lambda cut: cut.mass)
         for other in optima:
@@ -186,10 +186,10 @@ class _Task:
             mass = total_mass(self.whole, self.plates, u, angle)
             n = int(np.argmin(mass))
             if mass[n] < lightest.mass:
-                lightest = Cut(u[n], angle[n], float(mass[n]))
+                lightest = CutWeights(u[n], angle[n], float(mass[n]))
         return lightest
 
-    def _keeps(self, proven: Optima, cut: Cut) -> bool:
+    def _keeps(self, proven: Optima, cut: CutWeights) -> bool:
         """Whether a cut is an optimum by its objective."""
         objective, rounding = self.whole.objective(cut.unbalance)[0], self.whole.rounding(cut.unbalance)[0]
         return bool(not proven.unreachable[0] and objective <= self._largest(proven) + rounding)
@@ -210,7 +210,7 @@ class _Task:
                 outcome, left = rounded, left & ~empty
                 continue
             left, share, laid = left & ~empty, _WITH_ROOM * allowed, nodes
-            optima = list[Cut]()
+            optima = list[CutWeights]()
             for _ in range(_CLEARINGS):
                 other = replace(self, left=left, relative_gap=share).round(laid)
                 optima += [other.cut] if self._keeps(outcome.proven, other.cut) else []
@@ -230,7 +230,7 @@ class _Task:
                 break
         return outcome
 
-    def _masses(self, cut: Cut) -> Real:
+    def _masses(self, cut: CutWeights) -> Real:
         """(K,) kg."""
         mass = np.abs(cut.unbalance) / self.whole.limits.radius[0]
         mass[self.plates.webs] = self.plates.mass(cut.angle)
@@ -268,7 +268,7 @@ class _Task:
                     return optimum
         return self.judged(outcome.proven, outcome.cut)
 
-    def _alike(self, outcome: _Round, nodes: Real) -> Cut:
+    def _alike(self, outcome: _Round, nodes: Real) -> CutWeights:
         proven = outcome.proven
         if proven.unreachable[0]:
             return outcome.cut
@@ -281,14 +281,14 @@ class _Task:
         largest = float(proven.lower_bound[0] + self.wanted.relative_gap * self.size[0])
         return min(largest, float(proven.mass_target[0])) if self.wanted.least_mass else largest
 
-    def _optimal(self, proven: Optima, cut: Cut) -> _Attempt | None:
+    def _optimal(self, proven: Optima, cut: CutWeights) -> _Attempt | None:
         """What may be claimed of another cut, None where that is not an optimum."""
         if not proven.unreachable[0] and not self._keeps(proven, cut):
             return None
         best = self.judged(proven, cut)
         return best if best.status == "optimal" else None
 
-    def judged(self, proven: Optima, cut: Cut) -> _Attempt:
+    def judged(self, proven: Optima, cut: CutWeights) -> _Attempt:
         """What may be claimed of what is cut."""
         machine = fitted(self.machine, cut.angle)
         stated = limits(machine, (1,))

@@ -45,7 +45,7 @@ _TARGET_MARGIN = 0.2
 _MASS_GAP, _LIGHT = 1e-5, 5e-5
 
 
-class Reached(NamedTuple):
+class GoalLevel(NamedTuple):
     """What a goal came to, and what is proven of it."""
 
     goal: str
@@ -63,7 +63,7 @@ class CertifiedOptimum:
     """Counterweights with their proof; the last goal is the objective."""
 
     point: Point
-    goals: tuple[Reached, ...]
+    goals: tuple[GoalLevel, ...]
     mass_proof: Proof | None  # None where the least mass was not sought
     mass_target: float  # largest objective that the proof of the mass counts as an optimum
     limits: Limits  # that the proofs count with
@@ -182,7 +182,7 @@ def over_turn(
 
 
 def next_goal(
-    program: Problem, before: Sequence[Reached], u: Complex, relative_gap: float, time_limit_s: float
+    program: Problem, before: Sequence[GoalLevel], u: Complex, relative_gap: float, time_limit_s: float
 ) -> CertifiedOptimum:
     """Certified optimum of the last goal of a program under levels of the others that are given.
 
@@ -210,7 +210,7 @@ class _Course:
         self.program, self.pool, self.raised, self.contradicted = program, pool, raised, contradicted
         self.inside, self.so_far, self.until, self.timed_out = nearest.point, program, until, nearest.timed_out
         self.rounds, self.certify_s = nearest.rounds, nearest.certify_s
-        self.goals: list[Reached] = []
+        self.goals: list[GoalLevel] = []
         self.margin = _TARGET_MARGIN * _SHARPNESS[0] * OPTIMUM_SHARE * program.units
 
     def smallest(self, n: int, enough: float, proof: Proof | None = None) -> Proof:
@@ -232,7 +232,7 @@ class _Course:
         most = max(value, proof.bound + share)
         if n + 1 < len(self.program.goals):
             most += _RESERVED * float(self.program.units[n])
-        self.goals[n:] = [Reached(self.program.goals[n].name, value, proof, most)]
+        self.goals[n:] = [GoalLevel(self.program.goals[n].name, value, proof, most)]
 
     def lightest(self, target: float, margin: float) -> Proof | None:
         """The least mass under all goals.
