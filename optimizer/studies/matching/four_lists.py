@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.numerics.arrays import Real
-from optimizer.studies.matching.kernel.meeting import met
+from optimizer.numerics.kernel.meeting import met
 from optimizer.studies.matching.problem import Problem
 
 #: places of a group, and pairs of orders of two groups that are kept
