@@ -36,25 +36,15 @@ class Table:
         return self.lines(request, optimize(request, outputs=self.outputs))
 
 
-def _foundation_loads(_request: OptimizeRequest, answer: OptimizeAnswer) -> Lines:
-    return foundation.lines(answer.foundation_loads or ())
-
-
-def _as_built(request: OptimizeRequest, answer: OptimizeAnswer) -> Lines:
-    return as_built.lines(as_built.required(request, answer))
-
-
 def _pin_loads(_request: OptimizeRequest, answer: OptimizeAnswer) -> Lines:
     if answer.pin_loads is None:
         raise OutOfRange([FieldProblem(("machine",), "there are no pins: only a scroll has them")])
     return pins.lines(answer.pin_loads)
 
 
-def _order(_request: OptimizeRequest, answer: OptimizeAnswer) -> Lines:
-    return workshop.required(answer)
-
-
-order = Table((), _order)
-built = Table(("residual",), _as_built)
-foundation_loads = Table(("foundation_loads",), _foundation_loads)
+order = Table((), lambda _request, answer: workshop.required(answer))
+built = Table(("residual",), lambda request, answer: as_built.lines(as_built.required(request, answer)))
+foundation_loads = Table(
+    ("foundation_loads",), lambda _request, answer: foundation.lines(answer.foundation_loads or ())
+)
 pin_loads = Table(("pin_loads",), _pin_loads)
