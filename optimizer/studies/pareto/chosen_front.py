@@ -24,9 +24,9 @@ from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.solve.prices import touched_limits
 from optimizer.solve.solution import Infeasible, Solution
 from optimizer.solve.solve import solve
-from schemas.answer.infeasibility import Infeasibility
+from optimizer.studies.pareto.points import knee, undominated
 from schemas.base.responses import PAIR
-from schemas.front.pareto import CornerCertificate, Ends, ParetoPoint, ParetoRequest, Reason, Scale
+from schemas.front.pareto import CornerCertificate, Ends, ParetoFront, ParetoPoint, ParetoRequest, Reason, Scale
 from schemas.machine.machine import Machine
 from schemas.request.objective import Objective
 
@@ -42,16 +42,6 @@ _INSIDE = 1e-12
 _LEAST_GAP = 1e-12
 #: least time of a search, s
 _LEAST_TIME = 1e-3
-
-
-class ChosenFront(NamedTuple):
-    """The front under one limit of the total mass."""
-
-    points: tuple[ParetoPoint, ...]  # in the order of rising force
-    ends: Ends | None  # None where the ceilings are out of reach
-    scale: Scale | None
-    reason: Reason | None  # why there are fewer points than asked for
-    infeasibility: Infeasibility | None
 
 
 @dataclass(frozen=True)
@@ -80,7 +70,7 @@ class _Box(NamedTuple):
         return np.array([self.right.peaks[0] - self.left.peaks[0], self.left.peaks[1] - self.right.peaks[1]])
 
 
-def chosen_front(request: ParetoRequest, machine: Machine, scene: Prepared, solver: Solver) -> ChosenFront:
+def chosen_front(request: ParetoRequest, machine: Machine, scene: Prepared, solver: Solver) -> ParetoFront:
     """The front of what can be chosen; all its searches together end at the time asked.
 
     Parameters
@@ -100,25 +90,29 @@ class _Search:
         self.until = thread_time() + self.seconds
         self.at_rest = self._peaks(np.zeros(len(machine.webs), complex))
 
-    def front(self) -> ChosenFront:
+    def front(self) -> ParetoFront:
         """Both ends, and what lies between them."""
-        ends = (
-            self._optimum(_only(0), self.gap, _END * self.seconds),
-            self._optimum(_only(1), self.gap, _END * self.seconds),
-        )
-        force, moment = ends
-        if isinstance(force, Infeasible):
-            return ChosenFront((), None, None, None, force.infeasibility)
-        if isinstance(moment, Infeasible):
-            return ChosenFront((), None, None, None, moment.infeasibility)
+        force = self._optimum(_only(0), self.gap, _END * self.seconds)
+        moment = force if isinstance(force, Infeasible) else self._optimum(_only(1), self.gap, _END * self.seconds)
+        if isinstance(force, Infeasible) or isinstance(moment, Infeasible):
+            return ParetoFront(
+                max_total_mass_kg=self.machine.max_total_mass_kg,
+                status="infeasible",
+                points=(),
+                infeasibility=moment.infeasibility if isinstance(moment, Infeasible) else None,
+            )
         edges = np.maximum(force.peaks, moment.peaks)
         size = np.where(self.at_rest > OPTIMUM_SHARE * edges, self.at_rest, np.where(edges > 0, edges, 1.0))
         bounds = force.corner[0], moment.corner[1]
         optima, reason = self._between(self._corner(force, 0, size), self._corner(moment, 1, size), size)
-        first, last = optima[0].peaks, optima[-1].peaks
-        return ChosenFront(
-            tuple(self._point(each, size) for each in optima),
-            Ends(
+        first, last, points = optima[0].peaks, optima[-1].peaks, tuple(self._point(each, size) for each in optima)
+        return ParetoFront(
+            max_total_mass_kg=self.machine.max_total_mass_kg,
+            status="optimal" if all(point.status == "optimal" for point in points) else "inaccurate",
+            points=points,
+            reason=reason,
+            knee=knee(points),
+            ends=Ends(
                 smallest_force_N=float(first[0]),
                 smallest_force_lower_bound_N=float(bounds[0]),
                 moment_at_smallest_force_Nm=float(first[1]),
@@ -126,9 +120,7 @@ class _Search:
                 smallest_moment_lower_bound_Nm=float(bounds[1]),
                 force_at_smallest_moment_N=float(last[0]),
             ),
-            Scale(force_N=float(size[0]), moment_Nm=float(size[1])),
-            reason,
-            None,
+            scale=Scale(force_N=float(size[0]), moment_Nm=float(size[1])),
         )
 
     def _corner(self, end: _Optimum, axis: int, size: Real) -> _Optimum:
@@ -260,9 +252,4 @@ def _larger(weights: Real) -> _Goal:
 
 
 def _undominated(optima: Sequence[_Optimum]) -> list[_Optimum]:
-    """Those that no other equals or beats in both peaks, in the order of rising force."""
-    front: list[_Optimum] = []
-    for optimum in sorted(optima, key=lambda optimum: (float(optimum.peaks[0]), float(optimum.peaks[1]))):
-        if not front or optimum.peaks[1] < front[-1].peaks[1]:
-            front.append(optimum)
-    return front
+    return undominated(optima, lambda optimum: (float(optimum.peaks[0]), float(optimum.peaks[1])))
