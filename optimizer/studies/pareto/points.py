@@ -1,16 +1,28 @@
-"""Points of a front of two peaks: those that no other beats, and the knee."""
+"""Points of a front: those of two peaks that no other beats, the knee, and what searches of choices come to."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
 
+from optimizer.numerics.arrays import Real
+from optimizer.solve.solution import Solution
 from schemas.front.pareto import ParetoPoint
 
 Point = TypeVar("Point")
 
 #: a front whose points lie nearer to the straight line between its ends than this share of its range has no knee
 _STRAIGHT = 1e-4
+
+
+@dataclass(frozen=True)
+class ChosenPoint:
+    """Counterweights that are chosen, beside what they come to in D responses, in the units of the answer."""
+
+    solution: Solution
+    values: Real  # (D,)
+    corner: Real  # (D,) no choice is below this in all of them; nan where nothing is proven
 
 
 def weighted_peaks(point: ParetoPoint) -> tuple[float, float]:
