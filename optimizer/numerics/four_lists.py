@@ -39,6 +39,8 @@ def _met(left: Real, right: Real) -> np.ndarray:
     # the compiler is loaded when it is first needed
     from optimizer.numerics.kernel.meeting import met
 
+    if not (len(left) and len(right)):
+        return np.zeros((2, 0), np.int64)
     # as if points were spread as normal ones, and then as they are
     scatter = _SPREAD * np.hypot(np.std(left, axis=0), np.std(right, axis=0))
     wide, most = scatter > 0, 2 * _PAIRS
