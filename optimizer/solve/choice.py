@@ -21,7 +21,7 @@ from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import fixed_masses
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.program.cuts.optimum import CertifiedOptimum, GoalLevel, Unkept, next_goal, semicontinuous_limits
+from optimizer.program.cuts.optimum import CertifiedOptimum, Conflict, GoalLevel, next_goal, semicontinuous_limits
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.limits import Limits
 from optimizer.program.optimum import optimum
@@ -68,7 +68,7 @@ def best_choice(task: Task, scene: Prepared, solver: Solver, in_full: bool = Tru
     for _ in range(MOST_ROUNDS):
         goals = robust.goals()
         first = _of_any_mass(goals.program, any_mass.relative_gap, robust, solver)
-        if isinstance(first, Unkept):
+        if isinstance(first, Conflict):
             return out_of_reach(task, scene, goals, first, solver)
         course = _in_order(task, robust, goals, first, solver)
         stages, picked = course.stages, course.incumbent
@@ -89,7 +89,7 @@ def best_choice(task: Task, scene: Prepared, solver: Solver, in_full: bool = Tru
     if len(stages) < len(goals.program.goals):
         # nothing is proven of what goals come to in their order
         goals, of_any = robust.solved(solver)
-        if isinstance(of_any, Unkept):
+        if isinstance(of_any, Conflict):
             return out_of_reach(task, scene, goals, of_any, solver)
         nothing = SearchProof(outcome, outcome.nodes, outcome.rounds, None, True)
         return solution_of(task, scene, goals, Candidate(picked.mass, picked.angle, of_any), judged, nothing, in_full)
@@ -116,7 +116,7 @@ class _Stage(NamedTuple):
     contradicted: bool  # the choice comes to less than any is proven to
 
 
-def _of_any_mass(program: Problem, gap: float, robust: Robust, solver: Solver) -> CertifiedOptimum | Unkept:
+def _of_any_mass(program: Problem, gap: float, robust: Robust, solver: Solver) -> CertifiedOptimum | Conflict:
     """The first goal by itself."""
     return optimum(program.changed(goals=program.goals[:1]), gap, False, solver, robust.left_s)
 

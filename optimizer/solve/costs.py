@@ -25,7 +25,7 @@ from optimizer.choices.feasible_set import Choice, FeasibleSet, SearchResult
 from optimizer.numerics.arrays import Complex
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.cuts.dominance import Group
-from optimizer.program.cuts.optimum import CertifiedOptimum, GoalLevel, Unkept, next_goal, over_turn
+from optimizer.program.cuts.optimum import CertifiedOptimum, Conflict, GoalLevel, next_goal, over_turn
 from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.limits import Limits
 from optimizer.program.reference.solver import Solver
@@ -248,12 +248,12 @@ class Costs:
         mass = Goal("mass", (Group((total_mass(self.program.limits),)),))
         weighed = self.program.changed(goals=(*goals, mass), limits=self.caps.within(self.best.limits))
         reached = [*self.reached, self.best.goals[-1]._replace(most=level)] if goals else []
-        any_mass: CertifiedOptimum | Unkept
+        any_mass: CertifiedOptimum | Conflict
         if known is not None and reached:
             any_mass = next_goal(weighed, reached, known.unbalance, _SHARP, seconds)
         else:
             any_mass = over_turn(weighed, _SHARP, False, seconds)
-        if isinstance(any_mass, Unkept):
+        if isinstance(any_mass, Conflict):
             if known is None:
                 return np.inf
             _LOG.error("no masses are proven to keep ceilings that a choice of %g kg keeps", cost(known, "mass"))

@@ -11,7 +11,7 @@ from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import beside, fixed_masses
 from optimizer.numerics.arrays import Real
 from optimizer.program.cuts.dominance import Group
-from optimizer.program.cuts.optimum import Unkept
+from optimizer.program.cuts.optimum import Conflict
 from optimizer.program.cuts.semi_infinite import Goal
 from optimizer.program.optimum import optimum
 from optimizer.program.reference.solver import Solver
@@ -61,7 +61,7 @@ def minimum_mass(task: Task, scene: Prepared, solver: Solver) -> BestSet:
     program = robust.goals().program
     weighed = program.changed(goals=(Goal("mass", (Group((total_mass(program.limits),)),)),))
     best = optimum(weighed, _SHARP, False, solver, robust.left_s)
-    if isinstance(best, Unkept):
+    if isinstance(best, Conflict):
         return none_of(task.machine, "infeasible", ended(None), 0, best.method)
     size = max(best.point.mass, best.proof.bound) or 1.0
     choices = feasible_set(task, best.limits, solver)

@@ -21,7 +21,7 @@ from optimizer.formulation.task import Demand
 from optimizer.mechanics.plates import Plates
 from optimizer.mechanics.shapes import fitted
 from optimizer.numerics.arrays import Complex, Real, mapped
-from optimizer.program.cuts.optimum import CertifiedOptimum, Unkept
+from optimizer.program.cuts.optimum import CertifiedOptimum, Conflict
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import Optima, optima
@@ -55,7 +55,7 @@ _ROOM_TO_BE_ALIKE = (0.999, 0.99, 0.9)
 
 def cut_optimum(
     machine: Machine, cut: Plates, program: Problem, statement: Statement, wanted: Demand, solver: Solver
-) -> CertifiedOptimum | Unkept:
+) -> CertifiedOptimum | Conflict:
     """Certified unbalances that are cut from plates, of a problem that is a cone program without a budget.
 
     Parameters

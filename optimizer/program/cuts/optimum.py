@@ -110,7 +110,7 @@ class CertifiedOptimum:
 
 
 @dataclass(frozen=True)
-class Unkept:
+class Conflict:
     """Proof that no counterweights keep the ceilings, and those that come closest."""
 
     closest: Point
@@ -135,7 +135,7 @@ def over_turn(
     relative_gap: float,
     least_mass: bool,
     time_limit_s: float = TIME_LIMIT_S,
-) -> CertifiedOptimum | Unkept:
+) -> CertifiedOptimum | Conflict:
     """Certified optimum of a program over the turn: its goals one after the other, then the least mass.
 
     Parameters
@@ -151,7 +151,7 @@ def over_turn(
     excess = nearest.point.values.excess
     contradicted = nearest.proof is not None and nearest.proof.bound > excess + CEILING_ROUNDING
     if nearest.proof is not None and nearest.proof.bound > CEILING_ROUNDING and not contradicted:
-        return Unkept(nearest.point, nearest.proof, nearest.proof.statement.limits, nearest.certify_s)
+        return Conflict(nearest.point, nearest.proof, nearest.proof.statement.limits, nearest.certify_s)
     course = _Course(program, pool, nearest, raised=excess > -_AMPLE, contradicted=contradicted, until=until)
     for n, goal in enumerate(program.goals[:-1]):
         size, share = float(program.units[n]), max(goal.allowance, OPTIMUM_SHARE)
