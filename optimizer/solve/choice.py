@@ -107,7 +107,7 @@ def best_choice(task: Task, scene: Prepared, solver: Solver, in_full: bool = Tru
     return answer
 
 
-class _Stage(NamedTuple):
+class _GoalChoice(NamedTuple):
     """A goal, the best choice for it under the goals before, and what is proven of all choices."""
 
     best: CertifiedOptimum  # of any masses at any angles, under the same
@@ -121,9 +121,9 @@ def _of_any_mass(program: Problem, gap: float, robust: Robust, solver: Solver) -
     return optimum(program.changed(goals=program.goals[:1]), gap, False, solver, robust.left_s)
 
 
-def _in_order(task: Task, robust: Robust, goals: Goals, best: CertifiedOptimum, solver: Solver) -> "_Course":
+def _in_order(task: Task, robust: Robust, goals: Goals, best: CertifiedOptimum, solver: Solver) -> "_GoalOrder":
     """The goals one after the other, each with the most that those before it may come to."""
-    course = _Course(task, robust, goals.program, best, solver)
+    course = _GoalOrder(task, robust, goals.program, best, solver)
     order = list(task.objective.priorities)
     if order and order[-1].goal == "mass" and goals.program.goals[-1].allowance == 0.0:
         # of equal choices the lightest is taken anyhow
@@ -141,7 +141,7 @@ def _in_order(task: Task, robust: Robust, goals: Goals, best: CertifiedOptimum, 
 
 
 @dataclass
-class _Course:
+class _GoalOrder:
     """Goals one after the other."""
 
     task: Task
@@ -149,7 +149,7 @@ class _Course:
     program: Problem
     first: CertifiedOptimum  # of any masses, the first goal that is no cost by itself
     solver: Solver
-    stages: list[_Stage] = field(default_factory=list)
+    stages: list[_GoalChoice] = field(default_factory=list)
     levels: list[GoalReached] = field(default_factory=list)
     caps: Caps = NO_CAPS
     incumbent: Choice | None = None  # that keeps all so far
@@ -175,7 +175,7 @@ class _Course:
         value = float(so_far.values(picked.unbalance, _CLOSE).goals[-1])
         left = value - outcome.lower_bound
         contradicted = outcome.feasible and left < -EQUAL * size
-        self.stages.append(_Stage(best, picked, outcome, contradicted))
+        self.stages.append(_GoalChoice(best, picked, outcome, contradicted))
         self.closed &= left <= max(choice_gap * size, EQUAL * size)
         # choices that are this near are equal, which leaves room for the brackets by which they are judged
         most = max(value, outcome.lower_bound + goal.allowance * size) + EQUAL * size if later else value
@@ -260,7 +260,7 @@ def _left(robust: Robust, reserve_s: float) -> Callable[[], float]:
     return lambda: max(robust.left_s - reserve_s, 0.0)
 
 
-def _nodes(stages: list[_Stage]) -> int:
+def _nodes(stages: list[_GoalChoice]) -> int:
     """Nodes of the trees of all goals."""
     return sum(stage.outcome.nodes for stage in stages)
 

@@ -67,14 +67,14 @@ def cut_optimum(
     end = thread_time() + wanted.time_limit_s
     stated, every = statement.alone(), np.ones(len(machine.webs), bool)
     whole = within_reach(stated, solver)
-    task = _Task(machine, wanted, program.symmetric, whole, cut, solver, wanted.relative_gap, every)
+    task = _CutSearch(machine, wanted, program.symmetric, whole, cut, solver, wanted.relative_gap, every)
     outcome = task.optimum(end)
     if whole is not stated:
         statement = replace(statement, limits=mapped(whole.limits, lambda array: array[0]))
     return solution(program, statement, outcome, outcome.unbalance[0], wanted.least_mass)
 
 
-class _Attempt(NamedTuple):
+class _JudgedCut(NamedTuple):
     """What is found of a cut, and what may be claimed of it."""
 
     optima: Optima
@@ -100,7 +100,7 @@ class _Round(NamedTuple):
 
 
 @dataclass(frozen=True)
-class _Task:
+class _CutSearch:
     machine: Machine  # with plates in place of some webs
     wanted: Demand
     symmetric: bool  # whether what is alike is to be alike
@@ -244,7 +244,7 @@ class _Task:
         size = np.maximum(mass, _NEARER * mass_resolution(self.whole, self.size[..., None])[0])
         return bool(mass - outcome.proven.mass_lower_bound[0] > MASS_GAP * size)
 
-    def judged_alike(self, outcome: _Round, nodes: Real) -> _Attempt:
+    def judged_alike(self, outcome: _Round, nodes: Real) -> _JudgedCut:
         """What is cut, with plates opened alike where what is proven still holds."""
         best = self._judged_alike(outcome, nodes)
         if best.status != "optimal" or not unlike(self.plates, self.opened(best.optima.unbalance[0])):
@@ -257,7 +257,7 @@ class _Task:
                 return other
         return best
 
-    def _judged_alike(self, outcome: _Round, nodes: Real) -> _Attempt:
+    def _judged_alike(self, outcome: _Round, nodes: Real) -> _JudgedCut:
         cut = self._alike(outcome, nodes)
         # those that are chosen anew for it may be next to nothing
         alike_first = cut is not outcome.cut and not dust(self._masses(cut)).any()
@@ -281,17 +281,17 @@ class _Task:
         largest = float(proven.lower_bound[0] + self.wanted.relative_gap * self.size[0])
         return min(largest, float(proven.mass_target[0])) if self.wanted.least_mass else largest
 
-    def _optimal(self, proven: Optima, cut: CutWeights) -> _Attempt | None:
+    def _optimal(self, proven: Optima, cut: CutWeights) -> _JudgedCut | None:
         """What may be claimed of another cut, None where that is not an optimum."""
         if not proven.unreachable[0] and not self._keeps(proven, cut):
             return None
         best = self.judged(proven, cut)
         return best if best.status == "optimal" else None
 
-    def judged(self, proven: Optima, cut: CutWeights) -> _Attempt:
+    def judged(self, proven: Optima, cut: CutWeights) -> _JudgedCut:
         """What may be claimed of what is cut."""
         machine = fitted(self.machine, cut.angle)
         stated = limits(machine, (1,))
         program = replace(self.whole, limits=limits_of_cut(stated, self.whole.limits, self.plates, cut.angle))
         outcome = replace(proven, unbalance=cut.unbalance[None])
-        return _Attempt(outcome, judgement(machine, self.wanted, program, outcome).verdict)
+        return _JudgedCut(outcome, judgement(machine, self.wanted, program, outcome).verdict)

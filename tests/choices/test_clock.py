@@ -111,7 +111,7 @@ def test_points_are_moved_to_tangents_until_the_time_is_over(
     problem, _ = problem_of(20)
     least = 0.9 * problem.limits.reach
     relaxed = optima(problem.alone(), 1e-6, False, SOLVER).unbalance[0]
-    incumbent = inside.Incumbent(problem, root(least, problem.limits), 1e-9, own_solver())
+    incumbent = inside.BestPoint(problem, root(least, problem.limits), 1e-9, own_solver())
     seconds, count, solve = Seconds(), 0, inside.solved
 
     def slowly(programs: Any, *rest: Any) -> Any:
@@ -132,7 +132,7 @@ def test_a_tree_of_leasts_bounds_as_many_nodes_as_it_has_time_for(
     limit_s: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     problem, _ = problem_of(8)
-    incumbent = inside.Incumbent(problem, root(0.9 * problem.limits.reach, problem.limits), 1e-9, own_solver())
+    incumbent = inside.BestPoint(problem, root(0.9 * problem.limits.reach, problem.limits), 1e-9, own_solver())
     seconds, bounded = Seconds(), tree._bounded
 
     def slowly(incumbent: Any, statement: Any, places: Any, inherited: Any, *rest: Any) -> Any:

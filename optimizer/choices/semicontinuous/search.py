@@ -9,7 +9,7 @@ from optimizer.choices.branch_and_bound import Tree
 from optimizer.choices.clock import Clock
 from optimizer.choices.discrete.search import TREE
 from optimizer.choices.feasible_set import SearchResult
-from optimizer.choices.semicontinuous.inside import Incumbent, lightened, sharing
+from optimizer.choices.semicontinuous.inside import BestPoint, lightened, sharing
 from optimizer.choices.semicontinuous.places import Places, root
 from optimizer.choices.semicontinuous.tree import branch
 from optimizer.numerics.arrays import Complex, Real
@@ -55,7 +55,7 @@ def search(
     clock, gap = Clock(goal.time_limit_s), goal.gap
 
     places = root(least, statement.limits)
-    incumbent = Incumbent(statement, places, _EQUAL * goal.yardstick, solver)
+    incumbent = BestPoint(statement, places, _EQUAL * goal.yardstick, solver)
     # nothing on any web keeps every limit but ceilings
     incumbent.offer(np.zeros((1, least.size), complex))
     sharing(incumbent, continuous, clock)
@@ -85,7 +85,7 @@ def _within(
     below: Statement,
 ) -> tuple[Complex, SearchResult]:
     """The first counterweights (K,) kg m that keep the ceilings, or the proof that there are none."""
-    incumbent = Incumbent(statement.excess(), places, 0.0, solver)
+    incumbent = BestPoint(statement.excess(), places, 0.0, solver)
 
     def feasible() -> bool:
         return incumbent.least <= CEILING_TOLERANCE

@@ -20,7 +20,7 @@ from optimizer.program.statement import Statement
 _CLOSE = 1e-7
 
 
-class Solved(NamedTuple):
+class Relaxations(NamedTuple):
     """What is found of N programs."""
 
     unbalance: Complex  # (N, K) kg m
@@ -28,7 +28,9 @@ class Solved(NamedTuple):
     nowhere: np.ndarray  # (N,) bool: proven that nothing keeps their ceilings
 
 
-def solved(program: Statement, alike: Alike | None, share: Real, gap: Real, least_mass: bool, solver: Solver) -> Solved:
+def solved(
+    program: Statement, alike: Alike | None, share: Real, gap: Real, least_mass: bool, solver: Solver
+) -> Relaxations:
     """Optima of N programs whose webs are alike.
 
     Parameters
@@ -41,7 +43,7 @@ def solved(program: Statement, alike: Alike | None, share: Real, gap: Real, leas
     if whole is not None and suits_kernel(whole):
         found = both_stages(whole, share, gap, least_mass)
         u = found.unbalance if least_mass else found.smallest
-        return Solved(np.nan_to_num(u if alike is None else apart(u, alike)), found.multipliers, nowhere)
+        return Relaxations(np.nan_to_num(u if alike is None else apart(u, alike)), found.multipliers, nowhere)
     points, multipliers = np.zeros(program.limits.radius.shape, complex), nothing_proven(program)
     for n in range(len(points)):
         one = program.chosen(n)
@@ -54,4 +56,4 @@ def solved(program: Statement, alike: Alike | None, share: Real, gap: Real, leas
             multipliers.put(n, answer.multipliers)
         else:
             nowhere[n] = answer.excess > CEILING_TOLERANCE
-    return Solved(points, multipliers, nowhere)
+    return Relaxations(points, multipliers, nowhere)

@@ -13,7 +13,7 @@ import numpy as np
 from optimizer.choices.branch_and_bound import Termination, Tree, branch_and_bound
 from optimizer.choices.clock import Clock
 from optimizer.choices.semicontinuous.bound import proven, uphill
-from optimizer.choices.semicontinuous.inside import Incumbent, cones, improved
+from optimizer.choices.semicontinuous.inside import BestPoint, cones, improved
 from optimizer.choices.semicontinuous.places import WIDEST, Places
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.statement import Statement
@@ -37,7 +37,7 @@ class _Open(NamedTuple):
 
 
 def branch(
-    incumbent: Incumbent,
+    incumbent: BestPoint,
     at_least: float,
     gap: float,
     enough: Callable[[float], bool],
@@ -63,7 +63,7 @@ def branch(
 
 
 def _bounded(
-    incumbent: Incumbent, statement: Statement, places: Places, inherited: Real, gap: float, clock: Clock
+    incumbent: BestPoint, statement: Statement, places: Places, inherited: Real, gap: float, clock: Clock
 ) -> tuple[float, list[tuple[float, _Open]]]:
     """What is proven of all that nodes lose here, and those that stay open with their bounds."""
     count = inherited.size
@@ -111,7 +111,7 @@ def _bounded(
     return closed, stays
 
 
-def _offer(incumbent: Incumbent, places: Places, near: Complex, bounds: Real, clock: Clock) -> None:
+def _offer(incumbent: BestPoint, places: Places, near: Complex, bounds: Real, clock: Clock) -> None:
     """Relaxed points as they are, and the most promising with everything kept."""
     least = places.least
     incumbent.offer(np.where((least > 0) & (np.abs(near) <= _MISSES * least), 0.0, near))

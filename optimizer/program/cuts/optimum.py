@@ -13,7 +13,7 @@ from optimizer.program.cuts.empty_webs import EmptyWebs
 from optimizer.program.cuts.proof import Proof, times
 from optimizer.program.cuts.rounding import settled_turn
 from optimizer.program.cuts.semi_infinite import Problem
-from optimizer.program.cuts.stage import Levels, Point, Search, Stage
+from optimizer.program.cuts.stage import Levels, Point, Search, StageEnd
 from optimizer.program.limits import Limits
 from optimizer.program.methods.implied_bounds import bounded, far_limits
 from optimizer.program.methods.semicontinuous_bounds import within_semicontinuous_reach
@@ -192,7 +192,7 @@ def next_goal(
     u : (K,) kg m, within the limits, that keeps these levels and the ceilings.
     """
     inside = Point(u, program.values(u, _PRINTED), program.mass(u))
-    nearest = Stage(inside, None, 0, 0.0, False)
+    nearest = StageEnd(inside, None, 0, 0.0, False)
     raised, until = inside.values.excess > -_AMPLE, time.thread_time() + time_limit_s
     course = _Course(program, Pool(program.first, program.scatter), nearest, raised, False, until)
     course.goals = list(before)
@@ -205,7 +205,7 @@ class _Course:
     """Stages one after the other, each with what is known already."""
 
     def __init__(
-        self, program: Problem, pool: Pool, nearest: Stage, raised: bool, contradicted: bool, until: float
+        self, program: Problem, pool: Pool, nearest: StageEnd, raised: bool, contradicted: bool, until: float
     ) -> None:
         self.program, self.pool, self.raised, self.contradicted = program, pool, raised, contradicted
         self.inside, self.so_far, self.until, self.timed_out = nearest.point, program, until, nearest.timed_out
@@ -302,11 +302,11 @@ def _rest(program: Problem) -> Point:
     return Point(np.zeros(program.limits.radius.shape, complex), program.at_rest, 0.0)
 
 
-def _nearest(program: Problem, pool: Pool, until: float) -> Stage:
+def _nearest(program: Problem, pool: Pool, until: float) -> StageEnd:
     """A point with room below the ceilings, or the one that comes closest to keeping them with the proof of that."""
     rest = _rest(program)
     if not (program.ceilings or program.limited) or rest.values.excess <= -_ROOMY:
-        return Stage(rest, None, 0, 0.0, False)
+        return StageEnd(rest, None, 0, 0.0, False)
     excess = program.excess()
     still = _rest(excess)
     excess = _bounded(excess, still, np.zeros(0))

@@ -21,7 +21,7 @@ from optimizer.program.cuts.proof import Proof, proofs, resting_proof, times, un
 from optimizer.program.cuts.semi_infinite import Problem, Values
 from optimizer.program.plate_pieces import Pieces, Plates, first_nodes, nodes_about, pieces, tangents
 from optimizer.program.reference.assembled import GroupLimit, NoPoint, solved
-from optimizer.program.scaled_program import Stage as CostStage
+from optimizer.program.scaled_program import Stage
 from optimizer.program.scaling import natural_reach, scale
 from optimizer.program.solution import CEILING_ROUNDING, NEGLIGIBLE
 from optimizer.program.statement import Statement
@@ -77,7 +77,7 @@ class _Promise(NamedTuple):
     unbalance: Complex  # (K,) kg m
 
 
-class Stage(NamedTuple):
+class StageEnd(NamedTuple):
     """What one stage came to."""
 
     point: Point
@@ -126,7 +126,7 @@ class Search:
         self.near: Point | None = None  # the last one that kept all
         self.beyond: Point | None = None  # the last one that did not
 
-    def run(self, enough: float, stop: Callable[[float, float], bool] = lambda value, bound: False) -> Stage:
+    def run(self, enough: float, stop: Callable[[float, float], bool] = lambda value, bound: False) -> StageEnd:
         """Rounds until the gap is small enough, or nothing more is to be had.
 
         Parameters
@@ -190,7 +190,7 @@ class Search:
         if promised.figure < self.figure(best):
             width = self._width(enough, promised.figure - (-np.inf if proof is None else proof.bound))
             best = min(best, self._feasible(self._evaluated(promised.unbalance, width)), key=self.figure)
-        return Stage(self._tidied(best), proof, rounds, self.certify_s, timed_out)
+        return StageEnd(self._tidied(best), proof, rounds, self.certify_s, timed_out)
 
     def _wanted(self, enough: float, best: Point) -> float:
         """Gap that ends the search, in units of what is small.
@@ -292,7 +292,7 @@ class Search:
         mass = (self.inside.mass or 1.0) if self.of_mass else 1.0
         lowered = -_RAISED if self.raised else attempt.margins * _LOWERED
         largest = float(np.max(np.abs(posed.norms.constant)))
-        stage: CostStage = "mass" if self.of_mass else "objective"
+        stage: Stage = "mass" if self.of_mass else "objective"
         data, scaling = scale(posed, stage, self.clip, lowered, mass_unit=mass, unit=largest)
         highest = posed.largest(posed.floor)
         aimed = self.aimed = self.levels.most - attempt.margins * self.margin - self.missed
