@@ -31,10 +31,10 @@ def analyze(request: AnalyzeRequest) -> AnalyzeAnswer:
     refuse(too_heavy(request.machine, request.counterweights, "counterweights"))
     # what is cut from a plate has the radius that its mass gives it
     machine = fitted_masses(request.machine, mass)
-    scene = prepare(request, machine=machine)
+    scene = prepare(request, request.outputs, machine=machine)
     reporting = time.perf_counter()
     given = fitted(machine, mass, angle)
-    found = fields(replace(scene, shafts=given.on_shafts), given.on_crank)
+    found = fields(replace(scene, shafts=given.on_shafts), given.on_crank, request.outputs)
     end = time.perf_counter()
     return AnalyzeAnswer(
         **found,

@@ -1,13 +1,13 @@
 """From request to answer: machine -> responses -> program -> counterweights -> report."""
 
 import time
+from collections.abc import Sequence
 from dataclasses import replace
 
 from optimizer.errors import MissingInput, refuse
 from optimizer.formulation.counterweights import too_heavy
 from optimizer.formulation.task import Task
-from optimizer.outputs.registry import fields as answered
-from optimizer.outputs.registry import prepare
+from optimizer.outputs.registry import fields, prepare
 from optimizer.outputs.requirements import effects_of_objective, missing
 from optimizer.program.reference.solver import Solver
 from optimizer.solve.alternatives import BEST, alternatives
@@ -28,10 +28,16 @@ _OF_THE_SHAFT, _ROLL = "main_bearings", "roll"
 
 
 @or_mapping(OptimizeRequest)
-def optimize(request: OptimizeRequest, solver: Solver | None = None) -> OptimizeAnswer:
+def optimize(
+    request: OptimizeRequest, solver: Solver | None = None, outputs: Sequence[str] | None = None
+) -> OptimizeAnswer:
     """Counterweights that minimise what the objective weighs, with a certificate.
 
     Every figure is evaluated by the mechanics from the returned masses and angles.
+
+    Parameters
+    ----------
+    outputs : that the answer holds beside what every answer does; None are those that the request asks for.
 
     Raises
     ------
@@ -44,9 +50,9 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
     if lacking:
         raise MissingInput(lacking)
     refuse(too_heavy(request.machine, request.fitted, "fitted"))
-    always = _always(task.objective)
+    names = (*_always(task.objective), *(request.outputs if outputs is None else outputs))
     # of cases every one is a machine of its own, simulated for itself
-    scene = prepare(request, always, () if task.scenarios else effects_of_objective(task.objective))
+    scene = prepare(request, names, () if task.scenarios else effects_of_objective(task.objective))
     solving, began = time.perf_counter(), time.thread_time()
     solver = solver or own_solver()
     first = replace(task, time_limit_s=BEST * task.time_limit_s) if request.alternatives else task
@@ -62,7 +68,7 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
         u, report_s = best.unbalance, best.report_s
         if task.tolerances is not None and not task.robust:
             told |= nothing_off(task, scene, u, best.certificate.objective)
-    figures = answered(there, on_crank, always, told)
+    figures = fields(there, on_crank, names, told)
     if task.objective.orders == "all":
         figures["residual"] = with_turn(figures["residual"], scene, u)
     end = time.perf_counter()

@@ -45,7 +45,7 @@ def match_parts() -> None:
     """Nine parts on as many rows: too many for all of their orders to be listed."""
     import numpy as np
 
-    from optimizer.studies.matching.kernel.meeting import met
+    from optimizer.numerics.kernel.meeting import met
     from optimizer.studies.matching.match import match
     from schemas.match.request import MatchRequest
 

@@ -273,9 +273,9 @@ COMPUTATIONS: dict[str, Computation] = {
         Computation(
             name="shaft",
             path="/v1/shaft",
-            request="schemas.shaft.request:ShaftRequest",
-            answer="schemas.shaft.answer:ShaftAnswer",
-            compute="optimizer.crankshaft.read:read_shaft",
+            request="schemas.request.shaft:ShaftRequest",
+            answer="schemas.answer.shaft:ShaftAnswer",
+            compute="optimizer.mechanics.crankshaft.read:read_shaft",
             summary="The crankshaft that the faces and bodies of any CAD show",
             remark="Axis, frame, throws, webs and bearings from round and plane faces, unbalances in two planes from"
             " the masses of bodies. `doubts` holds what a designer should look at. A shaft with serious ones is"

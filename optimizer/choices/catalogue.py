@@ -33,7 +33,7 @@ class Catalogue:
 
     def best(self, subproblem: Subproblem) -> Choice:
         relaxed, *known = subproblem.points
-        found = search(
+        chosen, result = search(
             subproblem.statement,
             self.stock.options,
             relaxed,
@@ -43,7 +43,7 @@ class Catalogue:
             subproblem.time_limit_s,
             Prior(known, subproblem.below),
         )
-        return self.picked(found.chosen, found)
+        return self.picked(chosen, result)
 
     def picked(self, chosen: np.ndarray, result: SearchResult) -> Choice:
         """Options (K,) as a choice."""

@@ -13,7 +13,7 @@ import numpy as np
 from optimizer.mechanics.plates import Plates
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.methods.compiled import suits_kernel, unproven
-from optimizer.program.methods.plate_sizes import NEARLY, SAME_SIZE, Cut, at_limits, total_mass
+from optimizer.program.methods.plate_sizes import NEARLY, SAME_SIZE, CutWeights, at_limits, total_mass
 from optimizer.program.methods.rounding import made_up
 from optimizer.program.plate_pieces import pieces, tangents
 from optimizer.program.points import excess_at
@@ -28,8 +28,8 @@ _OF_MASS, _OF_OBJECTIVE = 0.9, 0.5
 
 
 def alike(
-    whole: Statement, plates: Plates, nodes: Real, cut: Cut, optimum: tuple[float, float], least_mass: float
-) -> Cut:
+    whole: Statement, plates: Plates, nodes: Real, cut: CutWeights, optimum: tuple[float, float], least_mass: float
+) -> CutWeights:
     """The same with plates opened alike where they are no worse for it.
 
     Parameters
@@ -68,7 +68,7 @@ def alike(
     return _opened(whole, plates, nodes, turned, every, apart, admitted) or one_by_one
 
 
-def emptied(whole: Statement, plates: Plates, cut: Cut, empty: np.ndarray) -> Cut:
+def emptied(whole: Statement, plates: Plates, cut: CutWeights, empty: np.ndarray) -> CutWeights:
     """The same with some webs (K,) bool left empty, for which counterweights between their limits make up."""
     limits, put = whole.limits, np.where(empty, 0.0, cut.unbalance)
     room = np.where(empty | at_limits(whole, cut), 0.0, np.abs(cut.unbalance))
@@ -77,7 +77,7 @@ def emptied(whole: Statement, plates: Plates, cut: Cut, empty: np.ndarray) -> Cu
     u = np.where(room > 0, limits.into(balanced[None])[0], put)
     angle = np.where(room[plates.webs] > 0, plates.opened(np.abs(u[plates.webs])), cut.angle)
     angle = np.where(empty[plates.webs], 0.0, angle)
-    return Cut(u, angle, float(total_mass(whole, plates, u, angle)))
+    return CutWeights(u, angle, float(total_mass(whole, plates, u, angle)))
 
 
 class _Cluster(NamedTuple):
@@ -89,7 +89,7 @@ class _Cluster(NamedTuple):
     full: bool  # as far as they go, if that may be
 
 
-def _clusters(plates: Plates, cut: Cut) -> Iterator[_Cluster]:
+def _clusters(plates: Plates, cut: CutWeights) -> Iterator[_Cluster]:
     """Plates of one kind that hold nearly the same, and plates that are all but full."""
     size = np.abs(cut.unbalance[plates.webs])
     full = size >= plates.unbalance(plates.most) * (1.0 - NEARLY)
@@ -114,7 +114,7 @@ class _Admitted(NamedTuple):
     least_mass: bool  # the mass counts
 
 
-def _admitted(whole: Statement, cut: Cut, optimum: tuple[float, float], least_mass: float) -> _Admitted:
+def _admitted(whole: Statement, cut: CutWeights, optimum: tuple[float, float], least_mass: float) -> _Admitted:
     u = cut.unbalance
     heaviest = max(cut.mass, least_mass / (1.0 - _OF_MASS * MASS_GAP))
     return _Admitted(
@@ -126,7 +126,9 @@ def _admitted(whole: Statement, cut: Cut, optimum: tuple[float, float], least_ma
     )
 
 
-def _turned(whole: Statement, plates: Plates, nodes: Real, cut: Cut, empty: np.ndarray, admitted: _Admitted) -> Cut:
+def _turned(
+    whole: Statement, plates: Plates, nodes: Real, cut: CutWeights, empty: np.ndarray, admitted: _Admitted
+) -> CutWeights:
     """The same with every counterweight turned to where it is for the smallest objective, and no heavier."""
     share = _OF_OBJECTIVE * (admitted.objective - admitted.bound)
     smallest = _others(whole, plates, nodes, empty, np.zeros_like(cut.unbalance)[None], share, False)[0]
@@ -139,11 +141,11 @@ def _opened(
     whole: Statement,
     plates: Plates,
     nodes: Real,
-    before: Cut,
+    before: CutWeights,
     held: np.ndarray,
     clusters: Sequence[_Cluster],
     admitted: _Admitted,
-) -> Cut | None:
+) -> CutWeights | None:
     """The same with the plates of each cluster opened alike, None where that is worse.
 
     Parameters
@@ -168,7 +170,7 @@ def _opened(
         light = mass <= admitted.mass
         if np.any(close & light):
             best = -1 if full and close[-1] & light[-1] else int(np.argmax(close & light))
-            return Cut(tried[best], opened[best], float(mass[best]))
+            return CutWeights(tried[best], opened[best], float(mass[best]))
         # the lightest that is an optimum is between two of them
         first = int(np.argmax(close))
         if not first or not light[first - 1]:

@@ -1,5 +1,6 @@
 """What a set that is not convex answers: the best choice for a statement, and what is proven of all choices."""
 
+from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
 from optimizer.numerics.arrays import Complex, Real
@@ -18,34 +19,18 @@ class Subproblem(NamedTuple):
     below: Statement | None = None  # of few rows in one group, nowhere above it, for the batch kernel; None is that one
 
 
-class SearchResult(Protocol):
-    """Where a search ended."""
+@dataclass(frozen=True)
+class SearchResult:
+    """Where a search ended, and what is proven of all that may be chosen."""
 
-    @property
-    def feasible(self) -> bool:
-        """Whether what was found keeps the ceilings."""
-        ...
-
-    @property
-    def lower_bound(self) -> float:
-        """Of all that may be chosen, over omega^2; inf where it is proven that nothing may."""
-        ...
-
-    @property
-    def nodes(self) -> int: ...
-
-    @property
-    def method(self) -> str: ...
-
-    @property
-    def proven(self) -> bool:
-        """Whether all equals were compared as well."""
-        ...
-
-    @property
-    def ended(self) -> str | None:
-        """ "time", "size", "rounding" or "cuts" where that ended it before the asked gap."""
-        ...
+    feasible: bool  # whether what was found keeps the ceilings
+    lower_bound: float  # of all that may be chosen, over omega^2; inf where it is proven that nothing may
+    nodes: int  # of the tree
+    method: str
+    proven: bool = False  # all equals were compared as well
+    ended: str | None = None  # "time", "size", "rounding" or "cuts" where that ended it before the asked gap
+    rounds: int = 0  # programs over the turn whose choices were searched
+    cuts: int = 0  # that the last of them had
 
 
 class Choice(NamedTuple):

@@ -48,7 +48,7 @@ class MinimumMasses:
         share = OPTIMUM_SHARE * size if self.lightest else 0.0
         asked = SearchGoal(subproblem.relative_gap * size, size, share, subproblem.time_limit_s)
         least = self.least * statement.limits.radius
-        found = search(statement, least, relaxed, subproblem.at_least, asked, self.solver, known, subproblem.below)
-        mass, angle = masses_and_angles(self.machine, found.unbalance, statement.limits)
+        u, result = search(statement, least, relaxed, subproblem.at_least, asked, self.solver, known, subproblem.below)
+        mass, angle = masses_and_angles(self.machine, u, statement.limits)
         mass = np.where(np.abs(mass - self.least) <= _ROUNDING * self.least, self.least, mass)
-        return Choice(mass, angle, unbalance(mass, angle, self.limits.radius), found)
+        return Choice(mass, angle, unbalance(mass, angle, self.limits.radius), result)

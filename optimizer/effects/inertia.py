@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator
 
 from optimizer.effects.effect import Context, Effect
-from optimizer.mechanics.inertia import Wrench, reciprocating, rotating
+from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.slider_crank import acceleration_harmonic, acceleration_harmonic_order_2
 from optimizer.numerics.arrays import Real
 from schemas.base.model import FieldProblem
@@ -28,36 +28,24 @@ def _harmonic(context: Context) -> Callable[[int, Real], Real]:
     return acceleration_harmonic if context.fidelity.kinematics == "exact" else acceleration_harmonic_order_2
 
 
-def _rotating(context: Context) -> Wrench:
-    return rotating(context.layout)
-
-
-def _first_order(context: Context) -> Wrench:
-    return reciprocating(context.layout, 1)
-
-
-def _second_order(context: Context) -> Wrench:
-    return reciprocating(context.layout, 2, _harmonic(context))
-
-
-def _higher_orders(context: Context) -> dict[int, Wrench]:
-    return {order: reciprocating(context.layout, order, _harmonic(context)) for order in HIGHER_ORDERS}
-
-
 INERTIA = (
-    Effect("rotating_inertia", "centrifugal forces of the rotating masses", _rotating),
-    Effect("reciprocating_inertia", "first-order forces of the reciprocating masses", _first_order),
+    Effect("rotating_inertia", "centrifugal forces of the rotating masses", lambda context: rotating(context.layout)),
+    Effect(
+        "reciprocating_inertia",
+        "first-order forces of the reciprocating masses",
+        lambda context: reciprocating(context.layout, 1),
+    ),
     Effect(
         "second_order",
         "second-order forces of the reciprocating masses",
-        _second_order,
+        lambda context: reciprocating(context.layout, 2, _harmonic(context)),
         inputs=RODS,
         problems=rod_problems,
     ),
     Effect(
         "higher_orders",
         "fourth- and sixth-order forces of the reciprocating masses",
-        _higher_orders,
+        lambda context: {order: reciprocating(context.layout, order, _harmonic(context)) for order in HIGHER_ORDERS},
         inputs=RODS,
         problems=rod_problems,
     ),

@@ -46,7 +46,7 @@ def design_space(machine: Machine, objective: Objective) -> DesignSpace:
     mirrored = objective.orders == "first"
     webs = (_mirrored(web) if mirrored and shaft.speed_ratio == -1 else web for shaft in shafts for web in shaft.webs)
     # default weights count throws and webs of the crankshaft alone
-    return DesignSpace(machine.with_webs((*machine.webs, *webs)), with_weights_of(machine, objective))
+    return DesignSpace(with_fields(machine, {("webs",): (*machine.webs, *webs)}), with_weights_of(machine, objective))
 
 
 def _mirrored(web: Web) -> Web:

@@ -14,6 +14,7 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.limits import Limits
 from schemas.answer.counterweights import Counterweight, Shape
 from schemas.base.model import FieldProblem
+from schemas.base.variation import with_fields
 from schemas.machine.fitted import FittedCounterweight, GivenCounterweight
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import BalanceShaft, ReciprocatingMachine
@@ -113,7 +114,7 @@ def unbalances_of_shaft(
     machine: Machine, shaft: BalanceShaft, mass_kg: Real, angles_deg: Real
 ) -> tuple[Counterweight, ...]:
     """The unbalances of a balance shaft (S,), one for each of its webs."""
-    alone = machine.with_webs(shaft.webs)
+    alone = with_fields(machine, {("webs",): shaft.webs})
     return _placed(alone, mass_kg, angles_deg, [None] * len(shaft.webs), float(shaft.speed_ratio))
 
 

@@ -23,6 +23,8 @@ from schemas.base.responses import PAIR, CeilingFields, ResponseFields
 from schemas.base.responses import RESPONSES as FIELDS
 from schemas.base.responses import counted as fields_that_count
 from schemas.base.responses import limited as limited_fields
+from schemas.base.rules import Path
+from schemas.base.variation import with_fields
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.objective import Objective
@@ -113,8 +115,10 @@ def weights(machine: Machine, objective: Objective) -> Mapping[str, Reals]:
 def with_weights_of(machine: Machine, objective: Objective) -> Objective:
     """The objective with the weights given that a machine decides by default."""
     fields = (each.fields.weight for each in RESPONSES.values())
-    usual = {field: 1.0 / float(span(machine)) for field in fields if getattr(objective, field) is None}
-    return objective.model_copy(update=usual) if usual else objective
+    usual: dict[Path, float] = {
+        (field,): 1.0 / float(span(machine)) for field in fields if getattr(objective, field) is None
+    }
+    return with_fields(objective, usual) if usual else objective
 
 
 def weighing(objective: Objective, weights: Mapping[str, float], **update: object) -> Objective:

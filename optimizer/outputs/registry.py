@@ -56,18 +56,15 @@ MAX_SAMPLES = 200_000
 
 def prepare(
     request: Scene,
-    always: tuple[str, ...] = (),
+    outputs: Sequence[str],
     objective: tuple[str, ...] = (),
-    outputs: Sequence[str] | None = None,
     machine: Machine | None = None,
 ) -> Prepared:
-    """Simulate what the outputs of a request call for.
+    """Simulate what outputs of a request call for.
 
     Parameters
     ----------
-    always : outputs that are needed whether they were asked for or not.
     objective : effects that the objective needs, which the machine gives.
-    outputs : those that are simulated for; None are those that the request asks for.
     machine : another in place of that of the request.
 
     Raises
@@ -75,7 +72,7 @@ def prepare(
     MissingInput
         if the machine lacks what an output needs.
     """
-    every = dict.fromkeys((*always, *(request.outputs if outputs is None else outputs)))
+    every = dict.fromkeys(outputs)
     require_inputs(request.machine if machine is None else machine, tuple(every), request.angles.count)
     needs = {name: OUTPUTS[name].needs for name in every}
     if objective:
@@ -86,18 +83,17 @@ def prepare(
 def fields(
     scene: Prepared,
     unbalance: Complex | None,
-    always: tuple[str, ...] = (),
+    outputs: Sequence[str],
     proven: Mapping[str, Any] = MappingProxyType({}),
 ) -> dict[str, Any]:
-    """Fields of the answer for the outputs of a scene without and with counterweights.
+    """Fields of the answer for outputs of a scene without and with counterweights.
 
     Parameters
     ----------
     unbalance : (K,) kg m, the counterweights; None where there are none to show (infeasible).
-    always : outputs that are answered whether they were asked for or not.
     proven : fields of the answer that tell what is proven of counterweights that were chosen.
     """
-    outputs = dict.fromkeys((*always, *scene.request.outputs))
+    outputs = tuple(dict.fromkeys(outputs))
     scene = replace(scene, brackets={})
     searches = (search for name in outputs for search in OUTPUTS[name].searches(scene, unbalance))
     scene.brackets.update(searched(scene, searches))

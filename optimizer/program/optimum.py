@@ -4,7 +4,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Complex
 from optimizer.program.certificate import objective_lower_bound
-from optimizer.program.cuts.optimum import TIME_LIMIT_S, CertifiedOptimum, Reached, Unkept, over_turn
+from optimizer.program.cuts.optimum import TIME_LIMIT_S, CertifiedOptimum, Conflict, GoalLevel, over_turn
 from optimizer.program.cuts.proof import Proof
 from optimizer.program.cuts.semi_infinite import Problem, Values
 from optimizer.program.cuts.stage import Point
@@ -21,7 +21,7 @@ def optimum(
     least_mass: bool,
     solver: Solver,
     time_limit_s: float = TIME_LIMIT_S,
-) -> CertifiedOptimum | Unkept:
+) -> CertifiedOptimum | Conflict:
     """Certified optimum of one problem: its goals one after the other, then the least mass.
 
     Parameters
@@ -54,7 +54,7 @@ def cone_program(program: Problem, least_mass: bool) -> Statement | None:
 
 def solution(
     program: Problem, statement: Statement, optima: Optima, u: Complex, least_mass: bool
-) -> CertifiedOptimum | Unkept:
+) -> CertifiedOptimum | Conflict:
     """What is found of a problem that is a cone program, of a batch of one.
 
     Parameters
@@ -69,10 +69,10 @@ def solution(
     if optima.unreachable[0]:
         excess, conflict = statement.excess(), optima.conflict.chosen(0)
         proof = Proof(float(objective_lower_bound(excess, conflict)), excess, conflict)
-        return Unkept(point, proof, statement.limits, spent, method)
+        return Conflict(point, proof, statement.limits, spent, method)
     value, of_mass, target = float(point.values.goals[-1]), None, float(optima.mass_target[0])
     if least_mass:
         of_mass = Proof(float(optima.mass_lower_bound[0]), statement, optima.mass_multipliers.chosen(0))
     of_goal = Proof(float(optima.lower_bound[0]), statement, optima.multipliers.chosen(0))
-    goals = (Reached(program.goals[-1].name, value, of_goal, value),)
+    goals = (GoalLevel(program.goals[-1].name, value, of_goal, value),)
     return CertifiedOptimum(point, goals, of_mass, target, statement.limits, spent, method)

@@ -27,7 +27,10 @@ CLOSED_FORM = "closed form, nothing to choose"
 
 @dataclass(frozen=True)
 class Solution:
-    """Counterweights with their proof; every figure is evaluated from ``unbalance``, none is the solver's."""
+    """Counterweights with their proof; every figure is evaluated from ``unbalance``, none is the solver's.
+
+    With a conflict no counterweights keep the ceilings, and these are closest to them.
+    """
 
     unbalance: Complex  # (K,) kg m
     objective: float
@@ -40,6 +43,7 @@ class Solution:
     certify_s: float = 0.0  # time spent on bounds
     mass_multipliers: Multipliers | None = None  # those of the lower bound of the mass
     mass_target: float = np.inf  # largest objective that this bound counts as an optimum
+    conflict: Multipliers | None = None  # those of the excess that prove that none keep the ceilings: rows are ceilings
 
     @property
     def gap(self) -> float:

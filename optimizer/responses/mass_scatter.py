@@ -7,7 +7,6 @@ import numpy as np
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.responses.curve import TurnResponse
 from optimizer.responses.moving_curves import moved
-from optimizer.responses.piecewise_cubics import Index
 from optimizer.responses.worst_masses import Worst, worst_peaks
 
 
@@ -36,7 +35,7 @@ def peaks_astray(
 
 def _peaks(responses: Sequence[TurnResponse], share: float, unbalance: Complex, tolerance: Real) -> Worst:
     """Those of the same curves, or of one to which counterweights add what turns."""
-    first, number = responses[0], _numbers(responses)
+    first, number = responses[0], np.array([response.number for response in responses], dtype=np.intp)
     by = first.harmonics(unbalance)
     if by is None:
         offset = np.array([response.offset(unbalance) for response in responses], dtype=complex)
@@ -45,7 +44,3 @@ def _peaks(responses: Sequence[TurnResponse], share: float, unbalance: Complex, 
     pieces, still = moved(first.curves.pieces, 0, by), np.zeros(1, dtype=complex)
     brackets = worst_peaks(pieces, first.curves.parts, share, still, number, tolerance)
     return brackets._replace(value=brackets.value - by.at(brackets.angle))
-
-
-def _numbers(responses: Sequence[TurnResponse]) -> Index:
-    return np.array([response.number for response in responses], dtype=np.intp)

@@ -32,7 +32,6 @@ class Certified:
     mass_kg: Real  # (N, K), those that are chosen, as all that follows
     angle_deg: Real  # (N, K)
     unbalance: Complex  # (N, K) kg m, of these masses and angles
-    verdict: Verdict
     certificate: dict[str, np.ndarray]  # (N,) fields of the certificate, in the units of the answer; nan is null
     status: np.ndarray  # (N,)
     reason: np.ndarray  # (N,) a sentence
@@ -57,30 +56,14 @@ def certified(
     found = optima(program, wanted.relative_gap, wanted.least_mass, solver)
     if goal.symmetric:
         found = replace(found, unbalance=symmetric(program, found.unbalance))
-    return judged(machine, wanted, program, found, omega_squared)
-
-
-def judged(
-    machine: Machine,
-    wanted: Demand,
-    program: Statement,
-    optima: Optima,
-    omega_squared: Real,
-) -> Certified:
-    """Counterweights as they are fitted, and what may be claimed of them.
-
-    Parameters
-    ----------
-    program : (N,), over omega^2, of the machine.
-    """
-    mass, angle, u, optima, claimed, judged = judgement(machine, wanted, program, optima)
-    certificate = figures(machine, claimed, judged, program.at_rest, optima.mass_target, omega_squared)
-    certificate["method"] = optima.method
+    mass, angle, u, best, claimed, judged = judgement(machine, wanted, program, found)
+    certificate = figures(machine, claimed, judged, program.at_rest, best.mass_target, omega_squared)
+    certificate["method"] = best.method
     status, reason = judged.status, judged.reason
-    if optima.unreachable.any():
-        status = np.where(optima.unreachable, "infeasible", status)
-        reason = np.where(optima.unreachable, INFEASIBLE, reason)
-    return Certified(program, omega_squared, optima, mass, angle, u, judged, certificate, status, reason)
+    if best.unreachable.any():
+        status = np.where(best.unreachable, "infeasible", status)
+        reason = np.where(best.unreachable, INFEASIBLE, reason)
+    return Certified(program, omega_squared, best, mass, angle, u, certificate, status, reason)
 
 
 class Judgement(NamedTuple):

@@ -13,7 +13,7 @@ import numpy as np
 
 from optimizer.choices.construction import feasible_set
 from optimizer.choices.discrete.options import EQUAL
-from optimizer.choices.feasible_set import Choice, FeasibleSet
+from optimizer.choices.feasible_set import Choice, FeasibleSet, SearchResult
 from optimizer.formulation.balance_shafts import chosen
 from optimizer.formulation.goals import Goals
 from optimizer.formulation.simulation import Prepared
@@ -21,7 +21,7 @@ from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import fixed_masses
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.program.cuts.optimum import CertifiedOptimum, Reached, Unkept, next_goal, semicontinuous_limits
+from optimizer.program.cuts.optimum import CertifiedOptimum, Conflict, GoalLevel, next_goal, semicontinuous_limits
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.limits import Limits
 from optimizer.program.optimum import optimum
@@ -29,7 +29,7 @@ from optimizer.program.reference.solver import Solver
 from optimizer.solve.answer_fields import Candidate, solution_of
 from optimizer.solve.caps import NO_CAPS, Caps, cost
 from optimizer.solve.costs import Costs
-from optimizer.solve.cutting_plane_rounds import Ended, Start, in_rounds
+from optimizer.solve.cutting_plane_rounds import Start, in_rounds
 from optimizer.solve.infeasibility import out_of_reach, unreachable
 from optimizer.solve.solution import Infeasible, Solution, finite_or_null
 from optimizer.solve.statuses import SearchProof, search_status
@@ -68,7 +68,7 @@ def best_choice(task: Task, scene: Prepared, solver: Solver, in_full: bool = Tru
     for _ in range(MOST_ROUNDS):
         goals = robust.goals()
         first = _of_any_mass(goals.program, any_mass.relative_gap, robust, solver)
-        if isinstance(first, Unkept):
+        if isinstance(first, Conflict):
             return out_of_reach(task, scene, goals, first, solver)
         course = _in_order(task, robust, goals, first, solver)
         stages, picked = course.stages, course.incumbent
@@ -89,7 +89,7 @@ def best_choice(task: Task, scene: Prepared, solver: Solver, in_full: bool = Tru
     if len(stages) < len(goals.program.goals):
         # nothing is proven of what goals come to in their order
         goals, of_any = robust.solved(solver)
-        if isinstance(of_any, Unkept):
+        if isinstance(of_any, Conflict):
             return out_of_reach(task, scene, goals, of_any, solver)
         nothing = SearchProof(outcome, outcome.nodes, outcome.rounds, None, True)
         return solution_of(task, scene, goals, Candidate(picked.mass, picked.angle, of_any), judged, nothing, in_full)
@@ -107,23 +107,23 @@ def best_choice(task: Task, scene: Prepared, solver: Solver, in_full: bool = Tru
     return answer
 
 
-class _Stage(NamedTuple):
+class _GoalChoice(NamedTuple):
     """A goal, the best choice for it under the goals before, and what is proven of all choices."""
 
     best: CertifiedOptimum  # of any masses at any angles, under the same
     picked: Choice
-    outcome: Ended
+    outcome: SearchResult
     contradicted: bool  # the choice comes to less than any is proven to
 
 
-def _of_any_mass(program: Problem, gap: float, robust: Robust, solver: Solver) -> CertifiedOptimum | Unkept:
+def _of_any_mass(program: Problem, gap: float, robust: Robust, solver: Solver) -> CertifiedOptimum | Conflict:
     """The first goal by itself."""
     return optimum(program.changed(goals=program.goals[:1]), gap, False, solver, robust.left_s)
 
 
-def _in_order(task: Task, robust: Robust, goals: Goals, best: CertifiedOptimum, solver: Solver) -> "_Course":
+def _in_order(task: Task, robust: Robust, goals: Goals, best: CertifiedOptimum, solver: Solver) -> "_GoalOrder":
     """The goals one after the other, each with the most that those before it may come to."""
-    course = _Course(task, robust, goals.program, best, solver)
+    course = _GoalOrder(task, robust, goals.program, best, solver)
     order = list(task.objective.priorities)
     if order and order[-1].goal == "mass" and goals.program.goals[-1].allowance == 0.0:
         # of equal choices the lightest is taken anyhow
@@ -141,7 +141,7 @@ def _in_order(task: Task, robust: Robust, goals: Goals, best: CertifiedOptimum, 
 
 
 @dataclass
-class _Course:
+class _GoalOrder:
     """Goals one after the other."""
 
     task: Task
@@ -149,12 +149,12 @@ class _Course:
     program: Problem
     first: CertifiedOptimum  # of any masses, the first goal that is no cost by itself
     solver: Solver
-    stages: list[_Stage] = field(default_factory=list)
+    stages: list[_GoalChoice] = field(default_factory=list)
     levels: list[GoalReached] = field(default_factory=list)
     caps: Caps = NO_CAPS
     incumbent: Choice | None = None  # that keeps all so far
     closed: bool = True  # the gaps of all goals are the asked ones
-    _reached: list[Reached] = field(default_factory=list)
+    _reached: list[GoalLevel] = field(default_factory=list)
 
     def smallest(self, later: int, reserve_s: float) -> bool:
         """Make the next goal small that is no cost; whether a choice was found that keeps the ceilings."""
@@ -175,11 +175,11 @@ class _Course:
         value = float(so_far.values(picked.unbalance, _CLOSE).goals[-1])
         left = value - outcome.lower_bound
         contradicted = outcome.feasible and left < -EQUAL * size
-        self.stages.append(_Stage(best, picked, outcome, contradicted))
+        self.stages.append(_GoalChoice(best, picked, outcome, contradicted))
         self.closed &= left <= max(choice_gap * size, EQUAL * size)
         # choices that are this near are equal, which leaves room for the brackets by which they are judged
         most = max(value, outcome.lower_bound + goal.allowance * size) + EQUAL * size if later else value
-        self._reached.append(Reached(goal.name, value, best.proof, most))
+        self._reached.append(GoalLevel(goal.name, value, best.proof, most))
         if self.task.objective.priorities and outcome.feasible:
             square = self.robust.scene.omega_squared
             least = finite_or_null(self._bound(outcome.lower_bound, value, EQUAL * size) * square)
@@ -233,7 +233,7 @@ class _Course:
 
 
 def _limits(
-    task: Task, program: Problem, best: CertifiedOptimum, before: Sequence[Reached], incumbent: Choice | None
+    task: Task, program: Problem, best: CertifiedOptimum, before: Sequence[GoalLevel], incumbent: Choice | None
 ) -> Limits:
     """Limits that hold some best choice for the last goal.
 
@@ -260,7 +260,7 @@ def _left(robust: Robust, reserve_s: float) -> Callable[[], float]:
     return lambda: max(robust.left_s - reserve_s, 0.0)
 
 
-def _nodes(stages: list[_Stage]) -> int:
+def _nodes(stages: list[_GoalChoice]) -> int:
     """Nodes of the trees of all goals."""
     return sum(stage.outcome.nodes for stage in stages)
 

@@ -14,25 +14,25 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.choices.catalogue import Catalogue
+from optimizer.choices.clock import Clock
 from optimizer.choices.discrete.ample import light_sizes, offer_light_sets
-from optimizer.choices.discrete.clock import Clock
 from optimizer.choices.discrete.exchange import start
 from optimizer.choices.discrete.lightest import lighter, lightest
 from optimizer.choices.discrete.neighbourhoods import neighbourhoods
 from optimizer.choices.discrete.options import EQUAL, Incumbent, Options
 from optimizer.choices.discrete.search import EXHAUSTED
-from optimizer.choices.feasible_set import Choice, FeasibleSet
+from optimizer.choices.feasible_set import Choice, FeasibleSet, SearchResult
 from optimizer.numerics.arrays import Complex
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.cuts.dominance import Group
-from optimizer.program.cuts.optimum import CertifiedOptimum, Reached, Unkept, next_goal, over_turn
+from optimizer.program.cuts.optimum import CertifiedOptimum, Conflict, GoalLevel, next_goal, over_turn
 from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.limits import Limits
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import total_mass
 from optimizer.program.statement import Statement
 from optimizer.solve.caps import NO_CAPS, Caps, cost
-from optimizer.solve.cutting_plane_rounds import Ended, Start, in_rounds
+from optimizer.solve.cutting_plane_rounds import Start, in_rounds
 from optimizer.solve.few_webs import UNKNOWN, FewWebs, compare_on_few_webs, few_webs, lightened
 from schemas.request.objective import Cost
 
@@ -48,7 +48,7 @@ _COUNTS = ((40, 120), (80, 300))
 #: share of the time in which the fewest castings are made lighter
 _LIGHTER = 0.1
 #: where a set was found that was compared with others; what that proves is told beside it
-COMPARED = Ended(True, -np.inf, 0, EXHAUSTED, False, None, 0, 0)
+COMPARED = SearchResult(True, -np.inf, 0, EXHAUSTED)
 
 
 def _of_parts(options: Options, chosen: np.ndarray) -> Options:
@@ -77,7 +77,7 @@ class Costs:
 
     program: Problem
     best: CertifiedOptimum
-    reached: Sequence[Reached]
+    reached: Sequence[GoalLevel]
     choices: Callable[[Limits], FeasibleSet]  # within limits that hold the best of them
     solver: Solver
     caps: Caps = NO_CAPS
@@ -248,12 +248,12 @@ class Costs:
         mass = Goal("mass", (Group((total_mass(self.program.limits),)),))
         weighed = self.program.changed(goals=(*goals, mass), limits=self.caps.within(self.best.limits))
         reached = [*self.reached, self.best.goals[-1]._replace(most=level)] if goals else []
-        any_mass: CertifiedOptimum | Unkept
+        any_mass: CertifiedOptimum | Conflict
         if known is not None and reached:
             any_mass = next_goal(weighed, reached, known.unbalance, _SHARP, seconds)
         else:
             any_mass = over_turn(weighed, _SHARP, False, seconds)
-        if isinstance(any_mass, Unkept):
+        if isinstance(any_mass, Conflict):
             if known is None:
                 return np.inf
             _LOG.error("no masses are proven to keep ceilings that a choice of %g kg keeps", cost(known, "mass"))

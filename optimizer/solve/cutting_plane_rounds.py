@@ -6,7 +6,7 @@ cuts are known is not found again for less than it comes to, so that rounds end 
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -38,20 +38,6 @@ _HIGH = 0.9
 _STEEP, _SHEER = 1e3, 1e9
 
 
-@dataclass(frozen=True)
-class Ended:
-    """Where the rounds ended, as a search does, by what is true over the turn."""
-
-    feasible: bool
-    lower_bound: float
-    nodes: int
-    method: str
-    proven: bool
-    ended: str | None
-    rounds: int
-    cuts: int
-
-
 class Start(NamedTuple):
     """What rounds begin with, and where they may end."""
 
@@ -73,7 +59,7 @@ def in_rounds(
     size: float,
     left_s: Callable[[], float],
     start: Start = _NOTHING,
-) -> tuple[Choice, Ended]:
+) -> tuple[Choice, SearchResult]:
     """The best choice, and what is proven of all that may be chosen.
 
     Parameters
@@ -95,7 +81,7 @@ def in_rounds(
         last = choices.best(Subproblem(whole, points, best.proof.bound, relative_gap, size, left_s()))
         result = last.result
         bound = np.inf if result.lower_bound == np.inf else max(best.proof.bound, result.lower_bound)
-        return last, Ended(result.feasible, bound, result.nodes, result.method, result.proven, result.ended, 0, 0)
+        return last, replace(result, lower_bound=bound)
     bound, least, chosen, stuck = best.proof.bound, np.inf, incumbent, not program.quantities
     if incumbent is not None:
         points = np.concatenate([points, incumbent.unbalance[None]])
@@ -105,9 +91,9 @@ def in_rounds(
         _learn(program, pool, point)
     at_rest, nodes, rounds = float(program.at_rest.goals[-1]), 0, 0
 
-    def ended(result: SearchResult, proven: bool, early: str | None) -> Ended:
+    def ended(result: SearchResult, proven: bool, early: str | None) -> SearchResult:
         lower = np.inf if result.lower_bound == np.inf else bound
-        return Ended(chosen is not None, lower, nodes, result.method, proven, early, rounds, pool.count())
+        return SearchResult(chosen is not None, lower, nodes, result.method, proven, early, rounds, pool.count())
 
     while True:
         rounds += 1

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.clock import Clock
 from optimizer.choices.discrete.halves import exhaust
 from optimizer.choices.discrete.lightest import lighter
 from optimizer.choices.discrete.neighbourhoods import near_options

@@ -14,7 +14,7 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
 from optimizer.outputs.first_order import added_peaks, first_order, smallest_peaks, smallest_proofs
 from optimizer.program.cuts.dominance import Group, Weighed
-from optimizer.program.cuts.optimum import METHOD, CertifiedOptimum, Unkept
+from optimizer.program.cuts.optimum import METHOD, CertifiedOptimum, Conflict
 from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.limits import Limits
 from optimizer.program.optimum import optimum
@@ -121,7 +121,7 @@ def report(
     )
 
 
-def out_of_reach(task: Task, scene: Prepared, goals: Goals, failure: Unkept, solver: Solver) -> Infeasible:
+def out_of_reach(task: Task, scene: Prepared, goals: Goals, failure: Conflict, solver: Solver) -> Infeasible:
     """Which ceilings conflict, what each peak comes to by itself, and the best compromise."""
     cut, there, within, mass, angle = cut_plates(task, scene, goals, failure.closest.unbalance, failure.limits)
     infeasible = unreachable(
@@ -136,7 +136,7 @@ def unreachable(
     goals: Goals,
     shown: Fitted,
     within: Limits,
-    failure: Unkept | None,
+    failure: Conflict | None,
     solver: Solver,
 ) -> Infeasible:
     """The same of what is shown as closest, with the proof by multipliers where there is one."""
@@ -200,7 +200,7 @@ def _alone(task: Task, goals: Goals, omega_squared: float) -> dict[str, tuple[Ro
     return {name: tuple(rows_of) for name, rows_of in rows.items()}
 
 
-def _scenarios(program: Problem, failure: Unkept, solver: Solver) -> tuple[str, ...]:
+def _scenarios(program: Problem, failure: Conflict, solver: Solver) -> tuple[str, ...]:
     """Scenarios whose ceilings are out of reach by themselves, or those whose ceilings conflict with one another."""
     statement, row = failure.proof.statement, np.maximum(failure.proof.multipliers.row, 0.0)
     leant = row[statement.row] > _TAKES_PART * np.sum(row)
@@ -208,17 +208,17 @@ def _scenarios(program: Problem, failure: Unkept, solver: Solver) -> tuple[str, 
     names = tuple(dict.fromkeys(term.scenario for term, counts in terms if counts and term.scenario is not None))
     if len(names) < 2:
         return names
-    return tuple(name for name in names if isinstance(_under(program, name, solver), Unkept)) or names
+    return tuple(name for name in names if isinstance(_under(program, name, solver), Conflict)) or names
 
 
-def _under(program: Problem, scenario: str, solver: Solver) -> CertifiedOptimum | Unkept:
+def _under(program: Problem, scenario: str, solver: Solver) -> CertifiedOptimum | Conflict:
     """The program under the ceilings of one scenario alone, as far as whether they can be kept."""
     ceilings = tuple(ceiling for ceiling in program.ceilings if ceiling[0].scenario == scenario)
     limited = tuple(each for each in program.limited if program.quantities[each[0]].scenario == scenario)
     return optimum(program.changed(goals=program.goals[-1:], ceilings=ceilings, limited=limited), 1.0, False, solver)
 
 
-def _at_fault(failure: Unkept) -> list[str]:
+def _at_fault(failure: Conflict) -> list[str]:
     """Responses whose ceilings conflict, those first that the proof leans on most."""
     statement, row = failure.proof.statement, np.maximum(failure.proof.multipliers.row, 0.0)
     share: dict[str, float] = {}

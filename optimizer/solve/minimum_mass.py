@@ -8,36 +8,48 @@ from optimizer.choices.construction import feasible_set
 from optimizer.choices.feasible_set import Choice, SearchResult
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
+from optimizer.mechanics.fixed_weights import beside, fixed_masses
 from optimizer.numerics.arrays import Real
 from optimizer.program.cuts.dominance import Group
-from optimizer.program.cuts.optimum import Unkept
+from optimizer.program.cuts.optimum import Conflict
 from optimizer.program.cuts.semi_infinite import Goal
-from optimizer.program.limits import Limits
 from optimizer.program.optimum import optimum
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import total_mass
+from optimizer.program.verdict import CONTRADICTED
 from optimizer.solve.cutting_plane_rounds import in_rounds
 from optimizer.solve.statuses import ample_reason, ended
 from optimizer.solve.uncertain_program import Robust
+from schemas.machine.machine import Machine
 
+#: of a mass, relative: by which sums of masses are rounded
+_ROUNDING = 1e-12
 #: gap of the least mass of any masses at any angles, which the search begins with
 _SHARP = 1e-6
 
 
 @dataclass(frozen=True)
-class Lightest:
-    """The lightest set that was found, and what is proven; of those that keep the ceilings."""
+class BestSet:
+    """The best set that may be chosen, by its objective or its mass, and what is proven of all."""
 
-    mass_kg: Real  # (K,), those that are chosen
+    mass_kg: Real  # (K,), with the weights that are fixed
     angle_deg: Real  # (K,)
-    lower_bound: float  # kg, inf where it is proven that none keeps the ceilings
+    value: float
+    lower_bound: float  # nan where nothing is proven, inf where it is proven that none keeps the ceilings
+    relative_gap: float  # nan where nothing is proven
     status: str
     reason: str
     nodes: int
     method: str
 
 
-def minimum_mass(task: Task, scene: Prepared, solver: Solver) -> Lightest:
+def none_of(machine: Machine, status: str, reason: str, nodes: int, method: str) -> BestSet:
+    """Nothing on any web, where there is no set to show."""
+    nothing = np.zeros(len(machine.webs))
+    return BestSet(nothing, nothing, np.nan, np.nan, np.nan, status, reason, nodes, method)
+
+
+def minimum_mass(task: Task, scene: Prepared, solver: Solver) -> BestSet:
     """The lightest set that can be chosen and keeps the ceilings, of the first order or over the turn.
 
     Raises
@@ -49,31 +61,31 @@ def minimum_mass(task: Task, scene: Prepared, solver: Solver) -> Lightest:
     program = robust.goals().program
     weighed = program.changed(goals=(Goal("mass", (Group((total_mass(program.limits),)),)),))
     best = optimum(weighed, _SHARP, False, solver, robust.left_s)
-    if isinstance(best, Unkept):
-        return _none(program.limits, best.method)
+    if isinstance(best, Conflict):
+        return none_of(task.machine, "infeasible", ended(None), 0, best.method)
     size = max(best.point.mass, best.proof.bound) or 1.0
     choices = feasible_set(task, best.limits, solver)
     choice, result = in_rounds(weighed, best, choices, gap, size, lambda: robust.left_s)
     reason = ample_reason(ended(result), result, best.proof.bound)
-    return _lightest(choice, result, result.lower_bound, gap, reason)
+    return _of_choice(task.machine, choice, result, gap, reason)
 
 
-def _none(limits: Limits, method: str) -> Lightest:
-    """Where no counterweights of any mass keep the ceilings."""
-    nothing = np.zeros(limits.radius.shape)
-    return Lightest(nothing, nothing, np.inf, "infeasible", ended(None), 0, method)
-
-
-def _lightest(choice: Choice, result: SearchResult, bound: float, gap: float, reason: str) -> Lightest:
+def _of_choice(machine: Machine, choice: Choice, result: SearchResult, gap: float, reason: str) -> BestSet:
     """What may be said of a choice.
 
     Parameters
     ----------
-    bound : kg, proven of all choices.
     gap : relative, that is wanted.
     """
-    value = float(np.sum(choice.mass))
-    status = "optimal" if result.feasible and value - bound <= gap * value else "inaccurate"
+    lightest, bound = float(np.sum(choice.mass)), result.lower_bound
+    status = "optimal" if result.feasible and lightest - bound <= gap * lightest else "inaccurate"
     if not result.feasible and bound == np.inf:
         status = "infeasible"
-    return Lightest(choice.mass, choice.angle, bound, status, reason, result.nodes, result.method)
+    mass, angle = beside(machine, choice.mass, choice.angle)
+    value, fixed = float(np.sum(mass)), float(np.sum(fixed_masses(machine)))
+    bound = bound + fixed
+    if np.isfinite(bound) and bound > value * (1.0 + _ROUNDING):
+        bound, status, reason = np.nan, "inaccurate", CONTRADICTED
+    bound = min(bound, value)
+    of_value = (value - bound) / value if value > 0 else 0.0
+    return BestSet(mass, angle, value, bound, of_value, status, reason, result.nodes, result.method)

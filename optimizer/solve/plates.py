@@ -21,11 +21,11 @@ from optimizer.formulation.task import Demand
 from optimizer.mechanics.plates import Plates
 from optimizer.mechanics.shapes import fitted
 from optimizer.numerics.arrays import Complex, Real, mapped
-from optimizer.program.cuts.optimum import CertifiedOptimum, Unkept
+from optimizer.program.cuts.optimum import CertifiedOptimum, Conflict
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import Optima, optima
-from optimizer.program.methods.plate_sizes import Cut, equal_sizes, total_mass, unlike
+from optimizer.program.methods.plate_sizes import CutWeights, equal_sizes, total_mass, unlike
 from optimizer.program.methods.rounding import dust
 from optimizer.program.methods.symmetry import symmetric
 from optimizer.program.optimum import solution
@@ -55,7 +55,7 @@ _ROOM_TO_BE_ALIKE = (0.999, 0.99, 0.9)
 
 def cut_optimum(
     machine: Machine, cut: Plates, program: Problem, statement: Statement, wanted: Demand, solver: Solver
-) -> CertifiedOptimum | Unkept:
+) -> CertifiedOptimum | Conflict:
     """Certified unbalances that are cut from plates, of a problem that is a cone program without a budget.
 
     Parameters
@@ -67,14 +67,14 @@ def cut_optimum(
     end = thread_time() + wanted.time_limit_s
     stated, every = statement.alone(), np.ones(len(machine.webs), bool)
     whole = within_reach(stated, solver)
-    task = _Task(machine, wanted, program.symmetric, whole, cut, solver, wanted.relative_gap, every)
+    task = _CutSearch(machine, wanted, program.symmetric, whole, cut, solver, wanted.relative_gap, every)
     outcome = task.optimum(end)
     if whole is not stated:
         statement = replace(statement, limits=mapped(whole.limits, lambda array: array[0]))
     return solution(program, statement, outcome, outcome.unbalance[0], wanted.least_mass)
 
 
-class _Attempt(NamedTuple):
+class _JudgedCut(NamedTuple):
     """What is found of a cut, and what may be claimed of it."""
 
     optima: Optima
@@ -95,12 +95,12 @@ class _Round(NamedTuple):
     """What is found with what tangents prove."""
 
     proven: Optima
-    cut: Cut
+    cut: CutWeights
     called_for: Complex  # (K,) unbalances that the tangents call for, kg m
 
 
 @dataclass(frozen=True)
-class _Task:
+class _CutSearch:
     machine: Machine  # with plates in place of some webs
     wanted: Demand
     symmetric: bool  # whether what is alike is to be alike
@@ -164,7 +164,7 @@ class _Task:
             u = symmetric(whole, u[None], self.kinds)[0]
         angle = self.opened(u)
         mass = float(total_mass(whole, self.plates, u, angle))
-        return _Round(proven, Cut(u, angle, mass), called_for)
+        return _Round(proven, CutWeights(u, angle, mass), called_for)
 
     def lightest(self, tried: Sequence[_Round]) -> _Round:
         """The last round, or the lightest of all cuts with the largest bound of the mass: proofs hold for all cuts."""
@@ -177,7 +177,7 @@ class _Task:
         optima = [attempt.cut for attempt in tried if self._keeps(proven, attempt.cut)]
         return _Round(proven, self._between(optima), last.called_for) if optima else last
 
-    def _between(self, optima: Sequence[Cut]) -> Cut:
+    def _between(self, optima: Sequence[CutWeights]) -> CutWeights:
         """The lightest of some cuts and of what lies between it and them: objective and mass are convex."""
         lightest = min(optima, key=lambda cut: cut.mass)
         for other in optima:
@@ -186,10 +186,10 @@ class _Task:
             mass = total_mass(self.whole, self.plates, u, angle)
             n = int(np.argmin(mass))
             if mass[n] < lightest.mass:
-                lightest = Cut(u[n], angle[n], float(mass[n]))
+                lightest = CutWeights(u[n], angle[n], float(mass[n]))
         return lightest
 
-    def _keeps(self, proven: Optima, cut: Cut) -> bool:
+    def _keeps(self, proven: Optima, cut: CutWeights) -> bool:
         """Whether a cut is an optimum by its objective."""
         objective, rounding = self.whole.objective(cut.unbalance)[0], self.whole.rounding(cut.unbalance)[0]
         return bool(not proven.unreachable[0] and objective <= self._largest(proven) + rounding)
@@ -210,7 +210,7 @@ class _Task:
                 outcome, left = rounded, left & ~empty
                 continue
             left, share, laid = left & ~empty, _WITH_ROOM * allowed, nodes
-            optima = list[Cut]()
+            optima = list[CutWeights]()
             for _ in range(_CLEARINGS):
                 other = replace(self, left=left, relative_gap=share).round(laid)
                 optima += [other.cut] if self._keeps(outcome.proven, other.cut) else []
@@ -230,7 +230,7 @@ class _Task:
                 break
         return outcome
 
-    def _masses(self, cut: Cut) -> Real:
+    def _masses(self, cut: CutWeights) -> Real:
         """(K,) kg."""
         mass = np.abs(cut.unbalance) / self.whole.limits.radius[0]
         mass[self.plates.webs] = self.plates.mass(cut.angle)
@@ -244,7 +244,7 @@ class _Task:
         size = np.maximum(mass, _NEARER * mass_resolution(self.whole, self.size[..., None])[0])
         return bool(mass - outcome.proven.mass_lower_bound[0] > MASS_GAP * size)
 
-    def judged_alike(self, outcome: _Round, nodes: Real) -> _Attempt:
+    def judged_alike(self, outcome: _Round, nodes: Real) -> _JudgedCut:
         """What is cut, with plates opened alike where what is proven still holds."""
         best = self._judged_alike(outcome, nodes)
         if best.status != "optimal" or not unlike(self.plates, self.opened(best.optima.unbalance[0])):
@@ -257,7 +257,7 @@ class _Task:
                 return other
         return best
 
-    def _judged_alike(self, outcome: _Round, nodes: Real) -> _Attempt:
+    def _judged_alike(self, outcome: _Round, nodes: Real) -> _JudgedCut:
         cut = self._alike(outcome, nodes)
         # those that are chosen anew for it may be next to nothing
         alike_first = cut is not outcome.cut and not dust(self._masses(cut)).any()
@@ -268,7 +268,7 @@ class _Task:
                     return optimum
         return self.judged(outcome.proven, outcome.cut)
 
-    def _alike(self, outcome: _Round, nodes: Real) -> Cut:
+    def _alike(self, outcome: _Round, nodes: Real) -> CutWeights:
         proven = outcome.proven
         if proven.unreachable[0]:
             return outcome.cut
@@ -281,17 +281,17 @@ class _Task:
         largest = float(proven.lower_bound[0] + self.wanted.relative_gap * self.size[0])
         return min(largest, float(proven.mass_target[0])) if self.wanted.least_mass else largest
 
-    def _optimal(self, proven: Optima, cut: Cut) -> _Attempt | None:
+    def _optimal(self, proven: Optima, cut: CutWeights) -> _JudgedCut | None:
         """What may be claimed of another cut, None where that is not an optimum."""
         if not proven.unreachable[0] and not self._keeps(proven, cut):
             return None
         best = self.judged(proven, cut)
         return best if best.status == "optimal" else None
 
-    def judged(self, proven: Optima, cut: Cut) -> _Attempt:
+    def judged(self, proven: Optima, cut: CutWeights) -> _JudgedCut:
         """What may be claimed of what is cut."""
         machine = fitted(self.machine, cut.angle)
         stated = limits(machine, (1,))
         program = replace(self.whole, limits=limits_of_cut(stated, self.whole.limits, self.plates, cut.angle))
         outcome = replace(proven, unbalance=cut.unbalance[None])
-        return _Attempt(outcome, judgement(machine, self.wanted, program, outcome).verdict)
+        return _JudgedCut(outcome, judgement(machine, self.wanted, program, outcome).verdict)

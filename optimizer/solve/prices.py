@@ -66,23 +66,25 @@ def touched_by_mass(machine: Machine, mass_kg: Real) -> tuple[MachineLimit, ...]
     return tuple(name for name, limit in MACHINE_LIMITS.items() if limit.touched(machine, mass_kg, nowhere))
 
 
-class Quantity(NamedTuple):
+class ObjectiveUnit(NamedTuple):
     """What an objective is told as: the objective over a weight is of this unit."""
 
     weight: float
     unit: str
 
 
-def _quantity(machine: Machine, objective: Objective) -> Quantity:
+def _quantity(machine: Machine, objective: Objective) -> ObjectiveUnit:
     """Force, moment where the force has no weight, and what else is weighed where neither has."""
     wanted = weights(machine, objective)
-    weighed = (Quantity(float(wanted[each.name]), each.unit) for each in RESPONSES.values() if wanted[each.name] > 0)
+    weighed = (
+        ObjectiveUnit(float(wanted[each.name]), each.unit) for each in RESPONSES.values() if wanted[each.name] > 0
+    )
     of_frame = next(weighed, None)
     if of_frame is not None:
         return of_frame
     if objective.bearing_weight > 0:
-        return Quantity(objective.bearing_weight, "Pa" if objective.bearing_measure == "specific" else "N")
-    return Quantity(objective.bending_weight or objective.roll_weight, "N m")
+        return ObjectiveUnit(objective.bearing_weight, "Pa" if objective.bearing_measure == "specific" else "N")
+    return ObjectiveUnit(objective.bending_weight or objective.roll_weight, "N m")
 
 
 def shadow_prices(

@@ -8,14 +8,13 @@ no multipliers of their own, so none is missing where the program went without t
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
 
 import numpy as np
 
 from optimizer.formulation.limits import largest_mass
 from optimizer.numerics.arrays import Complex, Real, Reals
 from optimizer.program.certificate import Multipliers, budget_price, normalised, nothing_proven, proves, together
-from optimizer.program.methods.optima import Optima
 from optimizer.program.statement import Statement
 from schemas.answer.proof import BoundMultipliers
 from schemas.machine.machine import Machine
@@ -114,41 +113,6 @@ def conflict(statement: Statement, excess: Multipliers, omega_squared: Reals) ->
     per_newton = 1.0 / np.asarray(omega_squared)[..., None]
     price = budget_price(statement, alone, 0.0)
     return PhysicalMultipliers(alone.term, row * per_newton, ceiling * per_newton, price)
-
-
-class Proofs(NamedTuple):
-    """What is printed of the proofs of one design."""
-
-    objective: BoundMultipliers | None  # null where the ceilings are out of reach
-    mass: BoundMultipliers | None
-    conflict: BoundMultipliers | None
-
-
-class PhysicalProofs(NamedTuple):
-    """Multipliers of both bounds on N designs (N, ...)."""
-
-    objective: PhysicalMultipliers
-    mass: PhysicalMultipliers
-
-
-def physical_proofs(statement: Statement, optima: Optima, omega_squared: Real) -> PhysicalProofs:
-    """Those of N programs, one leading axis (N,)."""
-    bounds: dict[Bounded, Multipliers] = {"objective": optima.multipliers, "mass": optima.mass_multipliers}
-    return PhysicalProofs(*physical_bounds(statement, bounds, omega_squared))
-
-
-def named_proofs(
-    statement: Statement, optima: Optima, proofs: PhysicalProofs, omega_squared: Real, least_mass: bool
-) -> Iterator[Proofs]:
-    """The proofs of N programs, one leading axis (N,), one by one."""
-    for n, unreachable in enumerate(optima.unreachable.tolist()):
-        if unreachable:
-            alone = statement.chosen(n)
-            against = conflict(alone, optima.conflict.chosen(n), omega_squared[n])
-            yield Proofs(None, None, named_conflict(alone, against))
-        else:
-            of_mass = named(statement, proofs.mass.chosen(n)) if least_mass else None
-            yield Proofs(named(statement, proofs.objective.chosen(n)), of_mass, None)
 
 
 def implied_max_mass(machine: Machine, most: Real) -> list[dict[str, float]]:

@@ -13,7 +13,6 @@ from optimizer.choices.feasible_set import SearchResult
 from optimizer.formulation.task import Demand
 from optimizer.program.cuts.optimum import CertifiedOptimum
 from optimizer.program.verdict import CONTRADICTED, Verdict
-from optimizer.solve.cutting_plane_rounds import Ended
 from schemas.answer.answers import GoalReached
 
 _ALL = (
@@ -96,7 +95,7 @@ def ample_reason(reason: str, result: SearchResult, of_any: float) -> str:
 class SearchProof(NamedTuple):
     """What a search has proven of all that may be chosen."""
 
-    ended: Ended  # of the last goal
+    ended: SearchResult  # of the last goal
     nodes: int  # of the trees of all goals
     rounds: int  # likewise
     bounds: Sequence[float] | None  # of the goals before it, over omega^2; None: of goals in order nothing is proven

@@ -27,7 +27,7 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.registry import prepare
 from optimizer.outputs.requirements import effects_of_objective, missing
 from optimizer.program.cuts.cut import EXACT, Scatter
-from optimizer.program.cuts.optimum import CertifiedOptimum, Unkept
+from optimizer.program.cuts.optimum import CertifiedOptimum, Conflict
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.optimum import cone_program, optimum
 from optimizer.program.reference.solver import Solver
@@ -195,20 +195,20 @@ class Robust:
                 additions.append(corners[np.argmax(size)])
         yield from additions
 
-    def solved(self, solver: Solver) -> tuple[Goals, CertifiedOptimum | Unkept]:
+    def solved(self, solver: Solver) -> tuple[Goals, CertifiedOptimum | Conflict]:
         """The program with all changes of masses that matter, and its proof."""
         gap, least = self.wanted.relative_gap, self.wanted.least_mass
         for _ in range(MOST_ROUNDS):
             asked = self.goals()
             found = self._cut(asked.program, solver) or optimum(asked.program, gap, least, solver, self.left_s)
-            if isinstance(found, Unkept) or not self.learnt(found.point.unbalance):
+            if isinstance(found, Conflict) or not self.learnt(found.point.unbalance):
                 return asked, found
             if found.timed_out:
                 break
         # judged by all that is known: the gap tells what is left open
         return self.goals(), found
 
-    def _cut(self, program: Problem, solver: Solver) -> CertifiedOptimum | Unkept | None:
+    def _cut(self, program: Problem, solver: Solver) -> CertifiedOptimum | Conflict | None:
         """The optimum of a cone program of plates; None of other problems.
 
         A budget holds of what is cut and not of its tangents, by which it is found here.
@@ -226,7 +226,7 @@ def _scenarios(task: Task, nominal: Prepared, share: float) -> Iterator[MachineO
         lacking = list(missing(machine, objective))
         if lacking:
             raise MissingInput(FieldProblem(changes, f"{pointer(path)}: {message}") for path, message in lacking)
-        scene = prepare(nominal.request, ("residual",), effects_of_objective(objective), (), machine)
+        scene = prepare(nominal.request, ("residual",), effects_of_objective(objective), machine)
         yield MachineOfCase(DesignSpace(machine, objective), replace(scene, objective=objective), name, weight, share)
 
 

@@ -16,7 +16,7 @@ from optimizer.numerics.arrays import Complex
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.cuts.brackets import Brackets
 from optimizer.program.cuts.cut import Quantity
-from optimizer.program.cuts.optimum import CertifiedOptimum, Unkept
+from optimizer.program.cuts.optimum import CertifiedOptimum, Conflict
 from optimizer.program.optimum import optimum
 from optimizer.program.reference.solver import Solver
 from optimizer.responses.curve import TurnResponse
@@ -49,7 +49,7 @@ def best_of_any_mass(task: Task, scene: Prepared, solver: Solver, in_full: bool 
     """
     robust = Robust(task, scene, task.demand)
     asked, found = robust.solved(solver)
-    if isinstance(found, Unkept):
+    if isinstance(found, Conflict):
         return out_of_reach(task, scene, asked, found, solver)
     told = fitted(task, scene, asked, found, robust.wanted, in_full)
     return _beside_nominal(robust, asked, told, solver) if task.robust else told
@@ -181,7 +181,7 @@ def _nominal_optimum(robust: Robust, solver: Solver) -> tuple[CertifiedOptimum |
     if left == 0.0:
         return None, True
     found = optimum(nominal.program, wanted.relative_gap, wanted.least_mass, solver, left)
-    if isinstance(found, Unkept) or found.timed_out:
+    if isinstance(found, Conflict) or found.timed_out:
         return None, isinstance(found, CertifiedOptimum)
     # what is neither kept nor proven to be out of reach is no optimum
     return found if found.point.values.excess <= CEILING_TOLERANCE else None, False

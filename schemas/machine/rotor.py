@@ -1,7 +1,7 @@
 """What every machine has: a shaft, its speed, and the places for counterweights."""
 
 from collections.abc import Iterator, Sequence
-from typing import Annotated, Literal, Self
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -87,10 +87,6 @@ class Rotor(Ruled):
         description="balance quality that is asked of the shaft; null asks for none",
         examples=[{"grade_mm_s": 6.3, "mass_kg": 420, "centre_of_mass_m": 0.0, "plane_a_m": -0.4, "plane_b_m": 0.4}],
     )
-
-    def with_webs(self, webs: tuple[Web, ...]) -> Self:
-        """The machine with other places for counterweights, nothing checked."""
-        return self.model_copy(update={"webs": webs})
 
     def no_envelopes(self, message: str) -> Iterator[Rule]:
         """Rules that no web has an envelope, with paths from the machine."""

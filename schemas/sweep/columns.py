@@ -5,6 +5,7 @@ from collections.abc import Iterator, Sequence
 from schemas.answer.outputs import COLUMNS_OF_PARTS, OUTPUT_COLUMNS, Column, labels
 from schemas.base.responses import PAIR, counted
 from schemas.base.target import Target, pointer
+from schemas.base.variation import with_fields
 from schemas.machine.machine import Machine
 from schemas.request.objective import COSTS, Objective
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
@@ -114,8 +115,8 @@ def _columns(
 def _residual(base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target]) -> Iterator[Column]:
     """Peaks of force and moment, and of the other responses that count in some design."""
     yield from _RESIDUAL
-    varied = {str(target.path[1]): 1.0 for target in targets if target.path[0] == "objective"}
-    for each in counted(base.objective.model_copy(update=varied)) if isinstance(base, OptimizeRequest) else ():
+    weights = {target.path[1:]: 1.0 for target in targets if target.path[0] == "objective"}
+    for each in counted(with_fields(base.objective, weights)) if isinstance(base, OptimizeRequest) else ():
         if each.name not in PAIR:
             meaning = f"peak of the first-order {each.label} with the counterweights"
             yield Column(each.peak, "number", each.unit, meaning)

@@ -153,8 +153,8 @@ def _mirrored(rows: Sequence[Row], line_deg: float) -> bool:
 
 
 def _alike(first: Row, second: Row) -> bool:
-    plain = {"name": None, "axis_deg": 0.0}
-    return first.model_copy(update=plain) == second.model_copy(update=plain)
+    fields = (name for name in type(first).model_fields if name not in ("name", "axis_deg"))
+    return all(getattr(first, name) == getattr(second, name) for name in fields)
 
 
 def _same_from_both_ends(machine: Machine) -> bool:

@@ -19,6 +19,8 @@ CASES: tuple[Case, ...] = ("running", "no_load", "sudden_stop")
 _SIDES = ("head", "crank")
 
 Of = Literal["machine", "throws", "bearings", "rows", "cases", "chambers"]
+#: name, unit and meaning of a column
+Figure = tuple[str, str | None, str]
 
 
 class Part(NamedTuple):
@@ -100,141 +102,102 @@ def _within(machine: ReciprocatingMachine, of: Of, label: str, path: Path) -> It
             yield from (Part(f"{place}.{side}", (*path, *cylinder[0])) for side in _SIDES)
 
 
-def _number(name: str, unit: str | None, meaning: str) -> Column:
-    return Column(name, "number", unit, meaning)
-
-
-def _ellipse(quantity: str, short: str, unit: str) -> Iterator[Column]:
+def _ellipse(quantity: str, short: str, unit: str) -> Iterator[Figure]:
     of = f"first-order {quantity} with the counterweights"
-    yield _number(f"{quantity}_minor_{short}", unit, f"minor semi-axis of the ellipse of the {of}")
-    yield _number(f"{quantity}_peak_x_{short}", unit, f"peak along x of the {of}")
-    yield _number(f"{quantity}_peak_y_{short}", unit, f"peak along y of the {of}")
-    yield _number(f"{quantity}_co_rotating_{short}", unit, f"size of the co-rotating phasor of the {of}")
-    yield _number(f"{quantity}_counter_rotating_{short}", unit, f"size of the counter-rotating phasor of the {of}")
+    yield f"{quantity}_minor_{short}", unit, f"minor semi-axis of the ellipse of the {of}"
+    yield f"{quantity}_peak_x_{short}", unit, f"peak along x of the {of}"
+    yield f"{quantity}_peak_y_{short}", unit, f"peak along y of the {of}"
+    yield f"{quantity}_co_rotating_{short}", unit, f"size of the co-rotating phasor of the {of}"
+    yield f"{quantity}_counter_rotating_{short}", unit, f"size of the counter-rotating phasor of the {of}"
+
+
+#: by output and what they are about
+_FIGURES: dict[tuple[str, Of], tuple[Figure, ...]] = {
+    ("residual", "machine"): (
+        *_ellipse("force", "N", "N"),
+        *_ellipse("moment", "Nm", "N m"),
+    ),
+    ("gas", "rows"): (("indicated_power_W", "W", "power put into the gas of this row"),),
+    ("gas", "chambers"): (
+        ("indicated_work_J", "J", "work put into the gas of this chamber in one revolution"),
+        ("suction_opens_deg", "deg", "own crank angle at which its suction opens"),
+        ("discharge_opens_deg", "deg", "own crank angle at which its discharge opens"),
+    ),
+    ("piston_force", "rows"): (
+        ("piston_tension_N", "N", "largest sum of the forces on this piston over the cycle"),
+        ("piston_compression_N", "N", "smallest sum of the forces on this piston over the cycle"),
+    ),
+    ("rod_loads", "rows"): (
+        ("rod_load_N", "N", "largest rod force of this row of all load cases, magnitude"),
+        ("peak_side_N", "N", "largest force on the guide of this row over the cycle, magnitude"),
+    ),
+    ("rod_loads", "cases"): (
+        ("rod_tension_N", "N", "largest rod force in this load case, 0 if there is no tension"),
+        ("rod_compression_N", "N", "smallest rod force in this load case, 0 if there is no compression"),
+    ),
+    ("torque", "rows"): (("mean_torque_Nm", "N m", "mean torque of this row over the cycle"),),
+    ("torque", "machine"): (("rotating_friction_Nm", "N m", "rotating friction, constant"),),
+    ("flywheel", "machine"): (
+        ("fluctuation_energy_J", "J", "energy that a flywheel takes up and gives back"),
+        ("inertia_MD2_kg_m2", "kg m2", "the customary MD^2 = 4 J of all that turns"),
+    ),
+    ("loads", "rows"): (
+        ("reciprocating_mass_kg", "kg", "what moves along the axis of this row, with its share of the rod"),
+        ("rod_rotating_mass_kg", "kg", "the rest of its rod, at the crank pin"),
+        ("rotating_mass_kg", "kg", "all that turns at the crank pin in the plane of this row"),
+        ("largest_gas_N", "N", "largest gas force of this row among the samples, magnitude"),
+        ("largest_inertia_N", "N", "largest inertia force among the samples, magnitude"),
+        ("largest_piston_force_N", "N", "largest sum of all of them over the cycle, magnitude"),
+        ("piston_rod_N", "N", "for piston rod and pin: the largest of the three"),
+        ("crosshead_pin_N", "N", "largest rod force of this row running, over the cycle, magnitude"),
+        ("stop_at_outer_dead_centre_N", "N", "gas force of a sudden stop at its outer dead centre"),
+        ("stop_at_inner_dead_centre_N", "N", "gas force of a sudden stop at its inner dead centre"),
+        ("stop_over_the_turn_N", "N", "largest rod force of a sudden stop anywhere, magnitude"),
+        ("frame_tension_N", "N", "largest pull of its gas at the frame among the samples"),
+        ("frame_compression_N", "N", "largest push of its gas at the frame among the samples, negative"),
+        ("frame_mean_N", "N", "midway between the largest and the smallest"),
+        ("frame_amplitude_N", "N", "half of their difference"),
+        ("guide_weight_N", "N", "weight on the guide of this row, across the axis"),
+        ("guide_largest_N", "N", "largest force towards the lower guide among the samples"),
+        ("guide_smallest_N", "N", "smallest; negative where it bears on the upper guide"),
+        ("guide_lifted_share", None, "share of the samples at which it is off the lower guide"),
+    ),
+    ("loads", "chambers"): (
+        ("cover_largest_N", "N", "largest gas force on this end of the cylinder among the samples"),
+        ("cover_smallest_N", "N", "smallest gas force on it among the samples"),
+    ),
+    ("loads", "throws"): (
+        ("throw_rotating_mass_kg", "kg", "unbalanced rotating mass at this crank, with the rods' parts"),
+    ),
+    ("loads", "bearings"): (
+        ("bearing_weight_x_N", "N", "x of the weight on this bearing, with gravity_deg"),
+        ("bearing_weight_y_N", "N", "y of the weight on this bearing, with gravity_deg"),
+    ),
+    ("loads", "machine"): (
+        ("driver_Nm", "N m", "mean torque: the constant torque of the driver"),
+        ("foundation_weight_N", "N", "weight of the machine, with stationary_mass_kg"),
+    ),
+    ("main_bearings", "bearings"): (
+        ("specific_load_Pa", "Pa", "largest load of this bearing over diameter times length"),
+        ("bearing_rms_N", "N", "root of the mean square of the load of this bearing over the cycle"),
+        ("bearing_floor_N", "N", "what the peak comes to at least, whatever turns with the shaft"),
+        ("bearing_circle_x_N", "N", "x of the centre of the smallest circle around the load"),
+        ("bearing_circle_y_N", "N", "y of that centre, as the shaft sees it"),
+    ),
+    ("main_bearings", "machine"): (
+        ("bending_floor_Nm", "N m", "what the largest bending moment comes to at least, whatever turns"),
+    ),
+}
+
+
+def _details(output: str) -> Iterator[Details]:
+    for (name, of), figures in _FIGURES.items():
+        if name == output:
+            yield Details(of, tuple(Column(figure, "number", unit, meaning) for figure, unit, meaning in figures))
 
 
 #: by output
-DETAILS: dict[str, tuple[Details, ...]] = {
-    "residual": (Details("machine", (*_ellipse("force", "N", "N"), *_ellipse("moment", "Nm", "N m"))),),
-    "gas": (
-        Details("rows", (_number("indicated_power_W", "W", "power put into the gas of this row"),)),
-        Details(
-            "chambers",
-            (
-                _number("indicated_work_J", "J", "work put into the gas of this chamber in one revolution"),
-                _number("suction_opens_deg", "deg", "own crank angle at which its suction opens"),
-                _number("discharge_opens_deg", "deg", "own crank angle at which its discharge opens"),
-            ),
-        ),
-    ),
-    "piston_force": (
-        Details(
-            "rows",
-            (
-                _number("piston_tension_N", "N", "largest sum of the forces on this piston over the cycle"),
-                _number("piston_compression_N", "N", "smallest sum of the forces on this piston over the cycle"),
-            ),
-        ),
-    ),
-    "rod_loads": (
-        Details(
-            "rows",
-            (
-                _number("rod_load_N", "N", "largest rod force of this row of all load cases, magnitude"),
-                _number("peak_side_N", "N", "largest force on the guide of this row over the cycle, magnitude"),
-            ),
-        ),
-        Details(
-            "cases",
-            (
-                _number("rod_tension_N", "N", "largest rod force in this load case, 0 if there is no tension"),
-                _number("rod_compression_N", "N", "smallest rod force in this load case, 0 if there is no compression"),
-            ),
-        ),
-    ),
-    "torque": (
-        Details("rows", (_number("mean_torque_Nm", "N m", "mean torque of this row over the cycle"),)),
-        Details("machine", (_number("rotating_friction_Nm", "N m", "rotating friction, constant"),)),
-    ),
-    "flywheel": (
-        Details(
-            "machine",
-            (
-                _number("fluctuation_energy_J", "J", "energy that a flywheel takes up and gives back"),
-                _number("inertia_MD2_kg_m2", "kg m2", "the customary MD^2 = 4 J of all that turns"),
-            ),
-        ),
-    ),
-    "loads": (
-        Details(
-            "rows",
-            (
-                _number(
-                    "reciprocating_mass_kg", "kg", "what moves along the axis of this row, with its share of the rod"
-                ),
-                _number("rod_rotating_mass_kg", "kg", "the rest of its rod, at the crank pin"),
-                _number("rotating_mass_kg", "kg", "all that turns at the crank pin in the plane of this row"),
-                _number("largest_gas_N", "N", "largest gas force of this row among the samples, magnitude"),
-                _number("largest_inertia_N", "N", "largest inertia force among the samples, magnitude"),
-                _number("largest_piston_force_N", "N", "largest sum of all of them over the cycle, magnitude"),
-                _number("piston_rod_N", "N", "for piston rod and pin: the largest of the three"),
-                _number("crosshead_pin_N", "N", "largest rod force of this row running, over the cycle, magnitude"),
-                _number("stop_at_outer_dead_centre_N", "N", "gas force of a sudden stop at its outer dead centre"),
-                _number("stop_at_inner_dead_centre_N", "N", "gas force of a sudden stop at its inner dead centre"),
-                _number("stop_over_the_turn_N", "N", "largest rod force of a sudden stop anywhere, magnitude"),
-                _number("frame_tension_N", "N", "largest pull of its gas at the frame among the samples"),
-                _number("frame_compression_N", "N", "largest push of its gas at the frame among the samples, negative"),
-                _number("frame_mean_N", "N", "midway between the largest and the smallest"),
-                _number("frame_amplitude_N", "N", "half of their difference"),
-                _number("guide_weight_N", "N", "weight on the guide of this row, across the axis"),
-                _number("guide_largest_N", "N", "largest force towards the lower guide among the samples"),
-                _number("guide_smallest_N", "N", "smallest; negative where it bears on the upper guide"),
-                _number("guide_lifted_share", None, "share of the samples at which it is off the lower guide"),
-            ),
-        ),
-        Details(
-            "chambers",
-            (
-                _number("cover_largest_N", "N", "largest gas force on this end of the cylinder among the samples"),
-                _number("cover_smallest_N", "N", "smallest gas force on it among the samples"),
-            ),
-        ),
-        Details(
-            "throws",
-            (_number("throw_rotating_mass_kg", "kg", "unbalanced rotating mass at this crank, with the rods' parts"),),
-        ),
-        Details(
-            "bearings",
-            (
-                _number("bearing_weight_x_N", "N", "x of the weight on this bearing, with gravity_deg"),
-                _number("bearing_weight_y_N", "N", "y of the weight on this bearing, with gravity_deg"),
-            ),
-        ),
-        Details(
-            "machine",
-            (
-                _number("driver_Nm", "N m", "mean torque: the constant torque of the driver"),
-                _number("foundation_weight_N", "N", "weight of the machine, with stationary_mass_kg"),
-            ),
-        ),
-    ),
-    "main_bearings": (
-        Details(
-            "bearings",
-            (
-                _number("specific_load_Pa", "Pa", "largest load of this bearing over diameter times length"),
-                _number("bearing_rms_N", "N", "root of the mean square of the load of this bearing over the cycle"),
-                _number("bearing_floor_N", "N", "what the peak comes to at least, whatever turns with the shaft"),
-                _number("bearing_circle_x_N", "N", "x of the centre of the smallest circle around the load"),
-                _number("bearing_circle_y_N", "N", "y of that centre, as the shaft sees it"),
-            ),
-        ),
-        Details(
-            "machine",
-            (_number("bending_floor_Nm", "N m", "what the largest bending moment comes to at least, whatever turns"),),
-        ),
-    ),
-}
+DETAILS: dict[str, tuple[Details, ...]] = {output: tuple(_details(output)) for output, _ in _FIGURES}
 
 
 def keys_of(output: str) -> tuple[str, ...]:

@@ -59,7 +59,7 @@ def drawings(request: DrawingsRequest) -> DrawingSet:
 def _answer(request: DrawingsRequest) -> OptimizeAnswer | AnalyzeAnswer:
     if request.counterweights is not None:
         return analyze(AnalyzeRequest(machine=request.machine, counterweights=request.counterweights))
-    found = optimize(request.model_copy(update={"outputs": ("residual",)}))
+    found = optimize(request, outputs=("residual",))
     if found.status == "infeasible":
         message = "no counterweights within the limits keep the ceilings: there are none to draw"
         raise OutOfRange([FieldProblem(("objective",), message)])

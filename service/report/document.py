@@ -151,7 +151,7 @@ def _chapters(
     yield proof
     yield from prices(answer)
     # of the first page
-    yield from outputs(request.machine, answer.model_copy(update={"foundation_loads": None}))
+    yield from outputs(request.machine, answer, but="foundation_loads")
     yield from sheets(request.machine, answer, built)
     yield reproduction.effects(answer.effects, request.outputs)
     yield reproduction.appendix(request, date, checked)

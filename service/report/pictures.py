@@ -50,7 +50,7 @@ class Picture:
     draw: Callable[[OptimizeRequest, OptimizeAnswer], Drawing]
 
     def __call__(self, request: OptimizeRequest) -> Drawing:
-        drawing = self.draw(request, optimize(request.model_copy(update={"outputs": self.outputs})))
+        drawing = self.draw(request, optimize(request, outputs=self.outputs))
         return styled(drawing, request.picture) if isinstance(request, PictureRequest) else drawing
 
 
@@ -69,14 +69,6 @@ def styled(drawing: Drawing, style: PictureStyle) -> Drawing:
         made.text((0.5 * made.width, 18.0), shortened(style.title, most), "middle", 14.0)
     made.inset(drawing, (0.0, above))
     return made
-
-
-def _front(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
-    return drawn_front(_layout(request, answer))
-
-
-def _side(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
-    return drawn_side(_layout(request, answer), dimensions=True)
 
 
 def _layout(request: OptimizeRequest, answer: OptimizeAnswer) -> Layout:
@@ -102,10 +94,6 @@ def _indicator(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
     return _grid("indicator diagrams", drawn, "no row has a chamber whose pressure could be drawn", "throws")
 
 
-def _stages(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
-    return stage_scheme(request.machine, answer.stages or ())
-
-
 def _orders(_request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
     figures = [] if answer.orders is None else order_hodographs(answer.orders)
     drawn = [drawing for figure in figures for drawing in figure.drawings]
@@ -125,13 +113,13 @@ def _pin_loads(_request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
     return pin_figure(answer.pin_loads).drawings[0]
 
 
-front = Picture(("residual",), _front)
-side = Picture(("residual",), _side)
+front = Picture(("residual",), lambda request, answer: drawn_front(_layout(request, answer)))
+side = Picture(("residual",), lambda request, answer: drawn_side(_layout(request, answer), dimensions=True))
 force = Picture(("residual",), partial(_hodograph, 0))
 moment = Picture(("residual",), partial(_hodograph, 1))
 bearings = Picture(("main_bearings",), _bearings)
 indicator = Picture(("gas",), _indicator)
-stages = Picture(("stages",), _stages)
+stages = Picture(("stages",), lambda request, answer: stage_scheme(request.machine, answer.stages or ()))
 orders = Picture(("orders",), _orders)
 pin_loads = Picture(("pin_loads",), _pin_loads)
 

@@ -33,15 +33,7 @@ class Table:
     lines: Callable[[OptimizeRequest, OptimizeAnswer], Lines]
 
     def __call__(self, request: OptimizeRequest) -> Lines:
-        return self.lines(request, optimize(request.model_copy(update={"outputs": self.outputs})))
-
-
-def _foundation_loads(_request: OptimizeRequest, answer: OptimizeAnswer) -> Lines:
-    return foundation.lines(answer.foundation_loads or ())
-
-
-def _as_built(request: OptimizeRequest, answer: OptimizeAnswer) -> Lines:
-    return as_built.lines(as_built.required(request, answer))
+        return self.lines(request, optimize(request, outputs=self.outputs))
 
 
 def _pin_loads(_request: OptimizeRequest, answer: OptimizeAnswer) -> Lines:
@@ -50,11 +42,9 @@ def _pin_loads(_request: OptimizeRequest, answer: OptimizeAnswer) -> Lines:
     return pins.lines(answer.pin_loads)
 
 
-def _order(_request: OptimizeRequest, answer: OptimizeAnswer) -> Lines:
-    return workshop.required(answer)
-
-
-order = Table((), _order)
-built = Table(("residual",), _as_built)
-foundation_loads = Table(("foundation_loads",), _foundation_loads)
+order = Table((), lambda _request, answer: workshop.required(answer))
+built = Table(("residual",), lambda request, answer: as_built.lines(as_built.required(request, answer)))
+foundation_loads = Table(
+    ("foundation_loads",), lambda _request, answer: foundation.lines(answer.foundation_loads or ())
+)
 pin_loads = Table(("pin_loads",), _pin_loads)

@@ -76,7 +76,7 @@ def programs(request: SweepRequest, numbers: Iterable[int]) -> list[Program]:
 
 
 def _program(request: OptimizeRequest) -> Program:
-    scene = prepare(request, always=("residual",))
+    scene = prepare(request, ("residual",))
     statement = cone_program(request.machine, request.objective, scene.responses, scene.omega_squared)
     constant, influence, limits = statement.norms.constant, statement.norms.influence, statement.limits
     unit, mass = float(np.sum(np.abs(constant))), limits.max_mass

@@ -52,7 +52,7 @@ PARTS: dict[str, tuple[str, ...]] = {
     "brackets": ("optimizer.responses.piecewise_cubics:_bracketed",),
     "smallest circles": ("optimizer.outputs.bearings:floors", "optimizer.program.cuts.samples:smallest_circle"),
     "rest of the proofs": ("optimizer.solve.solve:best_of_any_mass",),
-    "figures, warnings": ("optimizer.optimize:answered",),
+    "figures, warnings": ("optimizer.optimize:fields",),
 }
 
 

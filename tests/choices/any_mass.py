@@ -11,7 +11,7 @@ from schemas.request.requests import OptimizeRequest
 
 def of_any_mass(request: OptimizeRequest) -> tuple[Certified, float]:
     """The optimum, and the yardstick of its objective over omega^2, kg m."""
-    scene, task = prepare(request, outputs=("residual",)), Task.of(request)
+    scene, task = prepare(request, ("residual",)), Task.of(request)
     square = np.array([scene.omega_squared])
     best = certified(task.machine, task.objective, scene.responses, square, task.of_any_mass, own_solver())
     return best, float(best.certificate["yardstick"][0] / square[0])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from optimizer.choices.discrete import few_slots, sums
-from optimizer.choices.discrete.lightest import Lighter, lighter
+from optimizer.choices.discrete.lightest import Lightest, lighter
 from schemas.answer.answers import OptimizeAnswer
 from tests.benchmarks.discrete import choice
 from tests.hard.cases.case import Body
@@ -104,7 +104,7 @@ def test_by_hand_and_by_answer_the_objective_is_the_same() -> None:
 def test_no_slots_are_searched_twice_for_what_is_lighter_than_a_set(monkeypatch: pytest.MonkeyPatch) -> None:
     searched: list[tuple[object, ...]] = []
 
-    def counted(*arguments: Any) -> Lighter:
+    def counted(*arguments: Any) -> Lightest:
         _, _, which, level, below_kg, *_ = arguments
         searched.append((*(options.tobytes() for options in which), level, below_kg))
         return lighter(*arguments)

@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from optimizer.choices.clock import Clock, Pace
 from optimizer.choices.discrete import ample, branch, halves, pairs, sums
-from optimizer.choices.discrete.clock import Clock, Pace
 from optimizer.choices.discrete.exchange import start
 from optimizer.choices.discrete.options import EQUAL, Incumbent, Options
 from optimizer.choices.discrete.pairs import Pairs
@@ -111,7 +111,7 @@ def test_points_are_moved_to_tangents_until_the_time_is_over(
     problem, _ = problem_of(20)
     least = 0.9 * problem.limits.reach
     relaxed = optima(problem.alone(), 1e-6, False, SOLVER).unbalance[0]
-    incumbent = inside.Incumbent(problem, root(least, problem.limits), 1e-9, own_solver())
+    incumbent = inside.BestPoint(problem, root(least, problem.limits), 1e-9, own_solver())
     seconds, count, solve = Seconds(), 0, inside.solved
 
     def slowly(programs: Any, *rest: Any) -> Any:
@@ -132,7 +132,7 @@ def test_a_tree_of_leasts_bounds_as_many_nodes_as_it_has_time_for(
     limit_s: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     problem, _ = problem_of(8)
-    incumbent = inside.Incumbent(problem, root(0.9 * problem.limits.reach, problem.limits), 1e-9, own_solver())
+    incumbent = inside.BestPoint(problem, root(0.9 * problem.limits.reach, problem.limits), 1e-9, own_solver())
     seconds, bounded = Seconds(), tree._bounded
 
     def slowly(incumbent: Any, statement: Any, places: Any, inherited: Any, *rest: Any) -> Any:
@@ -153,7 +153,7 @@ def test_a_tree_that_rounding_leaves_open_does_not_say_that_time_was_over(monkey
     at_rest = float(problem.at_rest)
     asked = search.SearchGoal(1e-9 * at_rest, 0.0, at_rest, _LONG)
     monkeypatch.setattr(tree, "_bounded", lambda *_: (0.0, []))
-    found = search.search(problem, least, relaxed, 0.0, asked, own_solver())
+    _, found = search.search(problem, least, relaxed, 0.0, asked, own_solver())
     assert (found.ended, found.nodes) == ("rounding", 1)
     assert statuses.ended(found).startswith("The search has divided all that can be chosen")
 

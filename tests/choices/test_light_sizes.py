@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.clock import Clock
 from optimizer.choices.discrete.light_sizes import LightSizes
 from tests.choices.sets import every_set, options_of
 from tests.program.cases import COMBINATIONS, random_statement

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from optimizer.choices.catalogue_options import stock
-from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.clock import Clock
 from optimizer.choices.discrete.exchange import neighbourhoods, start
 from optimizer.choices.discrete.options import EQUAL, Incumbent
 from optimizer.choices.discrete.quarters import quarters

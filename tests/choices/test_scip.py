@@ -27,8 +27,8 @@ def test_four_webs(combine: str, budget: bool, ceilings: bool, fitted: int | Non
     masses = [0.1 * most, 0.25 * most, 0.4 * most, 0.6 * most, 0.8 * most]
     options = options_of(problem, masses, [0.0, 60.0, 120.0, 180.0, 240.0, 300.0], fitted)
     size = float(yardstick(problem.alone())[0])
-    ours = found_of(problem, options, relative_gap=1e-6)
-    value = float(problem.objective(options.of(options.unbalance, ours.chosen)))
+    chosen, ours = found_of(problem, options, relative_gap=1e-6)
+    value = float(problem.objective(options.of(options.unbalance, chosen)))
     theirs = scip(problem, options, 1e-7, size, _LONG)
     assert value == pytest.approx(theirs.objective, abs=_CLOSE * size)
     assert ours.lower_bound <= theirs.objective + _CLOSE * size
@@ -42,8 +42,8 @@ def test_two_solvers_of_others_agree() -> None:
     options = options_of(problem, [0.3 * most, 0.6 * most], [0.0, 90.0, 180.0, 270.0], None)
     size = float(yardstick(problem.alone())[0])
     theirs, others = (rival(problem, options, 1e-7, size, _LONG) for rival in (scip, highs))
-    ours = found_of(problem, options, relative_gap=1e-9)
-    value = float(problem.objective(options.of(options.unbalance, ours.chosen)))
+    chosen, _ = found_of(problem, options, relative_gap=1e-9)
+    value = float(problem.objective(options.of(options.unbalance, chosen)))
     assert theirs.objective == pytest.approx(value, abs=_CLOSE * size)
     assert others.objective >= value - _CLOSE * size
     assert others.objective <= value + 5.0 / SIDES**2 * size

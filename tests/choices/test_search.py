@@ -5,10 +5,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from optimizer.choices.clock import Clock, Pace
 from optimizer.choices.discrete import branch, halves, pairs, search, sums
-from optimizer.choices.discrete.clock import Clock, Pace
 from optimizer.choices.discrete.options import EQUAL, Incumbent, Options
-from optimizer.choices.discrete.search import EXHAUSTED, TREE, BestSet
+from optimizer.choices.discrete.search import EXHAUSTED, TREE
+from optimizer.choices.feasible_set import SearchResult
 from optimizer.program.limits import Limits
 from optimizer.program.methods.optima import optima
 from optimizer.program.rows import combined, statement, weighted_peak
@@ -21,7 +22,9 @@ from tests.program.cases import COMBINATIONS, SOLVER, random_statement
 _LONG = 3600.0
 
 
-def found_of(problem: Statement, options: Options, relative_gap: float = 1e-12, time_limit_s: float = _LONG) -> BestSet:
+def found_of(
+    problem: Statement, options: Options, relative_gap: float = 1e-12, time_limit_s: float = _LONG
+) -> tuple[np.ndarray, SearchResult]:
     relaxed = optima(problem.alone(), 1e-6, False, SOLVER)
     size = float(yardstick(problem.alone())[0])
     return search.search(
@@ -45,7 +48,7 @@ def method(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> s
 
 
 def check(problem: Statement, options: Options, method: str) -> None:
-    found, (sets, values) = found_of(problem, options), every_set(problem, options)
+    (chosen, found), (sets, values) = found_of(problem, options), every_set(problem, options)
     assert found.method == (TREE if method == "tree" else EXHAUSTED)
     assert found.ended is None
     if not len(sets):
@@ -53,7 +56,7 @@ def check(problem: Statement, options: Options, method: str) -> None:
         assert found.lower_bound == np.inf
         return
     size, best = float(yardstick(problem.alone())[0]), float(np.min(values))
-    u = options.of(options.unbalance, found.chosen)
+    u = options.of(options.unbalance, chosen)
     assert found.feasible
     assert found.proven
     assert best - 1e-12 * size <= float(problem.objective(u)) <= best + 1.001 * EQUAL * size
@@ -62,7 +65,7 @@ def check(problem: Statement, options: Options, method: str) -> None:
     # of equals the lightest, then the least sum of |u|^2
     equal = sets[values <= best + EQUAL * size]
     masses = np.sum(options.of(options.mass, equal), axis=-1)
-    mass = float(np.sum(options.of(options.mass, found.chosen)))
+    mass = float(np.sum(options.of(options.mass, chosen)))
     assert mass <= np.min(masses) * (1.0 + 1e-8) + 1e-300
     squares = np.sum(np.abs(options.of(options.unbalance, equal)) ** 2, axis=-1)[masses <= np.min(masses) * (1 + 1e-12)]
     assert np.sum(np.abs(u) ** 2) <= np.min(squares) * (1.0 + 1e-8) + 1e-300
@@ -129,9 +132,9 @@ def test_ten_million_sets(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     size = float(yardstick(problem.alone())[0])
     for listed in (20_000, 0):
         monkeypatch.setattr(halves, "_LISTED", listed)
-        found = found_of(problem, options)
+        chosen, found = found_of(problem, options)
         assert (found.method, found.proven) == (EXHAUSTED, True)
-        assert abs(float(problem.objective(options.of(options.unbalance, found.chosen))) - best) <= EQUAL * size
+        assert abs(float(problem.objective(options.of(options.unbalance, chosen))) - best) <= EQUAL * size
         assert abs(found.lower_bound - best) <= EQUAL * size
 
 
@@ -143,8 +146,8 @@ def test_whole_masses_make_ties(method: str) -> None:
     problem = statement(combined([weighted_peak(force, 1.0)], "sum"), [], limits)
     options = options_of(problem, [1.0, 2.0, 3.0, 4.0], [0.0])
     check(problem, options, method)
-    found = found_of(problem, options)
-    assert sorted(options.of(options.mass, found.chosen)) == [1.0, 1.0, 2.0, 2.0]
+    chosen, _ = found_of(problem, options)
+    assert sorted(options.of(options.mass, chosen)) == [1.0, 1.0, 2.0, 2.0]
 
 
 @pytest.mark.parametrize(("fitted", "parts"), [(None, None), (2, 1)])
@@ -156,9 +159,9 @@ def test_webs_that_change_nothing_stay_empty(webs: int, fitted: int | None, part
     limits = Limits(ones, 4.0 * ones, ones > 0, ones + 0j, 0.0 * ones, ones, np.asarray(np.inf))
     problem = statement(combined([weighted_peak(moment, 1.0)], "sum"), [], limits)
     options = options_of(problem, [1.0, 2.0, 4.0], [0.0, 120.0, 240.0], fitted, parts)
-    found = found_of(problem, options)
+    chosen, found = found_of(problem, options)
     assert found.feasible
-    assert not np.any(found.chosen)
+    assert not np.any(chosen)
     assert found.lower_bound == pytest.approx(float(problem.objective(np.zeros(webs, complex))), rel=1e-12)
     if method == "halves":
         check(problem, options, method)
@@ -168,12 +171,12 @@ def test_a_search_that_is_out_of_time_says_so() -> None:
     problem = random_statement(3, "sum", (1.0, 1.0), False, False, False, webs=12)
     most = float(np.max(problem.limits.max_mass))
     options = options_of(problem, [0.1 * most, 0.2 * most, 0.3 * most], [30.0 * n for n in range(12)])
-    found = found_of(problem, options, 1e-12, 0.0)
+    chosen, found = found_of(problem, options, 1e-12, 0.0)
     size = float(yardstick(problem.alone())[0])
     assert found.ended == "time"
     assert found.feasible
     assert not found.proven
-    value = float(problem.objective(options.of(options.unbalance, found.chosen)))
+    value = float(problem.objective(options.of(options.unbalance, chosen)))
     assert optima(problem.alone(), 1e-6, False, SOLVER).lower_bound[0] <= found.lower_bound + 1e-12 * size
     assert found.lower_bound <= value
 
@@ -187,8 +190,8 @@ def test_the_asked_gap_ends_the_search() -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(search, "_SUMS", 0)
         patch.setattr(branch, "_SETS", 1)
-        found = found_of(problem, options, 0.02)
-    value = float(problem.objective(options.of(options.unbalance, found.chosen)))
+        chosen, found = found_of(problem, options, 0.02)
+    value = float(problem.objective(options.of(options.unbalance, chosen)))
     assert found.ended is None
     assert found.lower_bound <= best + 1e-12 * size <= value + 2e-12 * size
     assert value - found.lower_bound <= 0.02 * size
@@ -198,8 +201,8 @@ def test_the_continuous_optimum_is_never_beaten() -> None:
     for seed in range(6):
         problem = random_statement(seed, "sum", (1.0, 1.0), True, False, False, webs=5)
         options = options_of(problem, [float(np.max(problem.limits.max_mass)) * share for share in (0.2, 0.6)], [0.0])
-        found = found_of(problem, options)
-        value = float(problem.objective(options.of(options.unbalance, found.chosen)))
+        chosen, _ = found_of(problem, options)
+        value = float(problem.objective(options.of(options.unbalance, chosen)))
         assert value >= optima(problem.alone(), 1e-6, False, SOLVER).lower_bound[0] * (1.0 - 1e-12)
 
 

@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 from tests.clients.conftest import CLIENT, ROOT
-from tests.crankshaft.shafts import Drawing, Json
+from tests.mechanics.crankshaft.shafts import Drawing, Json
 
 EXAMPLE = ROOT / "examples" / "onshape" / "counterweight_onshape.py"
 STUDIO = "/api/v9/partstudios/d/DOC/w/WORK/e/ELEMENT"

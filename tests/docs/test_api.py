@@ -8,7 +8,7 @@ from typing import get_args
 import pytest
 
 from optimizer.analyze import analyze
-from optimizer.crankshaft.read import read_shaft
+from optimizer.mechanics.crankshaft.read import read_shaft
 from optimizer.optimize import optimize
 from optimizer.outputs.descriptions import catalogue
 from optimizer.program import solution
@@ -19,13 +19,13 @@ from optimizer.studies.matching.match import match
 from optimizer.studies.pareto.pareto import pareto
 from optimizer.studies.rounding.round import round_weights
 from schemas.answer.outputs import OutputName
+from schemas.answer.shaft import DoubtCode
 from schemas.front.pareto import ParetoRequest
 from schemas.match.request import MatchRequest
 from schemas.rating.request import RatingRequest
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from schemas.request.rounding import RoundRequest
-from schemas.shaft.answer import DoubtCode
-from schemas.shaft.request import ShaftRequest
+from schemas.request.shaft import ShaftRequest
 from service.app import create_app
 from service.documents.examples import bodies
 from service.guard.keys import SCOPES

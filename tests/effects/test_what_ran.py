@@ -126,7 +126,8 @@ def test_no_outputs_are_the_residual() -> None:
 def test_what_is_called_for_later_is_simulated_once(ran: Counter[str]) -> None:
     from optimizer.outputs.registry import prepare
 
-    scene = prepare(OptimizeRequest.model_validate(_with()))
+    request = OptimizeRequest.model_validate(_with())
+    scene = prepare(request, request.outputs)
     ran.clear()
     first = scene.simulated.result("whole_turn", "objective")
     assert scene.simulated.result("whole_turn", "scenarios") is first

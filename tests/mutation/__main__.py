@@ -47,7 +47,7 @@ ROOMS = {
     "mechanics": Room(
         "optimizer/mechanics/*.py",
         (
-            *(f"tests/{room}" for room in ("mechanics", "outputs", "analyze", "scroll", "crankshaft")),
+            *(f"tests/{room}" for room in ("mechanics", "outputs", "analyze", "scroll")),
             *(f"tests/optimize/test_{name}.py" for name in ("balance_shafts", "fixed", "roll", "shapes")),
         ),
         0.9,

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from optimizer.choices.discrete import branch, search
-from optimizer.choices.feasible_set import Choice
+from optimizer.choices.feasible_set import Choice, SearchResult
 from optimizer.optimize import optimize
 from optimizer.program.verdict import CONTRADICTED
 from optimizer.solve import choice as certified_choice
-from optimizer.solve.cutting_plane_rounds import Ended, in_rounds
+from optimizer.solve.cutting_plane_rounds import in_rounds
 from schemas.answer.answers import OptimizeAnswer
 from schemas.request.requests import OptimizeRequest
 from tests.optimize.choices import (
@@ -203,7 +203,7 @@ def test_the_time_ends_it_before_the_last_goal() -> None:
 
 
 def test_a_goal_below_its_bound_contradicts(monkeypatch: pytest.MonkeyPatch) -> None:
-    def above(*given: Any) -> tuple[Choice, Ended]:
+    def above(*given: Any) -> tuple[Choice, SearchResult]:
         picked, found = in_rounds(*given)
         # of the first goal only: that of the last is judged with the answer
         first = len(given[0].goals) == 1

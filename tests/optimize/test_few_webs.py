@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.clock import Clock
 from optimizer.solve.few_webs import lightened
 from tests.choices.sets import every_set, options_of
 from tests.program.cases import random_statement

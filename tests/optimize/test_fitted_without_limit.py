@@ -78,7 +78,7 @@ def test_two_webs_in_one_plane_hold_one_another() -> None:
 def test_the_reach_holds_whatever_the_webs_are_for(seed: int) -> None:
     """Property: what some webs can carry, each at least its mass, is found again within the reach of all."""
     request = OptimizeRequest.model_validate(fitted(seed, None, sectors=0.0))
-    scene = prepare(request)
+    scene = prepare(request, request.outputs)
     program = cone_program(request.machine, request.objective, scene.responses, np.array([1.0])).chosen(0)
     least = np.array([web.min_fitted_mass_kg or 0.0 for web in request.machine.webs])
     bounded = within_semicontinuous_reach(program, least)

@@ -11,11 +11,11 @@ from optimizer.choices.discrete.kernel import near_sums
 from optimizer.compile_kernels import any_limits, budgets, moving_curves
 from optimizer.compile_kernels import near_sums as sums
 from optimizer.mechanics.kernel import crossings, curves, rows, search
-from optimizer.numerics.kernel import circle, knapsack
+from optimizer.numerics.kernel import circle, knapsack, meeting
 from optimizer.program.kernel import bounds, cancelling, discs, interior_point, outlines, settling, symmetries, values
 from optimizer.responses.kernel import motion
 from optimizer.responses.kernel import outlines as of_curves
-from optimizer.studies.matching.kernel import joined, meeting, quarters
+from optimizer.studies.matching.kernel import joined, quarters
 from optimizer.warm_up import follow_a_turn, match_parts, plain_discs, warm_up
 
 #: what most answers need, and what few do: it takes longer than all else

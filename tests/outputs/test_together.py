@@ -43,7 +43,7 @@ def test_a_peak_does_not_depend_on_what_is_searched_beside_it(name: str) -> None
     machine = MACHINES[name]()
     shown = _SHOWN if machine.get("bearings") else _SHOWN[:-1]
     request = AnalyzeRequest.model_validate({"machine": machine, "outputs": shown, "angles": {"step_deg": 30}})
-    scene = prepare(request)
+    scene = prepare(request, request.outputs)
     unbalance = np.full(len(machine["webs"]), 0.3 - 0.2j)
     searches = list(chain.from_iterable(OUTPUTS[each].searches(scene, unbalance) for each in shown))
     together = searched(scene, searches)
@@ -64,11 +64,11 @@ def test_outputs_without_floors_need_one_search(monkeypatch: pytest.MonkeyPatch)
 
     monkeypatch.setattr(piecewise_cubics, "_bracketed", counted)
     request = AnalyzeRequest.model_validate({"machine": _example("2d12"), "outputs": _SHOWN[:-1]})
-    fields(prepare(request), np.zeros(len(request.machine.webs), complex))
+    fields(prepare(request, request.outputs), np.zeros(len(request.machine.webs), complex), request.outputs)
     # two rows in five readings, the torque and the roll
     assert searches == [2 * 5 + 2]
 
 
 def test_nothing_is_searched_where_no_output_shows_a_peak() -> None:
-    scene = prepare(AnalyzeRequest.model_validate({"machine": _example("2d12")}))
+    scene = prepare(AnalyzeRequest.model_validate({"machine": _example("2d12")}), ())
     assert searched(scene, ()) == {}

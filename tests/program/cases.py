@@ -10,7 +10,6 @@ import numpy as np
 from optimizer.mechanics.angles import direction
 from optimizer.numerics.arrays import Complex
 from optimizer.program.limits import Limits
-from optimizer.program.methods.feasibility_phase import Unreachable
 from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import combined, statement, weighted_peak
@@ -25,7 +24,7 @@ COMBINATIONS = tuple(
 )  # combine, direction weights, sectors, budget, ceilings
 
 
-def optimum(problem: Statement, relative_gap: float, least_mass: bool) -> Solution | Unreachable:
+def optimum(problem: Statement, relative_gap: float, least_mass: bool) -> Solution:
     """Of one program, the only one of a batch."""
     return optima(problem.alone(), relative_gap, least_mass, SOLVER).single()
 

@@ -5,7 +5,7 @@ import pytest
 
 from optimizer.program.certificate import mass_lower_bound, objective_lower_bound
 from optimizer.program.limits import Limits
-from optimizer.program.reference.assembled import Assembled, NoPoint, Target, solved
+from optimizer.program.reference.assembled import Assembled, GroupLimit, NoPoint, solved
 from optimizer.program.rows import Row, statement, weighted_peak
 from optimizer.program.scaling import natural_reach, scale
 from optimizer.program.solution import Solution
@@ -34,7 +34,7 @@ def _groups(seed: int) -> Statement:
 def _solved(problem: Statement, stage: str, target: float = 0.0, mass_unit: float = 1.0) -> tuple[Assembled, object]:
     clip = min(10.0 * float(natural_reach(problem)), float(np.max(problem.limits.reach)))
     data, scaling = scale(problem, stage, clip, 0.0, target, mass_unit)  # type: ignore[arg-type]
-    targets = (Target(np.ones(problem.group[-1] + 1, bool), float(data.target[0])),) if stage == "mass" else ()
+    targets = (GroupLimit(np.ones(problem.group[-1] + 1, bool), float(data.target[0])),) if stage == "mass" else ()
     found = solved(data, 1e-10, 5.0, targets=targets)
     assert isinstance(found, Assembled)
     return found, scaling
@@ -92,7 +92,7 @@ def test_a_target_for_one_group_prices_it() -> None:
     problem = statement([rows[:1], rows[1:]], [], wide)
     data, scaling = scale(problem, "objective", 9.0)
     goal = np.array([True, False])
-    found = solved(data, 1e-10, 5.0, goal, [Target(~goal, 1.0 / scaling.objective)])
+    found = solved(data, 1e-10, 5.0, goal, [GroupLimit(~goal, 1.0 / scaling.objective)])
     assert isinstance(found, Assembled)
     assert scaling.unbalance(problem, found.solution)[0] == pytest.approx(1.0, abs=1e-7)
     assert found.level * scaling.objective == pytest.approx([2.0, 1.0], abs=1e-7)
@@ -105,7 +105,7 @@ def test_what_no_counterweights_keep_has_no_point() -> None:
     rng = np.random.default_rng(0)
     problem = _groups(0)
     data, _ = scale(problem, "mass", 1.0, target=0.0)
-    found = solved(data, 1e-8, 5.0, targets=[Target(np.ones(2, bool), -1.0)])
+    found = solved(data, 1e-8, 5.0, targets=[GroupLimit(np.ones(2, bool), -1.0)])
     assert isinstance(found, NoPoint)
     assert "ceilings" in found.reason
     assert problem.objective(random_point(rng, problem.limits)) > 0

@@ -14,7 +14,6 @@ from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.kernel import discs, interior_point
 from optimizer.program.kernel.finer_numbers import EXTENDED, FIFTY_DIGITS, finest
 from optimizer.program.methods.compiled import BothStages, both_stages
-from optimizer.program.methods.feasibility_phase import Unreachable
 from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM, INTERIOR_POINT, Solution
@@ -51,7 +50,7 @@ def run(problem: Statement, least_mass: bool = True) -> BothStages:
 def formulated(case: Case) -> tuple[Statement, float]:
     """The program of a hard case, per omega^2, and omega^2."""
     request = OptimizeRequest.model_validate(case.body)
-    scene = prepare(request, always=("residual",))
+    scene = prepare(request, ("residual",))
     return cone_program(request.machine, request.objective, scene.responses, scene.omega_squared), scene.omega_squared
 
 
@@ -353,4 +352,4 @@ def test_an_unreachable_ceiling_is_never_certified() -> None:
     problem = random_statement(5, "sum", (1.0, 1.0), False, False, True, webs=WEBS)
     hopeless = replace(problem, ceilings=replace(problem.ceilings, cap=-0.1 * problem.ceilings.size))
     assert not run(hopeless).certified[0]
-    assert isinstance(optimum(hopeless, 1e-6, True), Unreachable)
+    assert optimum(hopeless, 1e-6, True).conflict is not None

@@ -24,7 +24,7 @@ from tests.responses.fourier import FourierCurves
 def bearings_with_gas() -> tuple[Quantity, ...]:
     """Of the in-line six: loads jump where rows reverse and have kinks where valves open."""
     request = asked(six_with_gas(), **ALONE, bearing_weight=1)
-    scene = prepare(request)
+    scene = prepare(request, request.outputs)
     assert isinstance(scene.machine, ReciprocatingMachine)
     turn = whole_turn_of(scene, request.objective)
     return tuple(map(Quantity, bearing_responses(scene.machine, request.fidelity, turn, scene.laden)))

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.certificate import mass_lower_bound, objective_lower_bound
 from optimizer.program.cuts.attempts import FREELY, WITHIN, Attempt
-from optimizer.program.cuts.optimum import CertifiedOptimum, Unkept, over_turn
+from optimizer.program.cuts.optimum import CertifiedOptimum, Conflict, over_turn
 from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.cuts.stage import Search
 from optimizer.program.solution import CEILING_ROUNDING
@@ -208,7 +208,7 @@ def test_ceilings_below_the_floors_are_out_of_reach() -> None:
     program = bearings(0, limits=wide(6))
     least = max(floor(quantity.response, 1e-9).circle.radius for quantity in program.quantities)
     outcome = over_turn(replace(program, limited=((0, 0.5 * least), (1, 3.0 * least))), 1e-6, True)
-    assert isinstance(outcome, Unkept)
+    assert isinstance(outcome, Conflict)
     assert outcome.proof.bound > 0
     assert outcome.closest.values.excess >= outcome.proof.bound
 

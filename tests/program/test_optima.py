@@ -10,7 +10,6 @@ import pytest
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import objective_lower_bound
 from optimizer.program.limits import Limits
-from optimizer.program.methods.feasibility_phase import Unreachable
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import combined, statement, weighted_peak
@@ -159,11 +158,11 @@ def test_ceiling_inactive_active_at_the_floor_and_below_it() -> None:
     assert active.excess <= CEILING_TOLERANCE
     assert solve(problem(1.0)).objective == pytest.approx(6.0, rel=1e-6)  # u = 4 exactly
     below = optimum(problem(1.0 - 1e-9), 1e-6, True)
-    assert isinstance(below, Unreachable)
-    assert objective_lower_bound(problem(1.0 - 1e-9).excess(), below.multipliers) > 0
+    assert below.conflict is not None
+    assert objective_lower_bound(problem(1.0 - 1e-9).excess(), below.conflict) > 0
     short = optimum(problem(2.0, max_mass=2.9), 1e-6, True)  # needs u = 3
-    assert isinstance(short, Unreachable)
-    assert short.closest[0] == pytest.approx(2.9, rel=1e-6)
+    assert short.conflict is not None
+    assert short.unbalance[0] == pytest.approx(2.9, rel=1e-6)
 
 
 def test_balanced_machines_take_no_iron() -> None:

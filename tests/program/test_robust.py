@@ -12,7 +12,7 @@ from optimizer.numerics.arrays import Complex
 from optimizer.program.cuts.cut import Scatter
 from optimizer.program.cuts.dominance import Group
 from optimizer.program.cuts.misplacement import largest_last_goals
-from optimizer.program.cuts.optimum import CertifiedOptimum, Unkept, over_turn
+from optimizer.program.cuts.optimum import CertifiedOptimum, Conflict, over_turn
 from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.limits import Limits
 from optimizer.program.misplacement import Norms, angle_corners, mass_corners, worst_by_angle, worst_by_mass
@@ -141,7 +141,7 @@ def test_ceilings_hold_in_the_worst_case() -> None:
     assert found.mass_proof is not None
     assert found.mass_proof.bound == pytest.approx(7 / 9 / 0.2, rel=1e-5)
     unkept = over_turn(replace(kept, ceilings=((response, 0.09),)), 1e-6, True)
-    assert isinstance(unkept, Unkept)
+    assert isinstance(unkept, Conflict)
     assert unkept.proof.statement.names.terms[0].scenario == "hot"
 
 

@@ -12,7 +12,7 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.certificate import objective_lower_bound
 from optimizer.program.cuts.cut import EXACT, Quantity, Scatter
 from optimizer.program.cuts.dominance import Group, Weighed
-from optimizer.program.cuts.optimum import CertifiedOptimum, Unkept, over_turn
+from optimizer.program.cuts.optimum import CertifiedOptimum, Conflict, over_turn
 from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.methods.implied_bounds import bounded
 from optimizer.responses.curve import TurnResponse
@@ -103,7 +103,7 @@ def test_a_ceiling_on_a_scalar_is_kept_and_proven(seed: int) -> None:
     assert sampled(asked.quantities[0], kept.point.unbalance) <= 1.2 * least.value * (1.0 + 1e-9)
     assert kept.goals[-1].value - kept.goals[-1].lower_bound <= 1e-6 * float(asked.alone(0).yardsticks[0])
     below = over_turn(replace(asked, goals=other, limited=((0, 0.999 * least.lower_bound),)), 1e-6, True)
-    assert isinstance(below, Unkept)
+    assert isinstance(below, Conflict)
 
 
 def test_multipliers_that_are_not_real_prove_no_more() -> None:

@@ -4,7 +4,7 @@ import pytest
 from pydantic import TypeAdapter, ValidationError
 
 from schemas.base.vectors import Interval, Point
-from schemas.shaft.request import ShaftRequest
+from schemas.request.shaft import ShaftRequest
 
 
 def test_a_point_takes_three_numbers_or_texts() -> None:

@@ -29,8 +29,8 @@ def unchecked(compute: Callable[..., Any]) -> Callable[..., Any]:
 
 def _checked(compute: Callable[..., Any]) -> Callable[..., Any]:
     @wraps(compute)
-    def checked(request: Any, *more: Any) -> Any:
-        answer = compute(request, *more)
+    def checked(request: Any, *more: Any, **named: Any) -> Any:
+        answer = compute(request, *more, **named)
         require(request, answer)
         return answer
 

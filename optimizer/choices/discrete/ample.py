@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.clock import Clock
 from optimizer.choices.discrete.few_slots import CLOSE, PAIRS, SUMS, improve
 from optimizer.choices.discrete.halves import exhaust
 from optimizer.choices.discrete.light_sizes import LightSizes
@@ -22,8 +22,8 @@ from optimizer.program.methods.compiled import both_stages, suits_kernel
 from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.program.statement import Statement
 
-#: part numbers that are tried where any number may be used
-_SIZES = 2
+#: part numbers that are tried where any number may be used, and the share of the time left that these have
+_SIZES, _OF_SIZES = 2, 0.25
 #: share of the time of few part numbers in which sizes are tried for a light set that is as good as asked
 _FIRST = 0.4
 
@@ -92,7 +92,7 @@ def offer_light_sets(
             exhaust(incumbent.options, which, incumbent, one.sums, PAIRS, clock)
 
     # few sizes are few sums, and where any may be used they are among them
-    PartSizes(incumbent, light, used, _SIZES, enough, clock).run()
+    PartSizes(incumbent, light, used, _SIZES, enough, Clock(_OF_SIZES * clock.left_s)).run()
 
     def close(slot: int, chosen: np.ndarray) -> np.ndarray:
         options = incumbent.options

@@ -5,7 +5,6 @@ relaxed to discs, segments and sectors about its options, which the kernel takes
 returns, multipliers prove (``bound.py``), and options by which the bound rises to what is known are left out.
 """
 
-import heapq
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,8 +12,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from optimizer.choices.branch_and_bound import Termination, Tree, branch_and_bound
+from optimizer.choices.clock import Clock
 from optimizer.choices.discrete.bound import proven, uphill
-from optimizer.choices.discrete.clock import Clock, Pace
 from optimizer.choices.discrete.few import at_most, costs, offer_few
 from optimizer.choices.discrete.options import Incumbent, Options
 from optimizer.choices.discrete.relaxed import apart, on_first, relaxed
@@ -29,15 +29,6 @@ _BATCH, _BATCH_OPTIONS = 128, 2_000_000
 _SETS = 20_000
 #: bytes that open nodes may hold
 _MEMORY = 200_000_000
-
-
-class Tree(NamedTuple):
-    """What a tree has proven."""
-
-    lower_bound: float  # of every set that was not offered, -inf where nothing is proven
-    nodes: int
-    full: bool  # it ended because it had grown too large
-    done: bool  # nothing was left to divide
 
 
 class _Node(NamedTuple):
@@ -77,40 +68,18 @@ def branch(
     most_nodes : after which it ends as well.
     below : a program of one group that is nowhere above the incumbent's, which bounds are of; by default that one.
     """
-    work, pace = _Work(options, incumbent, gap, below or incumbent.statement), Pace(clock)
+    work = _Work(options, incumbent, gap, below or incumbent.statement)
     root = work.settled(options.exists, frozenset())
     if root is None:
         return Tree(np.inf, 0, False, True)
-    nodes, closed, ties = 0, np.inf, 0
-    open_nodes: list[tuple[float, int, _Split]] = []
-    fresh, bounds = [root], [at_least]
     size = max(1, min(_BATCH, _BATCH_OPTIONS // max(options.exists.size, 1)))
-    while True:
-        # bound what is new
-        for first in range(0, len(fresh), size):
-            batch = fresh[first : first + size]
-            nodes += len(batch)
-            out, splits = work.bounded(batch, bounds[first : first + size], clock)
-            closed = min(closed, out)
-            for bound, split in splits:
-                ties += 1
-                heapq.heappush(open_nodes, (bound, ties, split))
-        if fresh:
-            pace.took(len(fresh))
-        lowest = min(closed, open_nodes[0][0] if open_nodes else np.inf)
-        full = len(open_nodes) * 2 * root.bits.size > _MEMORY
-        done = not open_nodes or lowest >= incumbent.least - gap
-        if done or full or enough(lowest) or nodes >= most_nodes or clock.spent():
-            return Tree(lowest, nodes, full and not done, done)
-        fresh, bounds, most = [], [], pace.most(size)
-        while open_nodes and len(fresh) < most:
-            bound, _, split = heapq.heappop(open_nodes)
-            if bound >= incumbent.least - gap:
-                closed = min(closed, bound)
-                continue
-            for child in work.children(split):
-                fresh.append(child)
-                bounds.append(bound)
+
+    def bounded(nodes: list[_Node], bounds: list[float]) -> tuple[float, list[tuple[float, _Split]]]:
+        parts = [work.bounded(nodes[n : n + size], bounds[n : n + size], clock) for n in range(0, len(nodes), size)]
+        return min(closed for closed, _ in parts), [split for _, splits in parts for split in splits]
+
+    ends = Termination(lambda: incumbent.least - gap, enough, _MEMORY / (2 * root.bits.size), most_nodes)
+    return branch_and_bound(root, at_least, bounded, work.children, ends, clock, size)
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.clock import Clock
 from optimizer.choices.discrete.halves import exhaust
 from optimizer.choices.discrete.options import Incumbent, Options
 from optimizer.numerics.arrays import Complex

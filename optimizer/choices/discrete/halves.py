@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.choices.discrete.clock import Clock, Pace
+from optimizer.choices.clock import Clock, Pace
 from optimizer.choices.discrete.options import Incumbent, Options
 from optimizer.choices.discrete.pairs import Pairs
 from optimizer.choices.discrete.sums import SHORTER, Half, sums_of

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.clock import Clock
 from optimizer.choices.discrete.lightest import lighter
 from optimizer.choices.discrete.options import Options
 from optimizer.numerics.arrays import Complex, Real

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.clock import Clock
 from optimizer.choices.discrete.halves import Halves, halves
 from optimizer.choices.discrete.options import Incumbent, Options
 from optimizer.choices.discrete.pairs import Pairs
@@ -31,14 +31,12 @@ class Lightest(NamedTuple):
     """The lightest set that was found, and what is proven."""
 
     chosen: np.ndarray | None  # (K,); None where none of less than the largest mass was found
-    lower_bound: float  # kg, no set that keeps the level is lighter
+    lower_bound: float  # kg, no set that keeps the level is lighter; inf where none can be
 
-
-class Lighter(NamedTuple):
-    """A lighter set, and whether there is none lighter."""
-
-    chosen: np.ndarray | None  # (K,); None where none was found
-    whole: bool  # all that can be lighter were compared
+    @property
+    def whole(self) -> bool:
+        """Whether all that can be lighter were compared."""
+        return self.lower_bound > 0.0
 
 
 def lightest(
@@ -81,8 +79,8 @@ def lighter(
     clock: Clock,
     fewer_than: int = 0,
     most_pairs: int = _PAIRS,
-) -> Lighter:
-    """The lightest of some sets that keep a level and are lighter than so much.
+) -> Lightest:
+    """The lightest of some sets that keep a level and are lighter than so much; no bound where not all were compared.
 
     Parameters
     ----------
@@ -95,12 +93,12 @@ def lighter(
     cap = below_kg * (1.0 - (0.0 if fewer_than else _LIGHTER))
     best = _Best(statement, options, level, cap, fewer_than or options.slots + 1)
     if cap <= 0:
-        return Lighter(None, True)
+        return Lightest(None, np.inf)
     counted = options.limits_fitted or options.limits_parts
     split = None if counted else halves(options, which, within, _UNLISTED, clock, cap, listed=False)
     split = split or halves(options, which, within, _SUMS, clock, cap)
     whole = split is not None and _compared(split, within, cap, best.offer, clock, most_pairs)
-    return Lighter(best.chosen, whole)
+    return Lightest(best.chosen, min(best.mass, below_kg) if whole else 0.0)
 
 
 def _next_mass(options: Options, least: float) -> float:

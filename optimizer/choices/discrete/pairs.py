@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.clock import Clock
 from optimizer.choices.discrete.options import Incumbent
 from optimizer.choices.discrete.sums import Half
 from optimizer.numerics.arrays import SMALLEST, Complex, Real

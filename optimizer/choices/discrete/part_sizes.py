@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.clock import Clock
 from optimizer.choices.discrete.few_slots import SUMS, Nearer, improve
 from optimizer.choices.discrete.options import Incumbent
 from optimizer.numerics.arrays import Complex, Real

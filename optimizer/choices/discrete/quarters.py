@@ -1,9 +1,7 @@
 """Sums of four quarters of the slots that all but cancel, where the options come as close as one likes.
 
 Where their hull reaches what no mass can undercut, no tree proves more: what is left is to find sums that come near to
-a point, among more sets than two halves hold. Of two quarters those pairs are kept that come about to a share of it, of
-the other two those that come about to the rest, and of these the nearest to one another (Schroeppel and Shamir 1981,
-Wagner 2002).
+a point, among more sets than two halves hold (:mod:`optimizer.numerics.four_lists`).
 """
 
 from collections.abc import Callable
@@ -11,9 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.clock import Clock
 from optimizer.choices.discrete.options import Incumbent, Options
 from optimizer.numerics.arrays import SMALLEST, Complex, Real
+from optimizer.numerics.four_lists import nearest_sums
 
 #: sums of a quarter, and quarters that are dealt out in a row without finding a better set
 _SUMS, _PATIENCE = 400_000, 20
@@ -21,14 +20,8 @@ _SUMS, _PATIENCE = 400_000, 20
 _MANY = 5
 #: slots with a choice from which on quarters hold more than neighbourhoods do
 _FEWEST = 12
-#: sets of those found that are offered
-_OFFERED = 64
 #: options of a slot at least that are tried, where it has as many
 _FEWEST_OPTIONS = 3
-#: pairs of sums that are kept of two quarters, and pairs of these that are looked at
-_PAIRS = 300_000
-#: sides of cells that are tried
-_SIDES = 3
 #: how far at most that place is moved from what is on the slots towards where most sums are
 _MOVED = 0.3
 _SEED = 20_240_301
@@ -39,22 +32,7 @@ class _Quarter(NamedTuple):
 
     slots: list[int]
     some: list[np.ndarray]  # (slots) their options
-    points: Real  # (d, n)
-
-
-class _Pairs(NamedTuple):
-    """Sums of two quarters: which of them, and where they are."""
-
-    quarters: tuple[_Quarter, _Quarter]
-    which: tuple[np.ndarray, np.ndarray]  # (m,) each
-    points: Real  # (d, m)
-
-    def put(self, sets: np.ndarray, some: np.ndarray) -> None:
-        """Some of them on their slots, in place."""
-        for quarter, place in zip(self.quarters, self.which, strict=True):
-            digits = np.unravel_index(place[some], [each.size for each in quarter.some])
-            for slot, each, digit in zip(quarter.slots, quarter.some, digits, strict=True):
-                sets[:, slot] = each[digit]
+    points: Real  # (n, d)
 
 
 def quarters(incumbent: Incumbent, enough: Callable[[], bool], clock: Clock) -> None:
@@ -68,58 +46,20 @@ def quarters(incumbent: Incumbent, enough: Callable[[], bool], clock: Clock) -> 
     while left > 0 and incumbent.chosen is not None and not enough() and not clock.spent():
         before, chosen, measure = incumbent.least, incumbent.chosen, _Measure(incumbent, incumbent.chosen)
         some = _near(options, chosen, _SUMS)
-        a, b, c, d = (_quarter(measure, chosen, slots, some) for slots in _dealt(some, _SUMS, chance))
-        middle = [np.mean(each.points, axis=-1) for each in (a, b, c, d)]
-        off = 0.5 * (measure.wanted - sum(middle))
-        moved = chance.random() * _MOVED
-        one = _paired(a, b, moved * (middle[0] + middle[1] + off))
-        other = _paired(c, d, (1.0 - moved) * measure.wanted + moved * (middle[2] + middle[3] + off))
+        dealt = [_quarter(measure, chosen, slots, some) for slots in _dealt(some, _SUMS, chance)]
+        middle = [np.mean(each.points, axis=0) for each in dealt]
+        about = chance.random() * _MOVED * (middle[0] + middle[1] + 0.5 * (measure.wanted - sum(middle)))
+        which = nearest_sums([each.points for each in dealt], about, measure.wanted)
         left -= 1
-        i, j = _met(one.points, measure.wanted[:, None] - other.points)
-        if i.size:
-            apart = np.sum((one.points[:, i] + other.points[:, j] - measure.wanted[:, None]) ** 2, axis=0)
-            best = np.argpartition(apart, min(_OFFERED, i.size) - 1)[:_OFFERED]
-            sets = np.tile(chosen, (best.size, 1))
-            one.put(sets, i[best])
-            other.put(sets, j[best])
+        if which.size:
+            sets = np.tile(chosen, (which.shape[1], 1))
+            for quarter, place in zip(dealt, which, strict=True):
+                digits = np.unravel_index(place, [each.size for each in quarter.some])
+                for slot, each, digit in zip(quarter.slots, quarter.some, digits, strict=True):
+                    sets[:, slot] = each[digit]
             incumbent.offer(sets)
         if incumbent.least < before:
             left = _PATIENCE
-
-
-def _paired(left: _Quarter, right: _Quarter, about: Real) -> _Pairs:
-    """Sums of two quarters that come near to a place."""
-    here, there = _met(left.points, about[:, None] - right.points)
-    return _Pairs((left, right), (here, there), left.points[:, here] + right.points[:, there])
-
-
-def _met(left: Real, right: Real) -> tuple[np.ndarray, np.ndarray]:
-    """Which points (d, n) and (d, m) are in the same cell of a grid: about as many pairs as are kept."""
-    none, d = np.zeros(0, np.int64), left.shape[0]
-    if not (left.size and right.size):
-        return none, none
-    low = np.maximum(np.min(left, axis=-1), np.min(right, axis=-1))[:, None]
-    span = np.minimum(np.max(left, axis=-1), np.max(right, axis=-1))[:, None] - low
-    if not np.all(span > 0):
-        return none, none
-    here, there = (np.flatnonzero(np.all((points >= low) & (points <= low + span), axis=0)) for points in (left, right))
-    left, right = left[:, here] - low, right[:, there] - low
-    # as if points were spread evenly, and then as they are
-    side = float((_PAIRS * np.prod(span) / max(here.size * there.size, 1)) ** (1.0 / d))
-    for _ in range(_SIDES):
-        stride = np.cumprod(np.append(1.0, np.floor(span[:-1] / side) + 1.0))
-        mine, theirs = (stride @ np.floor(points / side) for points in (left, right))
-        order, orders = np.argsort(mine, kind="stable"), np.argsort(theirs, kind="stable")
-        # places that are sought in their order are quickly found
-        mine, theirs = mine[order], theirs[orders]
-        first, last = (np.searchsorted(mine, theirs, end) for end in ("left", "right"))
-        met = int(np.sum(last - first))
-        if _PAIRS <= 2 * met <= 4 * _PAIRS:
-            break
-        side *= (_PAIRS / max(met, 1)) ** (1.0 / d)
-    count = np.where(np.cumsum(last - first) <= 2 * _PAIRS, last - first, 0)
-    place = np.repeat(first - np.cumsum(count) + count, count) + np.arange(int(np.sum(count)))
-    return here[order[place]], there[np.repeat(orders, count)]
 
 
 class _Measure:
@@ -161,10 +101,10 @@ def _near(options: Options, chosen: np.ndarray, most: int) -> list[np.ndarray]:
 
 
 def _quarter(measure: _Measure, chosen: np.ndarray, slots: list[int], some: list[np.ndarray]) -> _Quarter:
-    points = np.zeros((measure.wanted.size, 1))
+    points = np.zeros((1, measure.wanted.size))
     for slot in slots:
         change = measure.change(slot, some[slot], int(chosen[slot]))
-        points = (points[:, :, None] + change.T[:, None]).reshape(len(points), -1)
+        points = (points[:, None] + change).reshape(-1, points.shape[1])
     return _Quarter(slots, [some[slot] for slot in slots], points)
 
 

@@ -1,19 +1,19 @@
 """The way in: the best set of options, and what is proven of it."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
+from optimizer.choices.clock import Clock
 from optimizer.choices.discrete.ample import light_sizes, offer_light_sets
-from optimizer.choices.discrete.branch import Tree, branch
-from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.discrete.branch import branch
 from optimizer.choices.discrete.exchange import neighbourhoods, start
 from optimizer.choices.discrete.few_slots import lightest_near
 from optimizer.choices.discrete.halves import exhaust
 from optimizer.choices.discrete.options import EQUAL, Incumbent, Options
 from optimizer.choices.discrete.quarters import quarters
+from optimizer.choices.feasible_set import SearchResult
 from optimizer.numerics.arrays import Complex
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.statement import Statement
@@ -30,19 +30,6 @@ _LIGHT, _LIGHT_OF_PARTS = 0.4, 0.7
 _LIGHTER, _LIGHTER_OF_PARTS = 0.1, 0.3
 #: how long neighbourhoods are tried before a tree, and the nodes of that, whose roundings are better sooner
 _SEARCHES = ((0, 1), (0, 1_200.0), (6, np.inf))
-
-
-@dataclass(frozen=True)
-class BestSet:
-    """The best set that was found."""
-
-    chosen: np.ndarray  # (K,), the set; where none that keeps the ceilings was found, the one closest to them
-    feasible: bool  # whether it keeps the ceilings
-    lower_bound: float  # of every set within the limits; inf where it is proven that none is
-    nodes: int  # of the tree
-    method: str
-    proven: bool  # all equals were compared as well
-    ended: str | None = None  # "time", "size" or "rounding" where that ended the search before the asked gap
 
 
 class Prior(NamedTuple):
@@ -64,10 +51,11 @@ def search(
     yardstick: float,
     time_limit_s: float,
     prior: Prior = _NOTHING,
-) -> BestSet:
-    """The set of options with the smallest objective; of equals the lightest.
+) -> tuple[np.ndarray, SearchResult]:
+    """The set of options (K,) with the smallest objective, of equals the lightest, and what is proven of all.
 
-    What is found depends on the clock only where the time ends it.
+    Where none that keeps the ceilings is found, it is the one closest to them. What is found depends on the clock only
+    where the time ends it.
 
     Parameters
     ----------
@@ -88,12 +76,12 @@ def search(
     every = [np.flatnonzero(some) for some in options.exists]
     if incumbent.chosen is None:
         # first of all a set that keeps the ceilings
-        within = _within(statement, options, relaxed, every, clock, below)
-        if not within.feasible:
-            return within
-        incumbent.offer(within.chosen[None])
+        chosen, result = _within(statement, options, relaxed, every, clock, below)
+        if not result.feasible:
+            return chosen, result
+        incumbent.offer(chosen[None])
     if exhaust(options, every, incumbent, _most_sums(incumbent), _PAIRS, clock):
-        return _best(incumbent, incumbent.least, 0, EXHAUSTED, True)
+        return _chosen(incumbent), SearchResult(True, incumbent.least, 0, EXHAUSTED, True)
     gap = relative_gap * yardstick if relative_gap > EQUAL else -resolution
     nodes, floor = 0, at_least
 
@@ -118,31 +106,23 @@ def search(
         closed = incumbent.least - bound <= max(gap, 0.0)
         if closed or clock.spent():
             break
-    ended = None if closed else _ended(tree)
-    best = _best(incumbent, bound, nodes, TREE, closed and gap < 0, ended)
+    result = SearchResult(True, bound, nodes, TREE, closed and gap < 0, None if closed else tree.ended)
     if closed and gap > 0 and prior.below is None:
         # all within the asked gap are as good, and what is light is cheap
         share = _LIGHTER_OF_PARTS if options.limits_parts else _LIGHTER
         light = Clock(min(clock.left_s, share * time_limit_s))
-        return replace(best, chosen=lightest_near(incumbent, best.chosen, (bound, bound + gap), light, sizes))
-    return best
-
-
-def _ended(tree: Tree) -> str:
-    """Why a tree has left a gap."""
-    return "size" if tree.full else "rounding" if tree.done else "time"
+        return lightest_near(incumbent, _chosen(incumbent), (bound, bound + gap), light, sizes), result
+    return _chosen(incumbent), result
 
 
 def _most_sums(incumbent: Incumbent) -> int:
     return _SUMS if incumbent.coordinates[0].shape[-1] < _COORDINATES else min(_SUMS, _FEW_SUMS)
 
 
-def _best(
-    incumbent: Incumbent, bound: float, nodes: int, method: str, proven: bool, ended: str | None = None
-) -> BestSet:
+def _chosen(incumbent: Incumbent) -> np.ndarray:
     if incumbent.chosen is None:
         raise AssertionError("nothing on any slot keeps budget and counts")
-    return BestSet(incumbent.chosen, True, bound, nodes, method, proven, ended)
+    return incumbent.chosen
 
 
 def _within(
@@ -152,8 +132,8 @@ def _within(
     every: list[np.ndarray],
     clock: Clock,
     below: Statement,
-) -> BestSet:
-    """The first set that keeps the ceilings, or the proof that there is none."""
+) -> tuple[np.ndarray, SearchResult]:
+    """The first set (K,) that keeps the ceilings, or the proof that there is none."""
     incumbent = Incumbent(statement.excess(), options, 0.0)
 
     def feasible() -> bool:
@@ -176,10 +156,7 @@ def _within(
                 below=below.excess(),
             )
             bound, nodes, method = tree.lower_bound, tree.nodes, TREE
-            ended = _ended(tree)
-    best = _best(incumbent, -np.inf, nodes, method, False, ended)
-    if feasible():
-        return best
-    if min(bound, incumbent.least) > CEILING_TOLERANCE:
-        return replace(best, feasible=False, lower_bound=np.inf, ended=None)
-    return replace(best, feasible=False)
+            ended = tree.ended
+    if not feasible() and min(bound, incumbent.least) > CEILING_TOLERANCE:
+        return _chosen(incumbent), SearchResult(False, np.inf, nodes, method)
+    return _chosen(incumbent), SearchResult(feasible(), -np.inf, nodes, method, False, ended)

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.choices.discrete.clock import Pace
+from optimizer.choices.clock import Pace
 from optimizer.choices.discrete.options import EQUAL, Options
 from optimizer.numerics.arrays import Complex, Real
 

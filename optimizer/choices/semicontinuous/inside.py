@@ -9,9 +9,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.clock import Clock
 from optimizer.choices.semicontinuous.places import Places, wrapped
-from optimizer.choices.semicontinuous.solved import Solved, solved
+from optimizer.choices.semicontinuous.solved import Relaxations, solved
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.limits import Limits
 from optimizer.program.reference.solver import Solver
@@ -29,7 +29,7 @@ _HARDLY = 1e-6
 _ROUNDING = 1e-12
 
 
-class Incumbent:
+class BestPoint:
     """The best point so far; of equal ones the lightest."""
 
     def __init__(self, statement: Statement, places: Places, resolution: float, solver: Solver) -> None:
@@ -38,7 +38,7 @@ class Incumbent:
         self.least = np.inf  # smallest objective
         self.unbalance: Complex | None = None  # (K,) kg m
 
-    def solved(self, programs: Statement, share: Real, gap: Real, least_mass: bool) -> Solved:
+    def solved(self, programs: Statement, share: Real, gap: Real, least_mass: bool) -> Relaxations:
         """Optima of N programs in all or some of what is added to points (N, K)."""
         return solved(programs, self.places.alike, share, gap, least_mass, self.solver)
 
@@ -65,7 +65,7 @@ class Incumbent:
         return value
 
 
-def improved(incumbent: Incumbent, u: Complex, fitted: np.ndarray, clock: Clock) -> None:
+def improved(incumbent: BestPoint, u: Complex, fitted: np.ndarray, clock: Clock) -> None:
     """Offer the best that tangents find from the directions of points (M, K), something on some of the webs.
 
     Parameters
@@ -82,7 +82,7 @@ def improved(incumbent: Incumbent, u: Complex, fitted: np.ndarray, clock: Clock)
         before = value
 
 
-def _tangent(incumbent: Incumbent, u: Complex, fitted: np.ndarray, clock: Clock) -> Complex:
+def _tangent(incumbent: BestPoint, u: Complex, fitted: np.ndarray, clock: Clock) -> Complex:
     """The best beyond the tangents at the directions of points (M, K); of the first ones alone where the time ends."""
     found: list[Complex] = []
     for first in range(0, len(u), _AT_ONCE):
@@ -96,7 +96,7 @@ def _tangent(incumbent: Incumbent, u: Complex, fitted: np.ndarray, clock: Clock)
     return np.concatenate(found)
 
 
-def lightened(incumbent: Incumbent, u: Complex, share: float, clock: Clock) -> Complex:
+def lightened(incumbent: BestPoint, u: Complex, share: float, clock: Clock) -> Complex:
     """With the same webs fitted a lighter point (K,) that is worse than the best by a share at most, or the same.
 
     What is beyond the least is no heavier than the least and it together, and as heavy where it is along the least.
@@ -108,7 +108,7 @@ def lightened(incumbent: Incumbent, u: Complex, share: float, clock: Clock) -> C
         base, room, program = _beyond(incumbent, u[None], np.abs(u[None]) > 0)
         found = base + np.where(room, incumbent.solved(program, each, np.zeros(1), True).unbalance, 0.0)
         # offered alone, as it is no better
-        alone = Incumbent(statement, incumbent.places, 0.0, incumbent.solver)
+        alone = BestPoint(statement, incumbent.places, 0.0, incumbent.solver)
         alone.offer(found)
         before, after = float(statement.mass(u)), float(statement.mass(found[0]))
         if alone.least > incumbent.least + share or after >= before:
@@ -119,7 +119,7 @@ def lightened(incumbent: Incumbent, u: Complex, share: float, clock: Clock) -> C
     return u
 
 
-def _beyond(incumbent: Incumbent, u: Complex, fitted: np.ndarray) -> tuple[Complex, np.ndarray, Statement]:
+def _beyond(incumbent: BestPoint, u: Complex, fitted: np.ndarray) -> tuple[Complex, np.ndarray, Statement]:
     """Points (M, K) of the least in the directions of others, kg m, which webs have room beyond, and the programs in
     what is added."""
     statement, places = incumbent.statement, incumbent.places
@@ -155,7 +155,7 @@ def cones(limits: Limits, reach: Real, centre: Real, half: Real, budget: Real) -
     )
 
 
-def sharing(incumbent: Incumbent, u: Complex, clock: Clock) -> None:
+def sharing(incumbent: BestPoint, u: Complex, clock: Clock) -> None:
     """Offer what comes of a relaxed point (K,) with something on more and more of its webs, the heaviest first."""
     least = incumbent.places.least
     share = np.where(least > 0, np.abs(u) / np.where(least > 0, least, 1.0), np.inf)

@@ -1,16 +1,17 @@
 """The way in: the best counterweights that are heavy enough or not there, and what is proven of them."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.branch_and_bound import Tree
+from optimizer.choices.clock import Clock
 from optimizer.choices.discrete.search import TREE
-from optimizer.choices.semicontinuous.inside import Incumbent, lightened, sharing
+from optimizer.choices.feasible_set import SearchResult
+from optimizer.choices.semicontinuous.inside import BestPoint, lightened, sharing
 from optimizer.choices.semicontinuous.places import Places, root
-from optimizer.choices.semicontinuous.tree import Tree, branch
+from optimizer.choices.semicontinuous.tree import branch
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.reference.solver import Solver
@@ -18,19 +19,6 @@ from optimizer.program.statement import Statement
 
 #: objectives nearer than this share of the yardstick are equal
 _EQUAL = 1e-9
-
-
-@dataclass(frozen=True)
-class BestWeights:
-    """The best counterweights that were found."""
-
-    unbalance: Complex  # (K,) kg m; where none that keeps the ceilings was found, those closest to them
-    feasible: bool  # whether they keep the ceilings
-    lower_bound: float  # of all that are within the limits; inf where it is proven that none are
-    nodes: int
-    ended: str | None = None  # "time", "size" or "rounding" where that ended the search before the asked gap
-    method: str = TREE
-    proven: bool = False  # equals are not told apart
 
 
 class SearchGoal(NamedTuple):
@@ -51,8 +39,9 @@ def search(
     solver: Solver,
     points: Sequence[Complex] = (),
     below: Statement | None = None,
-) -> BestWeights:
-    """The counterweights with the smallest objective, and of those with the same webs the lightest.
+) -> tuple[Complex, SearchResult]:
+    """The counterweights (K,) kg m with the smallest objective, of those with the same webs the lightest; what is
+    proven of all. Where none that keep the ceilings are found, those closest to them.
 
     Parameters
     ----------
@@ -66,7 +55,7 @@ def search(
     clock, gap = Clock(goal.time_limit_s), goal.gap
 
     places = root(least, statement.limits)
-    incumbent = Incumbent(statement, places, _EQUAL * goal.yardstick, solver)
+    incumbent = BestPoint(statement, places, _EQUAL * goal.yardstick, solver)
     # nothing on any web keeps every limit but ceilings
     incumbent.offer(np.zeros((1, least.size), complex))
     sharing(incumbent, continuous, clock)
@@ -74,10 +63,9 @@ def search(
         incumbent.offer(np.stack(points))
     first = incumbent.unbalance
     if first is None:
-        within = _within(statement, places, continuous, clock, solver, below or statement)
-        if not within.feasible:
-            return within
-        first = within.unbalance
+        first, result = _within(statement, places, continuous, clock, solver, below or statement)
+        if not result.feasible:
+            return first, result
         incumbent.offer(first[None])
     tree = branch(incumbent, at_least, gap, lambda bound: False, clock, below or statement)
     bound = min(max(at_least, tree.lower_bound), incumbent.least)
@@ -85,13 +73,7 @@ def search(
     best = first if incumbent.unbalance is None else incumbent.unbalance
     lightest = lightened(incumbent, best, share, clock)
     closed = incumbent.least - bound <= gap
-    return BestWeights(lightest, True, bound, tree.nodes, _ended(tree, closed))
-
-
-def _ended(tree: Tree, closed: bool) -> str | None:
-    if closed:
-        return None
-    return "size" if tree.full else "rounding" if tree.done else "time"
+    return lightest, SearchResult(True, bound, tree.nodes, TREE, ended=None if closed else tree.ended)
 
 
 def _within(
@@ -101,9 +83,9 @@ def _within(
     clock: Clock,
     solver: Solver,
     below: Statement,
-) -> BestWeights:
-    """The first counterweights that keep the ceilings, or the proof that there are none."""
-    incumbent = Incumbent(statement.excess(), places, 0.0, solver)
+) -> tuple[Complex, SearchResult]:
+    """The first counterweights (K,) kg m that keep the ceilings, or the proof that there are none."""
+    incumbent = BestPoint(statement.excess(), places, 0.0, solver)
 
     def feasible() -> bool:
         return incumbent.least <= CEILING_TOLERANCE
@@ -115,5 +97,5 @@ def _within(
         tree = branch(incumbent, -np.inf, 0.0, lambda bound: feasible() or bound > CEILING_TOLERANCE, clock, loose)
     u = np.zeros(places.least.shape, complex) if incumbent.unbalance is None else incumbent.unbalance
     none = min(tree.lower_bound, incumbent.least) > CEILING_TOLERANCE
-    ended = None if feasible() or none else _ended(tree, False)
-    return BestWeights(u, feasible(), np.inf if none else -np.inf, tree.nodes, ended)
+    ended = None if feasible() or none else tree.ended
+    return u, SearchResult(feasible(), np.inf if none else -np.inf, tree.nodes, TREE, ended=ended)

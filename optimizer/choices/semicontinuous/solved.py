@@ -12,7 +12,6 @@ from optimizer.program.equal_castings import Alike
 from optimizer.program.equal_unknowns import apart, united
 from optimizer.program.methods.cascade import cascade
 from optimizer.program.methods.compiled import both_stages, suits_kernel
-from optimizer.program.methods.feasibility_phase import Unreachable
 from optimizer.program.methods.single import Target, interior_point
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
@@ -21,7 +20,7 @@ from optimizer.program.statement import Statement
 _CLOSE = 1e-7
 
 
-class Solved(NamedTuple):
+class Relaxations(NamedTuple):
     """What is found of N programs."""
 
     unbalance: Complex  # (N, K) kg m
@@ -29,7 +28,9 @@ class Solved(NamedTuple):
     nowhere: np.ndarray  # (N,) bool: proven that nothing keeps their ceilings
 
 
-def solved(program: Statement, alike: Alike | None, share: Real, gap: Real, least_mass: bool, solver: Solver) -> Solved:
+def solved(
+    program: Statement, alike: Alike | None, share: Real, gap: Real, least_mass: bool, solver: Solver
+) -> Relaxations:
     """Optima of N programs whose webs are alike.
 
     Parameters
@@ -42,7 +43,7 @@ def solved(program: Statement, alike: Alike | None, share: Real, gap: Real, leas
     if whole is not None and suits_kernel(whole):
         found = both_stages(whole, share, gap, least_mass)
         u = found.unbalance if least_mass else found.smallest
-        return Solved(np.nan_to_num(u if alike is None else apart(u, alike)), found.multipliers, nowhere)
+        return Relaxations(np.nan_to_num(u if alike is None else apart(u, alike)), found.multipliers, nowhere)
     points, multipliers = np.zeros(program.limits.radius.shape, complex), nothing_proven(program)
     for n in range(len(points)):
         one = program.chosen(n)
@@ -50,9 +51,9 @@ def solved(program: Statement, alike: Alike | None, share: Real, gap: Real, leas
         near = max(float(share[n]), _CLOSE * float(one.at_rest))
         asked = Target(near, max(float(gap[n]), near), least_mass)
         answer = cascade(one, asked, solver, interior_point(one, asked))
-        if isinstance(answer, Unreachable):
-            points[n], nowhere[n] = answer.closest, answer.excess > CEILING_TOLERANCE
-            continue
         points[n] = answer.unbalance
-        multipliers.put(n, answer.multipliers)
-    return Solved(points, multipliers, nowhere)
+        if answer.conflict is None:
+            multipliers.put(n, answer.multipliers)
+        else:
+            nowhere[n] = answer.excess > CEILING_TOLERANCE
+    return Relaxations(points, multipliers, nowhere)

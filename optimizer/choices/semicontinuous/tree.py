@@ -4,16 +4,16 @@ What is at least so heavy at any angle is no convex set, and neither is the leas
 and cones about what is left, which the batch kernel takes as limits; whatever it returns, multipliers prove.
 """
 
-import heapq
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.choices.discrete.clock import Clock, Pace
+from optimizer.choices.branch_and_bound import Termination, Tree, branch_and_bound
+from optimizer.choices.clock import Clock
 from optimizer.choices.semicontinuous.bound import proven, uphill
-from optimizer.choices.semicontinuous.inside import Incumbent, cones, improved
+from optimizer.choices.semicontinuous.inside import BestPoint, cones, improved
 from optimizer.choices.semicontinuous.places import WIDEST, Places
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.statement import Statement
@@ -28,15 +28,6 @@ _NARROW, _MISSES = 1e-9, 1e-9
 _CLOSE = 1e-9
 
 
-class Tree(NamedTuple):
-    """What a tree has proven."""
-
-    lower_bound: float  # of everything that keeps the limits, up to what was offered; inf where there is nothing
-    nodes: int
-    full: bool  # it ended because it had grown too large
-    done: bool  # nothing was left to divide
-
-
 class _Open(NamedTuple):
     """A node that stays open (1, K), and the web on which it is split."""
 
@@ -46,7 +37,7 @@ class _Open(NamedTuple):
 
 
 def branch(
-    incumbent: Incumbent,
+    incumbent: BestPoint,
     at_least: float,
     gap: float,
     enough: Callable[[float], bool],
@@ -62,40 +53,17 @@ def branch(
     clock : what is left of the time.
     below : a program that is nowhere above the incumbent's, which bounds are of.
     """
-    fresh, bounds = incumbent.places, np.array([at_least])
-    open_nodes: list[tuple[float, int, _Open]] = []
-    nodes, ties, closed, pace = 0, 0, np.inf, Pace(clock)
-    while True:
-        nodes += len(bounds)
-        out, stays = _bounded(incumbent, below, fresh, bounds, gap, clock)
-        pace.took(len(bounds))
-        closed = min(closed, out)
-        for bound, node in stays:
-            ties += 1
-            heapq.heappush(open_nodes, (bound, ties, node))
-        lowest = min(closed, open_nodes[0][0] if open_nodes else np.inf)
-        full = len(open_nodes) > _OPEN
-        done = not open_nodes or lowest >= incumbent.least - gap
-        if done or full or enough(lowest) or clock.spent():
-            return Tree(lowest, nodes, full and not done, done)
-        children: list[Places] = []
-        inherited: list[float] = []
-        most = pace.most(_BATCH)
-        while open_nodes and len(children) < most:
-            bound, _, node = heapq.heappop(open_nodes)
-            if bound >= incumbent.least - gap:
-                closed = min(closed, bound)
-                continue
-            for child in _children(node):
-                children.append(child)
-                inherited.append(bound)
-        if not children:
-            return Tree(closed, nodes, False, True)
-        fresh, bounds = children[0].beside(*children[1:]), np.array(inherited)
+
+    def bounded(nodes: list[Places], bounds: list[float]) -> tuple[float, list[tuple[float, _Open]]]:
+        first, *others = nodes
+        return _bounded(incumbent, below, first.beside(*others), np.array(bounds), gap, clock)
+
+    ends = Termination(lambda: incumbent.least - gap, enough, _OPEN)
+    return branch_and_bound(incumbent.places, at_least, bounded, _children, ends, clock, _BATCH)
 
 
 def _bounded(
-    incumbent: Incumbent, statement: Statement, places: Places, inherited: Real, gap: float, clock: Clock
+    incumbent: BestPoint, statement: Statement, places: Places, inherited: Real, gap: float, clock: Clock
 ) -> tuple[float, list[tuple[float, _Open]]]:
     """What is proven of all that nodes lose here, and those that stay open with their bounds."""
     count = inherited.size
@@ -114,8 +82,8 @@ def _bounded(
     closed = np.inf
     # what one web rules out by itself
     undecided = places.undecided
-    without = np.maximum(np.where(better[:, None], raised.without, known.without), bound[:, None])
-    fitted = np.maximum(np.where(better[:, None], raised.fitted, known.fitted), bound[:, None])
+    forced = np.maximum(np.where(better[:, None, None], raised.forced, known.forced), bound[:, None, None])
+    without, fitted = forced[..., 0], forced[..., 1]
     never = places.whole(undecided & (fitted >= target))
     if np.any(never):
         closed = min(closed, float(np.min(fitted[never])))
@@ -143,7 +111,7 @@ def _bounded(
     return closed, stays
 
 
-def _offer(incumbent: Incumbent, places: Places, near: Complex, bounds: Real, clock: Clock) -> None:
+def _offer(incumbent: BestPoint, places: Places, near: Complex, bounds: Real, clock: Clock) -> None:
     """Relaxed points as they are, and the most promising with everything kept."""
     least = places.least
     incumbent.offer(np.where((least > 0) & (np.abs(near) <= _MISSES * least), 0.0, near))

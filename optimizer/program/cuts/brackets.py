@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.program.cuts.cut import Quantity, Reached, Scatter
+from optimizer.program.cuts.cut import Evaluation, Quantity, Scatter
 from optimizer.responses.curve import peaks
 from optimizer.responses.mass_scatter import peaks_astray
 
@@ -29,9 +29,9 @@ class Brackets:
         cancelled : (quantities,) those whose curves are nothing.
         """
         self._quantities, self._cancelled, self._scatter = quantities, cancelled, scatter
-        self._recent: list[tuple[Complex, dict[int, Reached]]] = []
+        self._recent: list[tuple[Complex, dict[int, Evaluation]]] = []
 
-    def evaluate(self, u: Complex, tolerance: Real, chosen: Sequence[int] | None = None) -> tuple[Reached, ...]:
+    def evaluate(self, u: Complex, tolerance: Real, chosen: Sequence[int] | None = None) -> tuple[Evaluation, ...]:
         """What quantities come to with an unbalance (K,) kg m.
 
         Parameters
@@ -40,7 +40,7 @@ class Brackets:
         chosen : which, by default all.
         """
         asked = range(len(self._quantities)) if chosen is None else chosen
-        found: dict[int, Reached] = {}
+        found: dict[int, Evaluation] = {}
         for at, known in reversed(self._recent):
             change = np.abs(u - at)
             if np.max(change, initial=0.0) <= _NEAR * np.max(np.abs(u), initial=0.0):
@@ -54,14 +54,14 @@ class Brackets:
             found |= new
         return tuple(found[q] for q in asked)
 
-    def _near(self, q: int, reached: Reached, change: Real) -> Reached:
+    def _near(self, q: int, reached: Evaluation, change: Real) -> Evaluation:
         influence = np.abs(self._quantities[q].response.influence)
         off = float(influence @ change) * (1.0 + self._scatter.share)
-        return Reached(reached.lower - off, reached.upper + off, reached.cut)
+        return Evaluation(reached.lower - off, reached.upper + off, reached.cut)
 
-    def _bracketed(self, u: Complex, tolerance: Real, chosen: list[int]) -> tuple[Reached, ...]:
+    def _bracketed(self, u: Complex, tolerance: Real, chosen: list[int]) -> tuple[Evaluation, ...]:
         quantities, scatter = self._quantities, self._scatter
-        found: dict[int, Reached] = {}
+        found: dict[int, Evaluation] = {}
         peak: list[int] = []
         for q in chosen:
             # a curve of rounding has the peak of what is added to it, at once where that stands still

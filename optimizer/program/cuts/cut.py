@@ -57,7 +57,7 @@ class Cut(NamedTuple):
         return self.angle_deg is not None and self.angle_deg == other.angle_deg and not apart
 
 
-class Reached(NamedTuple):
+class Evaluation(NamedTuple):
     """What a quantity comes to, between two figures that are proven, and the cut that comes to the lower one."""
 
     lower: float
@@ -111,12 +111,12 @@ class Quantity:
                 found.append(Cut(0j, share * turned * influence, -largest, scalar=True))
         return tuple(found)
 
-    def peak(self, u: Complex, scatter: Scatter, lower: float, upper: float, cut: Cut) -> Reached:
+    def peak(self, u: Complex, scatter: Scatter, lower: float, upper: float, cut: Cut) -> Evaluation:
         """The peak where counterweights scatter, from what it is where they do not."""
         more = scatter.of(self.response.influence, u)
-        return Reached(lower + more, upper + more, cut)
+        return Evaluation(lower + more, upper + more, cut)
 
-    def rms(self, u: Complex, scatter: Scatter) -> Reached:
+    def rms(self, u: Complex, scatter: Scatter) -> Evaluation:
         """The root mean square: with the angle of the vector (|mean + H u|, sqrt(V)) its cut is it.
 
         Both are off by no more than is known of mean and variance.
@@ -127,7 +127,7 @@ class Quantity:
         along, across = (moved / value, self.spread / value) if value > 0 else (1.0, 0.0)
         off = self.response.rms_error
         cut = Cut(along * mean, along * influence, across * self.spread - off, share=along)
-        return Reached(value - off, value + off, cut)
+        return Evaluation(value - off, value + off, cut)
 
 
 class Pool:
@@ -141,7 +141,7 @@ class Pool:
     def count(self) -> int:
         return sum(len(cuts) for cuts in self.cuts)
 
-    def add(self, evaluations: Sequence[Sequence[Reached]], u: Complex, matters: Real) -> bool:
+    def add(self, evaluations: Sequence[Sequence[Evaluation]], u: Complex, matters: Real) -> bool:
         """Take the cuts of every quantity whose true value is above what matters; whether any was new."""
         new = False
         for cuts, several, least in zip(self.cuts, evaluations, matters, strict=True):

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.numerics.arrays import Real
-from optimizer.program.cuts.cut import Reached
+from optimizer.program.cuts.cut import Evaluation
 from optimizer.program.rows import Row
 
 #: share of what a quantity is below what decides that its bracket may take up
@@ -41,7 +41,7 @@ def spare(groups: Sequence[Group], about: Real) -> Real:
     return np.clip(_SHARE * left / np.maximum(about, _TINY), 0.0, _SHARE)
 
 
-def deciding(groups: Sequence[Group], evaluations: Sequence[Reached]) -> np.ndarray:
+def deciding(groups: Sequence[Group], evaluations: Sequence[Evaluation]) -> np.ndarray:
     """(quantities,) whether any may be the largest of a group, by brackets."""
     may = np.zeros(len(evaluations), dtype=bool)
     for group in groups:

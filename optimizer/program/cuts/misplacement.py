@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.program.cuts.cut import EXACT, Quantity, Reached
+from optimizer.program.cuts.cut import EXACT, Evaluation, Quantity
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.misplacement import angle_corners, mass_corners, worst_by_angle, worst_by_mass
 from optimizer.program.norms import Norms
@@ -20,7 +20,7 @@ _WIDTH = 1e-7
 
 
 def largest_last_goals(
-    program: Problem, u: Complex, reached: Sequence[Reached], angle: float, share: float
+    program: Problem, u: Complex, reached: Sequence[Evaluation], angle: float, share: float
 ) -> tuple[float, float]:
     """The last goal where every counterweight (K,) is off by up to an angle [rad], and by up to a share of its mass.
 
@@ -49,7 +49,7 @@ def largest_last_goals(
 _Kind = tuple[float, Callable[[Norms], Real], Callable[[Complex], Complex]]
 
 
-def _no_less(quantity: Quantity, u: Complex, reached: Reached, cancelled: bool, kind: _Kind) -> float:
+def _no_less(quantity: Quantity, u: Complex, reached: Evaluation, cancelled: bool, kind: _Kind) -> float:
     """What a quantity comes to at worst, or more: every counterweight off along what is largest.
 
     Parameters
@@ -66,7 +66,7 @@ def _no_less(quantity: Quantity, u: Complex, reached: Reached, cancelled: bool, 
     return reached.upper + change * float(np.sum(np.abs(response.influence * u)))
 
 
-def _matter(program: Problem, reached: Sequence[Reached], worst: Sequence[float]) -> list[int]:
+def _matter(program: Problem, reached: Sequence[Evaluation], worst: Sequence[float]) -> list[int]:
     """Peaks that may decide the last goal, where what counterweights add stands still."""
     found: set[int] = set()
     for group in program.goals[-1].groups:

@@ -13,7 +13,7 @@ from optimizer.program.cuts.empty_webs import EmptyWebs
 from optimizer.program.cuts.proof import Proof, times
 from optimizer.program.cuts.rounding import settled_turn
 from optimizer.program.cuts.semi_infinite import Problem
-from optimizer.program.cuts.stage import Levels, Point, Search, Stage
+from optimizer.program.cuts.stage import Levels, Point, Search, StageEnd
 from optimizer.program.limits import Limits
 from optimizer.program.methods.implied_bounds import bounded, far_limits
 from optimizer.program.methods.semicontinuous_bounds import within_semicontinuous_reach
@@ -45,7 +45,7 @@ _TARGET_MARGIN = 0.2
 _MASS_GAP, _LIGHT = 1e-5, 5e-5
 
 
-class Reached(NamedTuple):
+class GoalLevel(NamedTuple):
     """What a goal came to, and what is proven of it."""
 
     goal: str
@@ -63,7 +63,7 @@ class CertifiedOptimum:
     """Counterweights with their proof; the last goal is the objective."""
 
     point: Point
-    goals: tuple[Reached, ...]
+    goals: tuple[GoalLevel, ...]
     mass_proof: Proof | None  # None where the least mass was not sought
     mass_target: float  # largest objective that the proof of the mass counts as an optimum
     limits: Limits  # that the proofs count with
@@ -110,7 +110,7 @@ class CertifiedOptimum:
 
 
 @dataclass(frozen=True)
-class Unkept:
+class Conflict:
     """Proof that no counterweights keep the ceilings, and those that come closest."""
 
     closest: Point
@@ -135,7 +135,7 @@ def over_turn(
     relative_gap: float,
     least_mass: bool,
     time_limit_s: float = TIME_LIMIT_S,
-) -> CertifiedOptimum | Unkept:
+) -> CertifiedOptimum | Conflict:
     """Certified optimum of a program over the turn: its goals one after the other, then the least mass.
 
     Parameters
@@ -151,7 +151,7 @@ def over_turn(
     excess = nearest.point.values.excess
     contradicted = nearest.proof is not None and nearest.proof.bound > excess + CEILING_ROUNDING
     if nearest.proof is not None and nearest.proof.bound > CEILING_ROUNDING and not contradicted:
-        return Unkept(nearest.point, nearest.proof, nearest.proof.statement.limits, nearest.certify_s)
+        return Conflict(nearest.point, nearest.proof, nearest.proof.statement.limits, nearest.certify_s)
     course = _Course(program, pool, nearest, raised=excess > -_AMPLE, contradicted=contradicted, until=until)
     for n, goal in enumerate(program.goals[:-1]):
         size, share = float(program.units[n]), max(goal.allowance, OPTIMUM_SHARE)
@@ -182,7 +182,7 @@ def over_turn(
 
 
 def next_goal(
-    program: Problem, before: Sequence[Reached], u: Complex, relative_gap: float, time_limit_s: float
+    program: Problem, before: Sequence[GoalLevel], u: Complex, relative_gap: float, time_limit_s: float
 ) -> CertifiedOptimum:
     """Certified optimum of the last goal of a program under levels of the others that are given.
 
@@ -192,7 +192,7 @@ def next_goal(
     u : (K,) kg m, within the limits, that keeps these levels and the ceilings.
     """
     inside = Point(u, program.values(u, _PRINTED), program.mass(u))
-    nearest = Stage(inside, None, 0, 0.0, False)
+    nearest = StageEnd(inside, None, 0, 0.0, False)
     raised, until = inside.values.excess > -_AMPLE, time.thread_time() + time_limit_s
     course = _Course(program, Pool(program.first, program.scatter), nearest, raised, False, until)
     course.goals = list(before)
@@ -205,12 +205,12 @@ class _Course:
     """Stages one after the other, each with what is known already."""
 
     def __init__(
-        self, program: Problem, pool: Pool, nearest: Stage, raised: bool, contradicted: bool, until: float
+        self, program: Problem, pool: Pool, nearest: StageEnd, raised: bool, contradicted: bool, until: float
     ) -> None:
         self.program, self.pool, self.raised, self.contradicted = program, pool, raised, contradicted
         self.inside, self.so_far, self.until, self.timed_out = nearest.point, program, until, nearest.timed_out
         self.rounds, self.certify_s = nearest.rounds, nearest.certify_s
-        self.goals: list[Reached] = []
+        self.goals: list[GoalLevel] = []
         self.margin = _TARGET_MARGIN * _SHARPNESS[0] * OPTIMUM_SHARE * program.units
 
     def smallest(self, n: int, enough: float, proof: Proof | None = None) -> Proof:
@@ -232,7 +232,7 @@ class _Course:
         most = max(value, proof.bound + share)
         if n + 1 < len(self.program.goals):
             most += _RESERVED * float(self.program.units[n])
-        self.goals[n:] = [Reached(self.program.goals[n].name, value, proof, most)]
+        self.goals[n:] = [GoalLevel(self.program.goals[n].name, value, proof, most)]
 
     def lightest(self, target: float, margin: float) -> Proof | None:
         """The least mass under all goals.
@@ -302,11 +302,11 @@ def _rest(program: Problem) -> Point:
     return Point(np.zeros(program.limits.radius.shape, complex), program.at_rest, 0.0)
 
 
-def _nearest(program: Problem, pool: Pool, until: float) -> Stage:
+def _nearest(program: Problem, pool: Pool, until: float) -> StageEnd:
     """A point with room below the ceilings, or the one that comes closest to keeping them with the proof of that."""
     rest = _rest(program)
     if not (program.ceilings or program.limited) or rest.values.excess <= -_ROOMY:
-        return Stage(rest, None, 0, 0.0, False)
+        return StageEnd(rest, None, 0, 0.0, False)
     excess = program.excess()
     still = _rest(excess)
     excess = _bounded(excess, still, np.zeros(0))

@@ -8,7 +8,7 @@ import numpy as np
 from optimizer.numerics.arrays import Complex, Real, mapped
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.cuts.stage import Point
-from optimizer.program.methods.plate_sizes import Cut, equal_sizes, unlike
+from optimizer.program.methods.plate_sizes import CutWeights, equal_sizes, unlike
 from optimizer.program.methods.rounding import HEAVIER, NEAR, brought
 from optimizer.program.solution import CEILING_ROUNDING
 from optimizer.program.statement import Statement
@@ -51,7 +51,7 @@ def settled_turn(
     if not unlike(plates, angle):
         return point
     alone = statement.alone()
-    for cut in equal_sizes(alone, plates, Cut(point.unbalance, angle, point.mass)):
+    for cut in equal_sizes(alone, plates, CutWeights(point.unbalance, angle, point.mass)):
         alike = _settled(program, point, cut.unbalance, most, heaviest, width)
         if alike is not None:
             return alike

@@ -14,7 +14,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.enclosing_circle import smallest_circle
-from optimizer.program.cuts.cut import Cut, Quantity, Reached, Scatter
+from optimizer.program.cuts.cut import Cut, Evaluation, Quantity, Scatter
 from optimizer.responses.boxes import worst_masses
 from optimizer.responses.curve import TurnResponse
 from optimizer.responses.piecewise_cubics import Index
@@ -210,14 +210,14 @@ class Samples:
             found[some] += np.sqrt(np.max(curves.squares(self._squares(some, u)), axis=(-2, -1)))
         return found
 
-    def highest(self, u: Complex, scatter: Scatter, matters: Real) -> tuple[tuple[Reached, ...], ...]:
+    def highest(self, u: Complex, scatter: Scatter, matters: Real) -> tuple[tuple[Evaluation, ...], ...]:
         """What every quantity comes to where it is largest, at least one place each, the highest first.
 
         Parameters
         ----------
         matters : (quantities,) above which more places than one count.
         """
-        peaks: list[list[Reached]] = [[] for _ in self.quantities]
+        peaks: list[list[Evaluation]] = [[] for _ in self.quantities]
         for q, quantity in enumerate(self.quantities):
             if quantity.measure == "rms":
                 peaks[q] = [quantity.rms(u, scatter)]

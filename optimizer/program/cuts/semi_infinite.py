@@ -21,7 +21,7 @@ import numpy as np
 from optimizer.numerics.arrays import SMALLEST, Complex, Real, Reals
 from optimizer.program.ceilings import Ceilings, limited
 from optimizer.program.cuts.brackets import Brackets
-from optimizer.program.cuts.cut import EXACT, Cut, Quantity, Reached, Scatter
+from optimizer.program.cuts.cut import EXACT, Cut, Evaluation, Quantity, Scatter
 from optimizer.program.cuts.dominance import Group, Weighed, deciding, spare
 from optimizer.program.cuts.samples import Samples
 from optimizer.program.cuts.terms import Terms
@@ -62,7 +62,7 @@ class Values(NamedTuple):
 
     goals: Real  # (goals,)
     over: Real  # (ceilings and limited,) excess over each ceiling, relative to its size
-    reached: tuple[Reached, ...]  # every quantity
+    reached: tuple[Evaluation, ...]  # every quantity
     over_budget: float = -1.0  # of the mass, relative to the budget, where plates count; below 0 some is left
 
     @property
@@ -175,7 +175,7 @@ class Problem:
         return self._decided(still, fine, *self._resting)
 
     @cached_property
-    def _resting(self) -> tuple[tuple[Reached, ...], np.ndarray]:
+    def _resting(self) -> tuple[tuple[Evaluation, ...], np.ndarray]:
         """Brackets without counterweights, and which are coarse (quantities,)."""
         still = np.zeros(self.limits.radius.shape, complex)
         spare = self._spare(self.samples.sizes(still, self.scatter))
@@ -321,7 +321,7 @@ class Problem:
         found[[quantity.masses > 0.0 for quantity in self.quantities]] = 0.0
         return found
 
-    def _decided(self, u: Complex, tolerance: Real, reached: tuple[Reached, ...], coarse: np.ndarray) -> Values:
+    def _decided(self, u: Complex, tolerance: Real, reached: tuple[Evaluation, ...], coarse: np.ndarray) -> Values:
         """What an unbalance comes to, by brackets of which those that are coarse (quantities,) are told again to a
         tolerance (quantities,) where they may decide something."""
         may = deciding(self.groups, reached)
@@ -342,7 +342,7 @@ class Problem:
             worth[q] = min(worth[q], size)
         return worth
 
-    def seen(self, u: Complex, matters: Real) -> tuple[Values, tuple[tuple[Reached, ...], ...]]:
+    def seen(self, u: Complex, matters: Real) -> tuple[Values, tuple[tuple[Evaluation, ...], ...]]:
         """What an unbalance comes to at some angles, which is no more than the truth, and every quantity there.
 
         Parameters
@@ -352,7 +352,7 @@ class Problem:
         found = self.samples.highest(u, self.scatter, matters)
         return self._values(u, tuple(each[0] for each in found), self.sizes), found
 
-    def _values(self, u: Complex, reached: tuple[Reached, ...], sizes: Real) -> Values:
+    def _values(self, u: Complex, reached: tuple[Evaluation, ...], sizes: Real) -> Values:
         largest = [
             max(
                 [_sum(row, u, self.scatter) for row in group.rows]

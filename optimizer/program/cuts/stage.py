@@ -16,12 +16,12 @@ import numpy as np
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.cuts.attempts import FREELY, WITHIN, Attempt
-from optimizer.program.cuts.cut import Pool, Reached
+from optimizer.program.cuts.cut import Evaluation, Pool
 from optimizer.program.cuts.proof import Proof, proofs, resting_proof, times, units
 from optimizer.program.cuts.semi_infinite import Problem, Values
 from optimizer.program.plate_pieces import Pieces, Plates, first_nodes, nodes_about, pieces, tangents
-from optimizer.program.reference.assembled import NoPoint, Target, solved
-from optimizer.program.scaled_program import Stage as CostStage
+from optimizer.program.reference.assembled import GroupLimit, NoPoint, solved
+from optimizer.program.scaled_program import Stage
 from optimizer.program.scaling import natural_reach, scale
 from optimizer.program.solution import CEILING_ROUNDING, NEGLIGIBLE
 from optimizer.program.statement import Statement
@@ -77,7 +77,7 @@ class _Promise(NamedTuple):
     unbalance: Complex  # (K,) kg m
 
 
-class Stage(NamedTuple):
+class StageEnd(NamedTuple):
     """What one stage came to."""
 
     point: Point
@@ -126,7 +126,7 @@ class Search:
         self.near: Point | None = None  # the last one that kept all
         self.beyond: Point | None = None  # the last one that did not
 
-    def run(self, enough: float, stop: Callable[[float, float], bool] = lambda value, bound: False) -> Stage:
+    def run(self, enough: float, stop: Callable[[float, float], bool] = lambda value, bound: False) -> StageEnd:
         """Rounds until the gap is small enough, or nothing more is to be had.
 
         Parameters
@@ -190,7 +190,7 @@ class Search:
         if promised.figure < self.figure(best):
             width = self._width(enough, promised.figure - (-np.inf if proof is None else proof.bound))
             best = min(best, self._feasible(self._evaluated(promised.unbalance, width)), key=self.figure)
-        return Stage(self._tidied(best), proof, rounds, self.certify_s, timed_out)
+        return StageEnd(self._tidied(best), proof, rounds, self.certify_s, timed_out)
 
     def _wanted(self, enough: float, best: Point) -> float:
         """Gap that ends the search, in units of what is small.
@@ -225,7 +225,7 @@ class Search:
         worth = np.where(self.price > 0, _OPEN * enough / np.where(self.price > 0, self.price, 1.0), np.inf)
         self.margin = np.minimum(self.levels.margin, np.maximum(worth, least))
 
-    def _added_cuts(self, evaluations: Sequence[Sequence[Reached]], u: Complex, matters: Real) -> bool:
+    def _added_cuts(self, evaluations: Sequence[Sequence[Evaluation]], u: Complex, matters: Real) -> bool:
         """Whether a point has shown a cut that was not known, or a plate that is heavier than its tangents."""
         new = self.pool.add(evaluations, u, matters)
         self.pool.forget(u)
@@ -292,15 +292,15 @@ class Search:
         mass = (self.inside.mass or 1.0) if self.of_mass else 1.0
         lowered = -_RAISED if self.raised else attempt.margins * _LOWERED
         largest = float(np.max(np.abs(posed.norms.constant)))
-        stage: CostStage = "mass" if self.of_mass else "objective"
+        stage: Stage = "mass" if self.of_mass else "objective"
         data, scaling = scale(posed, stage, self.clip, lowered, mass_unit=mass, unit=largest)
         highest = posed.largest(posed.floor)
         aimed = self.aimed = self.levels.most - attempt.margins * self.margin - self.missed
 
-        def sums(n: int, most: float) -> list[Target]:
+        def sums(n: int, most: float) -> list[GroupLimit]:
             """The sums of a goal, none above a level."""
             chosen = [case_of == case for case in np.flatnonzero(program.goal_of_case == n)]
-            return [Target(case, (most - float(np.sum(highest[case]))) / scaling.objective) for case in chosen]
+            return [GroupLimit(case, (most - float(np.sum(highest[case]))) / scaling.objective) for case in chosen]
 
         targets = [each for n, most in enumerate(aimed) for each in sums(n, most / self.unit[n])]
         of_target = program.goal_of_case[program.goal_of_case < aimed.size]

@@ -19,7 +19,6 @@ from optimizer.program.kernel.finer_numbers import finest
 from optimizer.program.methods.compiled import ENOUGH, TARGET, suits_kernel
 from optimizer.program.methods.feasibility_phase import (
     AMPLE,
-    Unreachable,
     at_rest,
     proven_again,
     raised,
@@ -30,7 +29,7 @@ from optimizer.program.methods.rounding import settled
 from optimizer.program.methods.single import StagePair, Target, enough, interior_point
 from optimizer.program.points import points_at
 from optimizer.program.reference.solver import Solver
-from optimizer.program.solution import CEILING_ROUNDING, Solution
+from optimizer.program.solution import CEILING_ROUNDING, CLOSED_FORM, CONE_PROGRAM, Solution, evaluated
 from optimizer.program.statement import Statement
 
 #: the smallest objective is sought this much more sharply than optima are told apart
@@ -39,7 +38,7 @@ _SHARPNESS = 1e-4
 _MASS_GAP = 1e-6
 
 
-def cascade(statement: Statement, target: Target, solver: Solver, quick: StagePair) -> Solution | Unreachable:
+def cascade(statement: Statement, target: Target, solver: Solver, quick: StagePair) -> Solution:
     """Certified optimum of one program whose webs can all carry something.
 
     Parameters
@@ -53,7 +52,7 @@ def cascade(statement: Statement, target: Target, solver: Solver, quick: StagePa
     """
     find = _under_ceilings if statement.ceilings.names else _by_all
     found = find(statement, target, solver, quick)
-    if isinstance(found, Unreachable):
+    if found.conflict is not None:
         return found
     if target.least_mass and found.mass_multipliers is None:
         # nothing is proven about the mass but that it is not below 0
@@ -76,11 +75,14 @@ def _settled(statement: Statement, target: Target, solution: Solution) -> Soluti
     return solution.moved_to(statement, points.unbalance[0])
 
 
-def _under_ceilings(statement: Statement, target: Target, solver: Solver, quick: StagePair) -> Solution | Unreachable:
+def _under_ceilings(statement: Statement, target: Target, solver: Solver, quick: StagePair) -> Solution:
     """With ceilings: first whether they can be kept, and with how much room (docs/mathematics.md section 9)."""
     nearest = smallest_excess(statement, solver)
     if nearest.lower_bound > CEILING_ROUNDING:
-        return Unreachable(nearest.unbalance, nearest.objective, nearest.certify_s, nearest.multipliers)
+        # that ceilings cannot be kept is a finding of the reference solver alone
+        method = CONE_PROGRAM if nearest.unbalance.size else CLOSED_FORM
+        none = evaluated(statement, nearest.unbalance)
+        return replace(none, method=method, certify_s=nearest.certify_s, conflict=nearest.multipliers)
     if target.least_mass and (rest := at_rest(statement, target, quick.smallest)):
         return replace(rest, certify_s=rest.certify_s + nearest.certify_s)
     if nearest.objective <= -AMPLE:

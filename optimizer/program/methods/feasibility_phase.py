@@ -1,13 +1,11 @@
 """On the edge of what can be reached: whether ceilings can be kept, and with how much room."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import (
-    Multipliers,
     ceiling_allowance,
     mass_lower_bound,
     nothing_proven,
@@ -25,16 +23,6 @@ AMPLE = 1e-8
 _RAISED = CEILING_TOLERANCE - CEILING_ROUNDING
 #: gap of the smallest excess that is good enough
 _PRINTED = 1e-13
-
-
-@dataclass(frozen=True)
-class Unreachable:
-    """Proof that no counterweights keep the ceilings, and those that come closest."""
-
-    closest: Complex  # (K,) kg m
-    excess: float  # largest relative excess over a ceiling of the closest
-    certify_s: float  # time spent on bounds
-    multipliers: Multipliers  # of the excess: rows and terms are those of the ceilings, each over its size
 
 
 def smallest_excess(statement: Statement, solver: Solver) -> Solution:

@@ -13,7 +13,6 @@ from optimizer.program.equal_unknowns import apart, united
 from optimizer.program.methods.cascade import cascade
 from optimizer.program.methods.compiled import both_stages, suits_kernel
 from optimizer.program.methods.empty_webs import leave_empty
-from optimizer.program.methods.feasibility_phase import Unreachable
 from optimizer.program.methods.inactive_rows import settle_without_slack_rows
 from optimizer.program.methods.single import Target, interior_point, only
 from optimizer.program.reference.solver import Solver
@@ -24,7 +23,6 @@ from optimizer.program.solution import (
     OPTIMUM_SHARE,
     Solution,
     Solutions,
-    evaluated,
     joined,
 )
 from optimizer.program.statement import Statement
@@ -49,13 +47,10 @@ class Optima(Solutions):
         bound = mass_bound_up_to(self.mass_lower_bound, price, more)
         return replace(self, mass_lower_bound=bound, mass_target=np.maximum(self.mass_target, objective))
 
-    def single(self, n: int = 0) -> Solution | Unreachable:
+    def single(self, n: int = 0) -> Solution:
         """One of them."""
-        u, spent = self.unbalance[n], float(self.certify_s[n])
-        if self.unreachable[n]:
-            return Unreachable(u, float(self.excess[n]), spent, self.conflict.chosen(n))
         return Solution(
-            u,
+            self.unbalance[n],
             float(self.objective[n]),
             float(self.lower_bound[n]),
             float(self.mass[n]),
@@ -63,9 +58,10 @@ class Optima(Solutions):
             float(self.excess[n]),
             self.multipliers.chosen(n),
             str(self.method[n]),
-            spent,
+            float(self.certify_s[n]),
             self.mass_multipliers.chosen(n),
             float(self.mass_target[n]),
+            self.conflict.chosen(n) if self.unreachable[n] else None,
         )
 
 
@@ -110,7 +106,7 @@ def _optima(statement: Statement, relative_gap: float, least_mass: bool, solver:
     for n in range(size.size) if found is None else np.flatnonzero(~found.certified).tolist():
         program, asked = statement.chosen(n), Target(float(share[n]), float(demand[n]), least_mass)
         quick = interior_point(program, asked) if found is None else only(program, asked, found.chosen(np.array([n])))
-        _put(answer, n, program, cascade(program, asked, solver, quick))
+        _put(answer, n, cascade(program, asked, solver, quick))
     leave_empty(statement, answer, share, least_mass)
     return answer
 
@@ -153,14 +149,8 @@ def _nothing(statement: Statement) -> Optima:
     )
 
 
-def _put(answer: Optima, n: int, statement: Statement, solution: Solution | Unreachable) -> None:
-    if isinstance(solution, Unreachable):
-        answer.unreachable[n] = True
-        answer.conflict.put(n, solution.multipliers)
-        # that ceilings cannot be kept is a finding of the reference solver alone
-        method = CONE_PROGRAM if solution.closest.size else CLOSED_FORM
-        nowhere = evaluated(statement, solution.closest)
-        solution = replace(nowhere, method=method, certify_s=solution.certify_s)
+def _put(answer: Optima, n: int, solution: Solution) -> None:
+    answer.unreachable[n] = solution.conflict is not None
     for field in fields(Solution):
         value = getattr(solution, field.name)
         if isinstance(value, Multipliers):

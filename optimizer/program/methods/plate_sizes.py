@@ -18,7 +18,7 @@ _NEARNESS = (1.75e-5, 1e-7, 1e-9, 1e-11)
 SAME_SIZE = 1e-12
 
 
-class Cut(NamedTuple):
+class CutWeights(NamedTuple):
     """Counterweights, of which some are cut from plates."""
 
     unbalance: Complex  # (K,) kg m
@@ -26,7 +26,7 @@ class Cut(NamedTuple):
     mass: float  # kg, of all together
 
 
-def equal_sizes(whole: Statement, plates: Plates, cut: Cut) -> Iterator[Cut]:
+def equal_sizes(whole: Statement, plates: Plates, cut: CutWeights) -> Iterator[CutWeights]:
     """The same with openings that nearly agree put to the largest or the mean of them, those that differ more first.
 
     What nearly goes as far as it can goes so far, or else to the mean too. Other counterweights make up for it; the
@@ -55,7 +55,7 @@ def equal_sizes(whole: Statement, plates: Plates, cut: Cut) -> Iterator[Cut]:
             balanced = np.where(room > 0, limits.into(balanced[None])[0], put)
             moved = np.where(room[plates.webs] > 0, plates.opened(np.abs(balanced[plates.webs])), angle)
             for u, half in ((balanced, moved), (put, angle)):
-                yield Cut(u, half, float(total_mass(whole, plates, u, half)))
+                yield CutWeights(u, half, float(total_mass(whole, plates, u, half)))
     yield cut
 
 
@@ -66,7 +66,7 @@ def unlike(plates: Plates, angle: Real) -> bool:
     return bool(np.any(near & (apart > SAME_SIZE * angle)))
 
 
-def at_limits(whole: Statement, cut: Cut) -> np.ndarray:
+def at_limits(whole: Statement, cut: CutWeights) -> np.ndarray:
     """Webs (K,) that are all but full, or next to an edge of their sector."""
     limits = whole.limits
     full = np.abs(cut.unbalance) >= limits.reach[0] * (1.0 - NEARLY)

@@ -217,7 +217,7 @@ def add_discs(program: Assembly, data: ScaledData) -> None:
     program.cones(np.zeros(webs), (diagonal(2 * webs, np.ones(webs)),), np.zeros(2 * webs), (place,))
 
 
-class Target(NamedTuple):
+class GroupLimit(NamedTuple):
     """A sum of groups that is not to exceed a level."""
 
     groups: np.ndarray  # (groups,) bool
@@ -238,8 +238,8 @@ def solved(
     tolerance: float,
     time_limit_s: float,
     weighed: np.ndarray | None = None,
-    targets: Sequence[Target] = (),
-    sums: Sequence[Target] = (),
+    targets: Sequence[GroupLimit] = (),
+    sums: Sequence[GroupLimit] = (),
     about: Real | None = None,
     regularization: float = REGULARIZATION,
 ) -> Assembled | NoPoint:
@@ -319,6 +319,6 @@ def solved(
     return Assembled(solution, v[levels:most_of_sums], dual[charged] if targets else np.zeros(0), v)
 
 
-def _membership(sums: Sequence[Target]) -> Real:
+def _membership(sums: Sequence[GroupLimit]) -> Real:
     """(sums, groups) 1 where a group belongs to a sum."""
     return np.stack([each.groups for each in sums]).astype(float)

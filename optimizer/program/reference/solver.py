@@ -22,7 +22,7 @@ from optimizer.program.solution import CONE_PROGRAM, NEGLIGIBLE, Solution, evalu
 from optimizer.program.statement import Statement
 
 
-class _Attempt(NamedTuple):
+class _SolverSetting(NamedTuple):
     """How one attempt is made; what one cannot certify the next may."""
 
     tolerance: float  # of the solver
@@ -36,14 +36,14 @@ class _Attempt(NamedTuple):
 
 
 _ATTEMPTS = (
-    _Attempt(1e-12, 10.0, 2e-11, 1e-5),
-    _Attempt(1e-10, 10.0, 2e-10, 1e-4),
-    _Attempt(1e-12, 10.0, 5e-10, 1e-5),
-    _Attempt(1e-10, 10.0, 1e-9, 1e-3),
-    _Attempt(1e-9, 10.0, 1e-9, 1e-3),
-    _Attempt(1e-11, 10.0, 2e-11, 1e-6),
-    _Attempt(1e-11, 1e4, 5e-10, 1e-4),
-    _Attempt(1e-10, np.inf, 1e-9, 1e-4),
+    _SolverSetting(1e-12, 10.0, 2e-11, 1e-5),
+    _SolverSetting(1e-10, 10.0, 2e-10, 1e-4),
+    _SolverSetting(1e-12, 10.0, 5e-10, 1e-5),
+    _SolverSetting(1e-10, 10.0, 1e-9, 1e-3),
+    _SolverSetting(1e-9, 10.0, 1e-9, 1e-3),
+    _SolverSetting(1e-11, 10.0, 2e-11, 1e-6),
+    _SolverSetting(1e-11, 1e4, 5e-10, 1e-4),
+    _SolverSetting(1e-10, np.inf, 1e-9, 1e-4),
 )
 #: the least mass, which sits on a steeper edge, is more often certified by the second
 _MASS_ATTEMPTS = (_ATTEMPTS[1], _ATTEMPTS[0], *_ATTEMPTS[2:])

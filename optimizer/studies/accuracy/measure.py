@@ -16,7 +16,6 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.outputs.registry import prepare
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import ceiling_allowance
-from optimizer.program.methods.feasibility_phase import Unreachable
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import Solver
@@ -53,7 +52,7 @@ def accuracy(request: AccuracyRequest) -> AccuracyAnswer:
     """The ladders of methods and of simulations for a machine; least mass is off, whatever was asked."""
     start = time.perf_counter()
     # outputs play no part: what they would miss must not refuse the ladder
-    scene = prepare(request, outputs=("residual",))
+    scene = prepare(request, ("residual",))
     measured = (_as_made if request.as_made else _of_any_mass)(request, scene, Solver())
     return AccuracyAnswer(
         **measured,
@@ -90,7 +89,7 @@ def _of_any_mass(request: AccuracyRequest, scene: Prepared, solver: Solver) -> d
     rows: tuple[AccuracyRow, ...] = ()
     rest = float(statement.objective(np.zeros(statement.limits.radius.shape, complex)))
     best = optima(statement.alone(), _SHARPEST, False, solver).single()
-    if isinstance(best, Unreachable):
+    if best.conflict is not None:
         status = "infeasible"
     elif rest == 0.0 or not np.any(usable):
         status = "nothing_to_choose"

@@ -10,7 +10,6 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.certificate import objective_lower_bound
 from optimizer.program.kernel.finer_numbers import PRECISIONS, Precision
 from optimizer.program.methods.compiled import BothStages, both_stages
-from optimizer.program.methods.feasibility_phase import Unreachable
 from optimizer.program.methods.optima import optima
 from optimizer.program.multipliers import objective_multipliers
 from optimizer.program.reference.assembled import NoPoint
@@ -112,7 +111,7 @@ def _service(relative_gap: float) -> Run:
 
     def run(task: Task, position: float, time_limit_s: float) -> Attempt | str:
         outcome = optima(task.statement.alone(), relative_gap, False, solver).single()
-        if isinstance(outcome, Unreachable):
+        if outcome.conflict is not None:
             return "no counterweights keep the ceilings"
         bound = outcome.lower_bound
         return Attempt(outcome.unbalance, outcome.objective, lambda: bound)

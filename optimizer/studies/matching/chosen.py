@@ -104,7 +104,7 @@ class Chosen:
     def _of_any_mass(self) -> ReciprocatingMachine:
         """The machine whose counterweights have any mass within their limits; plates reach as far as they can."""
         machine = self.request.machine
-        return machine.with_webs(closed(machine).webs)
+        return with_fields(machine, {("webs",): closed(machine).webs})
 
     def _programs(self, row_mass: Real) -> Statement:
         machine = with_masses(self._of_any_mass, row_mass)
@@ -124,7 +124,7 @@ class Chosen:
         gap = np.clip(_OPEN * self.near / at_rest if at_rest > 0 else 1.0, _CLOSEST, 1.0)
         left = max(self.until - time.thread_time(), _SHORTEST_S)
         task = Task(machine, self.request.objective, self._posed.fidelity, float(gap), left)
-        scene = prepare(self._posed, machine=machine)
+        scene = prepare(self._posed, self._posed.outputs, machine=machine)
         # without ceilings nothing is infeasible
         solution = solve(task, scene, self.solver, in_full=False).certain()
         proof = solution.certificate

@@ -8,7 +8,7 @@ bound t proves that nothing is below the corner t times the edges. The largest b
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from time import thread_time
 from typing import NamedTuple
 
@@ -22,11 +22,11 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.solve.prices import touched_limits
-from optimizer.solve.solution import Infeasible, Solution
+from optimizer.solve.solution import Infeasible
 from optimizer.solve.solve import solve
-from schemas.answer.infeasibility import Infeasibility
+from optimizer.studies.pareto.points import ChosenPoint, knee, undominated
 from schemas.base.responses import PAIR
-from schemas.front.pareto import CornerCertificate, Ends, ParetoPoint, ParetoRequest, Reason, Scale
+from schemas.front.pareto import CornerCertificate, Ends, ParetoFront, ParetoPoint, ParetoRequest, Reason, Scale
 from schemas.machine.machine import Machine
 from schemas.request.objective import Objective
 
@@ -44,43 +44,24 @@ _LEAST_GAP = 1e-12
 _LEAST_TIME = 1e-3
 
 
-class ChosenFront(NamedTuple):
-    """The front under one limit of the total mass."""
-
-    points: tuple[ParetoPoint, ...]  # in the order of rising force
-    ends: Ends | None  # None where the ceilings are out of reach
-    scale: Scale | None
-    reason: Reason | None  # why there are fewer points than asked for
-    infeasibility: Infeasibility | None
-
-
-@dataclass(frozen=True)
-class _Optimum:
-    """Counterweights beside their weighted peaks."""
-
-    solution: Solution
-    peaks: Real  # (2,) N and N m
-    corner: Real  # (2,) no choice is below this in both peaks; nan where nothing is proven
-
-
 class _Box(NamedTuple):
     """What neither of two neighbours beats: force below that of ``right``, moment below that of ``left``."""
 
-    left: _Optimum
-    right: _Optimum
+    left: ChosenPoint
+    right: ChosenPoint
 
     @property
     def edges(self) -> Real:
         """(2,) force and moment that a point inside stays below."""
-        return np.array([self.right.peaks[0], self.left.peaks[1]])
+        return np.array([self.right.values[0], self.left.values[1]])
 
     @property
     def size(self) -> Real:
         """(2,) widths in force and moment."""
-        return np.array([self.right.peaks[0] - self.left.peaks[0], self.left.peaks[1] - self.right.peaks[1]])
+        return np.array([self.right.values[0] - self.left.values[0], self.left.values[1] - self.right.values[1]])
 
 
-def chosen_front(request: ParetoRequest, machine: Machine, scene: Prepared, solver: Solver) -> ChosenFront:
+def chosen_front(request: ParetoRequest, machine: Machine, scene: Prepared, solver: Solver) -> ParetoFront:
     """The front of what can be chosen; all its searches together end at the time asked.
 
     Parameters
@@ -100,25 +81,29 @@ class _Search:
         self.until = thread_time() + self.seconds
         self.at_rest = self._peaks(np.zeros(len(machine.webs), complex))
 
-    def front(self) -> ChosenFront:
+    def front(self) -> ParetoFront:
         """Both ends, and what lies between them."""
-        ends = (
-            self._optimum(_only(0), self.gap, _END * self.seconds),
-            self._optimum(_only(1), self.gap, _END * self.seconds),
-        )
-        force, moment = ends
-        if isinstance(force, Infeasible):
-            return ChosenFront((), None, None, None, force.infeasibility)
-        if isinstance(moment, Infeasible):
-            return ChosenFront((), None, None, None, moment.infeasibility)
-        edges = np.maximum(force.peaks, moment.peaks)
+        force = self._optimum(_only(0), self.gap, _END * self.seconds)
+        moment = force if isinstance(force, Infeasible) else self._optimum(_only(1), self.gap, _END * self.seconds)
+        if isinstance(force, Infeasible) or isinstance(moment, Infeasible):
+            return ParetoFront(
+                max_total_mass_kg=self.machine.max_total_mass_kg,
+                status="infeasible",
+                points=(),
+                infeasibility=moment.infeasibility if isinstance(moment, Infeasible) else None,
+            )
+        edges = np.maximum(force.values, moment.values)
         size = np.where(self.at_rest > OPTIMUM_SHARE * edges, self.at_rest, np.where(edges > 0, edges, 1.0))
         bounds = force.corner[0], moment.corner[1]
         optima, reason = self._between(self._corner(force, 0, size), self._corner(moment, 1, size), size)
-        first, last = optima[0].peaks, optima[-1].peaks
-        return ChosenFront(
-            tuple(self._point(each, size) for each in optima),
-            Ends(
+        first, last, points = optima[0].values, optima[-1].values, tuple(self._point(each, size) for each in optima)
+        return ParetoFront(
+            max_total_mass_kg=self.machine.max_total_mass_kg,
+            status="optimal" if all(point.status == "optimal" for point in points) else "inaccurate",
+            points=points,
+            reason=reason,
+            knee=knee(points),
+            ends=Ends(
                 smallest_force_N=float(first[0]),
                 smallest_force_lower_bound_N=float(bounds[0]),
                 moment_at_smallest_force_Nm=float(first[1]),
@@ -126,30 +111,28 @@ class _Search:
                 smallest_moment_lower_bound_Nm=float(bounds[1]),
                 force_at_smallest_moment_N=float(last[0]),
             ),
-            Scale(force_N=float(size[0]), moment_Nm=float(size[1])),
-            reason,
-            None,
+            scale=Scale(force_N=float(size[0]), moment_Nm=float(size[1])),
         )
 
-    def _corner(self, end: _Optimum, axis: int, size: Real) -> _Optimum:
+    def _corner(self, end: ChosenPoint, axis: int, size: Real) -> ChosenPoint:
         """Of all whose peak ``axis`` is the smallest, but for a share of the gap, the least of the other peak."""
         across, field = self.request.objective.direction_weights, ("force_ceiling_N", "moment_ceiling_Nm")[axis]
         if (across.x, across.y) != (1.0, 1.0):
             # a ceiling is of a whole vector; the boxes find the corner
             return end
-        most = float(end.peaks[axis] + _SLACK * self.gap * size[axis])
+        most = float(end.values[axis] + _SLACK * self.gap * size[axis])
         limit = getattr(self.request.objective, field)
         if limit is not None and limit <= most:
             return end
         under = _only(1 - axis, {field: most})
         corner = self._optimum(under, self.gap, _END * self.seconds)
-        if isinstance(corner, Infeasible) or corner.peaks[1 - axis] > end.peaks[1 - axis]:
+        if isinstance(corner, Infeasible) or corner.values[1 - axis] > end.values[1 - axis]:
             return end
         # what exceeds the ceiling by no more than this optimum has no less of the other peak
-        proven = np.where(np.arange(2) == axis, max(most, float(corner.peaks[axis])), corner.corner)
+        proven = np.where(np.arange(2) == axis, max(most, float(corner.values[axis])), corner.corner)
         return replace(corner, corner=proven)
 
-    def _between(self, force: _Optimum, moment: _Optimum, size: Real) -> tuple[list[_Optimum], Reason | None]:
+    def _between(self, force: ChosenPoint, moment: ChosenPoint, size: Real) -> tuple[list[ChosenPoint], Reason | None]:
         """Points in the order of rising force, and why there are no more of them."""
         optima, boxes, points = _undominated([force, moment]), [_Box(force, moment)], self.request.points
         if len(optima) == 1:
@@ -162,7 +145,7 @@ class _Search:
                 break
             box = boxes.pop(int(np.argmax([np.prod(each.size / size) for each in boxes])))
             inside = self._inside(box, size, left_s / (points - len(optima)))
-            if inside is not None and np.all(inside.peaks < box.edges * (1.0 - _INSIDE)):
+            if inside is not None and np.all(inside.values < box.edges * (1.0 - _INSIDE)):
                 optima = _undominated([*optima, inside])
                 boxes += [_Box(box.left, inside), _Box(inside, box.right)]
             else:
@@ -172,7 +155,7 @@ class _Search:
             return optima, None
         return optima, "time" if boxes or undecided else "complete"
 
-    def _inside(self, box: _Box, size: Real, seconds: float) -> _Optimum | None:
+    def _inside(self, box: _Box, size: Real, seconds: float) -> ChosenPoint | None:
         """The optimum of the larger peak, each as a share of its edge; None where no search keeps the ceilings."""
         edges = box.edges
         # gaps are relative to the larger share without counterweights, and are asked for of either peak
@@ -182,7 +165,7 @@ class _Search:
         inside = self._optimum(_larger(weights), min(max(gap, _LEAST_GAP), 1.0), seconds)
         return None if isinstance(inside, Infeasible) else inside
 
-    def _optimum(self, of: "_Goal", gap: float, seconds: float) -> _Optimum | Infeasible:
+    def _optimum(self, of: "_Goal", gap: float, seconds: float) -> ChosenPoint | Infeasible:
         """The best choice for a goal."""
         goal, limit = of(self.request.objective), min(max(seconds, _LEAST_TIME), self.seconds)
         task = replace(self.task, objective=goal, relative_gap=gap, time_limit_s=limit)
@@ -195,7 +178,7 @@ class _Search:
         if bound is not None:
             # a peak that does not count is not below what it comes to here
             corner = np.where(weights > 0, bound / np.where(weights > 0, weights, 1.0), peaks)
-        return _Optimum(best, peaks, corner)
+        return ChosenPoint(best, peaks, corner)
 
     def _peaks(self, u: Complex) -> Real:
         """Weighted peak force and moment (2,) with unbalances (K,)."""
@@ -206,18 +189,18 @@ class _Search:
             * self.scene.omega_squared
         )
 
-    def _point(self, optimum: _Optimum, size: Real) -> ParetoPoint:
+    def _point(self, optimum: ChosenPoint, size: Real) -> ParetoPoint:
         best, proven = optimum.solution, bool(np.all(np.isfinite(optimum.corner)))
         shown, plain = best.shown, self.scene.first_order(best.shown.on_crank)
         # of the peak that the optimum leaves room in nothing is claimed
-        gap = float(np.max((optimum.peaks - optimum.corner) / size))
+        gap = float(np.max((optimum.values - optimum.corner) / size))
         return ParetoPoint(
             status="optimal" if best.status == "optimal" else "inaccurate",
             status_reason=best.reason,
             force_peak_N=float(plain.force.peak),
             moment_peak_Nm=float(plain.moment.peak),
-            weighted_force_peak_N=float(optimum.peaks[0]),
-            weighted_moment_peak_Nm=float(optimum.peaks[1]),
+            weighted_force_peak_N=float(optimum.values[0]),
+            weighted_moment_peak_Nm=float(optimum.values[1]),
             total_mass_kg=shown.total_mass_kg,
             counterweights=shown.counterweights,
             # of the request: a search has ceilings of its own
@@ -259,10 +242,5 @@ def _larger(weights: Real) -> _Goal:
     return lambda objective: weighing(objective, pair, combine="max")
 
 
-def _undominated(optima: Sequence[_Optimum]) -> list[_Optimum]:
-    """Those that no other equals or beats in both peaks, in the order of rising force."""
-    front: list[_Optimum] = []
-    for optimum in sorted(optima, key=lambda optimum: (float(optimum.peaks[0]), float(optimum.peaks[1]))):
-        if not front or optimum.peaks[1] < front[-1].peaks[1]:
-            front.append(optimum)
-    return front
+def _undominated(optima: Sequence[ChosenPoint]) -> list[ChosenPoint]:
+    return undominated(optima, lambda optimum: (float(optimum.values[0]), float(optimum.values[1])))

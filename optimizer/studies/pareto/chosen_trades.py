@@ -8,7 +8,7 @@ chord, or in the triangle, between the ends.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from time import thread_time
 
 import numpy as np
@@ -21,10 +21,11 @@ from optimizer.mechanics.fixed_weights import fixed_masses
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE
-from optimizer.solve.solution import Infeasible, Solution, finite_or_null
+from optimizer.solve.solution import Infeasible, finite_or_null
 from optimizer.solve.solve import solve
 from optimizer.solve.whole_turn import whole_turn_of
 from optimizer.studies.pareto.measures import Measures, measures, sizes, unit_of
+from optimizer.studies.pareto.points import ChosenPoint
 from schemas.base.variation import with_fields
 from schemas.front.trade import Traded, TradedCertificate, TradedFront, TradedPoint, TradedResponse
 from schemas.request.objective import Objective
@@ -38,15 +39,6 @@ _BUDGETS = 24
 _LEAST_GAP, _LEAST_TIME = 1e-12, 1e-3
 #: fields of the weights of what is traded inside the shaft
 _INSIDE: Mapping[Traded, str] = {"bearings": "bearing_weight", "bending": "bending_weight"}
-
-
-@dataclass(frozen=True)
-class _Chosen:
-    """Counterweights, what they come to in every response (D,), and the corner that nothing is below (D,)."""
-
-    solution: Solution
-    values: Real
-    corner: Real  # nan where nothing is proven
 
 
 def chosen_trades(
@@ -71,8 +63,8 @@ def chosen_trades(
         )
     at, bound, size = ends
     results = [search.point(share @ at, size, (len(points) - n)) for n, share in enumerate(points)]
-    decided = all(isinstance(result, _Chosen) or _none_proven(result) for result in results)
-    kept = _best([result for result in results if isinstance(result, _Chosen)])
+    decided = all(isinstance(result, ChosenPoint) or _none_proven(result) for result in results)
+    kept = _best([result for result in results if isinstance(result, ChosenPoint)])
     told = [search.traded_point(each, size) for each in kept]
     close = np.all(np.diag(at) - bound <= max(task.relative_gap, OPTIMUM_SHARE) * size)
     exact = decided and close and all(point.status == "optimal" for point in told)
@@ -118,7 +110,7 @@ class _Search:
         """Values where each counts first (D, D), what is proven of each by itself (D,), and yardsticks (D,)."""
         at, bound, gross = [], [], np.zeros(len(self.names))
         seconds = _ENDS * self.seconds / len(self.names)
-        alone: dict[int, _Chosen] = {}
+        alone: dict[int, ChosenPoint] = {}
         for i, name in enumerate(self.names):
             if name == "mass":
                 continue
@@ -138,7 +130,7 @@ class _Search:
                 bound.append(float(alone[i].corner[i]))
         return np.array(at), np.nan_to_num(np.array(bound), nan=0.0), size
 
-    def point(self, anchor: Real, size: Real, left: int) -> _Chosen | Infeasible:
+    def point(self, anchor: Real, size: Real, left: int) -> ChosenPoint | Infeasible:
         """The best choice as shares of an anchor (D,), with no more mass than that where it is traded.
 
         Parameters
@@ -162,7 +154,7 @@ class _Search:
         lowest = np.nan if bound is None else bound
         return replace(result, corner=np.where(self._mass, np.nan if budget is None else budget, lowest * anchor))
 
-    def traded_point(self, chosen: _Chosen, size: Real) -> TradedPoint:
+    def traded_point(self, chosen: ChosenPoint, size: Real) -> TradedPoint:
         """A point with its proof."""
         best = chosen.solution
         proof, after = best.certificate, self.scene.first_order(best.shown.on_crank)
@@ -193,7 +185,7 @@ class _Search:
         """Which response is the mass (D,)."""
         return np.array([name == "mass" for name in self.names])
 
-    def _lightest(self, choices: Sequence[_Chosen], size: float, seconds: float) -> tuple[Real, float]:
+    def _lightest(self, choices: Sequence[ChosenPoint], size: float, seconds: float) -> tuple[Real, float]:
         """What the lightest that keep the ceilings come to (D,), and the mass that is proven to be needed."""
         if self.traded.excess(self.nothing) <= 0.0:
             return self.values(self.nothing), self.fixed
@@ -207,7 +199,7 @@ class _Search:
                 break
             middle = 0.5 * (least + most)
             result = self._optimum({first: 1.0}, middle, 1.0, until - thread_time())
-            if isinstance(result, _Chosen):
+            if isinstance(result, ChosenPoint):
                 best = result
             elif _none_proven(result):
                 least = middle
@@ -217,7 +209,7 @@ class _Search:
 
     def _optimum(
         self, weights: Mapping[Traded, float], budget: float | None, gap: float, seconds: float
-    ) -> _Chosen | Infeasible:
+    ) -> ChosenPoint | Infeasible:
         """The best choice for the largest of the responses times their weights."""
         # nothing checked: a budget below what is fixed leaves no counterweights
         machine, goal = with_fields(self.task.machine, {("max_total_mass_kg",): budget}), self._weighing(weights)
@@ -231,7 +223,7 @@ class _Search:
         corner = np.array(
             [np.nan if bound is None else bound / weights[name] if name in weights else 0.0 for name in self.names]
         )
-        return _Chosen(best, values, corner)
+        return ChosenPoint(best, values, corner)
 
     def _weighing(self, weights: Mapping[Traded, float]) -> Objective:
         """The largest of the responses times their weights; the objective itself times its own."""
@@ -249,9 +241,9 @@ def _none_proven(none: Infeasible) -> bool:
     return none.status == "infeasible"
 
 
-def _best(choices: Sequence[_Chosen]) -> list[_Chosen]:
+def _best(choices: Sequence[ChosenPoint]) -> list[ChosenPoint]:
     """Those that no other equals or beats in every response, of two responses in the order of the rising first."""
-    front: list[_Chosen] = []
+    front: list[ChosenPoint] = []
     for n, choice in enumerate(choices):
         others = [rival.values for k, rival in enumerate(choices) if k != n]
         beaten = any(np.all(values <= choice.values) and np.any(values < choice.values) for values in others)

@@ -1,7 +1,7 @@
 """How many counterweights, or part numbers, against what they come to at least: a search for each number."""
 
 import time
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -10,13 +10,10 @@ from optimizer.errors import MissingInput
 from optimizer.formulation.counterweights import counterweights, unbalance
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
-from optimizer.mechanics.fixed_weights import beside, fixed_masses
 from optimizer.mechanics.layout import stacked
-from optimizer.numerics.arrays import Real
 from optimizer.outputs.requirements import missing
 from optimizer.program.reference.solver import Solver
-from optimizer.program.verdict import CONTRADICTED
-from optimizer.solve.minimum_mass import minimum_mass
+from optimizer.solve.minimum_mass import BestSet, minimum_mass, none_of
 from optimizer.solve.solution import Infeasible
 from optimizer.solve.solve import solve
 from schemas.base.variation import with_fields
@@ -24,24 +21,6 @@ from schemas.front.counts import PIECES, Counted, CountFront, CountPoint, CountT
 from schemas.front.pareto import ParetoRequest
 from schemas.machine.catalogue import Catalogue
 from schemas.machine.machine import Machine
-
-#: of a mass, relative: by which sums of masses are rounded
-_ROUNDING = 1e-12
-
-
-@dataclass(frozen=True)
-class _Best:
-    """The best set of a search, and what is proven of it."""
-
-    mass_kg: Real  # (K,), with the weights that are fixed
-    angle_deg: Real  # (K,)
-    value: float
-    lower_bound: float  # nan where nothing is proven
-    relative_gap: float  # likewise
-    status: str
-    reason: str
-    nodes: int
-    method: str
 
 
 def count_front(
@@ -94,7 +73,7 @@ def _most(machine: Machine, of: Counted) -> int:
 
 
 def _point(task: Task, scene: Prepared, trade: CountTrade, number: int | None, solver: Solver) -> CountPoint:
-    best = (_smallest if trade.least == "objective" else _lightest)(task, scene, solver)
+    best = (_smallest if trade.least == "objective" else minimum_mass)(task, scene, solver)
     result = best.status != "infeasible"
     machine = task.machine
     u = unbalance(best.mass_kg, best.angle_deg, stacked([web.radius_m for web in machine.webs]))
@@ -128,14 +107,13 @@ def _chosen(machine: Machine) -> np.ndarray:
     return np.array([web.fixed is None for web in machine.webs], dtype=bool)
 
 
-def _smallest(task: Task, scene: Prepared, solver: Solver) -> _Best:
+def _smallest(task: Task, scene: Prepared, solver: Solver) -> BestSet:
     """The smallest objective, as a single answer has it."""
     best = solve(task, scene, solver, in_full=False)
     if isinstance(best, Infeasible):
-        nothing = np.zeros(len(task.machine.webs))
-        return _Best(nothing, nothing, np.nan, np.nan, np.nan, best.status, best.reason, best.nodes, best.method)
+        return none_of(task.machine, best.status, best.reason, best.nodes, best.method)
     proof, fitted = best.certificate, best.shown.counterweights
-    return _Best(
+    return BestSet(
         np.array([each.mass_kg for each in fitted]),
         np.array([each.angle_deg for each in fitted]),
         proof.objective,
@@ -146,19 +124,6 @@ def _smallest(task: Task, scene: Prepared, solver: Solver) -> _Best:
         best.nodes,
         best.method,
     )
-
-
-def _lightest(task: Task, scene: Prepared, solver: Solver) -> _Best:
-    """The least total mass of all that keep the ceilings."""
-    best = minimum_mass(task, scene, solver)
-    mass, angle = beside(task.machine, best.mass_kg, best.angle_deg)
-    value, fixed = float(np.sum(mass)), float(np.sum(fixed_masses(task.machine)))
-    bound, status, reason = best.lower_bound + fixed, best.status, best.reason
-    if np.isfinite(bound) and bound > value * (1.0 + _ROUNDING):
-        bound, status, reason = np.nan, "inaccurate", CONTRADICTED
-    bound = min(bound, value)
-    gap = (value - bound) / value if value > 0 else 0.0
-    return _Best(mass, angle, value, bound, gap, status, reason, best.nodes, best.method)
 
 
 def _or_none(figure: float) -> float | None:

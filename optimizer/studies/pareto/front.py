@@ -13,7 +13,6 @@ import numpy as np
 from optimizer.numerics.arrays import SMALLEST, Complex, Real
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, ceiling_allowance, normalised
-from optimizer.program.methods.feasibility_phase import Unreachable
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import optima
 from optimizer.program.methods.rounding import has_dust
@@ -75,7 +74,7 @@ class _Undecided(Exception):
     """Ceilings that were kept within their tolerance are out of reach by less than that."""
 
 
-def front(trade: Trade, count: int, relative_gap: float, least_mass: bool, solver: Solver) -> Front | Unreachable:
+def front(trade: Trade, count: int, relative_gap: float, least_mass: bool, solver: Solver) -> Front | Solution:
     """The front of a trade.
 
     Parameters
@@ -86,10 +85,10 @@ def front(trade: Trade, count: int, relative_gap: float, least_mass: bool, solve
 
     Returns
     -------
-    Front, or the proof that the ceilings cannot be kept.
+    Front, or a solution with the proof that the ceilings cannot be kept.
     """
     smallest = _smallest(trade, solver)
-    if isinstance(smallest, Unreachable):
+    if isinstance(smallest, Solution):
         return smallest
     trade, alone = smallest
     ideal = np.array([_bound(each, result) for each, result in zip(trade.alone, alone, strict=True)])
@@ -105,7 +104,7 @@ def front(trade: Trade, count: int, relative_gap: float, least_mass: bool, solve
     return Front(points, ideal, size, proofs, trade)
 
 
-def _smallest(trade: Trade, solver: Solver) -> tuple[Trade, list[Solution]] | Unreachable:
+def _smallest(trade: Trade, solver: Solver) -> tuple[Trade, list[Solution]] | Solution:
     """What makes each peak smallest, and the trade within the reach in which all of its front is proven.
 
     A corner of one line is held against the points of all, so they are all to be within the same limits: those in which
@@ -117,7 +116,7 @@ def _smallest(trade: Trade, solver: Solver) -> tuple[Trade, list[Solution]] | Un
     within = trade.within(np.maximum(force, moment), np.zeros(2))
     for _ in range(_REACHES):
         result = _alone(within, solver)
-        if isinstance(result, Unreachable):
+        if isinstance(result, Solution):
             return result
         u = np.array([one.unbalance for one in result[1]])
         peaks = np.max([*trade.peaks(u), _size(trade, u)], axis=0)
@@ -127,11 +126,11 @@ def _smallest(trade: Trade, solver: Solver) -> tuple[Trade, list[Solution]] | Un
     return result
 
 
-def _alone(trade: Trade, solver: Solver) -> tuple[Trade, list[Solution]] | Unreachable:
+def _alone(trade: Trade, solver: Solver) -> tuple[Trade, list[Solution]] | Solution:
     results: list[Solution] = []
     for program in trade.alone:
         one = optima(program.alone(), _SHARPNESS, True, solver).single()
-        if isinstance(one, Unreachable):
+        if one.conflict is not None:
             return one
         results.append(one)
     return trade, results
@@ -213,7 +212,7 @@ def _meet(trade: Trade, anchor: Real, unit: Real, least_mass: bool, share: float
 
     def within(part: float) -> Solution:
         result = optima(program.alone(), part * share, least_mass, solver).single()
-        if isinstance(result, Unreachable):
+        if result.conflict is not None:
             raise _Undecided
         return result
 

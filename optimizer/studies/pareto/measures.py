@@ -18,6 +18,7 @@ from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.norms import Norms
 from optimizer.program.rows import Row, total_mass
 from optimizer.program.solution import OPTIMUM_SHARE
+from schemas.base.variation import with_fields
 from schemas.front.trade import Traded
 from schemas.request.objective import Objective
 
@@ -30,7 +31,7 @@ _OF: dict[str, Traded] = {"bearing": "bearings"}
 def alone(objective: Objective, names: Sequence[Traded]) -> Objective:
     """The objective that is the largest of some responses, each as it is; or itself, where that is traded."""
     if "objective" in names:
-        return objective.model_copy(update={"priorities": ()})
+        return with_fields(objective, {("priorities",): ()})
     return weighing(
         objective,
         dict.fromkeys(names, 1.0),

@@ -13,9 +13,9 @@ from optimizer.mechanics.fixed_weights import beside, fixed_masses
 from optimizer.numerics.arrays import Real
 from optimizer.outputs.first_order import first_order, floor
 from optimizer.outputs.registry import prepare
-from optimizer.program.methods.feasibility_phase import Unreachable
 from optimizer.program.methods.symmetry import symmetric
 from optimizer.program.reference.solver import Solver
+from optimizer.program.solution import Solution
 from optimizer.program.verdict import Claim, mass_resolution, verdict
 from optimizer.solve.prices import touched_limits
 from optimizer.solve.process_solver import own_solver
@@ -25,6 +25,7 @@ from optimizer.solve.solve import solve
 from optimizer.studies.pareto.chosen_front import chosen_front
 from optimizer.studies.pareto.counts import count_front
 from optimizer.studies.pareto.front import Front, Point, front
+from optimizer.studies.pareto.points import knee, undominated, weighted_peaks
 from optimizer.studies.pareto.trade import Trade, trade
 from optimizer.studies.pareto.trades import needed, traded_front
 from schemas.answer.answers import Timing
@@ -44,8 +45,6 @@ from schemas.front.pareto import (
 )
 from schemas.machine.machine import Machine
 
-#: a front whose points lie nearer to the straight line between its ends than this share of its range has no knee
-_STRAIGHT = 1e-4
 _WORST: tuple[Status, ...] = ("optimal", "inaccurate", "infeasible")
 
 
@@ -59,7 +58,7 @@ def pareto(request: ParetoRequest, solver: Solver | None = None) -> ParetoAnswer
     start = time.perf_counter()
     if request.responses is not None:
         needed(request, request.responses, request.machine)
-    scene = prepare(request, outputs=("residual",))
+    scene = prepare(request, ("residual",))
     solving = time.perf_counter()
     machines = _machines(request)
     plain = request.responses is None and request.counts is None
@@ -118,36 +117,20 @@ def _machines(request: ParetoRequest) -> tuple[Machine, ...]:
 def _front(request: ParetoRequest, machine: Machine, scene: Prepared, solver: Solver) -> _Made:
     start = time.perf_counter()
     if request.chosen:
-        return _Made(_of_choices(request, machine, scene, solver), time.perf_counter() - start, 0.0)
+        return _Made(chosen_front(request, machine, scene, solver), time.perf_counter() - start, 0.0)
     traded = trade(machine, request.objective, scene.responses, scene.omega_squared)
     result = front(traded, request.points, request.accuracy.relative_gap, request.objective.least_mass, solver)
     solve_s = time.perf_counter() - start
-    if isinstance(result, Unreachable):
+    if isinstance(result, Solution):
         return _Made(_infeasible(request, machine, scene, solver), solve_s, result.certify_s)
     certify_s = sum(point.solution.certify_s for point in result.points)
     return _Made(_certified(request, machine, scene, result), solve_s, certify_s)
 
 
-def _of_choices(request: ParetoRequest, machine: Machine, scene: Prepared, solver: Solver) -> ParetoFront:
-    """The front of counterweights that are chosen, heavy enough, or cut from plates."""
-    made = chosen_front(request, machine, scene, solver)
-    points = made.points
-    status: Status = "optimal" if all(point.status == "optimal" for point in points) else "inaccurate"
-    return ParetoFront(
-        max_total_mass_kg=machine.max_total_mass_kg,
-        status=status if points else "infeasible",
-        points=points,
-        reason=made.reason,
-        knee=knee(points),
-        ends=made.ends,
-        scale=made.scale,
-        infeasibility=made.infeasibility,
-    )
-
-
 def _certified(request: ParetoRequest, machine: Machine, scene: Prepared, curve: Front) -> ParetoFront:
     points = [_point(request, machine, scene, curve, point) for point in curve.points]
-    shown = undominated(points)
+    # points that are nearer to each other than their gaps can be out of order; no tolerance is applied
+    shown = undominated(points, weighted_peaks)
     square = scene.omega_squared
     ideal, scale = curve.ideal * square, curve.size * square
     first, last = shown[0], shown[-1]
@@ -253,30 +236,6 @@ def _of_ends(curve: Front, omega_squared: float) -> EndMultipliers:
     both = curve.trade.both
     force, moment = (named(both, physical(both, proof, "objective", omega_squared)) for proof in curve.ideal_proofs)
     return EndMultipliers(smallest_force=force, smallest_moment=moment)
-
-
-def undominated(points: Sequence[ParetoPoint]) -> list[ParetoPoint]:
-    """The points that no other equals or beats in both weighted peaks, in the order of rising force.
-
-    Points that are nearer to each other than their gaps can be out of order; no tolerance is applied.
-    """
-    best: list[ParetoPoint] = []
-    for point in sorted(points, key=lambda point: (point.weighted_force_peak_N, point.weighted_moment_peak_Nm)):
-        if not best or point.weighted_moment_peak_Nm < best[-1].weighted_moment_peak_Nm:
-            best.append(point)
-    return best
-
-
-def knee(points: Sequence[ParetoPoint]) -> int | None:
-    """Index of the point farthest below the straight line between the ends, in the plane of shares of the range."""
-    if len(points) < 3:
-        return None
-    peaks = np.array([(point.weighted_force_peak_N, point.weighted_moment_peak_Nm) for point in points])
-    share = (peaks - peaks[0]) / (peaks[-1] - peaks[0])
-    # on the chord both shares of the way are equal; below it the moment is ahead of the force
-    depth = share[:, 1] - share[:, 0]
-    deepest = int(np.argmax(depth))
-    return deepest if depth[deepest] > _STRAIGHT else None
 
 
 def _reason(request: ParetoRequest, curve: Front, shown: Sequence[ParetoPoint]) -> Reason | None:

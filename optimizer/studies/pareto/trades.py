@@ -19,7 +19,7 @@ from optimizer.mechanics.fixed_weights import beside, fixed_masses
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.requirements import missing
 from optimizer.program.certificate import ceiling_allowance
-from optimizer.program.cuts.optimum import METHOD, CertifiedOptimum, Unkept, over_turn
+from optimizer.program.cuts.optimum import METHOD, CertifiedOptimum, Conflict, over_turn
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.program.verdict import Claim, mass_resolution, verdict
@@ -116,7 +116,7 @@ def _ends(traded: Measures) -> tuple[Real, Real, Real] | None:
         ends, smallest, gross = [], [], np.zeros(size.shape)
         for which in range(len(traded.names)):
             result = over_turn(traded.first(which, size, _END_SLACK), OPTIMUM_SHARE, False)
-            if isinstance(result, Unkept):
+            if isinstance(result, Conflict):
                 return None
             ends.append(traded.values(result.point.unbalance))
             gross = np.maximum(gross, traded.gross(result.point.unbalance))

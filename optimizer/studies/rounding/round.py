@@ -85,7 +85,8 @@ class _Judge:
     @classmethod
     def of(cls, request: OptimizeRequest) -> "_Judge":
         effects = effects_of_objective(request.objective)
-        scene, task = prepare(request, ("residual",), () if request.cases else effects), Task.of(request)
+        scene = prepare(request, ("residual", *request.outputs), () if request.cases else effects)
+        task = Task.of(request)
         program = Robust(task, scene, task.demand).goals().program
         return cls(request.machine, program, scene.omega_squared)
 

@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from optimizer.program.certificate import Multipliers
 from optimizer.solve.certify import Certified
-from optimizer.solve.proof import implied_max_mass, named_proofs, physical_proofs
+from optimizer.solve.proof import Bounded, conflict, implied_max_mass, named, named_conflict, physical_bounds
 from schemas.answer.proof import DesignMultipliers
 from schemas.request.requests import OptimizeRequest
 
@@ -15,23 +16,20 @@ def multipliers_as_text(request: OptimizeRequest, best: Certified) -> np.ndarray
     ----------
     request : of columns (count,).
     """
-    least_mass = request.objective.least_mass
-    texts = np.full(best.omega_squared.shape, None, dtype=object)
-    limit = (best.optima.mass_target * best.omega_squared).tolist()
-    implied = implied_max_mass(request.machine, best.program.limits.max_mass)
-    proofs = named_proofs(
-        best.program,
-        best.optima,
-        physical_proofs(best.program, best.optima, best.omega_squared),
-        best.omega_squared,
-        least_mass,
-    )
-    for n, (proof, unreachable) in enumerate(zip(proofs, best.optima.unreachable, strict=True)):
+    least_mass, program, square, optima = request.objective.least_mass, best.program, best.omega_squared, best.optima
+    bounds: dict[Bounded, Multipliers] = {"objective": optima.multipliers, "mass": optima.mass_multipliers}
+    objective, mass = physical_bounds(program, bounds, square)
+    texts = np.full(square.shape, None, dtype=object)
+    limit = (optima.mass_target * square).tolist()
+    implied = implied_max_mass(request.machine, program.limits.max_mass)
+    for n, unreachable in enumerate(optima.unreachable.tolist()):
+        of_mass = least_mass and not unreachable
+        against = conflict(program.chosen(n), optima.conflict.chosen(n), square[n]) if unreachable else None
         texts[n] = DesignMultipliers(
-            objective=proof.objective,
-            mass=proof.mass,
-            mass_objective_limit=limit[n] if least_mass and not unreachable else None,
-            conflict=proof.conflict,
+            objective=None if unreachable else named(program, objective.chosen(n)),
+            mass=named(program, mass.chosen(n)) if of_mass else None,
+            mass_objective_limit=limit[n] if of_mass else None,
+            conflict=None if against is None else named_conflict(program, against),
             implied_max_mass_kg=implied[n],
         ).model_dump_json()
     return texts

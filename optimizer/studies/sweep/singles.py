@@ -27,7 +27,7 @@ def single_optima(
     requests : of one machine with other numbers; none lacks what its objective needs.
     multipliers : whether the proofs are wanted, as text.
     """
-    alone = [prepare(request, outputs=("residual",)) for request in requests]
+    alone = [prepare(request, ("residual",)) for request in requests]
     # a row has no column for prices and sensitivities
     solutions = [
         solve(Task.of(request), scene, solver, in_full=False) for request, scene in zip(requests, alone, strict=True)

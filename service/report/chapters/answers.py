@@ -82,9 +82,14 @@ def analyzed(request: AnalyzeRequest, answer: AnalyzeAnswer) -> Iterator[Chapter
     yield from outputs(request.machine, answer)
 
 
-def outputs(machine: Machine, answer: OutputFields) -> Iterator[Chapter]:
-    """A chapter for every output that was asked for, but for first order and stages, which have their own places."""
+def outputs(machine: Machine, answer: OutputFields, but: str | None = None) -> Iterator[Chapter]:
+    """A chapter for every output that was asked for, but for first order and stages, which have their own places.
+
+    Parameters
+    ----------
+    but : an output that has a place of its own as well.
+    """
     for name, chapter in CHAPTERS.items():
         result = getattr(answer, name)
-        if result is not None:
+        if result is not None and name != but:
             yield chapter(machine, result)

@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator
 
-from schemas.shaft.answer import ShaftAnswer
-from schemas.shaft.request import ShaftRequest
+from schemas.answer.shaft import ShaftAnswer
+from schemas.request.shaft import ShaftRequest
 from service.report.blocks import Chapter, Paragraph, facts, table
 
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from optimizer.numerics.kernel.meeting import met
 from optimizer.studies.matching.four_lists import near_to_nothing
-from optimizer.studies.matching.kernel.meeting import met
 from optimizer.studies.matching.match import match
 from optimizer.studies.matching.problem import stated
 from schemas.match.request import MatchRequest

@@ -31,7 +31,7 @@ def without_limits(sector: Sector | None, radius: float = 0.2) -> Body:
 
 def traded(body: Body) -> Trade:
     request = ParetoRequest.model_validate({"machine": body})
-    scene = prepare(request.model_copy(update={"outputs": ("residual",)}))
+    scene = prepare(request, ("residual",))
     return trade(request.machine, request.objective, scene.responses, scene.omega_squared)
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from optimizer.studies.pareto.pareto import knee, undominated
+from optimizer.studies.pareto.points import knee, undominated, weighted_peaks
 from schemas.front.pareto import ParetoPoint
 from tests.studies.pareto.cases import front, straight
 
@@ -27,8 +27,7 @@ def points(*peaks: tuple[float, float]) -> list[ParetoPoint]:
 def test_points_that_another_equals_or_beats_are_left_out(
     given: list[tuple[float, float]], kept: list[tuple[float, float]]
 ) -> None:
-    found = undominated(points(*given))
-    assert [(one.weighted_force_peak_N, one.weighted_moment_peak_Nm) for one in found] == kept
+    assert [weighted_peaks(one) for one in undominated(points(*given), weighted_peaks)] == kept
 
 
 @pytest.mark.parametrize(

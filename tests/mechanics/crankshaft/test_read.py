@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from optimizer.crankshaft.read import read_shaft
-from schemas.shaft.answer import ShaftAnswer
-from schemas.shaft.request import ShaftRequest
-from tests.crankshaft.shafts import HALF, JOURNAL, RADIUS, Drawing, Json, cylinder, moved, plane
+from optimizer.mechanics.crankshaft.read import read_shaft
+from schemas.answer.shaft import ShaftAnswer
+from schemas.request.shaft import ShaftRequest
+from tests.mechanics.crankshaft.shafts import HALF, JOURNAL, RADIUS, Drawing, Json, cylinder, moved, plane
 
 FRAME: Json = {"origin_m": [0, 0, 0], "z": [0, 0, 1], "x": [1, 0, 0]}
 DRAWINGS = st.builds(

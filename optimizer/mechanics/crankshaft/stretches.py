@@ -6,13 +6,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from optimizer.crankshaft.doubts import doubt
-from optimizer.crankshaft.faces import Cylinders, Numbers
-from optimizer.crankshaft.flanks import Flanks
 from optimizer.errors import refuse
+from optimizer.mechanics.crankshaft.doubts import doubt
+from optimizer.mechanics.crankshaft.faces import Cylinders, Numbers
+from optimizer.mechanics.crankshaft.flanks import Flanks
 from optimizer.numerics.arrays import Real
+from schemas.answer.shaft import Doubt
 from schemas.base.model import FieldProblem
-from schemas.shaft.answer import Doubt
 
 #: angle above which faces of one cylinder go all about it; above the second they do but for a groove
 _WHOLE_DEG, _MOST_DEG = 359.9, 270.0

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from optimizer.crankshaft.faces import Numbers, Planes
+from optimizer.mechanics.crankshaft.faces import Numbers, Planes
 from optimizer.numerics.arrays import Real
 
 #: cosine with the shaft above which a face is across it; above the second it is a flank that leans

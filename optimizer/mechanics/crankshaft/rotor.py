@@ -5,13 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from optimizer.crankshaft.doubts import doubt
-from optimizer.crankshaft.faces import Frame
 from optimizer.errors import refuse
+from optimizer.mechanics.crankshaft.doubts import doubt
+from optimizer.mechanics.crankshaft.faces import Frame
 from optimizer.numerics.arrays import Complex, Real
+from schemas.answer.shaft import Doubt
 from schemas.base.model import FieldProblem
-from schemas.shaft.answer import Doubt
-from schemas.shaft.request import Body
+from schemas.request.shaft import Body
 
 #: kg/m3 between which shafts are
 _LIGHTEST, _HEAVIEST = 1_000.0, 20_000.0

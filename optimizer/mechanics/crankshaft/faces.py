@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optimizer.numerics.arrays import Real
-from schemas.shaft.request import CylinderFace, OtherFace, PlaneFace, ShaftRequest
+from schemas.request.shaft import CylinderFace, OtherFace, PlaneFace, ShaftRequest
 
 Numbers = NDArray[np.intp]
 

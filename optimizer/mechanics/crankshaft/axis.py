@@ -5,11 +5,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.crankshaft.faces import Cylinders, Frame, Numbers
 from optimizer.errors import refuse
+from optimizer.mechanics.crankshaft.faces import Cylinders, Frame, Numbers
 from optimizer.numerics.arrays import Real
 from schemas.base.model import FieldProblem
-from schemas.shaft.request import ShaftFrame
+from schemas.request.shaft import ShaftFrame
 
 #: sine of an angle below which directions are parallel, at least
 _PARALLEL = 1e-4

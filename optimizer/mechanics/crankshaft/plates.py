@@ -3,13 +3,13 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from optimizer.crankshaft.doubts import doubt
-from optimizer.crankshaft.faces import Cylinders, Planes
-from optimizer.crankshaft.flanks import Flanks
-from optimizer.crankshaft.outline import outline
-from optimizer.crankshaft.stretches import Stretch
+from optimizer.mechanics.crankshaft.doubts import doubt
+from optimizer.mechanics.crankshaft.faces import Cylinders, Planes
+from optimizer.mechanics.crankshaft.flanks import Flanks
+from optimizer.mechanics.crankshaft.outline import outline
+from optimizer.mechanics.crankshaft.stretches import Stretch
 from optimizer.numerics.arrays import Real
-from schemas.shaft.answer import Doubt
+from schemas.answer.shaft import Doubt
 
 #: share of the reach, above which a hub leaves no room for a plate
 _NO_ROOM = 0.98

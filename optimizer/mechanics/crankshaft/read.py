@@ -2,18 +2,18 @@
 
 import numpy as np
 
-from optimizer.crankshaft.axis import axis_of, extent, frame_of, frame_on, lean, parallel
-from optimizer.crankshaft.faces import Cylinders, Frame, cylinders_of, other_points, planes_of
-from optimizer.crankshaft.flanks import Flanks
-from optimizer.crankshaft.plates import Plates, Sides, plates
-from optimizer.crankshaft.report import Shaft, report
-from optimizer.crankshaft.rotor import rotor_of
-from optimizer.crankshaft.stretches import Stretches, stretches
-from optimizer.crankshaft.units import unit_problems
 from optimizer.errors import refuse
+from optimizer.mechanics.crankshaft.axis import axis_of, extent, frame_of, frame_on, lean, parallel
+from optimizer.mechanics.crankshaft.faces import Cylinders, Frame, cylinders_of, other_points, planes_of
+from optimizer.mechanics.crankshaft.flanks import Flanks
+from optimizer.mechanics.crankshaft.plates import Plates, Sides, plates
+from optimizer.mechanics.crankshaft.report import Shaft, report
+from optimizer.mechanics.crankshaft.rotor import rotor_of
+from optimizer.mechanics.crankshaft.stretches import Stretches, stretches
+from optimizer.mechanics.crankshaft.units import unit_problems
+from schemas.answer.shaft import ShaftAnswer
 from schemas.base.model import FieldProblem
-from schemas.shaft.answer import ShaftAnswer
-from schemas.shaft.request import ShaftFrame, ShaftRequest
+from schemas.request.shaft import ShaftFrame, ShaftRequest
 
 #: of the length between the outermost faces, by which measures of one thing differ at most
 _TOLERANCE = 1e-5

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from optimizer.crankshaft.faces import Cylinders, Planes
+from optimizer.mechanics.crankshaft.faces import Cylinders, Planes
 from optimizer.numerics.arrays import Real
 
 #: cosine with the shaft below which a face is along it

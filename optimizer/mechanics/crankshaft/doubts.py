@@ -1,6 +1,6 @@
 """What a designer should look at."""
 
-from schemas.shaft.answer import Doubt, DoubtCode
+from schemas.answer.shaft import Doubt, DoubtCode
 
 
 def doubt(code: DoubtCode, number: int, message: str, serious: bool = False, of: str = "faces") -> Doubt:

@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 from starlette.testclient import TestClient
 
-from optimizer.crankshaft.read import read_shaft
 from optimizer.errors import OutOfRange
-from schemas.shaft.request import ShaftRequest
-from tests.crankshaft.shafts import RADIUS, Drawing, Json, cylinder, moved
+from optimizer.mechanics.crankshaft.read import read_shaft
+from schemas.request.shaft import ShaftRequest
+from tests.mechanics.crankshaft.shafts import RADIUS, Drawing, Json, cylinder, moved
 
 FACES = Drawing().faces()
 BODY: Json = {"mass_kg": 352.0, "centre_m": [0, 0, 0]}

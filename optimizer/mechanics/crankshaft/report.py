@@ -6,13 +6,13 @@ from itertools import groupby
 
 import numpy as np
 
-from optimizer.crankshaft.doubts import doubt
-from optimizer.crankshaft.faces import Frame
-from optimizer.crankshaft.plates import Plate, Plates
-from optimizer.crankshaft.rotor import RotorMoments, density_doubts
-from optimizer.crankshaft.stretches import Stretch
+from optimizer.mechanics.crankshaft.doubts import doubt
+from optimizer.mechanics.crankshaft.faces import Frame
+from optimizer.mechanics.crankshaft.plates import Plate, Plates
+from optimizer.mechanics.crankshaft.rotor import RotorMoments, density_doubts
+from optimizer.mechanics.crankshaft.stretches import Stretch
 from optimizer.numerics.arrays import Real
-from schemas.shaft.answer import (
+from schemas.answer.shaft import (
     Doubt,
     PlaneUnbalance,
     Rotor,
@@ -27,7 +27,7 @@ from schemas.shaft.answer import (
     ShaftThrow,
     ShaftWeb,
 )
-from schemas.shaft.request import ShaftRequest
+from schemas.request.shaft import ShaftRequest
 
 #: crank radii of machines, m
 _SMALLEST, _LARGEST = 0.002, 2.0

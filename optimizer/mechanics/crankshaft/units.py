@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from optimizer.crankshaft.faces import Cylinders
+from optimizer.mechanics.crankshaft.faces import Cylinders
 from schemas.base.model import FieldProblem
 
 #: ratio of radii, and of distances, in one list, above which they are in different units; shafts have no such screws

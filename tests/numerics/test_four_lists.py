@@ -1,0 +1,26 @@
+"""Sums of four lists: enumeration where they are few, and lists of which nothing meets."""
+
+from itertools import product
+
+import numpy as np
+
+from optimizer.numerics import four_lists
+from optimizer.numerics.four_lists import nearest_sums
+
+
+def test_of_few_sums_the_nearest_is_found() -> None:
+    """Independent: all sums."""
+    lists = list(np.random.default_rng(1).standard_normal((4, 9, 3)))
+    wanted = np.array([0.3, -0.2, 0.1])
+    which = nearest_sums(lists, 0.5 * wanted, wanted)
+    places = product(*(range(len(each)) for each in lists))
+    every = [sum(each[k] for each, k in zip(lists, place, strict=True)) for place in places]
+    best = min(float(np.sum((each - wanted) ** 2)) for each in np.array(every))
+    sums = sum(each[k] for each, k in zip(lists, which, strict=True))
+    assert float(np.min(np.sum((sums - wanted) ** 2, axis=1))) == best
+    assert which.shape == (4, four_lists._NEAREST)
+
+
+def test_an_empty_list_has_no_sums() -> None:
+    some = np.ones((3, 2))
+    assert nearest_sums([some, some, np.zeros((0, 2)), some], np.ones(2), np.ones(2)).shape == (4, 0)
