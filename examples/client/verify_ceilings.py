@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from math import isnan, nan
 from typing import Dict, Iterator, NamedTuple, Sequence
 
@@ -43,7 +44,8 @@ def limited(value: Value) -> Iterator[Limited]:
 
 def _called(value: Value, response: str) -> float:
     """What a ceiling is measured by where nothing is there and nothing allowed: what is weighed calls for that much."""
-    machine, goal = value.part.machine, value.part.goal
+    machine, goal = copy(value.part.machine), value.part.goal
+    machine.webs = [*machine.webs, *(place.web for place in value.part.geared)]
     sizes = Statement(machine, goal, {"sum": weighed(goal, machine)}).sizes
     return float(sizes[response]) if response in sizes else 0.0
 

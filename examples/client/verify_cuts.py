@@ -10,7 +10,7 @@ from verify_bearings import SAMPLE
 from verify_cases import Case, Scatter, corners, goal_of, peak
 from verify_curves import Turn
 from verify_loads import Loads
-from verify_machine import ON_FRAME, Mass, over
+from verify_machine import ON_FRAME, Mass, Responses, over
 from verify_numbers import ABOUT_ONE, ONE, SPECK, ZERO, J, NotCovered, Number, Place, largest, real, total
 from verify_program import CEILINGS, Statement
 from verify_program import Term as Length
@@ -192,12 +192,16 @@ class Part:
                 rows[term.row] = rows[term.row] + off.of(self.of_first_order(term), sizes)
             most = {name: largest(row, most.get(name, ZERO)) for name, row in rows.items()}
             for name in rows if self.corners else ():
-                co, counter = responses[name]
-                parts[name] = largest((abs(co) + abs(counter)) * self.weights[name], parts.get(name, ZERO))
+                parts[name] = largest(self.size(statement, responses, name), parts.get(name, ZERO))
         # what is left at one corner is rounded by what cancels at another
         for name, size in parts.items():
             most[name] = most[name] + SPECK * size + ALIKE * most[name]
         return total(most.values()) if self.corners and self.apart else largest(ZERO, *most.values())
+
+    def size(self, statement: Statement, responses: Responses, name: str) -> Number:
+        """Of what a weighed peak is the length of, before components of it cancel."""
+        co, counter = responses[name]
+        return (abs(co) + abs(counter)) * (statement.x + statement.y) * self.weights[name]
 
     def together(self, rows: Iterable[float]) -> float:
         """The same of rows whose largest values are known."""

@@ -21,6 +21,7 @@ from verify_prices import worst_by_angle, worst_by_mass
 from verify_values import Range, Value, most
 
 ANGLE, SHARE = radians(1.0), 0.01
+ROUNDING = 1e-15  # share of what a length is a sum of by which it may be off
 WIDE = 3e-7  # share of the goal by which the service's brackets are wide
 MOST = 500  # peaks that are enclosed for one answer
 
@@ -59,16 +60,19 @@ class Misplaced(Value):
             yield from super()._external()
             return
         worst = worst_by_angle if self.by_angle else worst_by_mass
-        vectors = self._vectors()
+        vectors, noise = self._vectors(), 0.0
         most_of: Dict[str, float] = {}
         for statement in self.part.statements:
             rows: Dict[str, float] = {row: float(floor) for row, floor in statement.floor.items()}
             for term in statement.terms.values():
                 moved = [(one * factor).middle() for one, factor in zip(vectors, self.part.of_first_order(term))]
                 rows[term.row] += worst(term.start.middle(), moved, ANGLE if self.by_angle else SHARE)
+            there = statement.machine.responses(self.fitted.first)
+            for name in {term.moves for term in statement.terms.values()}:
+                noise = max(noise, ROUNDING * float(self.part.size(statement, there, name)))
             most_of = {row: max(value, most_of.get(row, 0.0)) for row, value in rows.items()}
         value = self.part.together(most_of.values())
-        yield Range(value, value)
+        yield Range(value - noise, value + noise)
 
     def _vectors(self) -> List[Number]:
         """What is chosen on every web; what is fixed is in the start of every length."""

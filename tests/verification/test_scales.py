@@ -47,6 +47,10 @@ from tests.verification.test_curves import part
         ("balance shafts", 1871, 83, "conflict"),
         # any masses keep a ceiling that no choice in time does
         ("catalogue", 5488, 83, "objective"),
+        # 1e16 N along x, of which nothing counts, beside 3 kN along y
+        ("scenarios", 1971, 90, "sensitivity"),
+        # a moment of nothing, which places on a balance shaft of 1e9 m change
+        ("balance shafts", 2277, 90, "ceilings"),
         # 5e18 kg at a radius of 6e4 m, in a sector that points away
         ("catalogue", 1337, 83, "smallest_force"),
     ],
