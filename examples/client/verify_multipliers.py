@@ -16,7 +16,7 @@ from verify_curves import root
 from verify_cuts import Group, Part, Term
 from verify_machine import ON_FRAME, Machine, Web, over
 from verify_numbers import ONE, ZERO, J, NotCovered, Number, Place, largest, total
-from verify_program import CEILINGS, of_plate, support, weighed
+from verify_program import CEILINGS, of_plate, support, weighed, worth_of_budget
 
 #: components on the frame, of which the real part alone counts
 ALONG = [name for name in CEILINGS if ":" in name]
@@ -196,7 +196,11 @@ class Program:
         """Less what counterweights take off at most."""
         machine, least, believed = self.machine, pulls.least, False
         beta = (proof / "budget").number(0.0, least=0) if machine.left is not None else ZERO
-        for web, pull, wide in zip(self.webs, machine.together([-one for one in pulls.slopes]), pulls.spread):
+        pulled = list(zip(self.webs, machine.together([-one for one in pulls.slopes]), pulls.spread))
+        if beta is not ZERO and not any(web.plate for web in self.webs):
+            gains = (web.radius * (support(pull, web.sector) - wide) - cost for web, pull, wide in pulled)
+            beta = worth_of_budget(beta, gains)
+        for web, pull, wide in pulled:
             if web.plate is not None:
                 pull = support(pull, web.sector) - wide
                 least = least - of_plate(web, web.plate, pull, cost + beta, Place(None))

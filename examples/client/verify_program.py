@@ -171,8 +171,8 @@ class Statement:
         # where a kilogram has a price, what has no limit must gain no more: all multipliers are shortened alike
         share = _share((price, gains[name]) for name in free if price.low > 0 and machine.left is None)
         least = least * share
-        if machine.left is not None and not printed and any(web.plate for web in machine.webs):
-            price = cost + spent(machine, pulls, share, cost, implied if believed else Place(None))
+        if machine.left is not None and not printed:
+            price = cost + budget(machine, pulls, share, cost, implied if believed else Place(None), price - cost)
         for web in machine.webs:
             if web.plate is not None:
                 said = implied / web.name if believed else Place(None)
@@ -262,6 +262,21 @@ class Statement:
         most = {row: largest(ZERO, *(self.change(web, row) for web in webs)) for row in self.rows}
         masses = [sizes[row] / does for row, does in most.items() if does.low > 0 and sizes[row].low > 0]
         return min(masses, key=lambda number: number.high, default=None)
+
+
+def budget(
+    machine: Machine, pulls: dict[str, Number], share: Number, cost: Number, implied: Place, price: Number
+) -> Number:
+    """A price of the budget at which most is proven, where ``price`` is printed."""
+    if any(web.plate for web in machine.webs):
+        return spent(machine, pulls, share, cost, implied)
+    return worth_of_budget(price, (web.radius * pulls[web.name] * share - cost for web in machine.webs))
+
+
+def worth_of_budget(price: Number, gains: Iterable[Number]) -> Number:
+    """A price of the budget no higher than any kilogram gains: any price proves something, and more is wasted."""
+    most = max((gain.high for gain in gains), default=0)
+    return price if most >= price.low else Number(max(most, 0), max(most, 0))
 
 
 def spent(machine: Machine, pulls: dict[str, Number], share: Number, cost: Number, implied: Place) -> Number:
