@@ -6,6 +6,7 @@ goes to a worker as it is, which looks up there what it refers to.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from pkgutil import resolve_name
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +16,12 @@ if TYPE_CHECKING:
 
 #: ``module:name``
 Reference = str
+
+
+# to look a name up takes as long as to read a small request
+@cache
+def _object(reference: Reference) -> Any:
+    return resolve_name(reference)
 
 
 @dataclass(frozen=True)
@@ -37,7 +44,7 @@ class Form:
 
     def content(self, request: Any, answer: Any) -> bytes:
         """The answer to a request in this form."""
-        write = resolve_name(self.write)
+        write = _object(self.write)
         made: bytes = write(request, answer) if self.needs_request else write(answer)
         return made
 
@@ -114,18 +121,18 @@ class Computation:
     @property
     def asks(self) -> "type[Model]":
         """Model of the request."""
-        found: type[Model] = resolve_name(self.request)
+        found: type[Model] = _object(self.request)
         return found
 
     @property
     def answers(self) -> "type[Model] | None":
         """Model of the answer."""
-        return None if self.answer is None else resolve_name(self.answer)
+        return None if self.answer is None else _object(self.answer)
 
     @property
     def function(self) -> Callable[[Any], Any]:
         """What makes the answer."""
-        found: Callable[[Any], Any] = resolve_name(self.compute)
+        found: Callable[[Any], Any] = _object(self.compute)
         return found
 
 
