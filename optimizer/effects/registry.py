@@ -3,7 +3,7 @@
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property, lru_cache
+from functools import cache, lru_cache
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from optimizer.effects.scroll import SCROLL
 from optimizer.mechanics.inertia import Wrench
 from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Real
-from optimizer.numerics.memoization import remembered
+from optimizer.numerics.memoization import cached_property, remembered
 from schemas.answer.answers import EffectUse
 from schemas.base.model import FieldProblem
 from schemas.base.rules import Rule
@@ -147,11 +147,9 @@ class Simulated:
     @property
     def uses(self) -> dict[str, EffectUse]:
         """Every effect: whether it was simulated, for what, and how long it took."""
-        return {
-            name: EffectUse(simulated=True, needed_by=self.needed_by[name], time_ms=self.times_ms[name])
-            if name in self.times_ms
-            else _UNUSED
-            for name in EFFECTS
+        return dict.fromkeys(EFFECTS, _UNUSED) | {
+            name: EffectUse(simulated=True, needed_by=self.needed_by[name], time_ms=time_ms)
+            for name, time_ms in self.times_ms.items()
         }
 
     def _add(self, times: Mapping[str, float]) -> None:

