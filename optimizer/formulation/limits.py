@@ -157,7 +157,7 @@ class LimitSize(NamedTuple):
 def limit_sizes(machine: Machine) -> dict[WebLimit, LimitSize]:
     """Limits that some web of a machine states, in the order of the answer; no other is touched, or has a price."""
     every = {name: LimitSize(limit, limit.size(machine)) for name, limit in WEB_LIMITS.items()}
-    return {name: limit for name, limit in every.items() if (limit.size < np.inf).any()}
+    return {name: limit for name, limit in every.items() if np.count_nonzero(limit.size < np.inf)}
 
 
 @remembered

@@ -140,7 +140,7 @@ def residual(scene: Prepared, unbalance: Complex | None) -> Residual:
 def _second_order(scene: Prepared, with_shafts: Sequence[bool]) -> list[Wrench]:
     """Second order of one machine, which balance shafts alone change, without and with them; none where a row has no
     rod."""
-    if np.isnan(scene.layout.reciprocating.rod_ratio).any():
+    if np.count_nonzero(np.isnan(scene.layout.reciprocating.rod_ratio)):
         return []
     harmonic = acceleration_harmonic if scene.request.fidelity.kinematics == "exact" else acceleration_harmonic_order_2
     own, square = reciprocating(scene.layout, 2, harmonic), scene.layout.omega**2

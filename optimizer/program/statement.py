@@ -12,6 +12,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, mapped, variant
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 from optimizer.program.ceilings import Ceilings
 from optimizer.program.compiled_evaluation import Flat, flat
 from optimizer.program.limits import Limits
@@ -43,6 +44,7 @@ class Names(NamedTuple):
     rows: tuple[str, ...]
 
 
+@record
 @dataclass(frozen=True)
 class Statement:
     """A program to solve."""

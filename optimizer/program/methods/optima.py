@@ -8,6 +8,7 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.records import record
 from optimizer.program.certificate import Multipliers, mass_bound_up_to, nothing_proven
 from optimizer.program.equal_unknowns import apart, united
 from optimizer.program.methods.cascade import cascade
@@ -31,6 +32,7 @@ from optimizer.program.statement import Statement
 from optimizer.program.verdict import yardstick
 
 
+@record
 @dataclass(frozen=True)
 class Optima(Solutions):
     """Counterweights of N programs; of an unreachable one those that come closest to its ceilings."""
