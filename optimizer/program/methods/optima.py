@@ -4,6 +4,7 @@ All are solved side by side by the compiled interior point; what it does not cer
 """
 
 from dataclasses import dataclass, fields, replace
+from operator import attrgetter
 
 import numpy as np
 
@@ -30,6 +31,9 @@ from optimizer.program.solution import (
 )
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import yardstick
+
+#: what optima have of solutions, in its order
+_OF_SOLUTIONS = attrgetter(*(field.name for field in fields(Solutions)))
 
 
 @record
@@ -122,7 +126,7 @@ def _compiled(statement: Statement, solutions: Solutions) -> Optima:
     programs = solutions.objective.shape
     method = INTERIOR_POINT if statement.limits.radius.shape[-1] else CLOSED_FORM
     return Optima(
-        **{field.name: getattr(solutions, field.name) for field in fields(Solutions)},
+        *_OF_SOLUTIONS(solutions),
         unreachable=np.zeros(programs, bool),
         method=np.full(programs, method, dtype=object),
         conflict=_no_conflict(statement),
