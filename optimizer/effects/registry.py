@@ -34,8 +34,7 @@ def closure(machine: Machine, needs: Sequence[str]) -> list[str]:
     names = effects_of(needs)
     if _universal(names):
         return [*names]
-    absent = _absent(machine)
-    return [name for name in names if name not in absent]
+    return [*_present(names, _absent(machine))]
 
 
 def effects_of(needs: Sequence[str]) -> tuple[str, ...]:
@@ -56,6 +55,12 @@ def _effects_of(needs: tuple[str, ...]) -> tuple[str, ...]:
 def _absent(machine: Machine) -> frozenset[str]:
     """Effects that a machine does not have."""
     return frozenset(name for name, effect in EFFECTS.items() if not effect.applies(machine))
+
+
+@lru_cache(maxsize=256)
+def _present(names: tuple[str, ...], absent: frozenset[str]) -> tuple[str, ...]:
+    """These effects without those that a machine does not have."""
+    return tuple(name for name in names if name not in absent)
 
 
 @lru_cache(maxsize=256)
@@ -181,7 +186,10 @@ def simulate(
     closures = {purpose: closure(machine, needs) for purpose, needs in demands.items()}
     wanted = [need for needs in demands.values() for need in needs]
     results, times = _run(machine, layout, wanted, fidelity, samples)
-    needed_by = {name: tuple(purpose for purpose, names in closures.items() if name in names) for name in times}
+    needed_by: dict[str, tuple[str, ...]] = dict.fromkeys(times, ())
+    for purpose, names in closures.items():
+        for name in names:
+            needed_by[name] += (purpose,)
     return Simulated(machine, layout, fidelity, results, times, needed_by)
 
 

@@ -116,8 +116,8 @@ def _loads(
     rms = np.sqrt(curves.curves.variance + np.abs(curves.curves.mean + offset) ** 2) * square
     return tuple(
         BearingLoad(
-            force_x_N=tuple(load.real.tolist()),
-            force_y_N=tuple(load.imag.tolist()),
+            force_x_N=load.real.tolist(),
+            force_y_N=load.imag.tolist(),
             peak_N=float(peak.lower[k]),
             peak_bracket_N=bracket(peak, k),
             peak_angle_deg=float(np.rad2deg(peak.angle[k])),

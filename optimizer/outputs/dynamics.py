@@ -231,8 +231,9 @@ def rows_of(scene: Prepared) -> Iterator[tuple[int, dict[str, Any]]]:
         yield number, {"throw": t, "row": i, "name": name}
 
 
-def _series(values: Real) -> tuple[float, ...]:
-    return tuple(values.tolist())
+def _series(values: Real) -> Any:
+    # the answer makes a tuple of any list, in half the time that it takes to look through another tuple
+    return values.tolist()
 
 
 def _case(case: Case, peaks: Extremes, k: int) -> LoadCase:

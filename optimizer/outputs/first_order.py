@@ -164,10 +164,10 @@ def hodographs(scene: Prepared, unbalance: Complex | None) -> Hodographs:
 def _hodograph(force: Complex, moment: Complex) -> Hodograph:
     """Force [N] and moment [N m] over the turn (n,)."""
     return Hodograph(
-        force_x_N=tuple(force.real.tolist()),
-        force_y_N=tuple(force.imag.tolist()),
-        moment_x_Nm=tuple(moment.real.tolist()),
-        moment_y_Nm=tuple(moment.imag.tolist()),
+        force_x_N=force.real.tolist(),
+        force_y_N=force.imag.tolist(),
+        moment_x_Nm=moment.real.tolist(),
+        moment_y_Nm=moment.imag.tolist(),
     )
 
 
