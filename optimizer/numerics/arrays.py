@@ -41,6 +41,8 @@ def mapped(part: Part, function: Callable[[Any], Any]) -> Part:
 
 def spread(array: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:
     """The same numbers along leading axes, of a shape that ends with their own; what is common to all is not copied."""
+    if array.shape == shape:
+        return array
     if array.size == math.prod(shape):
         # a view as well, in a tenth of the time
         return array.reshape(shape)
@@ -79,4 +81,5 @@ def total(terms: Complex) -> Complex:
     """
     value = np.add.reduce(terms, axis=-1)
     noise = np.maximum(_ROUNDING * np.add.reduce(np.abs(terms), axis=-1), SMALLEST)
-    return np.where(np.abs(value) <= noise, 0.0, value)
+    cancelled = np.abs(value) <= noise
+    return np.where(cancelled, 0.0, value) if np.count_nonzero(cancelled) else np.asarray(value)
