@@ -161,6 +161,8 @@ class Rotor(Ruled):
 
 def unique_names(path: Path, names: Sequence[str | None]) -> Iterator[Rule]:
     """One rule broken for every name that already stands earlier in the list; None is no name."""
+    if len(set(names)) == len(names):
+        return
     seen: set[str] = set()
     for index, name in enumerate(names):
         if name is None:
