@@ -165,8 +165,11 @@ def largest_mass(machine: Machine) -> Real:
     """Largest mass of every web (..., K), the smallest of what its limits allow, kg; inf where there is none."""
     given = (size.limit for size in limit_sizes(machine).values())
     allowed = [each.mass(machine) for each in given if isinstance(each, MassLimit)]
-    # where a weight is fixed nothing is chosen
-    mass = np.where(fixed_webs(machine), 0.0, reduce(np.minimum, allowed, np.full(len(machine.webs), np.inf)))
+    mass = reduce(np.minimum, allowed) if allowed else np.full(len(machine.webs), np.inf)
+    fixed = fixed_webs(machine)
+    if np.count_nonzero(fixed):
+        # nothing is chosen there
+        mass = np.where(fixed, 0.0, mass)
     # null, or more than can be multiplied
     return np.where(mass > _NO_LIMIT, np.inf, mass)
 

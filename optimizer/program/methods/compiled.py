@@ -93,7 +93,7 @@ def both_stages(
         finer = _Tolerances(1e-7, finest, 100 * finest, precision.mass, 0.1 * CEILING_ROUNDING)
         solved = _solve(statement, share, least_mass, finer, _in(precision), at_least)
         return _judged(statement, share, demand, least_mass, solved)
-    plain, level = np.flatnonzero(plain_discs(statement)), at_least + np.zeros(share.shape)
+    (plain,), level = plain_discs(statement).nonzero(), at_least + np.zeros(share.shape)
     if not plain.size:
         return _in_any_limits(statement, share, demand, least_mass, level)
     part, wanted = statement.chosen(plain) if plain.size < share.size else statement, (share[plain], demand[plain])

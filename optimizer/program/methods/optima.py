@@ -113,7 +113,7 @@ def _optima(statement: Statement, relative_gap: float, least_mass: bool, solver:
     if found is not None:
         settle_without_slack_rows(statement, share, demand, least_mass, found)
     answer = _nothing(statement) if found is None else _compiled(statement, found)
-    for n in range(size.size) if found is None else np.flatnonzero(~found.certified).tolist():
+    for n in range(size.size) if found is None else (~found.certified).nonzero()[0].tolist():
         program, asked = statement.chosen(n), Target(float(share[n]), float(demand[n]), least_mass)
         quick = interior_point(program, asked) if found is None else only(program, asked, found.chosen(np.array([n])))
         _put(answer, n, program, cascade(program, asked, solver, quick))
