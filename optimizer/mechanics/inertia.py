@@ -123,8 +123,10 @@ def _summed(layout: Layout, forces: Complex, position: Real) -> tuple[Complex, C
     short. Else it is summed with its own arms: moved there from the centre it loses what is small beside the span.
     """
     force, about = _sums(forces, (position - layout.reference_plane[..., None])[..., None, :])
+    if layout.central:
+        return force, about
     balanced = force == 0
-    if layout.central or not balanced.any():
+    if not np.count_nonzero(balanced):
         return force, about
     return force, np.where(balanced, total((position - layout.centre_plane[..., None])[..., None, :] * forces), about)
 
