@@ -239,7 +239,8 @@ def perform(task: Task) -> Outcome | Long:
         if coding is not None:
             content = coded(content, coding)
         seconds = time.perf_counter() - begun
-        stem = getattr(found, "file_stem", None)
+        # a model takes long to say that it has none
+        stem = getattr(found, "file_stem", None) if task.computation.answer is None else None
         return Answer(
             content, coding, len(content), seconds, _certified(found), _resident(), faults=tuple(faults), stem=stem
         )

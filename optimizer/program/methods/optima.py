@@ -32,7 +32,7 @@ from optimizer.program.solution import (
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import yardstick
 
-#: what optima have of solutions, in its order
+#: what optima have of solutions, before what they have of their own
 _OF_SOLUTIONS = attrgetter(*(field.name for field in fields(Solutions)))
 
 
@@ -127,9 +127,9 @@ def _compiled(statement: Statement, solutions: Solutions) -> Optima:
     method = INTERIOR_POINT if statement.limits.radius.shape[-1] else CLOSED_FORM
     return Optima(
         *_OF_SOLUTIONS(solutions),
-        unreachable=np.zeros(programs, bool),
-        method=np.full(programs, method, dtype=object),
-        conflict=_no_conflict(statement),
+        np.zeros(programs, bool),
+        np.full(programs, method, dtype=object),
+        _no_conflict(statement),
     )
 
 
