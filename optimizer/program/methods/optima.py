@@ -5,6 +5,7 @@ All are solved side by side by the compiled interior point; what it does not cer
 
 from dataclasses import dataclass, fields, replace
 from operator import attrgetter
+from typing import Any
 
 import numpy as np
 
@@ -125,12 +126,9 @@ def _compiled(statement: Statement, solutions: Solutions) -> Optima:
     """What the compiled interior point has found."""
     programs = solutions.objective.shape
     method = INTERIOR_POINT if statement.limits.radius.shape[-1] else CLOSED_FORM
-    return Optima(
-        *_OF_SOLUTIONS(solutions),
-        np.zeros(programs, bool),
-        np.full(programs, method, dtype=object),
-        _no_conflict(statement),
-    )
+    own = np.zeros(programs, bool), np.full(programs, method, dtype=object), _no_conflict(statement)
+    every: tuple[Any, ...] = (*_OF_SOLUTIONS(solutions), *own)
+    return Optima(*every)
 
 
 def _no_conflict(statement: Statement) -> Multipliers:
