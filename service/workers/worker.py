@@ -36,8 +36,8 @@ _BEHIND = {Priority.FIRST: 0, Priority.FURTHER: 8, Priority.LONG: 11}
 _NICEST = 19
 #: an answer that is larger goes to the service in a file
 LARGE_BYTES = 262_144
-#: objects made and not freed, after which those that hold one another are looked for
-_COLLECT_AFTER = 20_000
+#: objects made and not freed, after which those that hold one another are looked for: a refusal leaves some
+_COLLECT_AFTER = 5_000
 #: faults of the request; anything else is a fault of the service
 REFUSALS = (UnreadableBody, InvalidRequest, NotComputable)
 
