@@ -7,7 +7,8 @@ goes to a worker as it is, which looks up there what it refers to.
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from pkgutil import resolve_name
+from importlib import import_module
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -18,10 +19,15 @@ if TYPE_CHECKING:
 Reference = str
 
 
-# to look a name up takes as long as to read a small request
+# to find the module takes as long as to read a small request
 @cache
+def _place(reference: Reference) -> tuple[ModuleType, str]:
+    module, _, name = reference.partition(":")
+    return import_module(module), name
+
+
 def _object(reference: Reference) -> Any:
-    return resolve_name(reference)
+    return getattr(*_place(reference))
 
 
 @dataclass(frozen=True)
