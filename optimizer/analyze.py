@@ -1,13 +1,13 @@
 """The machine as it stands, or with given counterweights."""
 
 import time
-from dataclasses import replace
 
 from optimizer.errors import refuse
 from optimizer.formulation.balance_shafts import fitted
 from optimizer.formulation.counterweights import mass_and_angle, too_heavy
 from optimizer.formulation.placement import on_webs
 from optimizer.mechanics.shapes import fitted_masses
+from optimizer.numerics.arrays import variant
 from optimizer.outputs.registry import fields, prepare
 from schemas.answer.answers import AnalyzeAnswer, Timing
 from schemas.base.mappings import or_mapping
@@ -34,7 +34,7 @@ def analyze(request: AnalyzeRequest) -> AnalyzeAnswer:
     scene = prepare(request, request.outputs, machine=machine)
     reporting = time.perf_counter()
     given = fitted(machine, mass, angle)
-    found = fields(replace(scene, shafts=given.on_shafts), given.on_crank, request.outputs)
+    found = fields(variant(scene, shafts=given.on_shafts), given.on_crank, request.outputs)
     end = time.perf_counter()
     return AnalyzeAnswer(
         **found,

@@ -2,11 +2,11 @@
 
 import time
 from collections.abc import Sequence
-from dataclasses import replace
 
 from optimizer.errors import MissingInput, refuse
 from optimizer.formulation.counterweights import too_heavy
 from optimizer.formulation.task import Task
+from optimizer.numerics.arrays import variant
 from optimizer.outputs.registry import fields, prepare
 from optimizer.outputs.requirements import effects_of_objective, missing
 from optimizer.program.reference.solver import Solver
@@ -55,7 +55,7 @@ def optimize(
     scene = prepare(request, names, () if task.scenarios else effects_of_objective(task.objective))
     solving, began = time.perf_counter(), time.thread_time()
     solver = solver or own_solver()
-    first = replace(task, time_limit_s=BEST * task.time_limit_s) if request.alternatives else task
+    first = variant(task, time_limit_s=BEST * task.time_limit_s) if request.alternatives else task
     best = solve(first, scene, solver)
     cheaper: tuple[Alternative, ...] = ()
     if request.alternatives and isinstance(best, Solution):
@@ -64,7 +64,7 @@ def optimize(
     reporting = time.perf_counter()
     there, on_crank, told, u, report_s = best.cut or scene, None, best.answer, None, 0.0
     if isinstance(best, Solution):
-        there, on_crank = replace(there, shafts=best.shown.on_shafts), best.shown.on_crank
+        there, on_crank = variant(there, shafts=best.shown.on_shafts), best.shown.on_crank
         u, report_s = best.unbalance, best.report_s
         if task.tolerances is not None and not task.robust:
             told |= nothing_off(task, scene, u, best.certificate.objective)

@@ -6,7 +6,9 @@ goes to a worker as it is, which looks up there what it refers to.
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from pkgutil import resolve_name
+from functools import cache
+from importlib import import_module
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -15,6 +17,17 @@ if TYPE_CHECKING:
 
 #: ``module:name``
 Reference = str
+
+
+# to find the module takes as long as to read a small request
+@cache
+def _place(reference: Reference) -> tuple[ModuleType, str]:
+    module, _, name = reference.partition(":")
+    return import_module(module), name
+
+
+def _object(reference: Reference) -> Any:
+    return getattr(*_place(reference))
 
 
 @dataclass(frozen=True)
@@ -37,7 +50,7 @@ class Form:
 
     def content(self, request: Any, answer: Any) -> bytes:
         """The answer to a request in this form."""
-        write = resolve_name(self.write)
+        write = _object(self.write)
         made: bytes = write(request, answer) if self.needs_request else write(answer)
         return made
 
@@ -114,18 +127,18 @@ class Computation:
     @property
     def asks(self) -> "type[Model]":
         """Model of the request."""
-        found: type[Model] = resolve_name(self.request)
+        found: type[Model] = _object(self.request)
         return found
 
     @property
     def answers(self) -> "type[Model] | None":
         """Model of the answer."""
-        return None if self.answer is None else resolve_name(self.answer)
+        return None if self.answer is None else _object(self.answer)
 
     @property
     def function(self) -> Callable[[Any], Any]:
         """What makes the answer."""
-        found: Callable[[Any], Any] = resolve_name(self.compute)
+        found: Callable[[Any], Any] = _object(self.compute)
         return found
 
 

@@ -3,7 +3,7 @@
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property, lru_cache
+from functools import cache, lru_cache
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from optimizer.effects.scroll import SCROLL
 from optimizer.mechanics.inertia import Wrench
 from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Real
-from optimizer.numerics.memoization import remembered
+from optimizer.numerics.memoization import cached_property, remembered
 from schemas.answer.answers import EffectUse
 from schemas.base.model import FieldProblem
 from schemas.base.rules import Rule
@@ -34,8 +34,7 @@ def closure(machine: Machine, needs: Sequence[str]) -> list[str]:
     names = effects_of(needs)
     if _universal(names):
         return [*names]
-    absent = _absent(machine)
-    return [name for name in names if name not in absent]
+    return [*_present(names, _absent(machine))]
 
 
 def effects_of(needs: Sequence[str]) -> tuple[str, ...]:
@@ -56,6 +55,12 @@ def _effects_of(needs: tuple[str, ...]) -> tuple[str, ...]:
 def _absent(machine: Machine) -> frozenset[str]:
     """Effects that a machine does not have."""
     return frozenset(name for name, effect in EFFECTS.items() if not effect.applies(machine))
+
+
+@lru_cache(maxsize=256)
+def _present(names: tuple[str, ...], absent: frozenset[str]) -> tuple[str, ...]:
+    """These effects without those that a machine does not have."""
+    return tuple(name for name in names if name not in absent)
 
 
 @lru_cache(maxsize=256)
@@ -147,11 +152,9 @@ class Simulated:
     @property
     def uses(self) -> dict[str, EffectUse]:
         """Every effect: whether it was simulated, for what, and how long it took."""
-        return {
-            name: EffectUse(simulated=True, needed_by=self.needed_by[name], time_ms=self.times_ms[name])
-            if name in self.times_ms
-            else _UNUSED
-            for name in EFFECTS
+        return dict.fromkeys(EFFECTS, _UNUSED) | {
+            name: EffectUse(simulated=True, needed_by=self.needed_by[name], time_ms=time_ms)
+            for name, time_ms in self.times_ms.items()
         }
 
     def _add(self, times: Mapping[str, float]) -> None:
@@ -183,7 +186,10 @@ def simulate(
     closures = {purpose: closure(machine, needs) for purpose, needs in demands.items()}
     wanted = [need for needs in demands.values() for need in needs]
     results, times = _run(machine, layout, wanted, fidelity, samples)
-    needed_by = {name: tuple(purpose for purpose, names in closures.items() if name in names) for name in times}
+    needed_by: dict[str, tuple[str, ...]] = dict.fromkeys(times, ())
+    for purpose, names in closures.items():
+        for name in names:
+            needed_by[name] += (purpose,)
     return Simulated(machine, layout, fidelity, results, times, needed_by)
 
 

@@ -1,7 +1,6 @@
 """What the effects over the turn come to, with the leading axes (...) of the layout."""
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
@@ -9,6 +8,7 @@ from optimizer.mechanics.gas import Chambers, GasForces, indicated_work, switchi
 from optimizer.mechanics.indicated import Trace
 from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.memoization import cached_property
 
 
 @dataclass(frozen=True)

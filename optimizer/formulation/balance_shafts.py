@@ -99,7 +99,7 @@ def chosen(
     vectors : (K + S,) kg m, their unbalances where they are known.
     """
     shafts = balance_shafts(machine)
-    if not shafts and not fixed_webs(machine).any():
+    if not shafts and not np.count_nonzero(fixed_webs(machine)):
         return fitted(machine, mass_kg, angle_deg, vectors)
     mass_kg, angle_deg = beside(machine, mass_kg, angle_deg)
     if not shafts:
@@ -137,7 +137,9 @@ def fitted(machine: Machine, mass_kg: Real, angle_deg: Real, vectors: Complex | 
             )
         )
     crank = counterweights(machine, mass_kg[:own], angle_deg[:own], vectors[:own])
-    return Fitted(crank, float(np.sum(mass_kg[:own])), tuple(results), vectors[:own], vectors[own:] if shafts else None)
+    return Fitted(
+        crank, float(np.add.reduce(mass_kg[:own])), tuple(results), vectors[:own], vectors[own:] if shafts else None
+    )
 
 
 def _gearing(shaft: BalanceShaft, fitted_there: Sequence[Counterweight]) -> str:

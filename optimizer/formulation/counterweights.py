@@ -138,8 +138,8 @@ def _placed(
     }
     if vectors is None:
         vectors = unbalance(mass_kg, angles_deg, stacked([web.radius_m for web in machine.webs]))
-    throws = machine.throws
-    shapes = _shapes(machine, mass_kg)
+    throws, webs = machine.throws, machine.webs
+    shapes, radii = _shapes(machine, mass_kg), [web.radius_m for web in webs]
     fastest = ratio * (machine.overspeed_rpm or machine.speed_rpm) * np.pi / 30.0
     return tuple(
         Counterweight(
@@ -147,22 +147,22 @@ def _placed(
             mass_kg=mass,
             angle_deg=angle,
             position_m=web.position_m,
-            radius_m=web.radius_m,
+            radius_m=radius,
             throw=throw,
             # twice, because a hair below 0 comes to 360
             angle_from_crank_deg=None
             if throw is None or mass == 0.0
             else (angle - throws[throw].crank_angle_deg) % 360.0 % 360.0,
-            mass_radius_kg_m=mass * web.radius_m,
+            mass_radius_kg_m=mass * radius,
             x_kg_m=vector.real,
             y_kg_m=vector.imag,
-            centrifugal_force_N=mass * web.radius_m * fastest**2,
-            active_limits=() if web.fixed else tuple(name for name, webs in touched.items() if webs[k]),
+            centrifugal_force_N=mass * radius * fastest**2,
+            active_limits=() if web.fixed else tuple([name for name, at in touched.items() if at[k]]),
             fixed=web.fixed is not None,
             shape=shapes.get(k) if mass > 0.0 else None,
         )
-        for k, (web, mass, angle, vector, throw) in enumerate(
-            zip(machine.webs, mass_kg.tolist(), angles_deg.tolist(), vectors.tolist(), own, strict=True)
+        for k, (web, radius, mass, angle, vector, throw) in enumerate(
+            zip(webs, radii, mass_kg.tolist(), angles_deg.tolist(), vectors.tolist(), own, strict=True)
         )
     )
 

@@ -38,6 +38,9 @@ def span(machine: Machine) -> Reals:
     else:
         planes = [machine.orbiting_position_m, machine.anti_rotation.position_m]
     planes += [web.position_m for web in machine.webs]
+    if np.ndarray not in map(type, planes):
+        length = max(planes) - min(planes)
+        return 1.0 if length <= SMALLEST else length
     places = stacked(planes)
     length = np.maximum.reduce(places, axis=-1) - np.minimum.reduce(places, axis=-1)
     return np.where(length <= SMALLEST, 1.0, length)[()]

@@ -7,7 +7,6 @@ names the fields that ask for the whole turn; those of the first order are in
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -23,6 +22,7 @@ from optimizer.mechanics.shaft_curves import bearing_loads, bending_moments
 from optimizer.mechanics.shapes import closed, plates
 from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.numerics.arrays import Real, Reals
+from optimizer.numerics.memoization import cached_property
 from optimizer.program.cuts.cut import EXACT, Quantity, Scatter
 from optimizer.program.cuts.dominance import Group, Weighed
 from optimizer.program.cuts.semi_infinite import Goal, Problem
@@ -212,7 +212,7 @@ class _CaseQuantities:
     def _of_frame(self, apart: bool) -> tuple[Group, ...]:
         wanted, across = self._wanted, self.objective.direction_weights
         # of many programs of one shape all weigh it, or none
-        weighs = [name for name, weight in wanted.items() if np.all(np.asarray(weight) > 0)]
+        weighs = [name for name, weight in wanted.items() if np.logical_and.reduce(np.asarray(weight) > 0, axis=None)]
         if self.objective.orders == "all":
             places = [(self.quantities[q].response.name, q) for q in self._of_shaking()]
             weighed = [Weighed(q, float(wanted[name])) for name, q in places if name in weighs]

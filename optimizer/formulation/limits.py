@@ -157,7 +157,7 @@ class LimitSize(NamedTuple):
 def limit_sizes(machine: Machine) -> dict[WebLimit, LimitSize]:
     """Limits that some web of a machine states, in the order of the answer; no other is touched, or has a price."""
     every = {name: LimitSize(limit, limit.size(machine)) for name, limit in WEB_LIMITS.items()}
-    return {name: limit for name, limit in every.items() if (limit.size < np.inf).any()}
+    return {name: limit for name, limit in every.items() if np.count_nonzero(limit.size < np.inf)}
 
 
 @remembered
@@ -165,8 +165,11 @@ def largest_mass(machine: Machine) -> Real:
     """Largest mass of every web (..., K), the smallest of what its limits allow, kg; inf where there is none."""
     given = (size.limit for size in limit_sizes(machine).values())
     allowed = [each.mass(machine) for each in given if isinstance(each, MassLimit)]
-    # where a weight is fixed nothing is chosen
-    mass = np.where(fixed_webs(machine), 0.0, reduce(np.minimum, allowed, np.full(len(machine.webs), np.inf)))
+    mass = reduce(np.minimum, allowed) if allowed else np.full(len(machine.webs), np.inf)
+    fixed = fixed_webs(machine)
+    if np.count_nonzero(fixed):
+        # nothing is chosen there
+        mass = np.where(fixed, 0.0, mass)
     # null, or more than can be multiplied
     return np.where(mass > _NO_LIMIT, np.inf, mass)
 

@@ -3,7 +3,6 @@
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -20,6 +19,8 @@ from optimizer.mechanics.roll import roll
 from optimizer.mechanics.shaft import INFLUENCES, bearing_places
 from optimizer.mechanics.shaft_curves import ShaftCurves, bending_influence, planes, shaft_curves, stations
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 from optimizer.responses.curve import TurnResponse
 from optimizer.responses.piecewise_cubics import Bracket
 from optimizer.responses.response import Response
@@ -32,6 +33,7 @@ from schemas.request.requests import OptimizeRequest
 from schemas.request.scene import Scene
 
 
+@record
 @dataclass(frozen=True)
 class Prepared:
     """A machine as arrays and what was simulated of it.

@@ -1,10 +1,10 @@
 """What an optimisation is to do, read once from a request: whoever solves goes by it, and sees no request."""
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import NamedTuple
 
 from optimizer.formulation.balance_shafts import DesignSpace, design_space
+from optimizer.numerics.memoization import cached_property
 from schemas.base.rules import Path
 from schemas.machine.machine import Machine
 from schemas.machine.rotor import Choice

@@ -4,7 +4,6 @@ Whatever is asked for at an angle, the rows are expanded about it once, and each
 """
 
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -13,6 +12,7 @@ import numpy as np
 from optimizer.mechanics.curve_series import CurveSeries
 from optimizer.mechanics.whole_turn import TurnCurves
 from optimizer.numerics.arrays import Complex, Real, spread
+from optimizer.numerics.memoization import cached_property
 from optimizer.responses.piecewise_cubics import Index, Pieces
 
 if TYPE_CHECKING:

@@ -2,7 +2,6 @@
 ask for it."""
 
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import repeat
 from typing import TYPE_CHECKING
 
@@ -11,6 +10,7 @@ import numpy as np
 from optimizer.mechanics.row_data import RowData, compact
 from optimizer.mechanics.row_series import AT_ONCE, Reading, RowSeries
 from optimizer.numerics.arrays import Complex, Real, in_order, spread
+from optimizer.numerics.memoization import cached_property
 from optimizer.responses.piecewise_cubics import Index
 
 if TYPE_CHECKING:

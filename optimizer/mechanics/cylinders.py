@@ -173,11 +173,14 @@ class _Place(NamedTuple):
     chamber: int
 
 
-def _cylinders(machine: ReciprocatingMachine) -> Iterator[tuple[_Place, Cylinder]]:
+@remembered
+def _cylinders(machine: ReciprocatingMachine) -> tuple[tuple[_Place, Cylinder], ...]:
     rows = [(t, i, row) for t, throw in enumerate(machine.throws) for i, row in enumerate(throw.rows)]
-    for number, (t, i, row) in enumerate(rows):
-        for k, (at, cylinder) in enumerate(row_cylinders(row)):
-            yield _Place(("throws", t, "rows", i, *at), number, 2 * k), cylinder
+    return tuple(
+        (_Place(("throws", t, "rows", i, *at), number, 2 * k), cylinder)
+        for number, (t, i, row) in enumerate(rows)
+        for k, (at, cylinder) in enumerate(row_cylinders(row))
+    )
 
 
 def _acts(cylinder: Cylinder, side: str) -> bool:
@@ -230,12 +233,14 @@ def _missing(cylinder: Cylinder) -> Iterator[tuple[str, str]]:
         yield "piston_rod_diameter_m" if cylinder.bore_m is not None else "crank_area_m2", ""
     cycled = [side for side in _SIDES if _indicated(cylinder, side) is None]
     areas = dict(zip(_SIDES, (head, crank), strict=True))
-    open_ = [side for side in cycled if not _acts(cylinder, side) and not _is_none(areas[side])]
+    acting = [side for side in cycled if _acts(cylinder, side)]
+    open_ = [side for side in cycled if side not in acting and not _is_none(areas[side])]
     if open_ and cylinder.ambient_pressure_Pa is None:
         words = "" if cylinder.pressure is None else f": the {open_[0]} side has no indicated pressure and is open"
         yield "ambient_pressure_Pa", words
-    for field in _STATE:
-        lacking = [side for side in cycled if _acts(cylinder, side) and _value(cylinder, side, field) is None]
+    # what both sides have in common is not lacking
+    for field in (field for field in _STATE if getattr(cylinder, field) is None):
+        lacking = [side for side in acting if _value(cylinder, side, field) is None]
         if lacking:
             words = "" if cylinder.pressure is None else f" on the {lacking[0]} side, which has no indicated pressure"
             if words and cylinder.acting == "double":

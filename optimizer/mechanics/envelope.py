@@ -11,12 +11,12 @@ functions broadcast.
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Protocol
 
 import numpy as np
 
 from optimizer.numerics.arrays import Real, Reals
+from optimizer.numerics.memoization import cached_property
 
 #: cuts of an interval into as many parts: to the last bit
 _CUTS, _PARTS = 10, 64

@@ -28,7 +28,7 @@ def beside(machine: Machine, mass_kg: Real, angle_deg: Real) -> tuple[Real, Real
     Of webs on balance shafts, which stand behind those of the crankshaft, nothing is fixed.
     """
     which = fixed_webs(machine)
-    if not which.any():
+    if not np.count_nonzero(which):
         return mass_kg, angle_deg
     behind = mass_kg.shape[-1] - which.size
     angles = np.mod(stacked([0.0 if web.fixed is None else web.fixed.angle_deg for web in machine.webs]), 360.0)
@@ -40,9 +40,10 @@ def beside(machine: Machine, mass_kg: Real, angle_deg: Real) -> tuple[Real, Real
 
 def laden(layout: Layout, machine: Machine) -> Layout:
     """The layout with the fixed weights among its rotating masses: what counterweights are chosen for."""
-    there = np.flatnonzero(fixed_webs(machine))
-    if not there.size:
+    which = fixed_webs(machine)
+    if not np.count_nonzero(which):
         return layout
+    there = np.flatnonzero(which)
     fixed = [web.fixed for web in machine.webs if web.fixed is not None]
     turning = layout.rotating
     parts = {

@@ -11,7 +11,7 @@ import numpy as np
 
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic
-from optimizer.numerics.arrays import Complex, Real, spread, total
+from optimizer.numerics.arrays import Complex, Real, total
 from optimizer.responses.response import Phasors, Response
 
 
@@ -58,7 +58,10 @@ def reciprocating(layout: Layout, order: int, harmonic: Callable[[int, Real], Re
     harmonic : (order, rod ratio) -> A_k; exact by default.
     """
     forces = reciprocating_forces(layout, order, harmonic)
-    force, couple = _summed(layout, np.stack([forces.co, forces.counter], axis=-2), layout.reciprocating.position)
+    *leading, rows = forces.co.shape
+    both = np.empty((*leading, 2, rows), complex)
+    both[..., 0, :], both[..., 1, :] = forces.co, forces.counter
+    force, couple = _summed(layout, both, layout.reciprocating.position)
     return Wrench(*(Phasors(pair[..., 0], pair[..., 1]) for pair in (force, couple)))
 
 
@@ -120,8 +123,10 @@ def _summed(layout: Layout, forces: Complex, position: Real) -> tuple[Complex, C
     short. Else it is summed with its own arms: moved there from the centre it loses what is small beside the span.
     """
     force, about = _sums(forces, (position - layout.reference_plane[..., None])[..., None, :])
+    if layout.central:
+        return force, about
     balanced = force == 0
-    if layout.central or not balanced.any():
+    if not np.count_nonzero(balanced):
         return force, about
     return force, np.where(balanced, total((position - layout.centre_plane[..., None])[..., None, :] * forces), about)
 
@@ -129,5 +134,7 @@ def _summed(layout: Layout, forces: Complex, position: Real) -> tuple[Complex, C
 def _sums(forces: Complex, arm: Real) -> tuple[Complex, Complex]:
     """Sum of forces (..., n) and of their couples, at once: small sums cost by their number."""
     couples = arm * forces
-    both = total(np.array([spread(forces, couples.shape), couples]))
+    terms = np.empty((2, *couples.shape), complex)
+    terms[0], terms[1] = forces, couples
+    both = total(terms)
     return both[0, ...], both[1, ...]

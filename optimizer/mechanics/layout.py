@@ -6,7 +6,7 @@ the same formulas. Angles are unit vectors (complex), as drawn at shaft angle 0.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
-from itertools import accumulate
+from itertools import accumulate, chain
 from typing import Any
 
 import numpy as np
@@ -224,7 +224,7 @@ def _scroll(machine: ScrollMachine) -> tuple[list[Any], list[Any], list[float]]:
 def _table(rows: Sequence[Any], parts: int) -> Sequence[Real]:
     """The parts of rows side by side, each (..., rows), as :func:`stacked`."""
     every = list(zip(*rows, strict=True)) if rows else [()] * parts
-    if any(np.ndarray in map(type, part) for part in every):
+    if np.ndarray in map(type, chain(*every)):
         return [stacked(part) for part in every]
     return [*np.array(every, dtype=float)]
 

@@ -2,12 +2,12 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
 from optimizer.mechanics.envelope import Envelope, opened_for
 from optimizer.numerics.arrays import Real, Reals
+from optimizer.numerics.memoization import cached_property
 
 #: rad: openings from which on a mass says more than an unbalance; and the step of its slope
 _STEEP, _STEP = 1.5, 1e-3

@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,6 +11,7 @@ from optimizer.mechanics.indicated import Trace
 from optimizer.mechanics.kinematics import own_angle
 from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Real, in_order, spread
+from optimizer.numerics.memoization import cached_property
 
 if TYPE_CHECKING:
     from optimizer.mechanics.kernel.rows import Rows, Tables

@@ -4,7 +4,6 @@ Gas and friction do not depend on masses, so that a curve is affine in them, row
 """
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
@@ -12,6 +11,7 @@ from optimizer.mechanics.curve_series import forces
 from optimizer.mechanics.row_data import RowData
 from optimizer.mechanics.row_series import Reading, RowSeries
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.memoization import cached_property
 from optimizer.responses.piecewise_cubics import Index
 
 

@@ -7,7 +7,6 @@ Shapes: N designs or places, R rows, P angles.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Literal
 
@@ -15,6 +14,7 @@ import numpy as np
 
 from optimizer.mechanics.row_data import RowData, compact
 from optimizer.numerics.arrays import Real, spread
+from optimizer.numerics.memoization import cached_property
 from optimizer.responses.piecewise_cubics import Index
 
 if TYPE_CHECKING:

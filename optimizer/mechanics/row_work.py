@@ -7,7 +7,6 @@ those there is the quadrature of :mod:`optimizer.mechanics.turn`.
 """
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -19,6 +18,7 @@ from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.row_data import compact
 from optimizer.mechanics.whole_turn import TurnCurves
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.memoization import cached_property
 from optimizer.responses.piecewise_cubics import ROUNDING, Index
 
 #: of the secant method by the torque itself, from the roots and slopes of its cubics

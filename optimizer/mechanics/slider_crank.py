@@ -66,7 +66,7 @@ def _hypergeometric(n: int, z: Real) -> Real:
     terms = np.power(z[..., None], _POWERS, order="C")
     terms *= _factors(n)
     value = np.add.reduce(terms, axis=-1, out=np.empty(z.shape))
-    if (far := z > _NEAR).any():
+    if np.count_nonzero(far := z > _NEAR):
         # takes as long to load as all that other rods need
         from scipy.special import hyp2f1
 

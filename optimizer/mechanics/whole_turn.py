@@ -8,7 +8,6 @@ brackets peaks with.
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -23,6 +22,7 @@ from optimizer.mechanics.row_parts import RowParts
 from optimizer.mechanics.row_series import Reading, RowSeries
 from optimizer.mechanics.turn import Turn, panels
 from optimizer.numerics.arrays import Complex, Real, spread
+from optimizer.numerics.memoization import cached_property
 from optimizer.responses.piecewise_cubics import Index, Pieces
 
 if TYPE_CHECKING:

@@ -21,19 +21,28 @@ _ARRAYS = (np.ndarray, np.generic)
 SMALLEST = 1e-250
 
 
+def variant(part: Part, **fields: Any) -> Part:
+    """The same dataclass with other contents of some fields, in a quarter of the time of ``dataclasses.replace``."""
+    own = vars(part)
+    # without what is cached there: it may be another one
+    return type(part)(**{name: own[name] for name in type(part).__dataclass_fields__} | fields)  # type: ignore[attr-defined]
+
+
 def mapped(part: Part, function: Callable[[Any], Any]) -> Part:
     """The same dataclass with a function of every array in it, parts within parts too; what is no array stays."""
     found = vars(part).copy()
     for name, value in found.items():
         if isinstance(value, _ARRAYS):
             found[name] = function(value)
-        elif hasattr(value, "__dataclass_fields__"):
+        elif value is not None and hasattr(value, "__dataclass_fields__"):
             found[name] = mapped(value, function)
     return type(part)(**found)
 
 
 def spread(array: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:
     """The same numbers along leading axes, of a shape that ends with their own; what is common to all is not copied."""
+    if array.shape == shape:
+        return array
     if array.size == math.prod(shape):
         # a view as well, in a tenth of the time
         return array.reshape(shape)
@@ -72,4 +81,5 @@ def total(terms: Complex) -> Complex:
     """
     value = np.add.reduce(terms, axis=-1)
     noise = np.maximum(_ROUNDING * np.add.reduce(np.abs(terms), axis=-1), SMALLEST)
-    return np.where(np.abs(value) <= noise, 0.0, value)
+    cancelled = np.abs(value) <= noise
+    return np.where(cancelled, 0.0, value) if np.count_nonzero(cancelled) else np.asarray(value)

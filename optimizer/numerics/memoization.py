@@ -1,11 +1,32 @@
-"""What is made of a machine once for all that asks for it: an answer asks the same of one machine many times."""
+"""What is made once for all that asks for it: an answer asks the same of one machine many times."""
 
 from collections.abc import Callable
 from functools import wraps
-from typing import TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 Machine = TypeVar("Machine")
 Made = TypeVar("Made")
+
+if TYPE_CHECKING:
+    from functools import cached_property as cached_property
+else:
+
+    class cached_property:  # noqa: N801
+        """As that of functools without its lock, which CPython 3.12 gives up too: it takes longer than most of what is
+        kept here. Two threads may make the same twice."""
+
+        def __init__(self, function: Callable[[Any], Any]) -> None:
+            self.function = function
+            self.__doc__ = function.__doc__
+
+        def __set_name__(self, owner: type, name: str) -> None:
+            self.name = name
+
+        def __get__(self, instance: Any, owner: type | None = None) -> Any:
+            if instance is None:
+                return self
+            value = instance.__dict__[self.name] = self.function(instance)
+            return value
 
 
 def remembered(function: Callable[[Machine], Made]) -> Callable[[Machine], Made]:

@@ -114,20 +114,21 @@ def _loads(
     samples = bare + offset[:, None] * turned(scene.layout.sense, turn) * square
     centre = (np.array([circle.centre for circle in circles[: len(bearings)]]) + offset) * square
     rms = np.sqrt(curves.curves.variance + np.abs(curves.curves.mean + offset) ** 2) * square
+    figures = np.rad2deg(peak.angle[: len(bearings)]).tolist(), rms.tolist(), centre.tolist()
     return tuple(
         BearingLoad(
-            force_x_N=tuple(load.real.tolist()),
-            force_y_N=tuple(load.imag.tolist()),
+            force_x_N=load.real.tolist(),
+            force_y_N=load.imag.tolist(),
             peak_N=float(peak.lower[k]),
             peak_bracket_N=bracket(peak, k),
-            peak_angle_deg=float(np.rad2deg(peak.angle[k])),
+            peak_angle_deg=angle,
             specific_load_Pa=_over_area(float(peak.lower[k]), bearings[k]),
-            rms_N=float(rms[k]),
+            rms_N=of_rms,
             floor_N=float(circles[k].radius * square),
-            circle_x_N=float(centre[k].real),
-            circle_y_N=float(centre[k].imag),
+            circle_x_N=middle.real,
+            circle_y_N=middle.imag,
         )
-        for k, load in enumerate(samples)
+        for k, (load, angle, of_rms, middle) in enumerate(zip(samples, *figures, strict=True))
     )
 
 

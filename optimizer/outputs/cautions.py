@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cache
 from typing import Any, get_args
 
 import numpy as np
@@ -11,6 +11,7 @@ from optimizer.formulation.formulate import span
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.cylinders import without_gas
 from optimizer.numerics.arrays import Complex
+from optimizer.numerics.memoization import cached_property
 from optimizer.outputs.balance_rate import cranks
 from optimizer.outputs.peaks import of_customary
 from schemas.answer.answers import BalanceRate, Certificate

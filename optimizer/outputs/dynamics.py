@@ -1,6 +1,7 @@
 """Dynamics as answers: series of every row, and what they come to together."""
 
 from collections.abc import Iterator, Sequence
+from math import isnan
 from typing import Any, Literal
 
 import numpy as np
@@ -77,9 +78,10 @@ def gas(scene: Prepared, _fitted: Complex | None = None) -> Gas:
         for row in throw.rows
     ]
 
+    opens, work = np.rad2deg(np.array(cycle.opens)).tolist(), scene.results["indicated_work"].tolist()
+
     def chamber(k: int, side: int, names: Sequence[str | None]) -> Chamber:
-        opens = (np.rad2deg(angles[k, side]) for angles in cycle.opens)
-        suction, discharge = (None if np.isnan(angle) else float(angle) for angle in opens)
+        suction, discharge = (None if isnan(angles[k][side]) else angles[k][side] for angles in opens)
         return Chamber(
             side=_SIDES[side % 2],
             cylinder=side // 2,
@@ -88,7 +90,7 @@ def gas(scene: Prepared, _fitted: Complex | None = None) -> Gas:
             force_N=_series(force[k, side]),
             suction_opens_deg=suction,
             discharge_opens_deg=discharge,
-            indicated_work_J=float(scene.results["indicated_work"][k, side]),
+            indicated_work_J=work[k][side],
         )
 
     return Gas(
@@ -231,8 +233,9 @@ def rows_of(scene: Prepared) -> Iterator[tuple[int, dict[str, Any]]]:
         yield number, {"throw": t, "row": i, "name": name}
 
 
-def _series(values: Real) -> tuple[float, ...]:
-    return tuple(values.tolist())
+def _series(values: Real) -> Any:
+    # the answer makes a tuple of any list, in half the time that it takes to look through another tuple
+    return values.tolist()
 
 
 def _case(case: Case, peaks: Extremes, k: int) -> LoadCase:

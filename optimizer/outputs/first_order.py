@@ -1,7 +1,6 @@
 """First-order force and moment as ellipses, their floor, and their hodographs."""
 
 from collections.abc import Mapping, Sequence
-from functools import cache
 
 import numpy as np
 
@@ -23,6 +22,22 @@ from schemas.base.responses import PAIR
 
 #: x and y
 _AXES = np.array([1.0, 1j]).reshape(2, 1, 1)
+#: figures of an ellipse in their units
+_FIELDS = tuple(
+    (
+        name,
+        (
+            f"peak_{unit}",
+            f"minor_{unit}",
+            "major_axis_deg",
+            f"peak_x_{unit}",
+            f"peak_y_{unit}",
+            f"co_rotating_{unit}",
+            f"counter_rotating_{unit}",
+        ),
+    )
+    for name, unit in (("force", "N"), ("moment", "Nm"))
+)
 FIRST_ORDER_EFFECTS = ("rotating_inertia", "reciprocating_inertia")
 
 
@@ -71,6 +86,8 @@ def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
 
 def _changes(scene: Prepared, shown: Sequence[Wrench]) -> tuple[ResponseChange, ...]:
     """The same before and after; the latter is missing where there are no counterweights to show."""
+    if not scene.added:
+        return ()
     before, *after = (added_peaks(scene, wrench) for wrench in shown)
     return tuple(
         ResponseChange(
@@ -123,7 +140,7 @@ def residual(scene: Prepared, unbalance: Complex | None) -> Residual:
 def _second_order(scene: Prepared, with_shafts: Sequence[bool]) -> list[Wrench]:
     """Second order of one machine, which balance shafts alone change, without and with them; none where a row has no
     rod."""
-    if np.isnan(scene.layout.reciprocating.rod_ratio).any():
+    if np.count_nonzero(np.isnan(scene.layout.reciprocating.rod_ratio)):
         return []
     harmonic = acceleration_harmonic if scene.request.fidelity.kinematics == "exact" else acceleration_harmonic_order_2
     own, square = reciprocating(scene.layout, 2, harmonic), scene.layout.omega**2
@@ -147,10 +164,10 @@ def hodographs(scene: Prepared, unbalance: Complex | None) -> Hodographs:
 def _hodograph(force: Complex, moment: Complex) -> Hodograph:
     """Force [N] and moment [N m] over the turn (n,)."""
     return Hodograph(
-        force_x_N=tuple(force.real.tolist()),
-        force_y_N=tuple(force.imag.tolist()),
-        moment_x_Nm=tuple(moment.real.tolist()),
-        moment_y_Nm=tuple(moment.imag.tolist()),
+        force_x_N=force.real.tolist(),
+        force_y_N=force.imag.tolist(),
+        moment_x_Nm=moment.real.tolist(),
+        moment_y_Nm=moment.imag.tolist(),
     )
 
 
@@ -158,29 +175,20 @@ def _ellipses(vectors: Complex) -> list[dict[str, dict[str, float]]]:
     """Fields of the ellipses (:class:`schemas.answer.first_order.FirstOrder`) of the phasors (n, 2, 2) of wrenches."""
     pairs = Phasors(vectors[..., 0], vectors[..., 1])
     along_x, along_y = pairs.peak_along(_AXES)
-    figures = {
-        "peak": pairs.peak,
-        "minor": pairs.minor,
-        "major_axis_deg": pairs.major_axis_deg,
-        "peak_x": along_x,
-        "peak_y": along_y,
-        "co_rotating": np.abs(pairs.co),
-        "counter_rotating": np.abs(pairs.counter),
-    }
-    columns = np.array([*figures.values()]).transpose(1, 2, 0).tolist()
+    figures = [
+        pairs.peak,
+        pairs.minor,
+        pairs.major_axis_deg,
+        along_x,
+        along_y,
+        np.abs(pairs.co),
+        np.abs(pairs.counter),
+    ]
+    columns = np.array(figures).transpose(1, 2, 0).tolist()
     return [
-        {
-            name: dict(zip((_in(figure, unit) for figure in figures), values, strict=True))
-            for (name, unit), values in zip((("force", "N"), ("moment", "Nm")), of_one, strict=True)
-        }
+        {name: dict(zip(fields, values, strict=True)) for (name, fields), values in zip(_FIELDS, of_one, strict=True)}
         for of_one in columns
     ]
-
-
-@cache
-def _in(figure: str, unit: str) -> str:
-    """Field of a figure in a unit."""
-    return figure if figure.endswith("_deg") else f"{figure}_{unit}"
 
 
 RESIDUAL = Output(

@@ -41,11 +41,11 @@ def _figure(scene: Prepared, fitted: Complex | None) -> Loads:
             for t, throw in enumerate(machine.throws)
         ),
         driver_Nm=float(integrals.mean),
-        shared_base_Nm=tuple(beyond.tolist()),
+        shared_base_Nm=beyond.tolist(),
         own_base_peak_Nm=float(of_torque(scene, result.rotating_friction).lower),
         shared_base_peak_Nm=float(of_torque(scene, result.rotating_friction - integrals.mean).lower),
         # J eps is what the constant torque of the driver leaves over
-        angular_acceleration_rad_s2=None if inertia is None else tuple((-beyond / inertia).tolist()),
+        angular_acceleration_rad_s2=None if inertia is None else (-beyond / inertia).tolist(),
         bearing_weights=tuple(_weights(scene, machine, fitted)),
         foundation_weight_N=(
             None if machine.stationary_mass_kg is None else float(whole_weight(scene, machine, fitted))
@@ -70,14 +70,11 @@ def _rows(scene: Prepared, machine: ReciprocatingMachine) -> Iterator[RowLoad]:
     forces, masses = scene.results["piston_force"], scene.layout.reciprocating.mass
     piston, rod, stopped = (of_rows(scene, reading).magnitude for reading in _READINGS)
     at_centres = at_dead_centres(scene)
-    guides = _guides(scene, machine)
+    guides, frames, covers = _guides(scene, machine), _frames(forces.gas), _covers(scene)
     rows = [row for throw in machine.throws for row in throw.rows]
+    largest_gas, largest_inertia = (_ends(np.abs(force))[1] for force in (forces.gas, forces.inertia))
     for k, place in rows_of(scene):
-        three = {
-            "gas": float(np.max(np.abs(forces.gas[k]))),
-            "inertia": float(np.max(np.abs(forces.inertia[k]))),
-            "running": float(piston.lower[k]),
-        }
+        three = {"gas": largest_gas[k], "inertia": largest_inertia[k], "running": float(piston.lower[k])}
         link = rows[k].connecting_rod
         worst = max(three, key=lambda name: three[name])
         yield RowLoad(
@@ -94,8 +91,8 @@ def _rows(scene: Prepared, machine: ReciprocatingMachine) -> Iterator[RowLoad]:
             stop_at_outer_dead_centre_N=float(at_centres[k, 0]),
             stop_at_inner_dead_centre_N=float(at_centres[k, 1]),
             stop_over_the_turn_N=float(stopped.lower[k]),
-            covers=tuple(_covers(scene, k, sum(1 for _ in row_cylinders(rows[k])))),
-            frame=_frame(forces.gas[k]),
+            covers=tuple(covers[k][: 2 * sum(1 for _ in row_cylinders(rows[k]))]) if covers else (),
+            frame=frames[k],
             guide=None if guides is None else guides[k],
         )
 
@@ -114,26 +111,38 @@ def at_dead_centres(scene: Prepared) -> Real:
     return np.stack([total[..., rows, rows], total[..., rows, count + rows]], axis=-1)
 
 
-def _covers(scene: Prepared, k: int, cylinders: int) -> Iterator[CoverLoad]:
+def _covers(scene: Prepared) -> list[list[CoverLoad]]:
+    """Loads on the covers of every row, of as many chambers as any row has; none without gas."""
     cycle: GasCycle | None = scene.results.get("gas")
     if cycle is None:
-        return
-    outward = np.abs(cycle.forces.force[k])
-    for chamber in range(2 * cylinders):
-        low, high = float(np.min(outward[chamber])), float(np.max(outward[chamber]))
-        side = "crank" if chamber % 2 else "head"
-        yield CoverLoad(cylinder=chamber // 2, side=side, largest_N=high, smallest_N=low)
+        return []
+    return [
+        [
+            CoverLoad(
+                cylinder=chamber // 2, side="crank" if chamber % 2 else "head", largest_N=largest, smallest_N=smallest
+            )
+            for chamber, (smallest, largest) in enumerate(zip(*of_row, strict=True))
+        ]
+        for of_row in zip(*_ends(np.abs(cycle.forces.force)), strict=True)
+    ]
 
 
-def _frame(gas: Real) -> FrameLoad:
-    """The cylinders pull at the frame against the gas force of the pistons."""
-    low, high = float(np.min(-gas)), float(np.max(-gas))
-    return FrameLoad(
-        tension_N=max(high, 0.0),
-        compression_N=min(low, 0.0) + 0.0,
-        mean_N=0.5 * (low + high) + 0.0,
-        amplitude_N=0.5 * (high - low),
-    )
+def _frames(gas: Real) -> list[FrameLoad]:
+    """The cylinders of every row pull at the frame against the gas force (rows, T) N of the pistons."""
+    return [
+        FrameLoad(
+            tension_N=max(high, 0.0),
+            compression_N=min(low, 0.0) + 0.0,
+            mean_N=0.5 * (low + high) + 0.0,
+            amplitude_N=0.5 * (high - low),
+        )
+        for low, high in zip(*_ends(-gas), strict=True)
+    ]
+
+
+def _ends(values: Real) -> tuple[list[Any], list[Any]]:
+    """Smallest and largest over the last axis."""
+    return np.minimum.reduce(values, axis=-1).tolist(), np.maximum.reduce(values, axis=-1).tolist()
 
 
 def on_guides(scene: Prepared, machine: ReciprocatingMachine) -> tuple[Real, Real]:

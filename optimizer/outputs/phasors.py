@@ -8,6 +8,12 @@ import numpy as np
 from optimizer.mechanics.inertia import Wrench
 from optimizer.numerics.arrays import Complex
 
+#: of an order: its vectors, what their phasors are told by, and their peak
+_FIELDS = tuple(
+    (name, (f"real_{unit}", f"imag_{unit}", f"magnitude_{unit}", "phase_deg"), f"peak_{unit}")
+    for name, unit in (("force", "N"), ("moment", "Nm"))
+)
+
 
 def vectors_of(wrenches: Sequence[Wrench]) -> Complex:
     """Phasors (n, 2, 2) of wrenches: of force [N] and moment [N m] that which turns with the shaft and the other."""
@@ -26,27 +32,20 @@ def orders_of(numbers: Sequence[int], vectors: Complex) -> list[dict[str, Any]]:
     size = np.abs(vectors)
     parts = zip(vectors.tolist(), phase.tolist(), (size[..., 0] + size[..., 1]).tolist(), strict=True)
     return [
-        {
-            "order": number,
-            **{
-                name: {
-                    "co_rotating": _phasor(co, of_co, unit),
-                    "counter_rotating": _phasor(counter, of_counter, unit),
-                    f"peak_{unit}": peak,
-                }
-                for (name, unit), (co, counter), (of_co, of_counter), peak in zip(
-                    (("force", "N"), ("moment", "Nm")), *each, strict=True
-                )
-            },
+        {"order": number}
+        | {
+            name: {
+                "co_rotating": _phasor(co, of_co, of_phasor),
+                "counter_rotating": _phasor(counter, of_counter, of_phasor),
+                of_peak: peak,
+            }
+            for (name, of_phasor, of_peak), (co, counter), (of_co, of_counter), peak in zip(
+                _FIELDS, *of_order, strict=True
+            )
         }
-        for number, each in zip(numbers, parts, strict=True)
+        for number, of_order in zip(numbers, parts, strict=True)
     ]
 
 
-def _phasor(vector: complex, phase_deg: float, unit: str) -> dict[str, float]:
-    return {
-        f"real_{unit}": vector.real,
-        f"imag_{unit}": vector.imag,
-        f"magnitude_{unit}": abs(vector),
-        "phase_deg": phase_deg,
-    }
+def _phasor(vector: complex, phase_deg: float, fields: Sequence[str]) -> dict[str, float]:
+    return dict(zip(fields, (vector.real, vector.imag, abs(vector), phase_deg), strict=True))

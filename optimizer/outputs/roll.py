@@ -29,7 +29,7 @@ def _figure(scene: Prepared, unbalance: Complex | None) -> Roll:
 def _moment(scene: Prepared, samples: Real, peak: Bracket) -> RollMoment:
     square = scene.omega_squared
     return RollMoment(
-        moment_Nm=tuple(samples.tolist()),
+        moment_Nm=samples.tolist(),
         peak_Nm=float(peak.lower[0]) * square,
         peak_bracket_Nm=bracket(peak._replace(lower=peak.lower * square, upper=peak.upper * square), 0),
         peak_angle_deg=float(np.mod(np.rad2deg(peak.angle[0]), scene.roll.period_deg)),

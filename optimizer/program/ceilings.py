@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from optimizer.numerics.arrays import SMALLEST, Complex, Real, Reals
+from optimizer.numerics.records import record
 from optimizer.program.norms import Norms, join
 from optimizer.responses.response import Response
 
@@ -13,6 +14,7 @@ from optimizer.responses.response import Response
 CEILING_TOLERANCE = 1e-9
 
 
+@record
 @dataclass(frozen=True)
 class Ceilings:
     """Hard limits |c_i + H_i u| <= cap_i; a cap below 0 cannot be met."""

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.records import record
 from optimizer.program.limits import Limits
 from optimizer.program.statement import Statement
 
@@ -26,6 +27,7 @@ _UP = 1.0 + 64 * _EPS
 _DEAR = 1e-10
 
 
+@record
 @dataclass(frozen=True)
 class Multipliers:
     """Multipliers of one program.
@@ -127,7 +129,7 @@ def best_proof(statement: Statement, proofs: Iterable[Multipliers]) -> tuple[Rea
     every = together(each)
     bound = objective_lower_bound(statement, every)
     best = np.where(np.isnan(bound), -np.inf, bound).argmax(axis=0)
-    if not best.any():
+    if not np.count_nonzero(best):
         return bound[0], each[0]
     taken = (best, *np.indices(best.shape))
     return bound[taken], every.chosen(taken)
@@ -182,7 +184,7 @@ def _in_loops(statement: Statement, multipliers: Multipliers, target: Real | Non
     if target is not None and target.shape != flat.leading:
         return in_full()
     bound, dear = flat.bounds(multipliers.term, multipliers.row, multipliers.ceiling, target)
-    return np.where(dear, in_full(), bound) if dear.any() else bound
+    return np.where(dear, in_full(), bound) if np.count_nonzero(dear) else bound
 
 
 def affine_minorant(statement: Statement, multipliers: Multipliers) -> tuple[Real, Complex, Real]:
@@ -217,7 +219,7 @@ def budget_price(statement: Statement, multipliers: Multipliers, mass_cost: floa
     """
     limits = statement.limits
     ends = limits.budget_ends
-    if not ends.any():
+    if not np.count_nonzero(ends):
         return np.zeros(ends.shape)
     minorant = _minorant(statement, multipliers, statement.ceilings.cap)
     # with the rounding of the slopes, as in the bound: at a lower price a web behind this one would gain something

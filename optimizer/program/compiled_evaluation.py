@@ -9,11 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, in_order
+from optimizer.numerics.records import record
 from optimizer.program.ceilings import Ceilings
 from optimizer.program.limits import Limits
 from optimizer.program.norms import Norms
 
 
+@record
 @dataclass(frozen=True)
 class Flat:
     """N programs in the usual order in memory: one group, real influences, webs that carry what they like."""

@@ -6,12 +6,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, plain, spread
+from optimizer.numerics.records import record
 from optimizer.program.equal_castings import Alike
 
 #: fields with an entry for each web
 OF_WEBS = ("radius", "max_mass", "free", "centre", "half_angle_cos", "half_angle_sin")
 
 
+@record
 @dataclass(frozen=True)
 class Limits:
     """0 <= m_k <= max_mass_k, |u_k| <= R_k m_k, u_k in its sector, sum m_k <= max_total_mass.

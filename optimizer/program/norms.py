@@ -6,8 +6,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from optimizer.numerics.arrays import SMALLEST, Complex, Real, spread
+from optimizer.numerics.records import record
 
 
+@record
 @dataclass(frozen=True)
 class Norms:
     """Terms |c_j + H_j u|; where counterweights scatter, each the largest of all that they may come to.

@@ -25,9 +25,10 @@ class Points(NamedTuple):
 
     def where(self, mask: np.ndarray, other: "Points") -> "Points":
         """These where ``kept`` (N,), others elsewhere."""
-        if mask.all():
+        count = np.count_nonzero(mask)
+        if count == mask.size:
             return self
-        if not mask.any():
+        if not count:
             return other
         return Points(
             np.where(mask[:, None], self.unbalance, other.unbalance),

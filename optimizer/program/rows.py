@@ -42,7 +42,7 @@ def weighted_peak(response: Response, weight: Reals, weight_x: Reals = 1.0, weig
     q = np.asarray(0.5 * weight * (weight_x - weight_y))
     f, b = response.baseline.co, response.baseline.counter
     against = response.counter_influence
-    if not q.any() and against is None:
+    if not np.count_nonzero(q) and against is None:
         alone = p * f
         # what is too small to divide by is none, as in `total`
         alone = np.where(np.abs(alone) <= SMALLEST, 0.0, alone)[..., None]

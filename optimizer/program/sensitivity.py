@@ -44,7 +44,7 @@ def shadow_prices(
     support = limits.support(-slope)
     if budget is None:
         ends = limits.budget_ends
-        budget = limits.spent(limits.margin * support)[1] if ends.any() else np.zeros(ends.shape)
+        budget = limits.spent(limits.margin * support)[1] if np.count_nonzero(ends) else np.zeros(ends.shape)
     return ShadowPrices(
         max_mass=np.maximum(limits.radius * (support - budget[..., None] / limits.margin), 0.0),
         half_angle=np.abs(u) * limits.opening(-slope),

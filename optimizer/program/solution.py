@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, mapped
+from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, nothing_proven
 from optimizer.program.statement import Statement
@@ -80,6 +81,7 @@ class Solution:
         )
 
 
+@record
 @dataclass(frozen=True)
 class Solutions:
     """Counterweights of N programs with their proofs; every figure is evaluated from ``unbalance``."""

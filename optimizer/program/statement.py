@@ -6,12 +6,13 @@ subject to  |c_i + H_i u| <= cap_i  for every ceiling i,  u within the limits.
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, mapped
+from optimizer.numerics.arrays import Complex, Real, mapped, variant
+from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 from optimizer.program.ceilings import Ceilings
 from optimizer.program.compiled_evaluation import Flat, flat
 from optimizer.program.limits import Limits
@@ -43,6 +44,7 @@ class Names(NamedTuple):
     rows: tuple[str, ...]
 
 
+@record
 @dataclass(frozen=True)
 class Statement:
     """A program to solve."""
@@ -215,7 +217,7 @@ class Statement:
         found = self._mapped(lambda array: array[None])
         # what is known of it is not found out again
         known = {"at_rest": self.at_rest[None], "single_reach": self.single_reach[None]}
-        vars(found).update(known, flat=None if self.flat is None else replace(self.flat, leading=(1,)))
+        vars(found).update(known, flat=None if self.flat is None else variant(self.flat, leading=(1,)))
         return found
 
     def chosen(self, programs: "int | tuple[int, ...] | np.ndarray") -> "Statement":
@@ -230,10 +232,12 @@ class Statement:
 
     def _mapped(self, function: Callable[[Any], Any]) -> "Statement":
         """A function of every array that has the leading axes."""
-        return replace(
-            self,
-            norms=mapped(self.norms, function),
-            floor=function(self.floor),
-            ceilings=mapped(self.ceilings, function),
-            limits=mapped(self.limits, function),
+        return Statement(
+            mapped(self.norms, function),
+            self.row,
+            self.group,
+            function(self.floor),
+            mapped(self.ceilings, function),
+            mapped(self.limits, function),
+            self.names,
         )

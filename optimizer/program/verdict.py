@@ -123,7 +123,7 @@ def verdict(claim: Claim, tolerance: float) -> Verdict:
         mass_bound = np.minimum(claim.mass_lower_bound, claim.mass)
         mass_gap = relative_gap(claim.mass - mass_bound, mass_yardstick)
         light = mass_gap <= MASS_GAP
-    if false.any():
+    if np.count_nonzero(false):
         _LOG.error("a lower bound is above the value of an answer: %d of %d", np.sum(false), false.size)
     close = relative <= tolerance
     why = OPTIMAL if claim.mass_lower_bound is None else OPTIMAL_LIGHTEST

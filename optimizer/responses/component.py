@@ -1,11 +1,11 @@
 """Responses along one axis of the frame, of vectors that the shaft sees."""
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.memoization import cached_property
 from optimizer.responses.curve import Curves, TurnResponse
 from optimizer.responses.moving_curves import Axis, MovingCurve, along
 from optimizer.responses.piecewise_cubics import Index, Pieces

@@ -6,12 +6,12 @@ n = s (rho - 1). The pieces of a curve in such motion are pieces all the same (:
 """
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, in_order, plain
+from optimizer.numerics.memoization import cached_property
 from optimizer.responses.piecewise_cubics import Index, Pieces, Source
 
 if TYPE_CHECKING:

@@ -12,13 +12,13 @@ Source: R. T. Farouki, The Bernstein polynomial basis: a centennial retrospectiv
 """
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optimizer.numerics.arrays import Complex, Real, Reals, in_order
+from optimizer.numerics.memoization import cached_property
 
 if TYPE_CHECKING:
     from optimizer.responses.kernel.motion import Motion

@@ -11,8 +11,10 @@ from typing import Literal
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, spread
+from optimizer.numerics.records import record
 
 
+@record
 @dataclass(frozen=True)
 class Phasors:
     """A pair of rotating vectors; ``co`` turns with the shaft, ``counter`` against it. (...) complex."""
@@ -71,6 +73,7 @@ class Phasors:
         return self.co[..., None] * turn + self.counter[..., None] * np.conj(turn)
 
 
+@record
 @dataclass(frozen=True)
 class Response:
     """A response that is affine in the unbalance u of the counterweights.

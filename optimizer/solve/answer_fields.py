@@ -229,7 +229,7 @@ def _claim(
         np.array([rounding]),
         np.array([size]),
         np.asarray(values.excess if feasible else np.inf),
-        np.asarray(np.sum(mass)),
+        np.asarray(np.add.reduce(mass)),
         mass_resolution(optimum.proof.statement, np.array([size])),
         mass_bound,
         optimum.contradicted or any(against),

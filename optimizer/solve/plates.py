@@ -8,7 +8,6 @@ until the gap is as asked. A budget holds of what is cut and not of its tangents
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from time import thread_time
 from typing import NamedTuple
 
@@ -21,6 +20,7 @@ from optimizer.formulation.task import Demand
 from optimizer.mechanics.plates import Plates
 from optimizer.mechanics.shapes import fitted
 from optimizer.numerics.arrays import Complex, Real, mapped
+from optimizer.numerics.memoization import cached_property
 from optimizer.program.cuts.optimum import CertifiedOptimum, Conflict
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.methods.implied_bounds import within_reach

@@ -118,7 +118,7 @@ def conflict(statement: Statement, excess: Multipliers, omega_squared: Reals) ->
 def implied_max_mass(machine: Machine, most: Real) -> list[dict[str, float]]:
     """Limits (N, K) that the proofs of N designs count with, in place of those of the machine, kg."""
     smaller = most < largest_mass(machine)
-    if not smaller.any():
+    if not np.count_nonzero(smaller):
         return [{} for _ in most]
     return [
         {web.name: mass for web, mass, counts in zip(machine.webs, *of_design, strict=True) if counts}

@@ -9,7 +9,6 @@ until the counterweights have none that is worse: then the program is that of al
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -24,6 +23,7 @@ from optimizer.mechanics.scatter import changed, row_parts, weighted, worst_sign
 from optimizer.mechanics.shapes import plates
 from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.memoization import cached_property
 from optimizer.outputs.registry import prepare
 from optimizer.outputs.requirements import effects_of_objective, missing
 from optimizer.program.cuts.cut import EXACT, Scatter

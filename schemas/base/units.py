@@ -46,6 +46,7 @@ UNITS: dict[str, dict[str, Decimal]] = {
     },
 }
 
+_NUMBERS = (float, int)
 _MAX_LENGTH = 48
 _NUMBER = r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?"
 # written out, because the schema's readers take \s for more than ASCII spaces
@@ -85,7 +86,7 @@ class Unit:
     symbol: str
 
     def _read(self, value: Any) -> Any:
-        if type(value) is float:
+        if type(value) in _NUMBERS:
             return value
         if isinstance(value, bool):
             raise PydanticCustomError("quantity", f"must be a number in {self.symbol}, not true or false")

@@ -74,6 +74,8 @@ KINDS: dict[str, ChoiceKind] = {
 
 def stated(web: Any) -> list[str]:
     """Fields by which a web says what may be chosen for it."""
+    if KINDS.keys().isdisjoint(web.model_fields_set):
+        return []
     return [name for name in KINDS if getattr(web, name) is not None]
 
 

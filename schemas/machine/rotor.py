@@ -122,7 +122,7 @@ class Rotor(Ruled):
     @property
     def choice(self) -> Choice | None:
         """What counterweights are chosen from; None is any mass at any angle."""
-        if any(True for _ in self.choice_fields()):
+        if self.catalogue is not None or self.max_counterweights is not None or any(map(stated, self.webs)):
             return "discrete"
         return "semicontinuous" if any(web.min_fitted_mass_kg is not None for web in self.webs) else None
 
@@ -157,6 +157,8 @@ class Rotor(Ruled):
 
 def unique_names(path: Path, names: Sequence[str | None]) -> Iterator[Rule]:
     """One rule broken for every name that already stands earlier in the list; None is no name."""
+    if len(set(names)) == len(names):
+        return
     seen: set[str] = set()
     for index, name in enumerate(names):
         if name is None:

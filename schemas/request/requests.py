@@ -58,6 +58,8 @@ class Accuracy(Model):
         if name in self.model_fields_set:
             return self
         gap = DISCRETE_GAP if discrete else type(self).model_fields[name].default
+        if gap == self.relative_gap:
+            return self
         found = self.model_copy(update={name: gap})
         # it is still not said, and another machine has another one
         found.model_fields_set.discard(name)
@@ -218,14 +220,18 @@ class OptimizeRequest(Scene, Ruled):
             yield Rule(endless, ("machine", "webs", k, "max_mass_kg"), message)
 
     @property
+    def _usual_accuracy(self) -> Accuracy:
+        return self.accuracy.usual(self.machine.choice is not None)
+
+    @property
     def with_usual_gap(self) -> Self:
         """The same with the gap that its machine is usually asked for, where none is said."""
-        return self.model_copy(update={"accuracy": self.accuracy.usual(self.machine.choice is not None)})
+        return self.model_copy(update={"accuracy": self._usual_accuracy})
 
     @model_validator(mode="after")
     def _usual_gap(self) -> Self:
         # frozen for all others: nobody has seen it yet
-        self.__dict__["accuracy"] = self.with_usual_gap.accuracy
+        self.__dict__["accuracy"] = self._usual_accuracy
         return self
 
     def _shaft_rules(self) -> Iterator[Rule]:

@@ -11,20 +11,31 @@ _SOURCE = logging.getLogger("optimizer")
 
 
 class _Recorder(logging.Handler):
+    """Hands every message to all who listen."""
+
     def __init__(self) -> None:
         super().__init__(logging.ERROR)
-        self.messages: list[str] = []
+        self.listeners: list[list[str]] = []
 
     def emit(self, record: logging.LogRecord) -> None:
-        self.messages.append(record.getMessage())
+        for messages in self.listeners:
+            messages.append(record.getMessage())
+
+
+#: one that stays: to make one and to add it takes as long as to read a small request
+_RECORDER = _Recorder()
 
 
 @contextmanager
 def error_log() -> Iterator[list[str]]:
     """What the optimiser logs as an error meanwhile, message by message."""
-    handler = _Recorder()
-    _SOURCE.addHandler(handler)
+    if _RECORDER not in _SOURCE.handlers:
+        _SOURCE.addHandler(_RECORDER)
+    messages: list[str] = []
+    listeners = _RECORDER.listeners
+    listeners.append(messages)
     try:
-        yield handler.messages
+        yield messages
     finally:
-        _SOURCE.removeHandler(handler)
+        # equal ones of others may be among them
+        listeners[:] = [others for others in listeners if others is not messages]

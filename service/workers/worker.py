@@ -36,6 +36,8 @@ _BEHIND = {Priority.FIRST: 0, Priority.FURTHER: 8, Priority.LONG: 11}
 _NICEST = 19
 #: an answer that is larger goes to the service in a file
 LARGE_BYTES = 262_144
+#: objects made and not freed, after which those that hold one another are looked for: a refusal leaves some
+_COLLECT_AFTER = 5_000
 #: faults of the request; anything else is a fault of the service
 REFUSALS = (UnreadableBody, InvalidRequest, NotComputable)
 
@@ -142,6 +144,8 @@ def serve(connection: socket.socket, memory_bytes: int, folder: Path | None) -> 
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     # collecting would touch, and so copy, everything that is shared
     gc.freeze()
+    # what an answer holds goes with it: to look through it meanwhile for what does not takes 5 % of a large one
+    gc.set_threshold(_COLLECT_AFTER)
     preload = sys.modules.get("service.workers.preload")
     try:
         connection.sendall(pickle.dumps(getattr(preload, "failure", None)))
@@ -224,7 +228,7 @@ def perform(task: Task) -> Outcome | Long:
     try:
         body, said = _read(task)
         with said:
-            request = check(task.computation.asks, body)
+            request = check(task.computation.asks, body, None if task.workbook else len(task.body))
             task.limits.require(request)
             if not task.long and long_by_size(request, task.computation.answer is None):
                 return Long()
@@ -235,7 +239,8 @@ def perform(task: Task) -> Outcome | Long:
         if coding is not None:
             content = coded(content, coding)
         seconds = time.perf_counter() - begun
-        stem = getattr(found, "file_stem", None)
+        # a model takes long to say that it has none
+        stem = getattr(found, "file_stem", None) if task.computation.answer is None else None
         return Answer(
             content, coding, len(content), seconds, _certified(found), _resident(), faults=tuple(faults), stem=stem
         )

@@ -1,6 +1,7 @@
 """A bound that contradicts its answer: the answer says so, the log says so, and it is counted."""
 
 import json
+import logging
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -12,6 +13,7 @@ from starlette.testclient import TestClient
 from optimizer.program.verdict import CONTRADICTED, Claim
 from optimizer.solve import answer_fields
 from optimizer.solve import certify as certified
+from service.common.faults import error_log
 from service.computations import COMPUTATIONS
 from service.documents.examples import bodies
 from service.guard.sizes import SizeLimits
@@ -67,3 +69,17 @@ def test_a_chunk_of_a_sweep_tells_too(monkeypatch: pytest.MonkeyPatch, tmp_path:
     piece = jobs.run("sweep", json.dumps(asked).encode(), 0, 3, str(tmp_path / "stop"))
     assert piece.failed == 3
     assert piece.faults == ("a lower bound is above the value of an answer: 3 of 3",)
+
+
+def test_whoever_listens_hears_every_error_of_its_time() -> None:
+    """Analytic: lists that are equal are told apart, and nobody hears what comes later."""
+    log = logging.getLogger("optimizer.program.verdict")
+    with error_log() as outer:
+        with error_log() as inner, error_log() as beside:
+            pass
+        log.error("one")
+        with error_log() as later:
+            log.warning("no error")
+            log.error("%s and %s", "two", "three")
+    log.error("four")
+    assert (inner, beside, outer, later) == ([], [], ["one", "two and three"], ["two and three"])

@@ -60,6 +60,7 @@ def test_readable() -> None:
     assert read_json(b"1" * 5000) == float("inf")
     assert read_json(b"-" + b"1" * 5000) == float("-inf")
     assert read_json(b"1" * 400) == int("1" * 400)
+    assert read_json(b'{"a": "' + b"7" * 500 + b'", "b": 12}') == {"a": "7" * 500, "b": 12}
 
 
 @pytest.mark.parametrize("text", ["NaN", "Infinity", "-Infinity", "1e999", "-1e999", "1" * 5000, "1" * 400])

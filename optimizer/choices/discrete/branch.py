@@ -7,7 +7,6 @@ returns, multipliers prove (``bound.py``), and options by which the bound rises 
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -19,6 +18,7 @@ from optimizer.choices.discrete.few import at_most, costs, offer_few
 from optimizer.choices.discrete.options import Incumbent, Options
 from optimizer.choices.discrete.relaxed import apart, on_first, relaxed
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.memoization import cached_property
 from optimizer.program.certificate import Multipliers
 from optimizer.program.methods.compiled import both_stages
 from optimizer.program.statement import Statement

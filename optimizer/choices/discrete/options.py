@@ -1,11 +1,11 @@
 """Slots and their options, and the best set of them that was come upon."""
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.memoization import cached_property
 from optimizer.program.equal_castings import Alike
 from optimizer.program.statement import Statement
 

@@ -6,7 +6,6 @@ better than the best that is known, and every pair inside it is evaluated.
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -15,6 +14,7 @@ from optimizer.choices.clock import Clock
 from optimizer.choices.discrete.options import Incumbent
 from optimizer.choices.discrete.sums import Half
 from optimizer.numerics.arrays import SMALLEST, Complex, Real
+from optimizer.numerics.memoization import cached_property
 from optimizer.program.statement import Statement
 
 #: by which balls are larger than what they have to hold, and what sums may be off by as a share of their coordinates

@@ -7,12 +7,12 @@ every split of a unit between the part that stays and the part that moves.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Literal, NamedTuple
 
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.memoization import cached_property
 from optimizer.responses.curve import TurnResponse
 
 #: by this share of them constants differ that are not one

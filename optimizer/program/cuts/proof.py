@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.records import record
 from optimizer.program.certificate import (
     Multipliers,
     best_proof,
@@ -25,6 +26,7 @@ from optimizer.program.statement import Statement
 _MEAN = 1.0 - 64 * np.finfo(float).eps
 
 
+@record
 @dataclass(frozen=True)
 class Proof:
     """A bound by multipliers of a statement with finitely many cuts.

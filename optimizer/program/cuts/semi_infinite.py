@@ -13,12 +13,12 @@ of that is proven of the program.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from optimizer.numerics.arrays import SMALLEST, Complex, Real, Reals
+from optimizer.numerics.memoization import cached_property
 from optimizer.program.ceilings import Ceilings, limited
 from optimizer.program.cuts.brackets import Brackets
 from optimizer.program.cuts.cut import EXACT, Cut, Evaluation, Quantity, Scatter

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, mapped, plain
+from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, best_proof, mass_lower_bound, nothing_proven
 from optimizer.program.kernel.finer_numbers import Precision, solve_in
@@ -49,6 +50,7 @@ ENOUGH, ENOUGH_FOR_MASS, MASS_ENOUGH = 1e-3, 1e-2, 1e-5
 TARGET = 1.0 - 1e-7
 
 
+@record
 @dataclass(frozen=True)
 class BothStages(Solutions):
     """Where both stages of N programs ended: of the points that they came upon the lightest that is an optimum."""
@@ -91,7 +93,7 @@ def both_stages(
         finer = _Tolerances(1e-7, finest, 100 * finest, precision.mass, 0.1 * CEILING_ROUNDING)
         solved = _solve(statement, share, least_mass, finer, _in(precision), at_least)
         return _judged(statement, share, demand, least_mass, solved)
-    plain, level = np.flatnonzero(plain_discs(statement)), at_least + np.zeros(share.shape)
+    (plain,), level = plain_discs(statement).nonzero(), at_least + np.zeros(share.shape)
     if not plain.size:
         return _in_any_limits(statement, share, demand, least_mass, level)
     part, wanted = statement.chosen(plain) if plain.size < share.size else statement, (share[plain], demand[plain])
@@ -174,7 +176,7 @@ def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, s
         # what can be kept up to rounding is not traded for their tolerance
         kept = np.minimum(np.maximum(light.excess, CEILING_ROUNDING), CEILING_TOLERANCE)
         nearer = _nearer(light, best, target)
-        for point in (light, points_at(statement, nearer), rest):
+        for point in (light, rest) if nearer is None else (light, points_at(statement, nearer), rest):
             lighter = point.mass < chosen.mass
             admitted = (point.objective <= target) & (point.excess <= kept)
             chosen = chosen.where(~(lighter & admitted), point)
@@ -279,11 +281,16 @@ def _better(old: Points, new: Points) -> Points:
     return new.where(better, old)
 
 
-def _nearer(lightest: Points, smallest: Points, target: Real) -> Complex:
-    """The lightest moved towards the smallest just so far that the objective, which is convex, meets the target."""
+def _nearer(lightest: Points, smallest: Points, target: Real) -> Complex | None:
+    """The lightest moved towards the smallest just so far that the objective, which is convex, meets the target.
+
+    None where it does for all.
+    """
     over = lightest.objective - target + smallest.rounding
     fall = lightest.objective - smallest.objective
     needed = (over > 0) & (fall > over)
+    if not np.count_nonzero(needed):
+        return None
     step = np.where(needed, over / np.where(needed, fall, 1.0), 0.0)
     return lightest.unbalance + step[:, None] * (smallest.unbalance - lightest.unbalance)
 

@@ -48,7 +48,7 @@ def leave_empty(statement: Statement, solutions: Solutions, share: Real, least_m
     """
     if statement.limits.radius.shape[-1] < 2:
         return
-    for n in np.flatnonzero(has_dust(statement.limits, solutions.unbalance)).tolist():
+    for n in has_dust(statement.limits, solutions.unbalance).nonzero()[0].tolist():
         some = slice(n, n + 1)
         program = statement.chosen(np.array([n]))
         old = points_at(program, solutions.unbalance[some])

@@ -41,7 +41,7 @@ def far_limits(statement: Statement) -> np.ndarray:
     none = np.isinf(limits.max_mass)
     # what one term calls for is no more than what all call for, and cheaper to tell
     far = none | _beyond(limits, statement.single_reach)
-    return none | _beyond(limits, natural_reach(statement)) if far.any() else far
+    return none | _beyond(limits, natural_reach(statement)) if np.count_nonzero(far) else far
 
 
 def _beyond(limits: Limits, natural: Real) -> np.ndarray:
@@ -51,7 +51,7 @@ def _beyond(limits: Limits, natural: Real) -> np.ndarray:
 def within_reach(statement: Statement, solver: Solver) -> Statement:
     """Programs (...) with a finite, proven limit wherever there is none, or one far beyond any need."""
     far = np.asarray(far_limits(statement).any(axis=-1))
-    if not far.any():
+    if not np.count_nonzero(far):
         return statement
     most = statement.limits.max_mass.copy()
     for place in np.ndindex(far.shape):

@@ -4,10 +4,13 @@ All are solved side by side by the compiled interior point; what it does not cer
 """
 
 from dataclasses import dataclass, fields, replace
+from operator import attrgetter
+from typing import Any
 
 import numpy as np
 
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.records import record
 from optimizer.program.certificate import Multipliers, mass_bound_up_to, nothing_proven
 from optimizer.program.equal_unknowns import apart, united
 from optimizer.program.methods.cascade import cascade
@@ -28,7 +31,11 @@ from optimizer.program.solution import (
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import yardstick
 
+#: what optima have of solutions, before what they have of their own
+_OF_SOLUTIONS = attrgetter(*(field.name for field in fields(Solutions)))
 
+
+@record
 @dataclass(frozen=True)
 class Optima(Solutions):
     """Counterweights of N programs; of an unreachable one those that come closest to its ceilings."""
@@ -103,7 +110,7 @@ def _optima(statement: Statement, relative_gap: float, least_mass: bool, solver:
     if found is not None:
         settle_without_slack_rows(statement, share, demand, least_mass, found)
     answer = _nothing(statement) if found is None else _compiled(statement, found)
-    for n in range(size.size) if found is None else np.flatnonzero(~found.certified).tolist():
+    for n in range(size.size) if found is None else (~found.certified).nonzero()[0].tolist():
         program, asked = statement.chosen(n), Target(float(share[n]), float(demand[n]), least_mass)
         quick = interior_point(program, asked) if found is None else only(program, asked, found.chosen(np.array([n])))
         _put(answer, n, cascade(program, asked, solver, quick))
@@ -115,12 +122,9 @@ def _compiled(statement: Statement, solutions: Solutions) -> Optima:
     """What the compiled interior point has found."""
     programs = solutions.objective.shape
     method = INTERIOR_POINT if statement.limits.radius.shape[-1] else CLOSED_FORM
-    return Optima(
-        **{field.name: getattr(solutions, field.name) for field in fields(Solutions)},
-        unreachable=np.zeros(programs, bool),
-        method=np.full(programs, method, dtype=object),
-        conflict=_no_conflict(statement),
-    )
+    own = np.zeros(programs, bool), np.full(programs, method, dtype=object), _no_conflict(statement)
+    every: tuple[Any, ...] = (*_OF_SOLUTIONS(solutions), *own)
+    return Optima(*every)
 
 
 def _no_conflict(statement: Statement) -> Multipliers:

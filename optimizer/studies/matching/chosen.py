@@ -7,7 +7,6 @@ assignment comes to is then searched, cut or certified by itself.
 
 import time
 from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +19,7 @@ from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import layout, spread
 from optimizer.mechanics.shapes import closed, plates
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.memoization import cached_property
 from optimizer.outputs.registry import prepare
 from optimizer.program.certificate import Multipliers, normalised, objective_lower_bound
 from optimizer.program.methods.optima import optima
