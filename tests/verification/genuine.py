@@ -1,7 +1,8 @@
 """``python -m tests.verification.genuine --count 10000``: genuine answers, of which none may be broken.
 
-Pairs of features of tests/pairs, and random machines of tests/hard with what their bodies may ask for. Prints what came
-of them, and every claim that was broken. Exit code 1 where there was one, or where the checker raised something.
+Pairs of features of tests/pairs, and random machines of tests/hard with what their bodies may ask for, some with masses
+that are off. Prints what came of them, and every claim that was broken. Exit code 1 where there was one, or where the
+checker raised something.
 """
 
 import argparse
@@ -25,6 +26,8 @@ from tests.pairs.combinations import all_pairs
 
 #: s, of searches
 _TIME_LIMIT = 0.3
+#: of so many random machines one is asked with masses that are off as well
+_OFF = 5
 #: answers after which it is said how many there are
 _TOLD = 100
 
@@ -36,10 +39,18 @@ def requests(seed: int) -> Iterator[tuple[str, Any]]:
     order.shuffle(pairs)
     modes = [one for one in FEATURES if one != "match"]
     for number in range(10**9):
-        mode = modes[number % len(modes)]
-        yield f"{mode} {number} of seed {seed}", drawn(number, seed, mode)
+        mode, sent = modes[number % len(modes)], drawn(number, seed, modes[number % len(modes)])
+        yield f"{mode} {number} of seed {seed}", sent
+        if number % _OFF == 0 and sent is not None:
+            yield f"{mode} {number} of seed {seed}, masses off", with_masses_off(sent, number)
         base, features = pairs[number % len(pairs)]
         yield f"{base} {features}", body_of(base, features, _TIME_LIMIT)
+
+
+def with_masses_off(sent: Any, number: int) -> Any:
+    """The same with reciprocating masses that are off by a share, up to all of them."""
+    share = (0.02, 0.1, 1.0)[number // _OFF % 3]
+    return sent | {"tolerances": (sent.get("tolerances") or {}) | {"reciprocating_mass_relative": share}}
 
 
 def judged(sent: Any) -> dict[str, Any] | None:
