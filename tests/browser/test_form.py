@@ -2,8 +2,6 @@
 
 import json
 
-import pytest
-
 from schemas.base.form_groups import GROUPS
 from tests.browser.portal import Portal
 
@@ -44,30 +42,31 @@ def test_fields_stand_under_the_headings_of_the_schema_in_its_order(portal: Port
     assert portal.page.locator("#form > fieldset > legend").all_inner_texts() == ["What is to be small", "Answer"]
 
 
-@pytest.mark.parametrize(
-    ("name", "value", "message"),
-    [("crank_radius_m", "-1", "at least"), ("crank_radius_m", "3 kg", "unit"), ("position_m", "", "required")],
-)
-def test_an_error_stands_at_its_field(portal: Portal, name: str, value: str, message: str) -> None:
+def test_an_error_stands_at_its_field(portal: Portal) -> None:
     portal.refusals = {422}
     portal.open()
     _throw(portal)
-    field = portal.input(f"{THROW}/{name}")
-    before = field.input_value()
-    field.fill(value)
-    # the error opens what is closed around it
-    portal.page.locator("#form details[data-pointer='/machine/throws'] > summary").click()
-    portal.page.click("#optimise")
-    portal.page.locator("#form [aria-invalid='true']").wait_for()
-    assert message in _error(portal, f"{THROW}/{name}")
-    assert field.is_visible()
-    assert field.get_attribute("aria-invalid") == "true"
-    assert field.evaluate("node => node === document.activeElement")
-    assert "Invalid request" in portal.page.locator("#problem").inner_text()
-    field.fill(before)
-    portal.optimise()
-    assert portal.page.locator("#form .wrong").count() == 0
-    assert portal.page.locator("#problem").inner_text() == ""
+    for name, value, message in (
+        ("crank_radius_m", "-1", "at least"),
+        ("crank_radius_m", "3 kg", "unit"),
+        ("position_m", "", "required"),
+    ):
+        field = portal.input(f"{THROW}/{name}")
+        before = field.input_value()
+        field.fill(value)
+        # the error opens what is closed around it
+        portal.page.locator("#form details[data-pointer='/machine/throws'] > summary").click()
+        portal.page.click("#optimise")
+        portal.page.locator("#form [aria-invalid='true']").wait_for()
+        assert message in _error(portal, f"{THROW}/{name}")
+        assert field.is_visible()
+        assert field.get_attribute("aria-invalid") == "true"
+        assert field.evaluate("node => node === document.activeElement")
+        assert "Invalid request" in portal.page.locator("#problem").inner_text()
+        field.fill(before)
+        portal.optimise()
+        assert portal.page.locator("#form .wrong").count() == 0
+        assert portal.page.locator("#problem").inner_text() == ""
 
 
 def test_a_choice_may_be_left_open(portal: Portal) -> None:
