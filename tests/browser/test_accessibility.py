@@ -32,9 +32,10 @@ def test_axe_finds_nothing_serious(portal: Portal, example: str, options: Look) 
     assert _serious(portal) == []
 
 
-def _serious(portal: Portal, **options: Any) -> list[Any]:
+def _serious(portal: Portal, within: str | None = None, **options: Any) -> list[Any]:
+    """What axe finds, of the whole page or of the elements that a selector names, which must be there."""
     # nothing is made of what is right, which takes longer than to look
-    found = Axe().run(portal.page, options={"resultTypes": ["violations"], **options}).response["violations"]
+    found = Axe().run(portal.page, within, {"resultTypes": ["violations"], **options}).response["violations"]
     return [(one["id"], [node["html"][:160] for node in one["nodes"][:3]]) for one in found if one["impact"] in SERIOUS]
 
 

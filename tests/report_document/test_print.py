@@ -56,7 +56,6 @@ def test_nothing_keeps_anybody_from_reading_it(opened: Callable[..., Page]) -> N
     for width, contrast in ((1280, True), (390, False)):
         page.set_viewport_size({"width": width, "height": 900})
         assert page.evaluate("document.documentElement.scrollWidth") <= width
-        # nothing is made of what is right, which takes longer than to look
         options = {"resultTypes": ["violations"], "rules": {"color-contrast": {"enabled": contrast}}}
         assert Axe().run(page, options=options).response["violations"] == []
 
