@@ -8,7 +8,7 @@ bin := .venv/bin
 kernels := optimizer/program/kernel/__pycache__/kernels
 pip := $(bin)/pip --quiet --disable-pip-version-check
 
-.PHONY: install run test prepared quick bytecode chromium freecad mono lint bench hard validate nightly lock settings map pictures docs package image image-check smoke sbom licences audit clean
+.PHONY: install run test prepared collected quick bytecode chromium freecad mono lint bench hard validate nightly lock settings map pictures docs package image image-check smoke sbom licences audit clean
 
 install: $(kernels)
 
@@ -22,7 +22,11 @@ test: .venv/development
 	$(MAKE) --no-print-directory --jobs 2 --output-sync=target prepared
 	$(bin)/pytest --numprocesses 4 --dist loadfile -m "not nightly"
 
-prepared: lint mono bytecode $(kernels)
+prepared: lint mono bytecode $(kernels) collected
+
+# by one process, before four do the same: each would compile the tests, and whatever they import, for itself
+collected: .venv/development $(kernels)
+	said=$$($(bin)/pytest -qqq --collect-only -m "not nightly") || { echo "$$said"; exit 1; }
 
 # what goes wrong first, within a minute: for between the changes, not in place of all tests
 quick: .venv/development $(kernels)

@@ -39,6 +39,8 @@ ALL_PANELS = (
 )
 
 
+#: without it a page that waits draws sixty pictures a second, and takes a tenth of a core
+POLLING_MS = 30
 #: in the page: whether there is a newer question, all of whose answer is drawn
 _DRAWN = """(before) => {
   const { asked, drawn } = document.getElementById("results").dataset;
@@ -109,7 +111,7 @@ class Portal:
         """Wait for everything that a run draws which is asked for within; one asked before may still be drawn first."""
         before = self.page.locator("#results").get_attribute("data-asked")
         yield
-        self.page.wait_for_function(_DRAWN, arg=before)
+        self.page.wait_for_function(_DRAWN, arg=before, polling=POLLING_MS)
 
     def optimise(self) -> None:
         """Ask, and wait for everything that this very run draws."""
@@ -131,7 +133,7 @@ class Portal:
         In one step of the page: what opens a part meanwhile, as an error in it does, changes nothing.
         """
         for pointer in pointers:
-            self.page.wait_for_function(_UNFOLD, arg=pointer)
+            self.page.wait_for_function(_UNFOLD, arg=pointer, polling=POLLING_MS)
 
     def input(self, pointer: str) -> Locator:
         return self.page.locator(f"#form .field[data-pointer='{pointer}']").locator("input, select, textarea")

@@ -2,8 +2,6 @@
 
 import json
 
-import pytest
-
 from schemas.base.form_groups import GROUPS
 from tests.browser.portal import Portal
 
@@ -44,30 +42,31 @@ def test_fields_stand_under_the_headings_of_the_schema_in_its_order(portal: Port
     assert portal.page.locator("#form > fieldset > legend").all_inner_texts() == ["What is to be small", "Answer"]
 
 
-@pytest.mark.parametrize(
-    ("name", "value", "message"),
-    [("crank_radius_m", "-1", "at least"), ("crank_radius_m", "3 kg", "unit"), ("position_m", "", "required")],
-)
-def test_an_error_stands_at_its_field(portal: Portal, name: str, value: str, message: str) -> None:
+def test_an_error_stands_at_its_field(portal: Portal) -> None:
     portal.refusals = {422}
     portal.open()
     _throw(portal)
-    field = portal.input(f"{THROW}/{name}")
-    before = field.input_value()
-    field.fill(value)
-    # the error opens what is closed around it
-    portal.page.locator("#form details[data-pointer='/machine/throws'] > summary").click()
-    portal.page.click("#optimise")
-    portal.page.locator("#form [aria-invalid='true']").wait_for()
-    assert message in _error(portal, f"{THROW}/{name}")
-    assert field.is_visible()
-    assert field.get_attribute("aria-invalid") == "true"
-    assert field.evaluate("node => node === document.activeElement")
-    assert "Invalid request" in portal.page.locator("#problem").inner_text()
-    field.fill(before)
-    portal.optimise()
-    assert portal.page.locator("#form .wrong").count() == 0
-    assert portal.page.locator("#problem").inner_text() == ""
+    for name, value, message in (
+        ("crank_radius_m", "-1", "at least"),
+        ("crank_radius_m", "3 kg", "unit"),
+        ("position_m", "", "required"),
+    ):
+        field = portal.input(f"{THROW}/{name}")
+        before = field.input_value()
+        field.fill(value)
+        # the error opens what is closed around it
+        portal.page.locator("#form details[data-pointer='/machine/throws'] > summary").click()
+        portal.page.click("#optimise")
+        portal.page.locator("#form [aria-invalid='true']").wait_for()
+        assert message in _error(portal, f"{THROW}/{name}")
+        assert field.is_visible()
+        assert field.get_attribute("aria-invalid") == "true"
+        assert field.evaluate("node => node === document.activeElement")
+        assert "Invalid request" in portal.page.locator("#problem").inner_text()
+        field.fill(before)
+        portal.optimise()
+        assert portal.page.locator("#form .wrong").count() == 0
+        assert portal.page.locator("#problem").inner_text() == ""
 
 
 def test_a_choice_may_be_left_open(portal: Portal) -> None:
@@ -192,42 +191,45 @@ def test_a_machine_is_uploaded(portal: Portal) -> None:
     assert portal.page.locator("#example").input_value() == ""
 
 
-def test_what_is_no_machine_is_said_to_be_none(portal: Portal) -> None:
+def test_whatever_is_pasted_is_answered_in_words(portal: Portal) -> None:
+    portal.refusals = {422}
     portal.open()
     portal.page.locator("#paste > summary").click()
+    _no_machine(portal)
+    _fields_that_the_form_does_not_know(portal)
+    _words_that_were_meant(portal)
+    _no_machine_but_its_name(portal)
+
+
+def _read(portal: Portal, text: str) -> None:
+    portal.page.evaluate("document.getElementById('problem').replaceChildren()")
+    portal.page.evaluate("document.getElementById('paste').open = true")
+    portal.page.fill("#json", text)
+    portal.page.click("#read")
+
+
+def _no_machine(portal: Portal) -> None:
     for text in ("", "{", "[]", "null", "7"):
-        portal.page.fill("#json", text)
-        portal.page.click("#read")
+        _read(portal, text)
         assert "not a machine" in portal.page.locator("#json-error").inner_text(), text
     assert portal.runs() == 1
 
 
-def test_fields_that_the_form_does_not_know_are_refused_in_words(portal: Portal) -> None:
-    portal.refusals = {422}
-    portal.open()
-    portal.page.locator("#paste > summary").click()
-    portal.page.fill("#json", '{"machine": {"kind": "reciprocating", "wings": 2}}')
-    portal.page.click("#read")
+def _fields_that_the_form_does_not_know(portal: Portal) -> None:
+    _read(portal, '{"machine": {"kind": "reciprocating", "wings": 2}}')
     portal.page.locator("#problem h2").wait_for()
     portal.page.locator("#form .wrong").first.wait_for(state="attached")
     assert "wings: unknown field" in portal.page.locator("#form").inner_text()
 
 
-def test_the_word_that_was_meant_is_named(portal: Portal) -> None:
-    portal.refusals = {422}
-    portal.open()
-    portal.page.locator("#paste > summary").click()
-    portal.page.fill("#json", '{"machine": {"kind": "reciprocating", "speed": 500, "throws": [{"positon_m": 0}]}}')
-    portal.page.click("#read")
+def _words_that_were_meant(portal: Portal) -> None:
+    _read(portal, '{"machine": {"kind": "reciprocating", "speed": 500, "throws": [{"positon_m": 0}]}}')
     portal.page.locator("#problem h2").wait_for()
     portal.page.get_by_text("did you mean speed_rpm?").wait_for()
     portal.page.get_by_text("did you mean position_m?").wait_for()
 
 
-def test_whatever_is_pasted_is_answered_in_words(portal: Portal) -> None:
-    portal.refusals = {422}
-    portal.open()
-    portal.page.locator("#paste > summary").click()
+def _no_machine_but_its_name(portal: Portal) -> None:
     machines: list[object] = [
         None,
         7,
@@ -240,10 +242,7 @@ def test_whatever_is_pasted_is_answered_in_words(portal: Portal) -> None:
         {"kind": ["scroll"], "__proto__": {"kind": "scroll"}, "constructor": 1},
     ]
     for machine in machines:
-        portal.page.evaluate("document.getElementById('problem').replaceChildren()")
-        portal.page.evaluate("document.getElementById('paste').open = true")
-        portal.page.fill("#json", json.dumps({"machine": machine}))
-        portal.page.click("#read")
+        _read(portal, json.dumps({"machine": machine}))
         portal.page.locator("#problem h2").wait_for()
         assert "wrong" in portal.page.locator("#problem").inner_text(), machine
         assert portal.troubles == [], machine

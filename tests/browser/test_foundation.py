@@ -33,8 +33,15 @@ def _amplitude(load: Any) -> float:
     return float(load.get("amplitude_N", load.get("amplitude_Nm")))
 
 
-def test_loads_stand_by_order_before_after_and_as_built(portal: Portal, url: str) -> None:
+def test_loads_stand_by_order_in_both_units_and_are_saved(portal: Portal, url: str, tmp_path: Path) -> None:
     loads = _open(portal, url)
+    _before_after_and_as_built(portal, loads)
+    portal.panel("foundation").locator("#foundation-unit").select_option("kN")
+    _in_kilonewtons_and_the_link_keeps_that(portal, loads)
+    _as_csv_in_full(portal, loads, tmp_path)
+
+
+def _before_after_and_as_built(portal: Portal, loads: Any) -> None:
     panel = portal.panel("foundation")
     rows = {"".join(row[0].split()): row[1:] for row in cells(panel.locator("table"))}
     for order in loads:
@@ -50,10 +57,8 @@ def test_loads_stand_by_order_before_after_and_as_built(portal: Portal, url: str
     assert "outer dead centre of throw 1" in panel.inner_text()
 
 
-def test_loads_stand_in_kilonewtons_and_the_link_keeps_that(portal: Portal, url: str) -> None:
-    loads = _open(portal, url)
+def _in_kilonewtons_and_the_link_keeps_that(portal: Portal, loads: Any) -> None:
     panel = portal.panel("foundation")
-    panel.locator("#foundation-unit").select_option("kN")
     heads = panel.locator("thead th").all_inner_texts()
     assert [head for head in heads if head != "phase, °"] == [
         "order",
@@ -67,10 +72,9 @@ def test_loads_stand_in_kilonewtons_and_the_link_keeps_that(portal: Portal, url:
     portal.page.wait_for_url("**unit=kN*")
 
 
-def test_loads_are_saved_as_csv_in_full(portal: Portal, url: str, tmp_path: Path) -> None:
-    loads = _open(portal, url)
+def _as_csv_in_full(portal: Portal, loads: Any, tmp_path: Path) -> None:
+    """In newtons, whatever the table stands in."""
     panel = portal.panel("foundation")
-    panel.locator("#foundation-unit").select_option("kN")
     with portal.page.expect_download() as saved:
         panel.get_by_role("button", name="CSV", exact=True).click()
     assert saved.value.suggested_filename == "2D12-90-2-20-foundation-loads.csv"

@@ -98,11 +98,24 @@ def test_only_open_panels_are_simulated(portal: Portal) -> None:
     assert not portal.bodies("/v1/accuracy")
 
 
-def test_infeasible_ceilings_are_explained(portal: Portal) -> None:
-    portal.open("2d12", ("counterweights", "hodographs"))
+def test_what_is_asked_of_the_shaft_is_told_and_explained(portal: Portal, url: str) -> None:
+    portal.open("2d12")
     portal.unfold("/objective")
-    portal.input("/objective/force_ceiling_N").fill("1 kN")
+    _bearing_loads_that_are_weighed(portal, url)
+    portal.input("/objective/bearing_weight").fill("")
+    _a_ceiling_of_bearings(portal)
+    portal.input("/objective/bearing_ceiling_N").fill("")
+    _a_ceiling_that_cannot_be_met(portal)
+
+
+def _asked(portal: Portal, field: str, value: str) -> None:
+    portal.input(f"/objective/{field}").fill(value)
     portal.optimise()
+
+
+def _a_ceiling_that_cannot_be_met(portal: Portal) -> None:
+    portal.open_panel("hodographs")
+    _asked(portal, "force_ceiling_N", "1 kN")
     assert "No counterweights meet these ceilings" in portal.page.locator("#answer h2").inner_text()
     captions = portal.page.locator("#answer caption").all_inner_texts()
     assert captions[0] == "The closest compromise, which does not keep the ceilings"
@@ -111,15 +124,8 @@ def test_infeasible_ceilings_are_explained(portal: Portal) -> None:
     assert f"{floor:,.0f}".replace(",", "\u202f") in portal.page.locator(".proof").inner_text()
 
 
-def asked_of_the_shaft(portal: Portal, field: str, value: str) -> None:
-    portal.open("2d12")
-    portal.unfold("/objective")
-    portal.input(f"/objective/{field}").fill(value)
-    portal.optimise()
-
-
-def test_bearing_loads_that_are_weighed_are_told(portal: Portal, url: str) -> None:
-    asked_of_the_shaft(portal, "bearing_weight", "1")
+def _bearing_loads_that_are_weighed(portal: Portal, url: str) -> None:
+    _asked(portal, "bearing_weight", "1")
     request = ask(url, "/v1/examples/2d12") | {"objective": {"bearing_weight": 1}}
     loads = ask(url, "/v1/optimize", request)["main_bearings"]["bearings"]
     largest = [max(one[when]["peak_N"] for one in loads) for when in ("before", "after")]
@@ -144,11 +150,10 @@ def test_what_stands_beside_the_answer(portal: Portal, url: str) -> None:
     assert "Goals in their order" not in words
 
 
-def test_a_ceiling_of_bearings_is_explained(portal: Portal) -> None:
-    asked_of_the_shaft(portal, "bearing_ceiling_N", "105 kN")
+def _a_ceiling_of_bearings(portal: Portal) -> None:
+    _asked(portal, "bearing_ceiling_N", "105 kN")
     assert "ceiling of the bearing loads is reached" in portal.panel("counterweights").inner_text()
-    portal.input("/objective/bearing_ceiling_N").fill("20 kN")
-    portal.optimise()
+    _asked(portal, "bearing_ceiling_N", "20 kN")
     words = portal.page.locator(".proof").inner_text()
     assert "The ceiling of the bearing loads cannot be met." in words
     assert "the ceiling of the bearing loads asks for 20\u202f000 N" in words

@@ -146,37 +146,37 @@ def test_what_a_question_lacks_is_named(portal: Portal) -> None:
     assert portal.page.locator("#example").input_value() == "2d12"
 
 
-@pytest.mark.parametrize(
-    ("arrangement", "axes", "cranks"),
-    [
-        # published: the usual cranks of a four-throw opposed compressor and of a V machine
-        ("opposed", [[0], [180], [0], [180]], [0, 180, 90, 270]),
-        ("v", [[45, 135]] * 4, [0, 90, 180, 270]),
-        # analytic: pairs half a turn apart, the second the mirror image of the first
-        ("boxer", [[0], [180], [0], [180]], [0, 180, 180, 0]),
-    ],
-)
-def test_arrangements(portal: Portal, arrangement: str, axes: list[list[int]], cranks: list[int]) -> None:
+ARRANGEMENTS = {
+    # published: the usual cranks of a four-throw opposed compressor and of a V machine
+    "opposed": ([[0], [180], [0], [180]], [0, 180, 90, 270]),
+    "v": ([[45, 135]] * 4, [0, 90, 180, 270]),
+    # analytic: pairs half a turn apart, the second the mirror image of the first
+    "boxer": ([[0], [180], [0], [180]], [0, 180, 180, 0]),
+}
+
+
+def test_arrangements(portal: Portal) -> None:
     portal.open("2d12")
-    portal.page.click("#new")
-    portal.page.check(f".starter input[value={arrangement}]")
     answers = {"throws": "4", "pitch": "0.3", "stroke": "0.16", "speed": "750", "reciprocating": "30", "rotating": "9"}
-    for name, value in answers.items():
-        portal.page.fill(f"#start-{name}", value)
-    portal.page.select_option("#start-rule", "ends")
-    portal.page.check("#start-plates")
-    for name, value in {"inner": "60 mm", "outer": "200 mm", "thickness": "50 mm"}.items():
-        portal.page.fill(f"#start-{name}", value)
-    before = portal.runs()
-    portal.page.click(".starter button[value=begin]")
-    _computed(portal, before)
-    machine = portal.bodies("/v1/optimize")[-1]["machine"]
-    assert [[row["axis_deg"] for row in each["rows"]] for each in machine["throws"]] == axes
-    assert [each["crank_angle_deg"] for each in machine["throws"]] == cranks
-    assert [web["name"] for web in machine["webs"]] == ["front", "rear"]
-    # analytic: a boxer of four leaves nothing to balance
-    fitted = portal.page.locator("#drawings .front .counterweight:not(.unknown)").count()
-    assert (fitted > 0) == (arrangement != "boxer")
+    for arrangement, (axes, cranks) in ARRANGEMENTS.items():
+        portal.page.click("#new")
+        portal.page.check(f".starter input[value={arrangement}]")
+        for name, value in answers.items():
+            portal.page.fill(f"#start-{name}", value)
+        portal.page.select_option("#start-rule", "ends")
+        portal.page.check("#start-plates")
+        for name, value in {"inner": "60 mm", "outer": "200 mm", "thickness": "50 mm"}.items():
+            portal.page.fill(f"#start-{name}", value)
+        before = portal.runs()
+        portal.page.click(".starter button[value=begin]")
+        _computed(portal, before)
+        machine = portal.bodies("/v1/optimize")[-1]["machine"]
+        assert [[row["axis_deg"] for row in each["rows"]] for each in machine["throws"]] == axes
+        assert [each["crank_angle_deg"] for each in machine["throws"]] == cranks
+        assert [web["name"] for web in machine["webs"]] == ["front", "rear"]
+        # analytic: a boxer of four leaves nothing to balance
+        fitted = portal.page.locator("#drawings .front .counterweight:not(.unknown)").count()
+        assert (fitted > 0) == (arrangement != "boxer")
 
 
 def _begin(portal: Portal, arrangement: str, answers: dict[str, str]) -> Any:

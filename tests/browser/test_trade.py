@@ -15,9 +15,9 @@ def _weigh(portal: Portal, **values: str) -> None:
 
 
 def test_force_and_moment_are_traded_with_a_bearing_weight(portal: Portal, url: str) -> None:
-    portal.open("2d12", ("pareto",))
+    portal.open("2d12")
     _weigh(portal, bearing_weight="1")
-    panel = portal.panel("pareto")
+    panel = portal.open_panel("pareto")
     assert panel.locator(".error:not(:empty)").count() == 0
     panel.get_by_text("Point, from least force to least moment").wait_for()
     # independent: weights play no part in a front
@@ -29,9 +29,9 @@ def test_force_and_moment_are_traded_with_a_bearing_weight(portal: Portal, url: 
 
 
 def test_three_responses_are_traded_by_name(portal: Portal, url: str) -> None:
-    portal.open("2d12", ("pareto",))
+    portal.open("2d12")
     _weigh(portal, bearing_weight="1")
-    panel = portal.panel("pareto")
+    panel = portal.open_panel("pareto")
     panel.locator("#trade-z").select_option("bearings")
     panel.locator("[role=img][aria-label*='largest bearing load, N']").wait_for()
     body = portal.bodies("/v1/pareto")[-1]

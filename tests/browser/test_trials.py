@@ -4,7 +4,6 @@ With SCREENSHOTS=1 pictures of each are left in `artefacts/portal`: wide, narrow
 first is there as a PDF.
 """
 
-from collections.abc import Sequence
 from typing import Any
 
 import pytest
@@ -16,21 +15,17 @@ from tests.browser.portal import ARTEFACTS, Portal, ask
 from tests.browser.test_accessibility import _serious
 from tests.browser.test_gas import COLUMNS
 
-#: where axe looks at the page of a trial, which takes seconds each time; at night wide and narrow
-BOTH = ("wide", "narrow")
-every_look = pytest.param(BOTH, marks=pytest.mark.nightly)
+#: axe takes seconds for the whole page of a trial: by day it looks at what no page of another test shows
+whole = pytest.param(None, marks=pytest.mark.nightly, id="whole")
 
 
-def _look(portal: Portal, name: str, looks: Sequence[str]) -> None:
-    """Screenshots, and what axe finds, wide and light or narrow and dark."""
-    found = {}
-    if "wide" in looks:
-        found["wide"] = _serious(portal)
+def _look(portal: Portal, name: str, within: str | None = None) -> None:
+    """Screenshots, and what axe finds in the page or in the elements of a selector: wide and light, narrow and dark."""
+    wide = _serious(portal, within)
     portal.screenshot(f"{name}-1280")
     portal.page.set_viewport_size({"width": 390, "height": 844})
     portal.page.emulate_media(color_scheme="dark")
-    if "narrow" in looks:
-        found["narrow"] = _serious(portal)
+    narrow = _serious(portal, within)
     # nothing is wider than the window, once plots have the width that there is
     portal.page.wait_for_function("() => document.documentElement.scrollWidth <= 390")
     portal.screenshot(f"{name}-390-dark")
@@ -38,7 +33,7 @@ def _look(portal: Portal, name: str, looks: Sequence[str]) -> None:
     portal.page.emulate_media(color_scheme="light", media="print")
     portal.screenshot(f"{name}-print")
     portal.page.emulate_media(media="screen")
-    assert found == {look: [] for look in looks}
+    assert (wide, narrow) == ([], [])
 
 
 def _begun(portal: Portal, hand: Hand) -> Any:
@@ -48,8 +43,10 @@ def _begun(portal: Portal, hand: Hand) -> Any:
     return portal.bodies("/v1/optimize")[-1]
 
 
-@pytest.mark.parametrize("looks", [("narrow",), every_look])
-def test_a_compressor_becomes_a_filed_report_with_castings(portal: Portal, looks: Sequence[str]) -> None:
+@pytest.mark.parametrize(
+    "within", [pytest.param("#answer .document, #form [data-pointer='/machine/catalogue']", id="its own"), whole]
+)
+def test_a_compressor_becomes_a_filed_report_with_castings(portal: Portal, within: str | None) -> None:
     portal.page.goto(f"{portal.url}/")
     hand = Hand(portal)
     hand.click("#new")
@@ -91,11 +88,11 @@ def test_a_compressor_becomes_a_filed_report_with_castings(portal: Portal, looks
     # analytic: castings of at most two of the four sizes
     assert len(masses_kg - {0}) <= 2
     assert masses_kg <= {0, 10, 20, 30, 40}
-    _look(portal, "trial-a", looks)
+    _look(portal, "trial-a", within)
 
 
-@pytest.mark.parametrize("looks", [("wide",), every_look])
-def test_a_v_six_gets_bearings_and_gas(portal: Portal, looks: Sequence[str]) -> None:
+@pytest.mark.parametrize("within", [pytest.param("#form .gas, #panel-sweep", id="its own"), whole])
+def test_a_v_six_gets_bearings_and_gas(portal: Portal, within: str | None) -> None:
     portal.page.goto(f"{portal.url}/")
     hand = Hand(portal)
     hand.click("#new")
@@ -128,7 +125,7 @@ def test_a_v_six_gets_bearings_and_gas(portal: Portal, looks: Sequence[str]) -> 
     assert len(request["machine"]["bearings"]) == 4
     assert "bearing load" in portal.page.locator("#answer h2").first.inner_text()
     portal.open_panel("picture-indicator")
-    _look(portal, "trial-b", looks)
+    _look(portal, "trial-b", within)
 
 
 def test_a_scroll_is_begun_from_nothing(portal: Portal) -> None:
@@ -157,4 +154,4 @@ def test_a_scroll_is_begun_from_nothing(portal: Portal) -> None:
     # what cancels is not said to have grown from nothing
     expect(portal.page.locator("#answer h2").first).to_have_text("0.40909 kg of counterweights: force −100 %")
     portal.open_panel("pin-loads")
-    _look(portal, "trial-c", BOTH)
+    _look(portal, "trial-c")

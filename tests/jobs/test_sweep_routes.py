@@ -168,6 +168,7 @@ def test_single_requests_are_answered_while_a_sweep_runs(client: TestClient) -> 
     deadline = time.monotonic() + 180
     while client.get(path).json()["done"] == 0:
         assert time.monotonic() < deadline
+        time.sleep(0.02)
     assert client.post("/v1/optimize", json={"machine": MACHINE}).json()["status"] == "optimal"
     assert client.get(path).json()["state"] == "running"
     client.delete(path)

@@ -1,6 +1,7 @@
 """Loads as a designer of parts asks for them: the 2D12, whose figures are published, and what follows by hand."""
 
 import json
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -25,18 +26,21 @@ def loads_of(found: AnalyzeAnswer) -> Loads:
     return found.loads
 
 
-BOTH = answer(gravity_deg=270)
+@cache
+def both() -> AnalyzeAnswer:
+    """With weight, and without a change else."""
+    return answer(gravity_deg=270)
 
 
 def test_gas_forces_at_the_dead_centres_published() -> None:
     """Design calculation of the 2D12, 1.11: -239491.5 and -239937.4 N outside, 228681.6 N inside, with pi = 3.14."""
-    rows = loads_of(BOTH).rows
+    rows = loads_of(both()).rows
     outer, inner = ([getattr(row, f"stop_at_{end}_dead_centre_N") for row in rows] for end in ("outer", "inner"))
     assert outer == pytest.approx([-239491.5, -239937.4], rel=6e-4)
     assert inner[0] == pytest.approx(228681.6, rel=6e-4)
     # over the turn the lean of the rod adds little, and nothing at the dead centre itself
-    assert BOTH.rod_loads is not None
-    for row, loaded in zip(rows, BOTH.rod_loads.rows, strict=True):
+    assert both().rod_loads is not None
+    for row, loaded in zip(rows, both().rod_loads.rows, strict=True):
         stop = next(case for case in loaded.cases if case.case == "sudden_stop")
         assert row.stop_over_the_turn_N == max(stop.tension_N, -stop.compression_N)
         assert row.stop_over_the_turn_N >= abs(row.stop_at_outer_dead_centre_N) * (1.0 - 1e-9)
@@ -44,7 +48,7 @@ def test_gas_forces_at_the_dead_centres_published() -> None:
 
 def test_masses_published() -> None:
     """303.60 and 277.53 kg; 0.7 of each rod turns, with 12 kg of the throw."""
-    found = loads_of(BOTH)
+    found = loads_of(both())
     assert [row.reciprocating_mass_kg for row in found.rows] == pytest.approx([303.60, 277.53], abs=5e-3)
     assert [row.rod_rotating_mass_kg for row in found.rows] == pytest.approx([0.7 * 86.025] * 2)
     assert [throw.rotating_mass_kg for throw in found.throws] == pytest.approx([12.0 + 0.7 * 86.025] * 2)
@@ -52,7 +56,7 @@ def test_masses_published() -> None:
 
 
 def test_piston_rod_covers_and_frame_analytic() -> None:
-    for row in loads_of(BOTH).rows:
+    for row in loads_of(both()).rows:
         largest = (row.largest_gas_N, row.largest_inertia_N, row.largest_piston_force_N)
         assert row.piston_rod_N == max(largest)
         assert row.piston_rod_governed_by == "gas"
@@ -85,12 +89,12 @@ def test_one_of_two_opposed_crossheads_lifts_published() -> None:
     """Lecture slides: in one of two opposed rows the side force points up. In a machine that turns the other way, in
     the other row.
     """
-    shares = [row.guide.lifted_share for row in loads_of(BOTH).rows if row.guide]
+    shares = [row.guide.lifted_share for row in loads_of(both()).rows if row.guide]
     other = answer(gravity_deg=270, rotation="cw")
     reversed_ = [row.guide.lifted_share for row in loads_of(other).rows if row.guide]
     assert max(shares) > 0.5 > min(shares)
     assert np.argmax(shares) != np.argmax(reversed_)
-    warned = [warning for warning in BOTH.warnings if warning.code == "crosshead_lifts"]
+    warned = [warning for warning in both().warnings if warning.code == "crosshead_lifts"]
     assert f"/machine/throws/{np.argmax(shares)}/rows/0" in [warning.pointer for warning in warned]
     # without gravity nothing is said of it
     silent = answer()

@@ -213,8 +213,10 @@ VARIANTS = {
 
 def main():
     service = service_at(os.environ["URL"])
-    found = {name: tried(name, service) for name in VARIANTS}
-    return {**found, "forced": tried("density 7.85", service, force=True)}
+    found = {name: tried(name, service) for name in os.environ["VARIANTS"].split(";")}
+    if os.environ["FORCED"]:
+        found["forced"] = tried(os.environ["FORCED"], service, force=True)
+    return {"drawn": sorted(VARIANTS), **found}
 
 
 def tried(name, service, force=False):

@@ -96,5 +96,7 @@ def wait(until):
         if time.monotonic() > deadline:
             raise TimeoutError(report())
         QtCore.QCoreApplication.processEvents(QtCore.QEventLoop.AllEvents, 50)
+        # else it looks again and again while the service, on the same cores, computes
+        time.sleep(0.02)
     for _ in range(5):
         QtCore.QCoreApplication.processEvents(QtCore.QEventLoop.AllEvents, 50)

@@ -167,7 +167,7 @@ def test_what_is_too_large_or_too_late_is_skipped_and_says_so(monkeypatch: pytes
 
 def test_a_machine_of_500_webs_is_measured_within_its_bounds(monkeypatch: pytest.MonkeyPatch) -> None:
     """What is not skipped is bounded in size; here the bound is lowered, to keep the test short."""
-    monkeypatch.setattr(ladder, "MAX_ENTRIES", 30_000)
+    monkeypatch.setattr(ladder, "MAX_ENTRIES", 10_000)
     asked = body("2d12")
     asked["machine"]["webs"] = [
         {"name": str(k), "position_m": k / 499 - 0.5, "counterweight_radius_m": 0.25, "max_mass_kg": 0.5}

@@ -1,16 +1,22 @@
 """Which points are kept, and which is the knee; expected results are analytic."""
 
+from functools import cache
+
 import pytest
 
 from optimizer.studies.pareto.points import knee, undominated, weighted_peaks
 from schemas.front.pareto import ParetoPoint
 from tests.studies.pareto.cases import front, straight
 
-POINT = front(straight(), points=2).points[0]
+
+@cache
+def point() -> ParetoPoint:
+    """Any of a front."""
+    return front(straight(), points=2).points[0]
 
 
 def points(*peaks: tuple[float, float]) -> list[ParetoPoint]:
-    return [POINT.model_copy(update={"weighted_force_peak_N": f, "weighted_moment_peak_Nm": m}) for f, m in peaks]
+    return [point().model_copy(update={"weighted_force_peak_N": f, "weighted_moment_peak_Nm": m}) for f, m in peaks]
 
 
 @pytest.mark.parametrize(
