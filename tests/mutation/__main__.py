@@ -1,13 +1,13 @@
 """How many small faults in the code its tests notice: ``nice -n 19 python -m tests.mutation --room guard --count 25``.
 
 The tests of a room run once, and it is noted which lines each of them runs (``tests.mutation.cover``). Each mutant is
-written into a copy of the tree. Then the tests that run its line do so again, the shortest first, until one fails. What
-no test fails for is listed: a test is missing, or the fault changes nothing (then tests.mutation.equal says why).
+written into a copy of the tree. Then the tests that run its line do so again (``tests.mutation.choice``), until one
+fails. What no test fails for is listed: a test is missing, or the fault changes nothing (then tests.mutation.equal says
+why).
 """
 
 import argparse
 import contextlib
-import json
 import os
 import random
 import shutil
@@ -19,17 +19,17 @@ from pathlib import Path
 from typing import NamedTuple
 
 from tests.mutation import mutants
+from tests.mutation.choice import Trial, chosen, places
 from tests.mutation.equal import EQUAL
+from tests.mutation.line_map import FOLDER, line_map
 from tests.mutation.mutants import Mutant
 
 ROOT = Path(__file__).parents[2]
 _COPIED = ("schemas", "optimizer", "service", "tests", "examples", "docs", "deploy")
-#: seconds of the tests of a room, of those of a mutant, and of the tests that are chosen for it
-_ROOM_S, _MUTANT_S, _CHOSEN_S = 3600.0, 240.0, 45.0
+#: seconds of the tests of a room, and of those of a mutant
+_ROOM_S, _MUTANT_S = 3600.0, 240.0
 #: a test that waits may do so for so many times as long as it may compute
 _WAITS = 20
-#: tests that are chosen for a mutant at most
-_CHOSEN = 400
 #: loaded once for all mutants
 _HEAVY = ("numpy", "numba", "scipy.sparse", "scipy.special", "clarabel", "pydantic", "fastapi", "hypothesis", "pytest")
 _OWN = ("schemas", "optimizer", "service", "tests")
@@ -94,14 +94,6 @@ ROOMS = {
 }
 
 
-class Trial(NamedTuple):
-    """A test, its seconds, and the lines that it runs of each file."""
-
-    name: str
-    seconds: float
-    lines: dict[str, frozenset[int]]
-
-
 def main() -> int:
     """Print survivors as they are found, and a line for each room."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -116,14 +108,14 @@ def main() -> int:
         copy = copied(Path(folder))
         for name in arguments.room or ROOMS:
             room = ROOMS[name]
-            tests = covering(copy, room)
+            tests = covering(copy, room, ROOT / FOLDER / f"{name}.json")
             if tests is None:
                 print(f"{name:<12} its tests fail without a fault: nothing can be said", flush=True)
                 short = True
                 continue
             outcomes = Counter[str]()
             for file, mutant in sample(room, arguments.count, arguments.seed):
-                outcomes[_outcome(copy, file, mutant, tests)] += 1
+                outcomes[_outcome(copy, file, mutant, chosen(tests, places(mutant, file, texts(room))))] += 1
                 # a run that is ended has said what it knows
                 print(f"{name:<12} {dict(outcomes)}", file=sys.stderr, flush=True)
             share = outcomes["killed"] / max(1, outcomes.total())
@@ -133,14 +125,20 @@ def main() -> int:
 
 
 def sample(room: Room, count: int, seed: int) -> list[tuple[Path, Mutant]]:
-    """Mutants of the files of a room by chance; compiled loops have references of their own."""
-    texts = {path: path.read_text() for path in sorted(ROOT.glob(room.files)) if "kernel" not in path.parts}
-    places = [(path, number) for path, text in texts.items() for number in range(mutants.count(text))]
-    chosen = random.Random(seed).sample(places, min(count, len(places)))
-    found = ((path.relative_to(ROOT), mutants.mutant(texts[path], number)) for path, number in chosen)
+    """Mutants of the files of a room by chance."""
+    files = texts(room)
+    every = [(path, number) for path, text in files.items() for number in range(mutants.count(text))]
+    numbers = random.Random(seed).sample(every, min(count, len(every)))
+    found = ((path, mutants.mutant(files[path], number)) for path, number in numbers)
     return [
         (file, one) for file, one in found if not {f"{file} {one.of}", f"{file} {one.of}: {one.fault}"} & EQUAL.keys()
     ]
+
+
+def texts(room: Room) -> dict[Path, str]:
+    """Files of a room; compiled loops have references of their own."""
+    paths = [path for path in sorted(ROOT.glob(room.files)) if "kernel" not in path.parts]
+    return {path.relative_to(ROOT): path.read_text() for path in paths}
 
 
 def copied(folder: Path) -> Path:
@@ -152,34 +150,13 @@ def copied(folder: Path) -> Path:
     return folder
 
 
-def covering(copy: Path, room: Room) -> list[Trial] | None:
-    """The tests of a room with the lines that they run, the shortest first; None where one fails without a fault."""
-    found = copy / "covered.json"
-    found.unlink(missing_ok=True)
-    environment = {"COVERED_FILES": room.files, "COVERED_TO": str(found)}
-    if ran(copy, ["-p", "tests.mutation.cover", *room.tests], environment, _ROOM_S) != 0:
-        return None
-    tests = [
-        Trial(name, seconds, {file: frozenset(each) for file, each in lines.items()})
-        for name, (seconds, lines) in json.loads(found.read_text()).items()
-    ]
-    return sorted(tests, key=lambda one: one.seconds)
+def covering(copy: Path, room: Room, notes: Path) -> list[Trial] | None:
+    """The tests of a room with the lines that they run; None where one fails without a fault."""
 
+    def run(arguments: list[str], environment: dict[str, str]) -> int:
+        return ran(copy, arguments, environment, _ROOM_S)
 
-def chosen(tests: list[Trial], file: Path, mutant: Mutant) -> list[str]:
-    """Tests that run the lines of a mutant, the shortest first, as long as they last; none where no test does.
-
-    Of what runs while the module is imported, such as a table, they are any of the room: those first that run its file.
-    """
-    found, seconds = [], 0.0
-    every = tests if mutant.lines else sorted(tests, key=lambda one: str(file) not in one.lines)
-    for one in every:
-        if not mutant.lines or not one.lines.get(str(file), frozenset()).isdisjoint(mutant.lines):
-            seconds += one.seconds
-            if found and (seconds > _CHOSEN_S or len(found) == _CHOSEN):
-                break
-            found.append(one.name)
-    return found
+    return line_map(notes, copy, room.files, room.tests, run)
 
 
 def noticed(copy: Path, file: Path, text: str, tests: list[str]) -> bool:
@@ -187,7 +164,7 @@ def noticed(copy: Path, file: Path, text: str, tests: list[str]) -> bool:
     original = (copy / file).read_text()
     (copy / file).write_text(text)
     try:
-        return bool(tests) and ran(copy, tests, {}, _MUTANT_S) != 0
+        return bool(tests) and ran(copy, ["-x", *tests], {}, _MUTANT_S) != 0
     finally:
         (copy / file).write_text(original)
 
@@ -225,17 +202,16 @@ def _pytest(copy: Path, arguments: list[str], environment: dict[str, str]) -> in
         os.dup2(nowhere, 2)
         import pytest
 
-        options = ["-x", "-q", "-n", "0", "-m", "not nightly", "-p", "no:cacheprovider", "-W", "ignore"]
+        options = ["-q", "-n", "0", "-m", "not nightly", "-p", "no:cacheprovider", "-W", "ignore"]
         return int(pytest.main([*options, *arguments]))
     except BaseException:
         return 99
 
 
-def _outcome(copy: Path, file: Path, mutant: Mutant, tests: list[Trial]) -> str:
-    every = chosen(tests, file, mutant)
-    if noticed(copy, file, mutant.text, every):
+def _outcome(copy: Path, file: Path, mutant: Mutant, tests: list[str]) -> str:
+    if noticed(copy, file, mutant.text, tests):
         return "killed"
-    why = f"{len(every)} tests run it" if every else "no test runs it"
+    why = f"{len(tests)} tests run it" if tests else "no test runs it"
     print(f"    survives: {file}:{mutant.line} {mutant.of}: {mutant.fault} ({why})", flush=True)
     return "survived"
 
