@@ -7,11 +7,8 @@ why).
 """
 
 import argparse
-import contextlib
-import os
 import random
 import shutil
-import signal
 import sys
 import tempfile
 from collections import Counter
@@ -23,16 +20,10 @@ from tests.mutation.choice import Trial, chosen, places
 from tests.mutation.equal import EQUAL
 from tests.mutation.line_map import FOLDER, line_map
 from tests.mutation.mutants import Mutant
+from tests.mutation.runs import ROOM_S, Loaded, load_what_is_heavy, noticed, ran
 
 ROOT = Path(__file__).parents[2]
 _COPIED = ("schemas", "optimizer", "service", "tests", "examples", "docs", "deploy")
-#: seconds of the tests of a room, and of those of a mutant
-_ROOM_S, _MUTANT_S = 3600.0, 240.0
-#: a test that waits may do so for so many times as long as it may compute
-_WAITS = 20
-#: loaded once for all mutants
-_HEAVY = ("numpy", "numba", "scipy.sparse", "scipy.special", "clarabel", "pydantic", "fastapi", "hypothesis", "pytest")
-_OWN = ("schemas", "optimizer", "service", "tests")
 
 
 class Room(NamedTuple):
@@ -99,10 +90,10 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=100, help="mutants of each room, by chance")
     parser.add_argument("--room", choices=ROOMS, action="append", help="all if not given")
+    parser.add_argument("--seconds", type=float, default=45.0, help="of the tests that a mutant meets")
     parser.add_argument("--seed", type=int, default=20261125)
     arguments = parser.parse_args()
-    for name in _HEAVY:
-        __import__(name)
+    load_what_is_heavy()
     short = False
     with tempfile.TemporaryDirectory(prefix="counterweight-mutants-") as folder:
         copy = copied(Path(folder))
@@ -114,10 +105,13 @@ def main() -> int:
                 short = True
                 continue
             outcomes = Counter[str]()
-            for file, mutant in sample(room, arguments.count, arguments.seed):
-                outcomes[_outcome(copy, file, mutant, chosen(tests, places(mutant, file, texts(room))))] += 1
-                # a run that is ended has said what it knows
-                print(f"{name:<12} {dict(outcomes)}", file=sys.stderr, flush=True)
+            files = texts(room)
+            with Loaded(copy, room.tests, room.files) as loaded:
+                for file, mutant in sample(room, arguments.count, arguments.seed):
+                    run = chosen(tests, places(mutant, file, files), arguments.seconds)
+                    outcomes[_outcome(copy, file, mutant, run, loaded)] += 1
+                    # a run that is ended has said what it knows
+                    print(f"{name:<12} {dict(outcomes)}", file=sys.stderr, flush=True)
             share = outcomes["killed"] / max(1, outcomes.total())
             print(f"{name:<12} {outcomes['killed']} of {outcomes.total()} noticed, {share:.0%}", flush=True)
             short |= share < room.least
@@ -154,62 +148,13 @@ def covering(copy: Path, room: Room, notes: Path) -> list[Trial] | None:
     """The tests of a room with the lines that they run; None where one fails without a fault."""
 
     def run(arguments: list[str], environment: dict[str, str]) -> int:
-        return ran(copy, arguments, environment, _ROOM_S)
+        return ran(copy, arguments, environment, ROOM_S)
 
     return line_map(notes, copy, room.files, room.tests, run)
 
 
-def noticed(copy: Path, file: Path, text: str, tests: list[str]) -> bool:
-    """Whether a test fails, or does not end, when a file has another text."""
-    original = (copy / file).read_text()
-    (copy / file).write_text(text)
-    try:
-        return bool(tests) and ran(copy, ["-x", *tests], {}, _MUTANT_S) != 0
-    finally:
-        (copy / file).write_text(original)
-
-
-def ran(copy: Path, arguments: list[str], environment: dict[str, str], seconds: float) -> int:
-    """Exit code of pytest in a process of its own, which has loaded what is heavy; not 0 where it does not end."""
-    sys.stdout.flush()
-    child = os.fork()
-    if child == 0:
-        os.setsid()
-        # of computing, so that a busy machine makes no fault noticed; what waits for ever ends too
-        for ended in (signal.SIGALRM, signal.SIGPROF):
-            signal.signal(ended, signal.SIG_DFL)
-        signal.setitimer(signal.ITIMER_PROF, seconds)
-        signal.alarm(_WAITS * int(seconds))
-        os._exit(_pytest(copy, arguments, environment))
-    _, status = os.waitpid(child, 0)
-    with contextlib.suppress(ProcessLookupError):
-        # what a test has left behind
-        os.killpg(child, signal.SIGKILL)
-    return os.waitstatus_to_exitcode(status)
-
-
-def _pytest(copy: Path, arguments: list[str], environment: dict[str, str]) -> int:
-    """Of the child: nothing of the tree itself is loaded before."""
-    try:
-        os.environ.update(environment, PYTHONPATH=str(copy), PYTHONDONTWRITEBYTECODE="1", CHECKED_ANSWERS="every")
-        os.chdir(copy)
-        sys.dont_write_bytecode = True
-        sys.path[:] = [str(copy), *(one for one in sys.path if one not in ("", str(ROOT)))]
-        for name in [one for one in sys.modules if one.partition(".")[0] in _OWN]:
-            del sys.modules[name]
-        nowhere = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(nowhere, 1)
-        os.dup2(nowhere, 2)
-        import pytest
-
-        options = ["-q", "-n", "0", "-m", "not nightly", "-p", "no:cacheprovider", "-W", "ignore"]
-        return int(pytest.main([*options, *arguments]))
-    except BaseException:
-        return 99
-
-
-def _outcome(copy: Path, file: Path, mutant: Mutant, tests: list[str]) -> str:
-    if noticed(copy, file, mutant.text, tests):
+def _outcome(copy: Path, file: Path, mutant: Mutant, tests: list[str], loaded: Loaded) -> str:
+    if noticed(copy, file, mutant.text, tests, loaded):
         return "killed"
     why = f"{len(tests)} tests run it" if tests else "no test runs it"
     print(f"    survives: {file}:{mutant.line} {mutant.of}: {mutant.fault} ({why})", flush=True)

@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 from tests.mutation.mutants import Mutant, statement
 
-#: seconds of the tests that are chosen, and how many they are at most
-_CHOSEN_S, _CHOSEN = 45.0, 400
+#: tests that are chosen at most
+_CHOSEN = 400
 #: seconds of a short test: those of all files run first
 _SHORT_S = 0.3
 
@@ -49,11 +49,15 @@ def places(mutant: Mutant, file: Path, texts: Mapping[Path, str]) -> Lines:
     return {name: lines for name, lines in used.items() if lines} or {str(file): frozenset()}
 
 
-def chosen(trials: list[Trial], used: Lines) -> list[str]:
+def chosen(trials: list[Trial], used: Lines, limit_s: float) -> list[str]:
     """Tests that run some lines, then other tests of their files, which may look at what was computed before them.
 
     Of a file the shortest come first, and every file has its turn: tests of one file look at the same. Where nobody is
     known to run the lines, such as those of a table, they are any tests: those first that run its file.
+
+    Parameters
+    ----------
+    limit_s : seconds that all of them take together, s; a single one may take longer.
     """
     own = [one for one in trials if one.runs(used)]
     files = {one.file for one in own} | {one.file for one in trials if _meet(one.shared, used)}
@@ -64,7 +68,7 @@ def chosen(trials: list[Trial], used: Lines) -> list[str]:
     seconds = 0.0
     for one in (*_in_turn(own), *(_in_turn(beside) if files else beside)):
         seconds += one.seconds
-        if few and (seconds > _CHOSEN_S or len(few) == _CHOSEN):
+        if few and (seconds > limit_s or len(few) == _CHOSEN):
             break
         few.append(one)
     return [one.name for one in _in_order(few)]

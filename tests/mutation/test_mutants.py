@@ -4,10 +4,11 @@ from pathlib import Path
 
 import pytest
 
-from tests.mutation.__main__ import ROOMS, ROOT, Room, covering, noticed, sample
+from tests.mutation.__main__ import ROOMS, ROOT, Room, covering, sample
 from tests.mutation.choice import Trial, chosen, places
 from tests.mutation.equal import EQUAL
 from tests.mutation.mutants import count, mutant, names
+from tests.mutation.runs import Loaded, noticed
 
 SOURCE = """
 def largest(values: list[float], low: float = 2.0) -> float:
@@ -50,16 +51,16 @@ _LINES = frozenset({1})
 def test_tests_that_run_a_line_are_chosen_the_shortest_first() -> None:
     used = {"coded.py": _LINES}
     tests = [Trial("a::short", 0.1, used), Trial("b::elsewhere", 0.2, {"coded.py": frozenset({9})})]
-    assert chosen([*tests, Trial("c::long", 50.0, used)], used) == ["a::short"]
-    assert chosen([Trial("c::long", 50.0, used)], used) == ["c::long"]
+    assert chosen([*tests, Trial("c::long", 50.0, used)], used, 45.0) == ["a::short"]
+    assert chosen([Trial("c::long", 50.0, used)], used, 45.0) == ["c::long"]
     # of what nobody is known to run, any
-    assert chosen(tests, {"other.py": _LINES}) == ["a::short", "b::elsewhere"]
+    assert chosen(tests, {"other.py": _LINES}, 45.0) == ["a::short", "b::elsewhere"]
 
 
 def test_every_file_of_tests_has_its_turn() -> None:
     used = {"coded.py": _LINES}
     many = [Trial(f"a::{number}", 1.0 + 0.001 * number, used) for number in range(60)]
-    found = chosen([*many, Trial("b::longer", 6.0, used)], used)
+    found = chosen([*many, Trial("b::longer", 6.0, used)], used, 45.0)
     assert "b::longer" in found
     assert found[:3] == ["a::0", "a::1", "a::2"]
 
@@ -68,8 +69,8 @@ def test_others_of_a_file_may_look_at_what_the_first_has_computed() -> None:
     """A fixture of the file, or a result that is kept: only the first test runs the lines."""
     used = {"coded.py": _LINES}
     first, second = Trial("a::first", 2.0, used), Trial("a::second", 0.1, {})
-    assert sorted(chosen([second, first, Trial("b::other", 0.1, {})], used)) == ["a::first", "a::second"]
-    assert chosen([Trial("a::second", 0.1, {}, used), Trial("b::other", 0.1, {})], used) == ["a::second"]
+    assert sorted(chosen([second, first, Trial("b::other", 0.1, {})], used, 45.0)) == ["a::first", "a::second"]
+    assert chosen([Trial("a::second", 0.1, {}, used), Trial("b::other", 0.1, {})], used, 45.0) == ["a::second"]
 
 
 def test_a_constant_is_where_it_is_used() -> None:
@@ -117,6 +118,39 @@ def test_what_serves_a_file_is_noted_for_all_its_tests(tmp_path: Path) -> None:
     assert found is not None
     assert [one.lines for one in found] == [{"coded.py": frozenset({1, 2})}, {}]
     assert {frozenset(one.shared["coded.py"]) for one in found} == {frozenset({1, 2, 5, 6})}
+
+
+_CODED = """START = 3
+
+
+def first():
+    return START
+
+
+LIMIT = first()
+
+
+def above(x, least=1):
+    return x > LIMIT + least
+"""
+
+
+def test_a_fault_in_what_is_loaded_is_noticed_as_one_that_is_imported(tmp_path: Path) -> None:
+    """A function is given other code; what importing has called, tables and defaults are imported again."""
+    (tmp_path / "tests").symlink_to(ROOT / "tests")
+    (tmp_path / "coded.py").write_text(_CODED)
+    (tmp_path / "test_coded.py").write_text(
+        "from coded import above\n\n\ndef test_above():\n    assert [above(4), above(5)] == [False, True]\n"
+    )
+    file, test = Path("coded.py"), "test_coded.py::test_above"
+    faults = {mutant(_CODED, number).fault: mutant(_CODED, number).text for number in range(count(_CODED))}
+    with Loaded(tmp_path, ["test_coded.py"], "coded.py") as loaded:
+        again = {fault: loaded.ran(file, _CODED, text, [test]) is None for fault, text in faults.items()}
+        assert [fault for fault, one in again.items() if one] == ["3 -> 4", "1 -> 2"]
+        assert all(noticed(tmp_path, file, text, [test], loaded) for text in faults.values())
+        assert not noticed(tmp_path, file, _CODED.replace("x > LIMIT + least", "LIMIT + least < x"), [test], loaded)
+        assert noticed(tmp_path, file, _CODED.replace("return START", "return START + 1"), [test], loaded)
+        assert loaded.ran(file, _CODED, _CODED.replace("return START", "return START + 1"), [test]) is None
 
 
 @pytest.mark.parametrize("file", sorted({key.partition(" ")[0] for key in EQUAL}))
