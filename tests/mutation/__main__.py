@@ -62,7 +62,11 @@ ROOMS = {
         ),
         0.9,
     ),
-    "formulation": Room("optimizer/formulation/*.py", ("tests/optimize", "tests/outputs/test_counterweights.py"), 0.9),
+    "formulation": Room(
+        "optimizer/formulation/*.py",
+        ("tests/formulation", "tests/optimize", "tests/outputs/test_counterweights.py"),
+        0.9,
+    ),
     "verify": Room("examples/client/verify*.py", ("tests/verification",), 0.9),
     "guard": Room(
         "service/guard/*.py",
@@ -90,6 +94,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=100, help="mutants of each room, by chance")
     parser.add_argument("--room", choices=ROOMS, action="append", help="all if not given")
+    parser.add_argument("--tests", action="append", help="these alone, instead of those of the room")
     parser.add_argument("--seconds", type=float, default=45.0, help="of the tests that a mutant meets")
     parser.add_argument("--seed", type=int, default=20261125)
     arguments = parser.parse_args()
@@ -99,6 +104,8 @@ def main() -> int:
         copy = copied(Path(folder))
         for name in arguments.room or ROOMS:
             room = ROOMS[name]
+            if arguments.tests:
+                room = room._replace(tests=tuple(arguments.tests))
             tests = covering(copy, room, ROOT / FOLDER / f"{name}.json")
             if tests is None:
                 print(f"{name:<12} its tests fail without a fault: nothing can be said", flush=True)

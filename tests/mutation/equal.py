@@ -25,7 +25,6 @@ _MECHANICS: dict[str, str] = {
     " -> np.where(self.pieces.size > 0.0, self.pieces.size, 1.011)": "of what has no size nothing is left out",
 }
 _PROGRAM: dict[str, str] = {
-    "certificate.py spread: not ceilings.scatter -> not not ceilings.scatter": _SPEED,
     "cuts/attempts.py FREELY": _STEERS,
     "cuts/attempts.py WITHIN": _STEERS,
     "cuts/cut.py alike: max -> min": _ALIKE,
