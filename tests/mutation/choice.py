@@ -52,8 +52,8 @@ def places(mutant: Mutant, file: Path, texts: Mapping[Path, str]) -> Lines:
 def chosen(trials: list[Trial], used: Lines, limit_s: float) -> list[str]:
     """Tests that run some lines, then other tests of their files, which may look at what was computed before them.
 
-    Of a file the shortest come first, and every file has its turn: tests of one file look at the same. Where nobody is
-    known to run the lines, such as those of a table, they are any tests: those first that run its file.
+    Of a file the shortest come first, and every file has its turn: tests of one file look at the same. Of what is used
+    nobody knows where, such as a table, they are any tests: those first that run its file.
 
     Parameters
     ----------
@@ -62,11 +62,11 @@ def chosen(trials: list[Trial], used: Lines, limit_s: float) -> list[str]:
     own = [one for one in trials if one.runs(used)]
     files = {one.file for one in own} | {one.file for one in trials if _meet(one.shared, used)}
     beside = [one for one in trials if one.file in files and not one.runs(used)]
-    if not files:
+    if not any(used.values()):
         beside = sorted(trials, key=lambda one: used.keys().isdisjoint(one.lines))
     few: list[Trial] = []
     seconds = 0.0
-    for one in (*_in_turn(own), *(_in_turn(beside) if files else beside)):
+    for one in (*_in_turn(own), *(_in_turn(beside) if any(used.values()) else beside)):
         seconds += one.seconds
         if few and (seconds > limit_s or len(few) == _CHOSEN):
             break

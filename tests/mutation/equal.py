@@ -32,6 +32,7 @@ _PROGRAM: dict[str, str] = {
     "cuts/samples.py maxima: np.argmax(around, axis=-1) - 1 -> np.argmax(around, axis=-1) + 1": _STEERS,
     "cuts/samples.py supports: abs(circle.radius - before) > _STEADY * circle.radius"
     " -> abs(circle.radius - before) >= _STEADY * circle.radius": _ALIKE,
+    "cuts/stage.py _step: over > 0 -> over >= 0": _ALIKE,
     "cuts/stage.py run: 0.0 -> 0.001": _STEERS,
     "methods/cascade.py _under_ceilings: nearest.objective <= -AMPLE -> nearest.objective < -AMPLE": _ALIKE,
     "methods/compiled.py _programs: np.add.reduce(mass, axis=-1, keepdims=True)"
@@ -39,6 +40,9 @@ _PROGRAM: dict[str, str] = {
     "methods/compiled.py _solve: reachable > 0 -> reachable > 1": _STEERS,
     "methods/compiled.py _solve: unit > 0 -> unit > 1": _STEERS,
     "methods/compiled.py plain_discs: 0 < norms.constant.shape[-1] < 3 -> 1 < norms.constant.shape[-1] < 3": _SPEED,
+    "methods/implied_bounds.py _in_sectors: np.min(along[outside], initial=1.0)"
+    " -> np.min(along[outside], initial=1.011)": "the shortest support is 1 along some ray outside; without such a ray"
+    " nothing is divided by it",
     "methods/implied_bounds.py responses: np.abs(row - other) <= _SAME -> np.abs(row - other) < _SAME": "rows that"
     " differ by their rounding may count as one or as two",
     "methods/polish.py lightened: _ROOM_FOR_MASS * before.mass < worth_less * np.minimum(limits.max_mass,"

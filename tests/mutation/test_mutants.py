@@ -53,8 +53,10 @@ def test_tests_that_run_a_line_are_chosen_the_shortest_first() -> None:
     tests = [Trial("a::short", 0.1, used), Trial("b::elsewhere", 0.2, {"coded.py": frozenset({9})})]
     assert chosen([*tests, Trial("c::long", 50.0, used)], used, 45.0) == ["a::short"]
     assert chosen([Trial("c::long", 50.0, used)], used, 45.0) == ["c::long"]
-    # of what nobody is known to run, any
-    assert chosen(tests, {"other.py": _LINES}, 45.0) == ["a::short", "b::elsewhere"]
+    assert chosen(tests, {"other.py": _LINES}, 45.0) == []
+    # of what is used nobody knows where, any: those first that run its file
+    beside = Trial("d::beside", 0.3, {"other.py": _LINES})
+    assert chosen([*tests, beside], {"other.py": frozenset()}, 45.0) == ["d::beside", "a::short", "b::elsewhere"]
 
 
 def test_every_file_of_tests_has_its_turn() -> None:

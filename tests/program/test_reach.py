@@ -244,3 +244,14 @@ def test_what_sectors_carry_they_carry_with_the_mass_that_is_told(seed: int) -> 
         if size > 0.0:
             least = linprog(np.ones(9), A_eq=rows, b_eq=np.concatenate([change.real, change.imag]) / size).fun
             assert least <= told * (1.0 + 1e-9)
+
+
+def test_a_limited_response_is_no_larger_than_its_ceiling_and_its_tolerance() -> None:
+    """Analytic: a ceiling of 5 on |3 + 2 u1| with a size of 1e9, whose tolerance is a unit more."""
+    program, level = _two_terms()
+    norms = Norms(np.array([3.0 + 0j]), np.array([[2.0, 0.0]]))
+    capped = Ceilings(("a",), norms, np.array([5.0]), np.array([1e9]))
+    rows, most, _ = responses(replace(program, ceilings=capped), np.ones(2, bool), level)
+    # of u1 alone the second term allows 8, this one (3 + 5 + 1) / 2
+    np.testing.assert_allclose(rows, [[1.0, 1.0], [1.0, 0.0]])
+    np.testing.assert_allclose(most, [29.0, 4.5], rtol=2e-9)
