@@ -323,6 +323,29 @@ def test_designs_together_are_as_each_alone(name: str) -> None:
         np.testing.assert_allclose(part.reshape(alone.shape), alone, rtol=1e-10, atol=1e-12 * size)
 
 
+def test_the_first_curves_of_designs_are_their_own() -> None:
+    """Property: whether those of all have been cut in pieces before or not."""
+    torque = _curves(_together())
+    both = replace(torque, weights=np.concatenate([torque.weights, 2.0 * torque.weights], axis=1),
+                   constant=np.concatenate([torque.constant, torque.constant], axis=1))  # fmt: skip
+    expected = torque.pieces.cubic
+    for _ in range(2):
+        np.testing.assert_allclose(both.first(1).pieces.cubic, expected, rtol=1e-12)
+        assert len(both.pieces.cubic) == 2 * len(expected)
+
+
+def test_of_two_designs_each_has_its_own_data() -> None:
+    rows = _curves(_together()).whole.rows
+    both = {name: value[:2] for name, value in vars(rows).items() if isinstance(value, np.ndarray)}
+    pair = replace(rows, designs=2, **both)
+    for number in range(2):
+        alone = pair.of_design(number)
+        assert alone.designs == 1
+        for name, value in both.items():
+            own = value if len(value) == 1 else value[number : number + 1]
+            np.testing.assert_array_equal(getattr(alone, name), own)
+
+
 def test_what_is_common_to_designs_is_spread_over_all() -> None:
     plan, _ = arrays(random_driven(1, "v", throws=2))
     wide = spread(plan, LEADING)
