@@ -17,8 +17,10 @@ _MECHANICS: dict[str, str] = {
     "row_work.py beside_mean: own < 0.5 * TURN -> own <= 0.5 * TURN": _ALIKE,
     "turn.py _NODES": _FINER,
     "turn.py fluctuation: value[..., :-1] * value[..., 1:] < 0.0"
-    " -> value[..., :-1] * value[..., 1:] < 0.001": "one place more of the running integral is looked at, which is never"
+    " -> value[..., :-1] * value[..., 1:] < 0.001": "one place more of the integral is looked at, which is never"
     " beyond its extremes",
+    "gas.py log_ratio: np.where(chambers.closed, chambers.suction, 1.0)"
+    " -> np.where(chambers.closed, chambers.suction, 1.011)": _OPEN,
     "turn.py fluctuation: np.max(end, axis=-1) -> np.min(end, axis=-1)": "the integral ends as it begins, at 0: every"
     " end of a panel is the beginning of another, of which the largest is taken anyway",
     "whole_turn.py in_pieces: within.shape[-1] -> within.shape[+1]": "it has two axes",
