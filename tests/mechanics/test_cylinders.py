@@ -6,7 +6,16 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from optimizer.mechanics.cylinders import chambers, delivery_rules, gas_problems, without_gas
+from optimizer.mechanics.cylinders import (
+    chambers,
+    cycle_turns,
+    delivery_rules,
+    entry_count,
+    gas_problems,
+    trace_rules,
+    traces,
+    without_gas,
+)
 from optimizer.mechanics.layout import layout
 from schemas.machine.cylinder import Cylinder
 from schemas.machine.reciprocating import ReciprocatingMachine
@@ -23,7 +32,7 @@ FULL = {
 SINGLE = {"acting": "head", "ambient_pressure_Pa": 9e4}
 
 
-def machine(*cylinders: dict[str, Any] | None) -> ReciprocatingMachine:
+def machine(*cylinders: dict[str, Any] | None, rotation: str = "ccw") -> ReciprocatingMachine:
     """Rows 0 and 1 on the first throw, the others on the second."""
     rows = [
         {
@@ -38,7 +47,8 @@ def machine(*cylinders: dict[str, Any] | None) -> ReciprocatingMachine:
         {"position_m": z, "crank_radius_m": 0.1, "crank_angle_deg": 0.0, "rows": part}
         for z, part in ((0.0, rows[:2]), (1.0, rows[2:]))
     ]
-    return ReciprocatingMachine.model_validate({"kind": "reciprocating", "speed_rpm": 500.0, "throws": throws})
+    body = {"kind": "reciprocating", "speed_rpm": 500.0, "throws": throws, "rotation": rotation}
+    return ReciprocatingMachine.model_validate(body)
 
 
 def without(*names: str, **rest: Any) -> dict[str, Any]:
@@ -150,3 +160,101 @@ def test_no_side_may_discharge_below_its_suction(changes: dict[str, Any], path: 
         Cylinder.model_validate({**FULL, **changes})
     (error,) = refused.value.errors()
     assert [problem.path for problem in error["ctx"]["problems"]] == [path]
+
+
+def recorded(turns: int = 1, start: float | None = None, **rest: Any) -> dict[str, Any]:
+    """A head side with three entries, and a trunk piston behind it."""
+    table = {"angle_deg": [10.0, 100.0, 250.0], "pressure_Pa": [1e5, 5e5, 2e5]}
+    if turns == 2:
+        table = {"angle_deg": [10.0, 100.0, 450.0, 600.0], "pressure_Pa": [1e5, 5e5, 2e5, 3e5]}
+    pressure = {"head": table, "cycle_turns": turns, "dead_centre_deg": start}
+    return {"bore_m": 0.5, "ambient_pressure_Pa": 1e5, "pressure": pressure, **rest}
+
+
+def test_a_record_goes_from_an_entry_of_the_cycle_before_to_one_of_the_next() -> None:
+    one = machine(FULL, recorded())
+    (found,) = traces(one, layout(one))
+    assert (found.row, found.side, found.turns) == (1, 0, 1)
+    np.testing.assert_allclose(np.rad2deg(found.angle), [[-110.0, 10.0, 100.0, 250.0, 370.0]])
+    np.testing.assert_array_equal(found.pressure, [[2e5, 1e5, 5e5, 2e5, 1e5]])
+    assert found.cycle == pytest.approx(2 * np.pi)
+    assert found.table == 0
+    two = machine(recorded(2))
+    (found,) = traces(two, layout(two))
+    np.testing.assert_allclose(np.rad2deg(found.angle), [[-120.0, 10.0, 100.0, 450.0, 600.0, 730.0]])
+    # a trunk piston is open to the crankcase: all of its area
+    assert chambers(two).area[0] == pytest.approx([0.0625 * np.pi, 0.0625 * np.pi])
+    assert not chambers(two).closed.any()
+    assert chambers(two).suction[0].tolist() == [0.0, 1e5]
+
+
+@pytest.mark.parametrize("rotation", ["ccw", "cw"])
+@pytest.mark.parametrize("start", [None, 0.0, 90.0, 270.0, 360.0, 450.0, 630.0, 720.0])
+def test_a_record_begins_at_a_dead_centre_of_its_row(start: float | None, rotation: str) -> None:
+    """Analytic: rows at 0 and 90 degrees, whose outer dead centres come at 0, and at 90 or 270, of the shaft."""
+    for number, centre in ((0, 0.0), (1, 90.0 if rotation == "ccw" else 270.0)):
+        first = centre if start is None else start
+        if (first - centre) % 360.0:
+            continue
+        cylinders = [recorded(2, start) if k == number else None for k in range(2)]
+        one = machine(*cylinders, rotation=rotation)
+        (found,) = traces(one, layout(one))
+        # of a shaft that has turned to the dead centre the table is at its beginning
+        own = np.deg2rad(first - 90.0 * number * (1.0 if rotation == "ccw" else -1.0))
+        assert float(found.lead) == pytest.approx(own, abs=1e-12)
+        pressure, _ = found.at(np.array([own + np.deg2rad(100.0)]))
+        assert pressure == pytest.approx([5e5])
+
+
+def test_cycles_and_entries_are_counted_over_all_turns() -> None:
+    assert cycle_turns(machine(FULL, None)) == 1
+    assert cycle_turns(machine(recorded(), FULL)) == 1
+    assert cycle_turns(machine(recorded(), recorded(2))) == 2
+    assert entry_count(machine(FULL)) == 0
+    assert entry_count(machine(recorded(), recorded())) == 6
+    # what repeats after one turn comes twice
+    assert entry_count(machine(recorded(), recorded(2))) == 2 * 3 + 4
+
+
+@pytest.mark.parametrize(("most", "many"), [(5, True), (6, False)])
+def test_rows_times_entries_are_limited(most: int, many: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Analytic: two rows, and three entries of both, which coincide where axes do."""
+    monkeypatch.setattr("optimizer.mechanics.cylinders.MAX_ENTRIES", most)
+    both = machine(recorded(), recorded())
+    rows = [row.model_copy(update={"axis_deg": 0.0}) for row in both.throws[0].rows]
+    alike = both.model_copy(
+        update={"throws": (both.throws[0].model_copy(update={"rows": tuple(rows)}), both.throws[1])}
+    )
+    for one, entries in ((alike, 3), (both, 6)):
+        (rule,) = trace_rules(one, layout(one))
+        assert bool(rule.broken) == (2 * entries > most if one is both else many)
+        assert rule.path == ("throws", 0, "rows", 0, "cylinder", "pressure")
+        assert f"at most {most}" in rule.message
+    assert list(trace_rules(machine(FULL), layout(machine(FULL)))) == []
+
+
+@pytest.mark.parametrize(
+    ("cylinder", "words"),
+    [
+        ({"bore_m": 0.5}, dict.fromkeys(("piston_rod_diameter_m", *list(FULL)[2:]), "")),
+        (without("crank_area_m2", "bore_m", head_area_m2=0.1), {"crank_area_m2": ""}),
+        (
+            recorded(ambient_pressure_Pa=None),
+            {"ambient_pressure_Pa": ": the crank side has no indicated pressure and is open"},
+        ),
+        (
+            recorded(piston_rod_diameter_m=0.1, acting="double", **{name: FULL[name] for name in list(FULL)[3:]}),
+            {
+                "suction_pressure_Pa": " on the crank side, which has no indicated pressure; it is open if acting is"
+                " left out"
+            },
+        ),
+        (
+            recorded(piston_rod_diameter_m=0.1, **{name: FULL[name] for name in list(FULL)[3:]}),
+            {"suction_pressure_Pa": " on the crank side, which has no indicated pressure"},
+        ),
+    ],
+)
+def test_what_is_missing_is_named_with_the_reason(cylinder: dict[str, Any], words: dict[str, str]) -> None:
+    found = {str(problem.path[-1]): problem.message for problem in gas_problems(machine(cylinder))}
+    assert found == {name: f"gas forces need this field{word}" for name, word in words.items()}

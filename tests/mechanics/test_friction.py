@@ -69,3 +69,14 @@ def test_a_batch_is_the_loop() -> None:
         alone = share_of_losses(indicated[k], efficiency[k], share[k], stroke[k], omega[k])
         np.testing.assert_allclose(force[k], alone[0], rtol=1e-15)
         assert torque[k] == pytest.approx(alone[1], rel=1e-15)
+
+
+def test_losses_are_in_proportion_to_the_power_however_small() -> None:
+    """Property: of gas that takes power and of gas that gives it."""
+    facts = (np.asarray(0.9), np.asarray(0.6), np.array([0.2, 0.3]), np.asarray(50.0))
+    power = np.array([700.0, -300.0])
+    force, torque = share_of_losses(power, *facts)
+    for factor in (1e-6, 1e6):
+        less, turning = share_of_losses(factor * power, *facts)
+        np.testing.assert_allclose(less, factor * force, rtol=1e-12)
+        np.testing.assert_allclose(turning, factor * torque, rtol=1e-12)

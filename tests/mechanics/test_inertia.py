@@ -5,7 +5,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optimizer.mechanics.inertia import counterweights, first_order_responses, reciprocating, rotating
+from optimizer.mechanics.inertia import (
+    counterweights,
+    first_order_responses,
+    reciprocating,
+    reciprocating_forces,
+    rotating,
+)
 from optimizer.mechanics.layout import layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic, acceleration_harmonic_order_2
 from optimizer.responses.response import Phasors
@@ -213,3 +219,16 @@ def test_of_two_designs_that_differ_in_a_place_alone_each_is_as_by_itself() -> N
             for pair, by_itself in zip(together, alone, strict=True):
                 assert np.broadcast_to(pair.co, 2)[n] == by_itself.co
                 assert np.broadcast_to(pair.counter, 2)[n] == by_itself.counter
+
+
+@pytest.mark.parametrize("order", [1, 2, 4, 6])
+@pytest.mark.parametrize("seed", range(3))
+def test_phasors_of_a_row_turn_by_its_crank_and_its_axis(seed: int, order: int) -> None:
+    """Analytic: halves of m r A_k at k d - (k - 1) g with the shaft, and at (k + 1) g - k d against it."""
+    plan = layout(random_machine(np.random.default_rng(seed)))
+    rows = plan.reciprocating
+    found = reciprocating_forces(plan, order)
+    crank, axis = np.angle(rows.crank_direction), np.angle(rows.axis)
+    size = 0.5 * rows.mass * rows.crank_radius * acceleration_harmonic(order, rows.rod_ratio)
+    np.testing.assert_allclose(found.co, size * np.exp(1j * (order * crank - (order - 1) * axis)), atol=1e-12)
+    np.testing.assert_allclose(found.counter, size * np.exp(1j * ((order + 1) * axis - order * crank)), atol=1e-12)

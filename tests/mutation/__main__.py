@@ -1,17 +1,14 @@
 """How many small faults in the code its tests notice: ``nice -n 19 python -m tests.mutation --room guard --count 25``.
 
 The tests of a room run once, and it is noted which lines each of them runs (``tests.mutation.cover``). Each mutant is
-written into a copy of the tree. Then the tests that run its line do so again, the shortest first, until one fails. What
-no test fails for is listed: a test is missing, or the fault changes nothing (then tests.mutation.equal says why).
+written into a copy of the tree. Then the tests that run its line do so again (``tests.mutation.choice``), until one
+fails. What no test fails for is listed: a test is missing, or the fault changes nothing (then tests.mutation.equal says
+why).
 """
 
 import argparse
-import contextlib
-import json
-import os
 import random
 import shutil
-import signal
 import sys
 import tempfile
 from collections import Counter
@@ -19,20 +16,14 @@ from pathlib import Path
 from typing import NamedTuple
 
 from tests.mutation import mutants
+from tests.mutation.choice import Trial, chosen, places
 from tests.mutation.equal import EQUAL
+from tests.mutation.line_map import FOLDER, line_map
 from tests.mutation.mutants import Mutant
+from tests.mutation.runs import ROOM_S, Loaded, load_what_is_heavy, noticed, ran
 
 ROOT = Path(__file__).parents[2]
 _COPIED = ("schemas", "optimizer", "service", "tests", "examples", "docs", "deploy")
-#: seconds of the tests of a room, of those of a mutant, and of the tests that are chosen for it
-_ROOM_S, _MUTANT_S, _CHOSEN_S = 3600.0, 240.0, 45.0
-#: a test that waits may do so for so many times as long as it may compute
-_WAITS = 20
-#: tests that are chosen for a mutant at most
-_CHOSEN = 400
-#: loaded once for all mutants
-_HEAVY = ("numpy", "numba", "scipy.sparse", "scipy.special", "clarabel", "pydantic", "fastapi", "hypothesis", "pytest")
-_OWN = ("schemas", "optimizer", "service", "tests")
 
 
 class Room(NamedTuple):
@@ -71,7 +62,11 @@ ROOMS = {
         ),
         0.9,
     ),
-    "formulation": Room("optimizer/formulation/*.py", ("tests/optimize", "tests/outputs/test_counterweights.py"), 0.9),
+    "formulation": Room(
+        "optimizer/formulation/*.py",
+        ("tests/formulation", "tests/optimize", "tests/outputs/test_counterweights.py"),
+        0.9,
+    ),
     "verify": Room("examples/client/verify*.py", ("tests/verification",), 0.9),
     "guard": Room(
         "service/guard/*.py",
@@ -94,38 +89,36 @@ ROOMS = {
 }
 
 
-class Trial(NamedTuple):
-    """A test, its seconds, and the lines that it runs of each file."""
-
-    name: str
-    seconds: float
-    lines: dict[str, frozenset[int]]
-
-
 def main() -> int:
     """Print survivors as they are found, and a line for each room."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=100, help="mutants of each room, by chance")
     parser.add_argument("--room", choices=ROOMS, action="append", help="all if not given")
+    parser.add_argument("--tests", action="append", help="these alone, instead of those of the room")
+    parser.add_argument("--seconds", type=float, default=45.0, help="of the tests that a mutant meets")
     parser.add_argument("--seed", type=int, default=20261125)
     arguments = parser.parse_args()
-    for name in _HEAVY:
-        __import__(name)
+    load_what_is_heavy()
     short = False
     with tempfile.TemporaryDirectory(prefix="counterweight-mutants-") as folder:
         copy = copied(Path(folder))
         for name in arguments.room or ROOMS:
             room = ROOMS[name]
-            tests = covering(copy, room)
+            if arguments.tests:
+                room = room._replace(tests=tuple(arguments.tests))
+            tests = covering(copy, room, ROOT / FOLDER / f"{name}.json")
             if tests is None:
                 print(f"{name:<12} its tests fail without a fault: nothing can be said", flush=True)
                 short = True
                 continue
             outcomes = Counter[str]()
-            for file, mutant in sample(room, arguments.count, arguments.seed):
-                outcomes[_outcome(copy, file, mutant, tests)] += 1
-                # a run that is ended has said what it knows
-                print(f"{name:<12} {dict(outcomes)}", file=sys.stderr, flush=True)
+            files = texts(room)
+            with Loaded(copy, room.tests, room.files) as loaded:
+                for file, mutant in sample(room, arguments.count, arguments.seed):
+                    run = chosen(tests, places(mutant, file, files), arguments.seconds)
+                    outcomes[_outcome(copy, file, mutant, run, loaded)] += 1
+                    # a run that is ended has said what it knows
+                    print(f"{name:<12} {dict(outcomes)}", file=sys.stderr, flush=True)
             share = outcomes["killed"] / max(1, outcomes.total())
             print(f"{name:<12} {outcomes['killed']} of {outcomes.total()} noticed, {share:.0%}", flush=True)
             short |= share < room.least
@@ -133,14 +126,20 @@ def main() -> int:
 
 
 def sample(room: Room, count: int, seed: int) -> list[tuple[Path, Mutant]]:
-    """Mutants of the files of a room by chance; compiled loops have references of their own."""
-    texts = {path: path.read_text() for path in sorted(ROOT.glob(room.files)) if "kernel" not in path.parts}
-    places = [(path, number) for path, text in texts.items() for number in range(mutants.count(text))]
-    chosen = random.Random(seed).sample(places, min(count, len(places)))
-    found = ((path.relative_to(ROOT), mutants.mutant(texts[path], number)) for path, number in chosen)
+    """Mutants of the files of a room by chance."""
+    files = texts(room)
+    every = [(path, number) for path, text in files.items() for number in range(mutants.count(text))]
+    numbers = random.Random(seed).sample(every, min(count, len(every)))
+    found = ((path, mutants.mutant(files[path], number)) for path, number in numbers)
     return [
         (file, one) for file, one in found if not {f"{file} {one.of}", f"{file} {one.of}: {one.fault}"} & EQUAL.keys()
     ]
+
+
+def texts(room: Room) -> dict[Path, str]:
+    """Files of a room; compiled loops have references of their own."""
+    paths = [path for path in sorted(ROOT.glob(room.files)) if "kernel" not in path.parts]
+    return {path.relative_to(ROOT): path.read_text() for path in paths}
 
 
 def copied(folder: Path) -> Path:
@@ -152,90 +151,19 @@ def copied(folder: Path) -> Path:
     return folder
 
 
-def covering(copy: Path, room: Room) -> list[Trial] | None:
-    """The tests of a room with the lines that they run, the shortest first; None where one fails without a fault."""
-    found = copy / "covered.json"
-    found.unlink(missing_ok=True)
-    environment = {"COVERED_FILES": room.files, "COVERED_TO": str(found)}
-    if ran(copy, ["-p", "tests.mutation.cover", *room.tests], environment, _ROOM_S) != 0:
-        return None
-    tests = [
-        Trial(name, seconds, {file: frozenset(each) for file, each in lines.items()})
-        for name, (seconds, lines) in json.loads(found.read_text()).items()
-    ]
-    return sorted(tests, key=lambda one: one.seconds)
+def covering(copy: Path, room: Room, notes: Path) -> list[Trial] | None:
+    """The tests of a room with the lines that they run; None where one fails without a fault."""
+
+    def run(arguments: list[str], environment: dict[str, str]) -> int:
+        return ran(copy, arguments, environment, ROOM_S)
+
+    return line_map(notes, copy, room.files, room.tests, run)
 
 
-def chosen(tests: list[Trial], file: Path, mutant: Mutant) -> list[str]:
-    """Tests that run the lines of a mutant, the shortest first, as long as they last; none where no test does.
-
-    Of what runs while the module is imported, such as a table, they are any of the room: those first that run its file.
-    """
-    found, seconds = [], 0.0
-    every = tests if mutant.lines else sorted(tests, key=lambda one: str(file) not in one.lines)
-    for one in every:
-        if not mutant.lines or not one.lines.get(str(file), frozenset()).isdisjoint(mutant.lines):
-            seconds += one.seconds
-            if found and (seconds > _CHOSEN_S or len(found) == _CHOSEN):
-                break
-            found.append(one.name)
-    return found
-
-
-def noticed(copy: Path, file: Path, text: str, tests: list[str]) -> bool:
-    """Whether a test fails, or does not end, when a file has another text."""
-    original = (copy / file).read_text()
-    (copy / file).write_text(text)
-    try:
-        return bool(tests) and ran(copy, tests, {}, _MUTANT_S) != 0
-    finally:
-        (copy / file).write_text(original)
-
-
-def ran(copy: Path, arguments: list[str], environment: dict[str, str], seconds: float) -> int:
-    """Exit code of pytest in a process of its own, which has loaded what is heavy; not 0 where it does not end."""
-    sys.stdout.flush()
-    child = os.fork()
-    if child == 0:
-        os.setsid()
-        # of computing, so that a busy machine makes no fault noticed; what waits for ever ends too
-        for ended in (signal.SIGALRM, signal.SIGPROF):
-            signal.signal(ended, signal.SIG_DFL)
-        signal.setitimer(signal.ITIMER_PROF, seconds)
-        signal.alarm(_WAITS * int(seconds))
-        os._exit(_pytest(copy, arguments, environment))
-    _, status = os.waitpid(child, 0)
-    with contextlib.suppress(ProcessLookupError):
-        # what a test has left behind
-        os.killpg(child, signal.SIGKILL)
-    return os.waitstatus_to_exitcode(status)
-
-
-def _pytest(copy: Path, arguments: list[str], environment: dict[str, str]) -> int:
-    """Of the child: nothing of the tree itself is loaded before."""
-    try:
-        os.environ.update(environment, PYTHONPATH=str(copy), PYTHONDONTWRITEBYTECODE="1", CHECKED_ANSWERS="every")
-        os.chdir(copy)
-        sys.dont_write_bytecode = True
-        sys.path[:] = [str(copy), *(one for one in sys.path if one not in ("", str(ROOT)))]
-        for name in [one for one in sys.modules if one.partition(".")[0] in _OWN]:
-            del sys.modules[name]
-        nowhere = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(nowhere, 1)
-        os.dup2(nowhere, 2)
-        import pytest
-
-        options = ["-x", "-q", "-n", "0", "-m", "not nightly", "-p", "no:cacheprovider", "-W", "ignore"]
-        return int(pytest.main([*options, *arguments]))
-    except BaseException:
-        return 99
-
-
-def _outcome(copy: Path, file: Path, mutant: Mutant, tests: list[Trial]) -> str:
-    every = chosen(tests, file, mutant)
-    if noticed(copy, file, mutant.text, every):
+def _outcome(copy: Path, file: Path, mutant: Mutant, tests: list[str], loaded: Loaded) -> str:
+    if noticed(copy, file, mutant.text, tests, loaded):
         return "killed"
-    why = f"{len(every)} tests run it" if every else "no test runs it"
+    why = f"{len(tests)} tests run it" if tests else "no test runs it"
     print(f"    survives: {file}:{mutant.line} {mutant.of}: {mutant.fault} ({why})", flush=True)
     return "survived"
 

@@ -11,10 +11,16 @@ _MECHANICS: dict[str, str] = {
     "bearings.py bending_moment: terms(-1.0) < terms(1.0) -> terms(-1.0) <= terms(1.0)": _ALIKE,
     "bearings.py bending_moment: terms(-1.0) -> terms(-1.011)": _SIDES,
     "bearings.py bending_moment: terms(1.0) -> terms(1.011)": _SIDES,
+    "bearings.py _refuse_coincident: 4.0 -> 4.041": _FINER,
     "row_data.py _opened: np.where(closed, discharge, 1.0) -> np.where(closed, discharge, 1.011)": _OPEN,
     "row_data.py _opened: np.where(closed, suction, 1.0) -> np.where(closed, suction, 1.011)": _OPEN,
     "row_work.py beside_mean: own < 0.5 * TURN -> own <= 0.5 * TURN": _ALIKE,
     "turn.py _NODES": _FINER,
+    "turn.py fluctuation: value[..., :-1] * value[..., 1:] < 0.0"
+    " -> value[..., :-1] * value[..., 1:] < 0.001": "one place more of the integral is looked at, which is never"
+    " beyond its extremes",
+    "gas.py log_ratio: np.where(chambers.closed, chambers.suction, 1.0)"
+    " -> np.where(chambers.closed, chambers.suction, 1.011)": _OPEN,
     "turn.py fluctuation: np.max(end, axis=-1) -> np.min(end, axis=-1)": "the integral ends as it begins, at 0: every"
     " end of a panel is the beginning of another, of which the largest is taken anyway",
     "whole_turn.py in_pieces: within.shape[-1] -> within.shape[+1]": "it has two axes",
@@ -25,7 +31,6 @@ _MECHANICS: dict[str, str] = {
     " -> np.where(self.pieces.size > 0.0, self.pieces.size, 1.011)": "of what has no size nothing is left out",
 }
 _PROGRAM: dict[str, str] = {
-    "certificate.py spread: not ceilings.scatter -> not not ceilings.scatter": _SPEED,
     "cuts/attempts.py FREELY": _STEERS,
     "cuts/attempts.py WITHIN": _STEERS,
     "cuts/cut.py alike: max -> min": _ALIKE,
@@ -33,6 +38,7 @@ _PROGRAM: dict[str, str] = {
     "cuts/samples.py maxima: np.argmax(around, axis=-1) - 1 -> np.argmax(around, axis=-1) + 1": _STEERS,
     "cuts/samples.py supports: abs(circle.radius - before) > _STEADY * circle.radius"
     " -> abs(circle.radius - before) >= _STEADY * circle.radius": _ALIKE,
+    "cuts/stage.py _step: over > 0 -> over >= 0": _ALIKE,
     "cuts/stage.py run: 0.0 -> 0.001": _STEERS,
     "methods/cascade.py _under_ceilings: nearest.objective <= -AMPLE -> nearest.objective < -AMPLE": _ALIKE,
     "methods/compiled.py _programs: np.add.reduce(mass, axis=-1, keepdims=True)"
@@ -40,6 +46,9 @@ _PROGRAM: dict[str, str] = {
     "methods/compiled.py _solve: reachable > 0 -> reachable > 1": _STEERS,
     "methods/compiled.py _solve: unit > 0 -> unit > 1": _STEERS,
     "methods/compiled.py plain_discs: 0 < norms.constant.shape[-1] < 3 -> 1 < norms.constant.shape[-1] < 3": _SPEED,
+    "methods/implied_bounds.py _in_sectors: np.min(along[outside], initial=1.0)"
+    " -> np.min(along[outside], initial=1.011)": "the shortest support is 1 along some ray outside; without such a ray"
+    " nothing is divided by it",
     "methods/implied_bounds.py responses: np.abs(row - other) <= _SAME -> np.abs(row - other) < _SAME": "rows that"
     " differ by their rounding may count as one or as two",
     "methods/polish.py lightened: _ROOM_FOR_MASS * before.mass < worth_less * np.minimum(limits.max_mass,"

@@ -71,7 +71,7 @@ def names(source: str) -> set[str]:
     every = list(_faults(tree))
     found = set()
     for fault in every:
-        _, of = _statement(tree, getattr(fault.node, "lineno", 0))
+        _, of = statement(tree, getattr(fault.node, "lineno", 0))
         old = getattr(fault.node, fault.field)
         found |= {of, f"{of}: {fault()}"}
         setattr(fault.node, fault.field, old)
@@ -83,11 +83,11 @@ def mutant(source: str, number: int) -> Mutant:
     tree = ast.parse(source)
     fault = next(islice(_faults(tree), number, None))
     line = getattr(fault.node, "lineno", 0)
-    lines, of = _statement(tree, line)
+    lines, of = statement(tree, line)
     return Mutant(line, fault(), ast.unparse(ast.fix_missing_locations(tree)), lines, of)
 
 
-def _statement(tree: ast.Module, line: int) -> tuple[frozenset[int], str]:
+def statement(tree: ast.Module, line: int) -> tuple[frozenset[int], str]:
     """Lines of the innermost statement around a line, of one with a body its head; and what it belongs to."""
     around = sorted(
         (one for one in ast.walk(tree) if isinstance(one, ast.stmt) and one.lineno <= line <= (one.end_lineno or 0)),
@@ -100,7 +100,8 @@ def _statement(tree: ast.Module, line: int) -> tuple[frozenset[int], str]:
         return frozenset(), of
     body = getattr(inner, "body", None)
     end = body[0].lineno - 1 if body else inner.end_lineno or line
-    return frozenset(range(inner.lineno, max(end, line) + 1)), functions[-1]
+    begin = min([inner.lineno, *(one.lineno for one in getattr(inner, "decorator_list", []))])
+    return frozenset(range(begin, max(end, line) + 1)), functions[-1]
 
 
 def _faults(tree: ast.Module) -> Iterator["_Fault"]:

@@ -4,9 +4,11 @@ from pathlib import Path
 
 import pytest
 
-from tests.mutation.__main__ import ROOMS, ROOT, Room, Trial, chosen, covering, noticed, sample
+from tests.mutation.__main__ import ROOMS, ROOT, Room, covering, sample
+from tests.mutation.choice import Trial, chosen, places
 from tests.mutation.equal import EQUAL
-from tests.mutation.mutants import Mutant, count, mutant, names
+from tests.mutation.mutants import count, mutant, names
+from tests.mutation.runs import Loaded, noticed
 
 SOURCE = """
 def largest(values: list[float], low: float = 2.0) -> float:
@@ -47,13 +49,40 @@ _LINES = frozenset({1})
 
 
 def test_tests_that_run_a_line_are_chosen_the_shortest_first() -> None:
-    file, fault = Path("coded.py"), Mutant(1, "", "", _LINES)
-    tests = [Trial("short", 0.1, {"coded.py": _LINES}), Trial("elsewhere", 0.2, {"coded.py": frozenset({9})})]
-    assert chosen([*tests, Trial("long", 50.0, {"coded.py": _LINES})], file, fault) == ["short"]
-    assert chosen([Trial("long", 50.0, {"coded.py": _LINES})], file, fault) == ["long"]
-    assert chosen(tests, Path("other.py"), fault) == []
-    # a constant is nobody's line
-    assert chosen(tests, file, Mutant(1, "", "", frozenset())) == ["short", "elsewhere"]
+    used = {"coded.py": _LINES}
+    tests = [Trial("a::short", 0.1, used), Trial("b::elsewhere", 0.2, {"coded.py": frozenset({9})})]
+    assert chosen([*tests, Trial("c::long", 50.0, used)], used, 45.0) == ["a::short"]
+    assert chosen([Trial("c::long", 50.0, used)], used, 45.0) == ["c::long"]
+    assert chosen(tests, {"other.py": _LINES}, 45.0) == []
+    # of what is used nobody knows where, any: those first that run its file
+    beside = Trial("d::beside", 0.3, {"other.py": _LINES})
+    assert chosen([*tests, beside], {"other.py": frozenset()}, 45.0) == ["d::beside", "a::short", "b::elsewhere"]
+
+
+def test_every_file_of_tests_has_its_turn() -> None:
+    used = {"coded.py": _LINES}
+    many = [Trial(f"a::{number}", 1.0 + 0.001 * number, used) for number in range(60)]
+    found = chosen([*many, Trial("b::longer", 6.0, used)], used, 45.0)
+    assert "b::longer" in found
+    assert found[:3] == ["a::0", "a::1", "a::2"]
+
+
+def test_others_of_a_file_may_look_at_what_the_first_has_computed() -> None:
+    """A fixture of the file, or a result that is kept: only the first test runs the lines."""
+    used = {"coded.py": _LINES}
+    first, second = Trial("a::first", 2.0, used), Trial("a::second", 0.1, {})
+    assert sorted(chosen([second, first, Trial("b::other", 0.1, {})], used, 45.0)) == ["a::first", "a::second"]
+    assert chosen([Trial("a::second", 0.1, {}, used), Trial("b::other", 0.1, {})], used, 45.0) == ["a::second"]
+
+
+def test_a_constant_is_where_it_is_used() -> None:
+    texts = {
+        Path("coded.py"): "LIMIT = 3\nTWICE = 2 * LIMIT\n\n\ndef f():\n    return TWICE\n",
+        Path("other.py"): "from coded import LIMIT\n\n\ndef g():\n    return LIMIT\n",
+    }
+    of = mutant(texts[Path("coded.py")], 0)
+    assert (of.of, of.lines) == ("LIMIT", frozenset())
+    assert places(of, Path("coded.py"), texts) == {"coded.py": frozenset({6}), "other.py": frozenset({5})}
 
 
 def test_what_is_noticed(tmp_path: Path) -> None:
@@ -66,11 +95,64 @@ def test_what_is_noticed(tmp_path: Path) -> None:
     assert not noticed(tmp_path, file, "def limit():\n    return 3\n", [test])
     assert not noticed(tmp_path, file, "def limit():\n    return 4\n", [])
     assert (tmp_path / file).read_text().startswith("def limit():\n    return 3\n")
-    found = covering(tmp_path, Room("coded.py", ("test_coded.py",), 0.9))
+    notes = tmp_path / "notes" / "room.json"
+    room = Room("coded.py", ("test_coded.py",), 0.9)
+    found = covering(tmp_path, room, notes)
     assert found is not None
     assert [(one.name, one.lines) for one in found] == [(test, {"coded.py": frozenset({1, 2})})]
+    noted = notes.read_text()
+    assert covering(tmp_path, room, notes) == found
+    assert notes.read_text() == noted
     (tmp_path / file).write_text("def limit():\n    return 4\n")
-    assert covering(tmp_path, Room("coded.py", ("test_coded.py",), 0.9)) is None
+    assert covering(tmp_path, room, notes) is None
+    assert notes.read_text() == "{}"
+
+
+def test_what_serves_a_file_is_noted_for_all_its_tests(tmp_path: Path) -> None:
+    (tmp_path / "tests").symlink_to(ROOT / "tests")
+    (tmp_path / "coded.py").write_text("def limit():\n    return 3\n\n\ndef other():\n    return 1\n")
+    (tmp_path / "test_coded.py").write_text(
+        "import pytest\nfrom coded import limit, other\n\nONE = other()\n\n\n"
+        "@pytest.fixture(scope='module')\ndef three():\n    return limit()\n\n\n"
+        "def test_first(three):\n    pass\n\n\ndef test_second(three):\n    assert three == 3\n"
+    )
+    found = covering(tmp_path, Room("coded.py", ("test_coded.py",), 0.9), tmp_path / "notes" / "room.json")
+    assert found is not None
+    assert [one.lines for one in found] == [{"coded.py": frozenset({1, 2})}, {}]
+    assert {frozenset(one.shared["coded.py"]) for one in found} == {frozenset({1, 2, 5, 6})}
+
+
+_CODED = """START = 3
+
+
+def first():
+    return START
+
+
+LIMIT = first()
+
+
+def above(x, least=1):
+    return x > LIMIT + least
+"""
+
+
+def test_a_fault_in_what_is_loaded_is_noticed_as_one_that_is_imported(tmp_path: Path) -> None:
+    """A function is given other code; what importing has called, tables and defaults are imported again."""
+    (tmp_path / "tests").symlink_to(ROOT / "tests")
+    (tmp_path / "coded.py").write_text(_CODED)
+    (tmp_path / "test_coded.py").write_text(
+        "from coded import above\n\n\ndef test_above():\n    assert [above(4), above(5)] == [False, True]\n"
+    )
+    file, test = Path("coded.py"), "test_coded.py::test_above"
+    faults = {mutant(_CODED, number).fault: mutant(_CODED, number).text for number in range(count(_CODED))}
+    with Loaded(tmp_path, ["test_coded.py"], "coded.py") as loaded:
+        again = {fault: loaded.ran(file, _CODED, text, [test]) is None for fault, text in faults.items()}
+        assert [fault for fault, one in again.items() if one] == ["3 -> 4", "1 -> 2"]
+        assert all(noticed(tmp_path, file, text, [test], loaded) for text in faults.values())
+        assert not noticed(tmp_path, file, _CODED.replace("x > LIMIT + least", "LIMIT + least < x"), [test], loaded)
+        assert noticed(tmp_path, file, _CODED.replace("return START", "return START + 1"), [test], loaded)
+        assert loaded.ran(file, _CODED, _CODED.replace("return START", "return START + 1"), [test]) is None
 
 
 @pytest.mark.parametrize("file", sorted({key.partition(" ")[0] for key in EQUAL}))

@@ -1,18 +1,32 @@
 """How far webs without a limit have to be looked into."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
+from scipy.optimize import linprog
 
 from optimizer.mechanics.angles import direction
 from optimizer.numerics.arrays import Complex
+from optimizer.program.ceilings import Ceilings
 from optimizer.program.limits import Limits
-from optimizer.program.methods.implied_bounds import _masses_by_inverse, carrying_mass, within_reach
+from optimizer.program.methods.implied_bounds import (
+    _masses_by_inverse,
+    bounded,
+    carrying_mass,
+    far_limits,
+    level_above,
+    responses,
+    within_reach,
+)
 from optimizer.program.methods.semicontinuous_bounds import _subset_mass
+from optimizer.program.norms import Norms
 from optimizer.program.reference.solver import _blended
 from optimizer.program.rows import combined, statement, weighted_peak
+from optimizer.program.scaling import natural_reach
 from optimizer.program.solution import evaluated
+from optimizer.program.statement import Names, Statement, Term
 from optimizer.responses.response import Phasors, Response
 from tests.program.cases import SOLVER
 
@@ -115,3 +129,129 @@ def test_a_response_that_is_small_and_limited_is_one(ceiling: float) -> None:
     free = replace(limits(1, 90.0), free=np.ones(1, bool))
     program = statement(combined([weighted_peak(force, 1.0)], "sum"), [(force, ceiling)], free)
     assert within_reach(program, SOLVER).limits.max_mass == pytest.approx([(10.0 + ceiling) / 0.25], rel=1e-6)
+
+
+def _two_terms(**changes: Any) -> tuple[Statement, float]:
+    """|10 + u1 + u2| and 3 |2 j - u1|, the larger of which is looked at, of two free webs; and a level."""
+    free = replace(limits(2, 90.0), free=np.ones(2, bool))
+    norms = Norms(np.array([10.0 + 0j, 6j]), np.array([[1.0, 1.0], [-3.0, 0.0]]), **changes)
+    names = Names((Term("a", "co"), Term("b", "co")), ("a", "b"))
+    none = Ceilings((), Norms(np.zeros(0, complex), np.zeros((0, 2))), np.zeros(0), np.zeros(0))
+    rows = np.array([0, 1])
+    return Statement(norms, rows, np.zeros(2, int), np.array([1.0, 2.0]), none, free, names), 20.0
+
+
+def test_what_responses_may_change_is_told_in_units_of_the_web_that_does_most() -> None:
+    """Analytic: |c| and what the level leaves of the floor, over the largest influence; signs with it."""
+    program, level = _two_terms()
+    rows, most, scalar = responses(program, np.ones(2, bool), level)
+    np.testing.assert_allclose(rows, [[1.0, 1.0], [1.0, 0.0]])
+    np.testing.assert_allclose(most, [10.0 + 19.0, (6.0 + 18.0) / 3.0], rtol=2e-9)
+    assert np.all(most >= [29.0, 8.0])
+    assert not np.any(scalar)
+    # a web that is near reaches no farther than its limit
+    near = replace(program, limits=replace(program.limits, max_mass=np.array([np.inf, 4.0])))
+    rows, most, _ = responses(near, np.array([True, False]), level)
+    # both are one response of the only web that is left
+    np.testing.assert_allclose(rows, [[1.0]])
+    assert most == pytest.approx([8.0], rel=2e-9)
+
+
+def test_a_group_leaves_the_others_their_largest_floor() -> None:
+    """Analytic: of a level of 20, the other group takes its floor."""
+    program, level = _two_terms()
+    program = replace(program, group=np.array([0, 1]))
+    _, most, _ = responses(program, np.ones(2, bool), level)
+    np.testing.assert_allclose(most, [10.0 + 20.0 - 1.0 - 2.0, (6.0 + 20.0 - 2.0 - 1.0) / 3.0], rtol=2e-9)
+
+
+def test_scalars_in_other_directions_are_other_responses() -> None:
+    program, level = _two_terms(scalar=(True, False))
+    _, _, scalar = responses(program, np.ones(2, bool), level)
+    assert scalar.tolist() == [True, False]
+    turned = replace(program, norms=replace(program.norms, influence=1j * program.norms.influence))
+    found, _, _ = responses(turned, np.ones(2, bool), level)
+    np.testing.assert_allclose(found, [[1j, 1j], [1.0, 0.0]])
+    # a response of the same direction and size is one, and bound by the closer
+    twice = replace(
+        program,
+        norms=Norms(np.array([10.0 + 0j, 4.0 + 0j]), np.array([[1.0, 1.0], [2.0, 2.0]])),
+    )
+    rows, most, _ = responses(twice, np.ones(2, bool), level)
+    np.testing.assert_allclose(rows, [[1.0, 1.0]])
+    assert most == pytest.approx([(4.0 + 18.0) / 2.0], rel=2e-9)
+
+
+def test_no_web_is_far_that_is_limited_to_what_is_called_for() -> None:
+    """Analytic: the least unbalance that cancels is 12, of webs of 0.25 m; a thousand times that is as far as any."""
+    program, _ = _two_terms()
+    cancels = natural_reach(program) / 0.25
+    for share, far in ((0.5, False), (999.0, False), (1001.0, True), (np.inf, True)):
+        some = np.array([share * float(cancels), 1.0])
+        found = far_limits(replace(program, limits=replace(program.limits, max_mass=some)))
+        assert found.tolist() == [far, False]
+    # a budget is a limit as well
+    budget = replace(program.limits, max_total_mass=np.asarray(5.0 * float(cancels)), max_mass=np.full(2, 1e12))
+    assert not np.any(far_limits(replace(program, limits=budget)))
+
+
+def test_scattering_webs_reach_as_far_as_what_scatters_is_allowed() -> None:
+    """Analytic: a kilogram scatters by 0.1 R |H|: of the second web only the first row, (20 - 1)/(0.1 * 0.25)."""
+    program, level = _two_terms(scatter=0.1)
+    found = bounded(program, level).limits.max_mass
+    first = min(19.0 / 0.025, 18.0 / (0.1 * 3.0 * 0.25))
+    assert found == pytest.approx([max(first, 19.0 / 0.025)] * 2, rel=1e-8)
+
+
+def test_a_web_alone_is_bound_by_what_its_responses_leave() -> None:
+    """Analytic: two webs and two responses, by Cramer's rule: u1 = -b, u2 = a + b, of |a| <= 29 and |b| <= 8."""
+    program, level = _two_terms()
+    found = bounded(program, level).limits.max_mass
+    most = max(8.0, 29.0 + 8.0) / 0.25
+    assert np.all(found >= [8.0 / 0.25, 37.0 / 0.25])
+    assert np.max(found) <= (8.0 + 37.0) / 0.25 * (1.0 + 1e-8)
+    assert np.max(found) >= most
+    # what is limited far more closely stays as it is, and the other one with it
+    near = replace(program, limits=replace(program.limits, max_mass=np.array([4.0, np.inf])))
+    assert bounded(near, level).limits.max_mass[0] == 4.0
+    assert bounded(near, level).limits.max_mass[1] >= 29.0 / 0.25
+    # without a level nothing is proven, and no more than the largest mass is left
+    assert np.all(bounded(program, np.inf).limits.max_mass == 1e15)
+
+
+def test_the_level_leaves_room_for_all_that_counts_as_an_optimum() -> None:
+    """Analytic: twice the objective of a point, less the floors."""
+    program, _ = _two_terms()
+    assert level_above(program, np.zeros(2, complex)) == pytest.approx(2.0 * 11.0 - 1.0)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_what_sectors_carry_they_carry_with_the_mass_that_is_told(seed: int) -> None:
+    """Independent: of changes that some masses bring, the least mass of rays that bring them, by a linear program."""
+    rng = np.random.default_rng(seed)
+    influence, apart = rng.normal(size=(2, 3)), np.zeros(2, bool)
+    sectors = replace(limits(3, 40.0), centre=np.exp(2j * np.pi * rng.random(3)))
+    edge = np.exp(1j * np.deg2rad(40.0))
+    rays = np.concatenate([sectors.centre * turn for turn in (1.0, edge, np.conj(edge))])
+    brought = np.tile(influence, 3) * rays
+    rows = np.concatenate([brought.real, brought.imag])
+    told = carrying_mass(influence, sectors, np.ones(2), apart)
+    assert np.isfinite(told)
+    for _ in range(30):
+        masses = rng.exponential(size=9) * rng.integers(0, 2, 9)
+        change = brought @ masses
+        size = np.max(np.abs(change))
+        if size > 0.0:
+            least = linprog(np.ones(9), A_eq=rows, b_eq=np.concatenate([change.real, change.imag]) / size).fun
+            assert least <= told * (1.0 + 1e-9)
+
+
+def test_a_limited_response_is_no_larger_than_its_ceiling_and_its_tolerance() -> None:
+    """Analytic: a ceiling of 5 on |3 + 2 u1| with a size of 1e9, whose tolerance is a unit more."""
+    program, level = _two_terms()
+    norms = Norms(np.array([3.0 + 0j]), np.array([[2.0, 0.0]]))
+    capped = Ceilings(("a",), norms, np.array([5.0]), np.array([1e9]))
+    rows, most, _ = responses(replace(program, ceilings=capped), np.ones(2, bool), level)
+    # of u1 alone the second term allows 8, this one (3 + 5 + 1) / 2
+    np.testing.assert_allclose(rows, [[1.0, 1.0], [1.0, 0.0]])
+    np.testing.assert_allclose(most, [29.0, 4.5], rtol=2e-9)

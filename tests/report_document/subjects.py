@@ -190,6 +190,11 @@ def _accuracy(**changes: Any) -> Subject:
     return Subject(answer, lambda found: measured(None, found))  # type: ignore[arg-type]
 
 
+def accuracy(*rungs: dict[str, Any]) -> AccuracyAnswer:
+    """A ladder of such rungs."""
+    return AccuracyAnswer.model_validate({**_MEASURED, "ladder": [{**_LADDER, **rung} for rung in rungs]})
+
+
 def _counts() -> Subject:
     return Subject(CountFront.model_validate(_COUNTS), lambda found: [Chapter("Numbers", (counted(found),))])
 

@@ -1,0 +1,72 @@
+"""A fault put into functions that are loaded already: nothing is imported again."""
+
+import gc
+from collections.abc import Iterator
+from inspect import CO_OPTIMIZED
+from pathlib import Path
+from types import CodeType, FunctionType
+from typing import NamedTuple
+
+#: file, name and first line of a function
+_Place = tuple[str, str, int]
+
+
+class Functions(NamedTuple):
+    """Functions by their places, several where one is made again; and those that importing has called."""
+
+    alive: dict[_Place, list[FunctionType]]
+    called: frozenset[_Place]
+
+
+def functions(files: set[str], called: set[CodeType]) -> Functions:
+    """Functions of some files that are alive."""
+    alive: dict[_Place, list[FunctionType]] = {}
+    gc.unfreeze()
+    for one in gc.get_objects():
+        if isinstance(one, FunctionType) and one.__code__.co_filename in files:
+            alive.setdefault(_place(one.__code__), []).append(one)
+    gc.collect()
+    gc.freeze()
+    return Functions(alive, frozenset(map(_place, called)))
+
+
+def patched(functions: Functions, path: Path, original: str, text: str) -> bool:
+    """Gives functions of a file the code of another text of it; False where that has to be imported.
+
+    It has to be where a module or a class does something else, such as a table or a default, or calls what does.
+    """
+    before, after = (list(_codes(compile(each, str(path), "exec"))) for each in (original, text))
+    if [one.co_qualname for one in before] != [one.co_qualname for one in after]:
+        return False
+    # the text has been written anew: lines are others, where what is compiled is not
+    changed = [old for old, new in zip(before, after, strict=True) if _does(old) != _does(new)]
+    if not changed or any(not old.co_flags & CO_OPTIMIZED or _place(old) in functions.called for old in changed):
+        return False
+    every = [
+        (one, new)
+        for old, new in zip(before, after, strict=True)
+        for one in functions.alive.get(_place(old), [])
+        if old.co_flags & CO_OPTIMIZED
+    ]
+    if any(one.__code__.co_freevars != new.co_freevars for one, new in every):
+        return False
+    for one, new in every:
+        one.__code__ = new
+    return True
+
+
+def _place(code: CodeType) -> _Place:
+    return code.co_filename, code.co_qualname, code.co_firstlineno
+
+
+def _codes(code: CodeType) -> Iterator[CodeType]:
+    yield code
+    for one in code.co_consts:
+        if isinstance(one, CodeType):
+            yield from _codes(one)
+
+
+def _does(code: CodeType) -> tuple[object, ...]:
+    """What a code does, without what is defined inside, its lines and its texts."""
+    consts = [repr(one) for one in code.co_consts if not isinstance(one, CodeType | str)]
+    return code.co_code, code.co_names, code.co_varnames, code.co_freevars, consts

@@ -1,0 +1,154 @@
+"""Points with their figures: which of two is taken, how far one is moved, which proof goes with it (analytic)."""
+
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+import pytest
+
+from optimizer.program.ceilings import CEILING_TOLERANCE
+from optimizer.program.certificate import nothing_proven
+from optimizer.program.methods.compiled import _better, _nearer, plain_discs, pulled, suits_kernel
+from optimizer.program.points import Points, excess_at, points_at
+from optimizer.program.solution import CEILING_ROUNDING, Solution, evaluated, joined
+from tests.program.cases import random_point
+from tests.program.test_leading_axes import WEBS, _multipliers, _program
+
+_BROKEN = 2.0 * CEILING_TOLERANCE
+
+
+def _points(objective: float, mass: float, excess: float, web: complex = 1.0) -> Points:
+    one = np.ones(1)
+    return Points(np.array([[web]], complex), objective * one, mass * one, excess * one, 1e-3 * one)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "better"),
+    [
+        # both keep the ceilings: the smaller objective, and of equal ones the first
+        ((2.0, 0.0), (1.0, 0.0), True),
+        ((1.0, 0.0), (2.0, 0.0), False),
+        ((1.0, 0.0), (1.0, -1.0), False),
+        ((2.0, CEILING_TOLERANCE), (1.0, CEILING_TOLERANCE), True),
+        # only one does
+        ((1.0, _BROKEN), (9.0, 0.0), True),
+        ((9.0, 0.0), (1.0, _BROKEN), False),
+        # none does: the smaller excess
+        ((1.0, 3.0), (9.0, 2.0), True),
+        ((9.0, 2.0), (1.0, 3.0), False),
+        ((9.0, 2.0), (1.0, 2.0), False),
+    ],
+)
+def test_the_better_of_two_points(old: tuple[float, float], new: tuple[float, float], better: bool) -> None:
+    first, second = (_points(objective, 1.0, excess) for objective, excess in (old, new))
+    assert _better(first, second).objective == (second if better else first).objective
+
+
+@pytest.mark.parametrize(
+    ("target", "share"),
+    [(8.0, 0.001 / 6.0), (6.0, 2.001 / 6.0), (2.5, 5.501 / 6.0), (8.001, 0.0), (9.0, 0.0), (2.0, 0.0), (1.0, 0.0)],
+)
+def test_the_lightest_is_moved_as_far_as_its_target_calls_for(target: float, share: float) -> None:
+    """Over its target by what it comes to and a rounding of 1e-3, of a fall of 6; not where that is not enough."""
+    light, small = _points(8.0, 1.0, 0.0, 4.0), _points(2.0, 3.0, 0.0, 0.0)
+    assert _nearer(light, small, np.array([target]))[0, 0] == pytest.approx(4.0 * (1.0 - share), rel=1e-9)
+
+
+def test_points_above_a_ceiling_are_moved_to_it_and_no_farther() -> None:
+    """Property: excesses are convex, so that those half way are below; what keeps its ceilings stays."""
+    programs = [_program(seed, "ceiling") for seed in range(4)]
+    for seed, program in enumerate(programs):
+        one = program.alone()
+        inside = np.zeros((1, WEBS), complex)
+        for size in (0.1, 3.0, 10.0):
+            u = size * random_point(np.random.default_rng(seed), program.limits)[None]
+            found = pulled(one, u, inside)
+            above, below = float(excess_at(one, u)[0]), float(excess_at(one, inside)[0])
+            if above <= CEILING_ROUNDING:
+                assert np.array_equal(found, u)
+            elif below < 0.0:
+                assert excess_at(one, found)[0] <= 1e-9
+                share = above / (above - below)
+                np.testing.assert_allclose(found, u * (1.0 - share), rtol=1e-9)
+
+
+def test_points_are_taken_and_put_program_by_program() -> None:
+    every = points_at(_program(1, "ceiling"), np.arange(12.0).reshape(3, 4) + 0j)
+    other = Points(*(values + 100.0 for values in every))
+    for mask in product([False, True], repeat=3):
+        found = every.where(np.array(mask), other)
+        for part, mine, others in zip(found, every, other, strict=True):
+            for n, own in enumerate(mask):
+                assert np.array_equal(part[n], (mine if own else others)[n])
+    few = every.put(np.array([2]), other.chosen(np.array([0])))
+    assert few.mass.tolist() == [every.mass[0], every.mass[1], other.mass[0]]
+    assert every.put(np.arange(3), other) is other
+    assert [one.mass.tolist() for one in Points(*(np.stack([a, a + 1]) for a in every)).items] == [
+        every.mass.tolist(),
+        (every.mass + 1).tolist(),
+    ]
+
+
+def test_the_better_of_two_proofs_goes_with_a_point() -> None:
+    program = _program(1, "ceiling")
+    proof, none = _multipliers(1, program), nothing_proven(program)
+    point = evaluated(program, np.ones(WEBS, complex))
+    assert (point.lower_bound, point.mass_lower_bound, point.mass_target) == (-np.inf, 0.0, np.inf)
+    assert point.objective == float(program.objective(np.ones(WEBS, complex)))
+    assert point.mass == float(program.mass(np.ones(WEBS, complex)))
+    assert point.excess == float(np.max(program.ceilings.excess(np.ones(WEBS, complex))))
+    better = point.bounded(3.0, proof)
+    assert (better.lower_bound, better.multipliers) == (3.0, proof)
+    assert better.gap == better.objective - 3.0
+    assert better.bounded(3.0, none) is better
+    assert better.bounded(2.0, none) is better
+    heavier = better.weighed(0.5, proof, 9.0)
+    assert (heavier.mass_lower_bound, heavier.mass_multipliers, heavier.mass_target) == (0.5, proof, 9.0)
+    assert heavier.weighed(0.5, none, 1.0) is heavier
+    assert heavier.weighed(np.nan, none, 1.0) is heavier
+    moved = heavier.moved_to(program, np.zeros(WEBS, complex))
+    assert (moved.mass, moved.lower_bound, moved.mass_lower_bound) == (0.0, 3.0, 0.5)
+    assert moved.objective == pytest.approx(float(program.at_rest))
+
+
+@pytest.mark.parametrize(
+    ("excess", "keeps", "below"),
+    [(CEILING_ROUNDING, True, True), (1.1 * CEILING_ROUNDING, True, False), (CEILING_TOLERANCE, True, False),
+     (1.1 * CEILING_TOLERANCE, False, False), (-np.inf, True, True)],
+)  # fmt: skip
+def test_ceilings_are_kept_to_their_tolerance_and_to_rounding(excess: float, keeps: bool, below: bool) -> None:
+    nothing = nothing_proven(_program(1, "plain"))
+    found = Solution(np.zeros(WEBS, complex), 1.0, 0.0, 1.0, 0.0, excess, nothing)
+    assert (found.keeps_ceilings, found.below_ceilings) == (keeps, below)
+
+
+def test_parts_are_put_in_the_order_of_all_programs() -> None:
+    one, other = _points(1.0, 2.0, 3.0), _points(4.0, 5.0, 6.0)
+    assert joined([one.mass, other.mass], np.array([1, 0])).tolist() == [5.0, 2.0]
+
+
+@pytest.mark.parametrize(
+    ("kind", "rows", "terms", "plain"),
+    [("plain", 1, 1, True), ("plain", 1, 2, True), ("plain", 1, 3, False), ("plain", 2, 2, False),
+     ("sector", 1, 2, False), ("budget", 1, 2, False), ("ceiling", 1, 2, False), ("scatter", 1, 2, False),
+     ("scalar", 1, 2, False)],
+)  # fmt: skip
+def test_programs_of_plain_discs_are_told_from_others(kind: str, rows: int, terms: int, plain: bool) -> None:
+    """Analytic: one row of one or two terms, with nothing but largest masses."""
+    whole = _program(3, kind)
+    some = np.arange(terms)
+    norms = replace(
+        whole.norms, constant=whole.norms.constant[some], influence=whole.norms.influence[some],
+        scalar=whole.norms.scalar[:terms],
+    )  # fmt: skip
+    row = np.minimum(some, rows - 1)
+    program = replace(whole, norms=norms, row=row, group=np.zeros(rows, int), floor=whole.floor[:rows])
+    assert plain_discs(program.alone()).tolist() == [plain]
+
+
+@pytest.mark.parametrize(("kind", "suits"), [("plain", True), ("group", False), ("sector, budget", True)])
+def test_the_compiled_interior_point_takes_one_group_of_real_influences(kind: str, suits: bool) -> None:
+    program = _program(3, kind)
+    assert suits_kernel(program) == suits
+    turned = replace(program, norms=replace(program.norms, influence=program.norms.influence + 0j))
+    assert not suits_kernel(turned)
