@@ -16,7 +16,7 @@ from verify_cases import scenarios, without_cases
 from verify_claims import EVIDENCE, Claims, covered, near
 from verify_costs import costs
 from verify_cuts import FIELDS, SHAFTS
-from verify_first import excess, implied_alone, near_the_bound, priced_at, searched, smallest
+from verify_first import excess, implied_alone, light, near_the_bound, priced_at, searched, smallest
 from verify_first import proven as exactly
 from verify_goals import Program as Asked
 from verify_goals import values
@@ -58,18 +58,22 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
     yield from _proven("lower_bound", of_any_mass, found, implied, of_objective, mixed=program.mixed)
     slopes = program.slopes
     yield from _earlier(program, proof, implied)
-    least = proof / "mass_lower_bound_kg"
+    least, limit = proof / "mass_lower_bound_kg", (proof / "mass_objective_limit").number(0.0)
+    if least:
+        yield "mass_lower_bound", proof / "mass_objective_limit", limit + noise - value, abs(value)
     if least and (least.number() - machine.fixed).high <= 0:
         yield "mass_lower_bound", least, machine.fixed - least.number(), ONE
         yield EVIDENCE, multipliers / "mass", None, ONE
     elif least and multipliers / "mass":
-        limit, of_mass = (proof / "mass_objective_limit").number(), multipliers / "mass"
+        of_mass = multipliers / "mass"
         found = program.bound(of_mass, program.terms(of_mass), implied, ONE, limit)
         yield from _proven("mass_lower_bound", least, found, implied, of_mass, machine.fixed, program.mixed)
-        yield "mass_lower_bound", proof / "mass_objective_limit", limit + noise - value, abs(value)
-    size, mass = proof / "mass_yardstick_kg", fitted.mass + fitted.on_shafts_mass
+    size, mass, first = proof / "mass_yardstick_kg", fitted.mass + fitted.on_shafts_mass, program.first
     if size and abs(size.number() - mass).low <= (mass * SPECK).high:
         yield near("yardstick", size, mass)
+    elif not (first.over_turn or first.geared or first.exact.caps or len(program.parts) > 1):
+        rows = dict.fromkeys(first.statements[0].rows, (proof / "yardstick").number(0.0))
+        yield from light(first.statements[0], proof, rows, fitted.mass)
     goals_of = Asked([*program.parts.values()], program.named, program.off, machine, program.rows)
     yield from covered(values(request, answer, goals_of, fitted))
     yield from covered(_nominal(request, machine, answer))
