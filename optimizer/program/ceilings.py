@@ -59,7 +59,11 @@ def limited(ceilings: Sequence[tuple[Response, Reals]], objective: Norms, webs: 
     for index, (response, ceiling) in enumerate(ceilings):
         cap[..., index] = ceiling - np.abs(response.baseline.counter)
     size = np.maximum(np.abs(norms.constant), np.abs(cap))
-    # where both vanish: what the unbalance that the objective calls for does to the response
+    if not (size > SMALLEST).all():
+        # where both vanish: what the same response has with other masses
+        same = np.array([[a.name == b.name and a.scenario == b.scenario for a, _ in ceilings] for b, _ in ceilings])
+        size = np.where(size > SMALLEST, size, np.maximum.reduce(same * size[..., None, :], axis=-1))
+    # else: what the unbalance that the objective calls for does to the response
     called_for = np.maximum.reduce(np.abs(objective.constant) / objective.largest_influence, axis=-1, initial=0.0)
     size = np.where(size > SMALLEST, size, norms.largest_influence * called_for[..., None])
     size, scenarios = np.where(size > SMALLEST, size, 1.0), tuple(response.scenario for response, _ in ceilings)

@@ -51,7 +51,9 @@ def test_the_better_of_two_points(old: tuple[float, float], new: tuple[float, fl
 def test_the_lightest_is_moved_as_far_as_its_target_calls_for(target: float, share: float) -> None:
     """Over its target by what it comes to and a rounding of 1e-3, of a fall of 6; not where that is not enough."""
     light, small = _points(8.0, 1.0, 0.0, 4.0), _points(2.0, 3.0, 0.0, 0.0)
-    assert _nearer(light, small, np.array([target]))[0, 0] == pytest.approx(4.0 * (1.0 - share), rel=1e-9)
+    moved = _nearer(light, small, np.array([target]))
+    assert (moved is None) == (share == 0.0)
+    assert moved is None or moved[0, 0] == pytest.approx(4.0 * (1.0 - share), rel=1e-9)
 
 
 def test_points_above_a_ceiling_are_moved_to_it_and_no_farther() -> None:
