@@ -52,8 +52,8 @@ def test_the_lightest_is_moved_as_far_as_its_target_calls_for(target: float, sha
     """Over its target by what it comes to and a rounding of 1e-3, of a fall of 6; not where that is not enough."""
     light, small = _points(8.0, 1.0, 0.0, 4.0), _points(2.0, 3.0, 0.0, 0.0)
     moved = _nearer(light, small, np.array([target]))
-    assert (moved is None) == (share == 0.0)
-    assert moved is None or moved[0, 0] == pytest.approx(4.0 * (1.0 - share), rel=1e-9)
+    assert share == 0.0 or moved is not None
+    assert (4.0 if moved is None else moved[0, 0]) == pytest.approx(4.0 * (1.0 - share), rel=1e-9)
 
 
 def test_points_above_a_ceiling_are_moved_to_it_and_no_farther() -> None:
