@@ -121,7 +121,7 @@ def prices(statement: Statement, request: Place, answer: Place, there: Fitted, c
     widest = max((abs(web.radius.middle()) * arm for web, arm in zip(machine.webs, arms)), default=0.0)
     lengths = (abs(complex((one / "x").double(), (one / "y").double())) for one in multipliers / "terms")
     factor = max((abs(term.factor.middle()) for term in statement.terms.values()), default=0.0)
-    dust = 1e-12 * widest * machine.square.middle().real * (sum(lengths) * factor + sum(ceilings.values()))
+    dust = 1e-11 * widest * machine.square.middle().real * (sum(lengths) * factor + sum(ceilings.values()))
     stated = list(stated_limits(machine, answer / "counterweights", slopes, multipliers, "max_total_mass" in touched))
     for name, length in ceilings.items():
         field = CEILINGS[name]

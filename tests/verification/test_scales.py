@@ -51,6 +51,8 @@ from tests.verification.test_curves import part
         ("scenarios", 1971, 90, "sensitivity"),
         # a moment of nothing, which places on a balance shaft of 1e9 m change
         ("balance shafts", 2277, 90, "ceilings"),
+        # a web without a limit, at which 1e-8 N/kg are left of 3 kN/kg m that cancel
+        ("plates", 4677, 92, "shadow_prices"),
         # 5e18 kg at a radius of 6e4 m, in a sector that points away
         ("catalogue", 1337, 83, "smallest_force"),
     ],
