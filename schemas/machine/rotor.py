@@ -158,10 +158,10 @@ class Rotor(Ruled):
 
 def unique_names(path: Path, names: Sequence[str | None]) -> Iterable[Rule]:
     """One rule broken for every name that already stands earlier in the list; None is no name."""
-    return () if len(set(names)) == len(names) else _repeated(path, names)
+    return () if len(set(names)) == len(names) else _repetitions(path, names)
 
 
-def _repeated(path: Path, names: Sequence[str | None]) -> Iterator[Rule]:
+def _repetitions(path: Path, names: Sequence[str | None]) -> Iterator[Rule]:
     seen: set[str] = set()
     for index, name in enumerate(names):
         if name is None:
