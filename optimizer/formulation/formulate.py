@@ -88,6 +88,8 @@ def counted(objective: Objective) -> tuple[Weighable, ...]:
 
 def added(objective: Objective) -> tuple[Weighable, ...]:
     """Those that count beside force and moment."""
+    if len(RESPONSES) == len(PAIR):
+        return ()
     return tuple(each for each in counted(objective) if each.name not in PAIR)
 
 

@@ -25,7 +25,7 @@ def own_throws(machine: Machine) -> list[int | None]:
     if not isinstance(machine, ReciprocatingMachine) or not machine.webs:
         return [None] * len(machine.webs)
     of_webs = shares(machine).T
-    first, alone = np.argmax(of_webs, axis=-1).tolist(), (of_webs == 1.0).any(axis=-1).tolist()
+    first, alone = of_webs.argmax(axis=-1).tolist(), np.logical_or.reduce(of_webs == 1.0, axis=-1).tolist()
     return [throw if one else None for throw, one in zip(first, alone, strict=True)]
 
 

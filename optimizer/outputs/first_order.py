@@ -13,15 +13,15 @@ from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic, acceleration_harmonic_order_2
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.output import Columns, Output
-from optimizer.outputs.phasors import orders_of, vectors_of
-from optimizer.responses.response import Phasors
+from optimizer.outputs.phasors import Polar, orders_of, vectors_of
+from optimizer.responses.response import Phasors, major_axis_deg
 from schemas.answer.first_order import FirstOrder, Floor, Residual, ResponseChange, ResponsePeak
 from schemas.answer.outputs import Hodograph, Hodographs
 from schemas.answer.proof import BoundMultipliers
 from schemas.base.responses import PAIR
 
-#: x and y
-_AXES = np.array([1.0, 1j]).reshape(2, 1, 1)
+#: squares of the directions x and y
+_SQUARES = np.array([1.0, -1.0]).reshape(2, 1, 1)
 #: figures of an ellipse in their units
 _FIELDS = tuple(
     (
@@ -43,7 +43,7 @@ FIRST_ORDER_EFFECTS = ("rotating_inertia", "reciprocating_inertia")
 
 def first_order(wrench: Wrench) -> FirstOrder:
     """Ellipses of force [N] and moment [N m] of one machine."""
-    return FirstOrder.model_validate(_ellipses(vectors_of([wrench]))[0])
+    return FirstOrder.model_validate(_ellipses(Polar.of(vectors_of([wrench])))[0])
 
 
 def floor(layout: Layout, wrench: Wrench) -> Floor:
@@ -121,8 +121,9 @@ def residual(scene: Prepared, unbalance: Complex | None) -> Residual:
     shown = [scene.first_order()] if unbalance is None else [scene.first_order(), scene.first_order(unbalance)]
     second = _second_order(scene, [False] if unbalance is None or scene.shafts is None else [False, True])
     vectors = vectors_of([*shown, *second])
-    told = orders_of([1] * len(shown) + [2] * len(second), vectors)
-    first, twice, ellipses = told[: len(shown)], told[len(shown) :], _ellipses(vectors[: len(shown)])
+    polar = Polar.of(vectors)
+    told = orders_of([1] * len(shown) + [2] * len(second), polar)
+    first, twice, ellipses = told[: len(shown)], told[len(shown) :], _ellipses(polar.first(len(shown)))
     # one validation of the whole takes a third of the time of one of each part
     return Residual.model_validate(
         {
@@ -171,20 +172,20 @@ def _hodograph(force: Complex, moment: Complex) -> Hodograph:
     )
 
 
-def _ellipses(vectors: Complex) -> list[dict[str, dict[str, float]]]:
-    """Fields of the ellipses (:class:`schemas.answer.first_order.FirstOrder`) of the phasors (n, 2, 2) of wrenches."""
-    pairs = Phasors(vectors[..., 0], vectors[..., 1])
-    along_x, along_y = pairs.peak_along(_AXES)
-    figures = [
-        pairs.peak,
-        pairs.minor,
-        pairs.major_axis_deg,
-        along_x,
-        along_y,
-        np.abs(pairs.co),
-        np.abs(pairs.counter),
-    ]
-    columns = np.array(figures).transpose(1, 2, 0).tolist()
+def _ellipses(polar: Polar) -> list[dict[str, dict[str, float]]]:
+    """Fields of the ellipses (:class:`schemas.answer.first_order.FirstOrder`) of the phasors of wrenches.
+
+    Each figure is that of :class:`optimizer.responses.response.Phasors`, from parts that several figures share.
+    """
+    co, counter = polar.vectors[..., 0], polar.vectors[..., 1]
+    size_co, size_counter = polar.size[..., 0], polar.size[..., 1]
+    figures = np.empty((*co.shape, 7))
+    figures[..., 0] = size_co + size_counter
+    figures[..., 1] = np.abs(size_co - size_counter)
+    figures[..., 2] = major_axis_deg((co != 0) & (counter != 0), polar.phase[..., 0] + polar.phase[..., 1])
+    figures[..., 3], figures[..., 4] = np.abs(co + _SQUARES * np.conj(counter))
+    figures[..., 5:] = polar.size
+    columns = figures.tolist()
     return [
         {name: dict(zip(fields, values, strict=True)) for (name, fields), values in zip(_FIELDS, of_one, strict=True)}
         for of_one in columns

@@ -7,7 +7,7 @@ from optimizer.mechanics.inertia import Wrench
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.first_order import FIRST_ORDER_EFFECTS
 from optimizer.outputs.output import Columns, Output
-from optimizer.outputs.phasors import orders_of, vectors_of
+from optimizer.outputs.phasors import Polar, orders_of, vectors_of
 from schemas.answer.outputs import OrdersComparison
 
 
@@ -25,7 +25,7 @@ def orders(scene: Prepared, unbalance: Complex | None) -> OrdersComparison:
 
     def sets(fitted: Complex | None) -> list[dict[str, Any]]:
         wrenches = by_order(scene, fitted)
-        return orders_of([*wrenches], vectors_of([*wrenches.values()]))
+        return orders_of([*wrenches], Polar.of(vectors_of([*wrenches.values()])))
 
     return OrdersComparison.model_validate(
         {"before": tuple(sets(None)), "after": None if unbalance is None else tuple(sets(unbalance))}

@@ -43,11 +43,8 @@ class Phasors:
     @property
     def major_axis_deg(self) -> Real:
         """Direction of the major axis in [0, 180) degrees; 0 for a circle, which has none."""
-        both = (self.co != 0) & (self.counter != 0)
-        both_phases = np.arctan2(self.co.imag, self.co.real) + np.arctan2(self.counter.imag, self.counter.real)
-        axis = np.rad2deg(0.5 * both_phases)
-        axis = np.mod(axis, 180.0)
-        return np.where(both & (axis < 180.0), axis, 0.0)
+        phases = np.arctan2(self.co.imag, self.co.real) + np.arctan2(self.counter.imag, self.counter.real)
+        return major_axis_deg((self.co != 0) & (self.counter != 0), phases)
 
     def peak_along(self, direction: Complex) -> Real:
         """Largest component along a direction over a turn, |co + e^{2j g} conj(counter)| for e^{j g}.
@@ -71,6 +68,12 @@ class Phasors:
         """
         turn = np.exp(1j * order * angle_rad)
         return self.co[..., None] * turn + self.counter[..., None] * np.conj(turn)
+
+
+def major_axis_deg(both: np.ndarray, phases: Real) -> Real:
+    """The same by the sum of the phases of two vectors (...) rad, and whether both are there."""
+    axis = np.mod(np.rad2deg(0.5 * phases), 180.0)
+    return np.where(both & (axis < 180.0), axis, 0.0)
 
 
 @record

@@ -5,7 +5,7 @@ from typing import NamedTuple, get_args
 
 import numpy as np
 
-from optimizer.formulation.formulate import RESPONSES, limited, objective_ceilings, weights
+from optimizer.formulation.formulate import RESPONSES, limited, objective_ceilings
 from optimizer.formulation.goals import Limited
 from optimizer.formulation.limits import MACHINE_LIMITS, TOUCHED, limit_sizes
 from optimizer.numerics.arrays import Complex, Real
@@ -75,13 +75,10 @@ class ObjectiveUnit(NamedTuple):
 
 def _quantity(machine: Machine, objective: Objective) -> ObjectiveUnit:
     """Force, moment where the force has no weight, and what else is weighed where neither has."""
-    wanted = weights(machine, objective)
-    weighed = (
-        ObjectiveUnit(float(wanted[each.name]), each.unit) for each in RESPONSES.values() if wanted[each.name] > 0
-    )
-    of_frame = next(weighed, None)
-    if of_frame is not None:
-        return of_frame
+    for each in RESPONSES.values():
+        weight = float(each.weight(machine, objective))
+        if weight > 0:
+            return ObjectiveUnit(weight, each.unit)
     if objective.bearing_weight > 0:
         return ObjectiveUnit(objective.bearing_weight, "Pa" if objective.bearing_measure == "specific" else "N")
     return ObjectiveUnit(objective.bending_weight or objective.roll_weight, "N m")

@@ -2,10 +2,12 @@
 
 In a sweep a varied field holds a column (n,), one value for each design, and null in all of them or in none. Rules
 are written with the operators that numbers and columns share (``<``, ``==``, ``&``, ``|``), so that the verdict of a
-rule is one for all designs, or one for each.
+rule is one for all designs, or one for each. Every request is measured by all rules, and hardly one is broken: paths
+and messages are made where something may be.
 """
 
 from collections.abc import Iterable, Iterator
+from functools import reduce
 from typing import Any, NamedTuple, Self
 
 from pydantic import model_validator
@@ -81,6 +83,12 @@ def first_of(rules: Iterable[Rule]) -> Iterator[Rule]:
         before = after
 
 
-def larger(first: Any, second: Any) -> Any:
-    """The larger of two finite numbers, or of each pair of two columns."""
+def largest(values: list[Any]) -> Any:
+    """The largest of finite numbers, or of each design where some of them are columns."""
+    if set(map(type, values)) == {float}:
+        return max(values)
+    return reduce(_larger, values)
+
+
+def _larger(first: Any, second: Any) -> Any:
     return first * (first >= second) + second * (second > first)

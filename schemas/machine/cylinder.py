@@ -82,17 +82,21 @@ class Cylinder(GasState, Ruled):
 
     def rules(self) -> Iterator[Rule]:
         low, high = self.suction_pressure_Pa, self.discharge_pressure_Pa
-        if low is not None and high is not None:
-            yield Rule(high < low, ("discharge_pressure_Pa",), "must not be below the suction pressure")
-        for side, state in (("head", self.head), ("crank", self.crank)):
-            if state is not None:
-                yield from self._side_rules(side, state)
+        below = low is not None and high is not None and high < low
+        if below is not False:
+            yield Rule(below, ("discharge_pressure_Pa",), "must not be below the suction pressure")
+        if self.head is not None:
+            yield from self._side_rules("head", self.head)
+        if self.crank is not None:
+            yield from self._side_rules("crank", self.crank)
         rod, bore = self.piston_rod_diameter_m, self.bore_m
         if bore is not None:
-            if rod is not None:
-                yield Rule(rod >= bore, ("piston_rod_diameter_m",), "must be smaller than the bore")
-            for area in ("head_area_m2", "crank_area_m2"):
-                yield Rule(getattr(self, area) is not None, (area,), "give either the bore or the piston areas")
+            thick = rod is not None and rod >= bore
+            if thick is not False:
+                yield Rule(thick, ("piston_rod_diameter_m",), "must be smaller than the bore")
+            for area, size in (("head_area_m2", self.head_area_m2), ("crank_area_m2", self.crank_area_m2)):
+                if size is not None:
+                    yield Rule(True, (area,), "give either the bore or the piston areas")
 
     def _side_rules(self, side: str, state: GasState) -> Iterator[Rule]:
         """Pressures of one side, each its own or else the common one, where it has one of its own."""

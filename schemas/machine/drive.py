@@ -61,8 +61,8 @@ class Friction(Ruled):
         """Lists have one entry for each row; paths from the machine."""
         for field in ("indicated_power_W", "reciprocating_force_N"):
             values = getattr(self, field)
-            broken = values is not None and len(values) != rows
-            yield Rule(broken, ("friction", field), f"must hold one value for each of the {rows} row(s)")
+            if values is not None and len(values) != rows:
+                yield Rule(True, ("friction", field), f"must hold one value for each of the {rows} row(s)")
 
 
 class FlywheelData(Ruled):

@@ -59,6 +59,8 @@ def fitted_rules(
     machine: Machine, counterweights: Sequence[FittedCounterweight | GivenCounterweight]
 ) -> Iterator[Rule]:
     """Every counterweight on a web of the machine or in a plane of its own, and every web with one at most."""
+    if not counterweights:
+        return
     shafts = machine.balance_shafts if machine.kind == "reciprocating" else ()
     names = {web.name for place in (machine, *shafts) for web in place.webs}
     fixed = {web.name: web.fixed for web in machine.webs if web.fixed is not None}

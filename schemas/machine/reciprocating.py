@@ -9,7 +9,7 @@ from pydantic import Field
 
 from schemas.base.model import Model, NotEmpty
 from schemas.base.quantities import Angle, Mass, Name, Position
-from schemas.base.rules import Path, Rule, larger
+from schemas.base.rules import Path, Rule, largest
 from schemas.base.units import Unit
 from schemas.machine.choices import KINDS as CHOICES
 from schemas.machine.drive import MAX_BEARINGS, Bearing, FlywheelData, Friction
@@ -94,14 +94,14 @@ class ReciprocatingMachine(Rotor):
     def rules(self) -> Iterator[Rule]:
         yield from super().rules()
         rows = sum(len(throw.rows) for throw in self.throws)
-        message = f"all throws together must hold at most {MAX_ROWS_TOGETHER} rows"
-        yield Rule(rows > MAX_ROWS_TOGETHER, ("throws",), message)
+        if rows > MAX_ROWS_TOGETHER:
+            yield Rule(True, ("throws",), f"all throws together must hold at most {MAX_ROWS_TOGETHER} rows")
         yield from unique_names(("throws",), [throw.name for throw in self.throws])
         for t, throw in enumerate(self.throws):
             yield from _throw_rules(("throws", t), throw, 1.0 if self.rotation == "ccw" else -1.0)
         for k, web in enumerate(self.webs):
-            if web.throw is not None:
-                beyond = web.throw >= len(self.throws)
+            beyond = web.throw is not None and web.throw >= len(self.throws)
+            if beyond is not False:
                 yield Rule(beyond, ("webs", k, "throw"), f"the machine has {len(self.throws)} throw(s), counted from 0")
         if self.friction is not None:
             yield from self.friction.row_rules(rows)
@@ -111,7 +111,8 @@ class ReciprocatingMachine(Rotor):
             for k, web in enumerate(shaft.webs):
                 path = ("balance_shafts", n, "webs", k, "envelope")
                 yield Rule(web.envelope is not None, path, "a balance shaft's weights have a known radius")
-        yield from _bearing_rules(self.bearings)
+        if self.bearings:
+            yield from _bearing_rules(self.bearings)
         yield from unique_names(("shaft_parts",), [part.name for part in self.shaft_parts])
         if self.balance_shafts:
             yield from self._shaft_rules()
@@ -147,14 +148,16 @@ def _throw_rules(path: Path, throw: Throw, sense: float) -> Iterator[Rule]:
     for i, row in enumerate(throw.rows):
         if row.connecting_rod is not None and row.connecting_rod.length_m is not None:
             short = row.connecting_rod.length_m <= throw.crank_radius_m
-            message = "the connecting rod must be longer than the crank radius"
-            yield Rule(short, (*path, "rows", i, "connecting_rod", "length_m"), message)
-        yield from _cylinder_rules((*path, "rows", i), throw, row, sense)
+            if short is not False:
+                message = "the connecting rod must be longer than the crank radius"
+                yield Rule(short, (*path, "rows", i, "connecting_rod", "length_m"), message)
+        if row.cylinder is not None or row.cylinders:
+            yield from _cylinder_rules((*path, "rows", i), throw, row, sense)
 
 
 def _cylinder_rules(path: Path, throw: Throw, row: Row, sense: float) -> Iterator[Rule]:
-    both = row.cylinder is not None and bool(row.cylinders)
-    yield Rule(both, (*path, "cylinders"), "give either one cylinder or several")
+    if row.cylinder is not None and row.cylinders:
+        yield Rule(True, (*path, "cylinders"), "give either one cylinder or several")
     yield from unique_names((*path, "cylinders"), [one.name for one in row.cylinders])
     for k, one in enumerate(row.cylinders):
         overlaps = reduce(or_, (one.overlaps(other) for other in row.cylinders[:k]), False)
@@ -167,13 +170,13 @@ def _cylinder_rules(path: Path, throw: Throw, row: Row, sense: float) -> Iterato
 
 def _bearing_rules(bearings: Sequence[Bearing]) -> Iterator[Rule]:
     yield from unique_names(("bearings",), [bearing.name for bearing in bearings])
-    if not bearings:
-        return
     places = [bearing.position_m for bearing in bearings]
-    extent = reduce(larger, places) + reduce(larger, [-place for place in places])
+    extent = largest(places) + largest([-place for place in places])
     # nearer than this no arithmetic tells them apart
-    near = larger(1e-8 * extent, 1e-14 * reduce(larger, map(abs, places)))
+    near = largest([1e-8 * extent, 1e-14 * largest([abs(place) for place in places])])
     for k, place in enumerate(places):
-        coincides = reduce(or_, (abs(place - other) <= near for other in places[:k]), False)
-        yield Rule(coincides, ("bearings", k, "position_m"), "another bearing is in this plane")
-    yield Rule(len(places) == 1, ("bearings",), "a shaft needs at least two bearings")
+        coincides = reduce(or_, [abs(place - other) <= near for other in places[:k]], False)
+        if coincides is not False:
+            yield Rule(coincides, ("bearings", k, "position_m"), "another bearing is in this plane")
+    if len(places) == 1:
+        yield Rule(True, ("bearings",), "a shaft needs at least two bearings")

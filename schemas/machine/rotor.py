@@ -1,6 +1,6 @@
 """What every machine has: a shaft, its speed, and the places for counterweights."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -148,17 +148,20 @@ class Rotor(Ruled):
             if sizes is not None and most is not None:
                 message = "more sizes than counterweights: max_counterweights is smaller"
                 yield Rule((most >= 1) & (sizes > most), ("catalogue", "max_part_numbers"), message)
-        yield from self._group_rules()
-        fixed = sum((web.fixed.mass_kg for web in self.webs if web.fixed is not None), 0.0)
+        if self.web_groups:
+            yield from self._group_rules()
         if self.max_total_mass_kg is not None:
+            fixed = sum((web.fixed.mass_kg for web in self.webs if web.fixed is not None), 0.0)
             message = "the fixed counterweights are heavier than this limit"
             yield Rule(fixed > self.max_total_mass_kg, ("max_total_mass_kg",), message)
 
 
-def unique_names(path: Path, names: Sequence[str | None]) -> Iterator[Rule]:
+def unique_names(path: Path, names: Sequence[str | None]) -> Iterable[Rule]:
     """One rule broken for every name that already stands earlier in the list; None is no name."""
-    if len(set(names)) == len(names):
-        return
+    return () if len(set(names)) == len(names) else _repetitions(path, names)
+
+
+def _repetitions(path: Path, names: Sequence[str | None]) -> Iterator[Rule]:
     seen: set[str] = set()
     for index, name in enumerate(names):
         if name is None:

@@ -139,11 +139,12 @@ class Row(Ruled):
         return sum((part.mass_kg for part in self.parts if part.motion == "rotating"), rod)
 
     def rules(self) -> Iterator[Rule]:
-        missing = not self.parts and "reciprocating_mass_kg" not in self.model_fields_set
-        yield Rule(missing, ("reciprocating_mass_kg",), REQUIRED)
+        if not self.parts and "reciprocating_mass_kg" not in self.model_fields_set:
+            yield Rule(True, ("reciprocating_mass_kg",), REQUIRED)
         seen: set[str] = set()
         for k, part in enumerate(self.parts):
-            yield Rule(part.name in seen, ("parts", k, "name"), "another part of the row has this name")
+            if part.name in seen:
+                yield Rule(True, ("parts", k, "name"), "another part of the row has this name")
             seen.add(part.name)
 
 

@@ -194,12 +194,14 @@ class Web(Ruled):
                 heavier = self.fixed.mass_kg > self.max_mass_kg
                 yield Rule(heavier, ("fixed", "mass_kg"), "more than max_mass_kg of this web")
             for name in _CHOSEN:
-                message = f"remove `{name}`: this web has a fixed counterweight"
-                yield Rule(getattr(self, name) is not None, (name,), message)
+                if getattr(self, name) is not None:
+                    yield Rule(True, (name,), f"remove `{name}`: this web has a fixed counterweight")
         elif self.envelope is None:
             # left out, and not null: no limit has to be meant
-            yield Rule("max_mass_kg" not in self.model_fields_set, ("max_mass_kg",), REQUIRED)
-            yield Rule(self.counterweight_radius_m is None, ("counterweight_radius_m",), REQUIRED)
+            if "max_mass_kg" not in self.model_fields_set:
+                yield Rule(True, ("max_mass_kg",), REQUIRED)
+            if self.counterweight_radius_m is None:
+                yield Rule(True, ("counterweight_radius_m",), REQUIRED)
         else:
             message = "remove it: it follows from the `envelope` of this web"
             yield Rule(self.counterweight_radius_m is not None, ("counterweight_radius_m",), message)

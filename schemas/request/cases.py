@@ -69,7 +69,10 @@ def cases(request: Scene) -> tuple[Case, ...]:
 
 def case_rules(request: Scene) -> Iterator[Rule]:
     """What is wrong with the cases of a request whose other parts are right; paths from its root."""
-    found = [rule for field in stated(request) for rule in KINDS[field].rules(request, getattr(request, field))]
+    fields = list(stated(request))
+    if not fields:
+        return
+    found = [rule for field in fields for rule in KINDS[field].rules(request, getattr(request, field))]
     yield from found
     wrong, names = [rule.path for rule in found if rule.broken], set[str]()
     for case in cases(request):

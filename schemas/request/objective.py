@@ -185,10 +185,19 @@ class Objective(Ruled):
         for each in RESPONSES.values():
             external = external | (getattr(self, each.weight) != 0)
         some = external | (self.bearing_weight != 0) | (self.bending_weight != 0)
-        yield Rule(some == 0, ("moment_weight",), "one of the weights must be above 0")
+        none = some == 0
+        if none is not False:
+            yield Rule(none, ("moment_weight",), "one of the weights must be above 0")
         across = self.direction_weights
-        unequal = (across.x != across.y) & (self.orders == "all")
-        yield Rule(unequal, ("direction_weights",), "with all orders both directions count equally: give equal weights")
+        unequal = self.orders == "all" and across.x != across.y
+        if unequal is not False:
+            message = "with all orders both directions count equally: give equal weights"
+            yield Rule(unequal, ("direction_weights",), message)
+        if self.priorities:
+            yield from self._priority_rules(external)
+
+    def _priority_rules(self, external: Any) -> Iterator[Rule]:
+        """What does not go with goals in their order; ``external``: whether what acts on the frame has a weight."""
         weighed = {"external": external, "bearings": self.bearing_weight != 0, "bending": self.bending_weight != 0}
         named = [priority.goal for priority in self.priorities]
         for i, goal in enumerate(named):
@@ -198,8 +207,7 @@ class Objective(Ruled):
             yield Rule(goal in COSTS and not set(named) - set(COSTS), path, message)
             yield Rule(weighed.get(goal, True) == 0, path, "this goal has no weight")
         for name, has in weighed.items():
-            missing = bool(named) and name not in named
-            yield Rule(missing & has, ("priorities",), f"the goal {name} has a weight and no place")
+            yield Rule((name not in named) & has, ("priorities",), f"the goal {name} has a weight and no place")
         yield Rule(
             "mass" in named and not self.least_mass, ("least_mass",), "the mass has a place among the priorities"
         )

@@ -135,8 +135,10 @@ class OptimizeRequest(Scene, Ruled):
             yield Rule(broken, ("fitted", *rest), message)
         yield from self._shaft_rules()
         choice = self.machine.choice
-        yield from self._alternative_rules(choice)
-        yield from self._cost_rules(choice)
+        if self.alternatives:
+            yield from self._alternative_rules(choice)
+        if self.objective.priorities:
+            yield from self._cost_rules(choice)
         if choice == "discrete":
             yield from self._catalogue_rules()
         if choice == "semicontinuous":
@@ -161,14 +163,11 @@ class OptimizeRequest(Scene, Ruled):
 
     def _alternative_rules(self, choice: Choice | None) -> Iterator[Rule]:
         """What cheaper choices are listed of."""
-        listed, path = bool(self.alternatives), ("alternatives",)
-        yield Rule(
-            listed and choice != "discrete",
-            path,
-            "give a catalogue too: cheaper choices are listed for counterweights from a catalogue only",
-        )
+        path = ("alternatives",)
+        message = "give a catalogue too: cheaper choices are listed for counterweights from a catalogue only"
+        yield Rule(choice != "discrete", path, message)
         message = "cheaper choices are listed beside one goal: remove them, or let a cost be the last goal"
-        yield Rule(listed and bool(self.objective.priorities), path, message)
+        yield Rule(bool(self.objective.priorities), path, message)
 
     def _catalogue_rules(self) -> Iterator[Rule]:
         """What does not go with discrete choices."""
@@ -241,8 +240,10 @@ class OptimizeRequest(Scene, Ruled):
         if shafts:
             yield from self.worst_case_rules("does not go with balance shafts")
         else:
-            message = "balance shafts alone change the roll moment, and the machine has none"
-            yield Rule(goal.roll_weight != 0, ("objective", "roll_weight"), message)
+            rolling = goal.roll_weight != 0
+            if rolling is not False:
+                message = "balance shafts alone change the roll moment, and the machine has none"
+                yield Rule(rolling, ("objective", "roll_weight"), message)
         if any(shaft.speed_ratio == -1 for shaft in shafts):
             for name in (each.field for each in limited(goal) if each.axis is None):
                 whole = goal.orders == "first"

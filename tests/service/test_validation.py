@@ -5,6 +5,8 @@ import time
 from typing import Any, get_args
 
 import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
 
 from schemas.answer.outputs import OutputName
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
@@ -61,6 +63,26 @@ def test_readable() -> None:
     assert read_json(b"-" + b"1" * 5000) == float("-inf")
     assert read_json(b"1" * 400) == int("1" * 400)
     assert read_json(b'{"a": "' + b"7" * 500 + b'", "b": 12}') == {"a": "7" * 500, "b": 12}
+
+
+@given(
+    st.text('[]{},:"\\ \n+-.0123456789eEux')
+    | st.text()
+    | st.from_regex(r"-?[0-9]{1,30}(\.[0-9]{1,30})?([eE]-?[0-9]{1,3})?", fullmatch=True)
+)
+@example("[NaN, -Infinity]").via("no JSON, and yet read")
+@example("-0").via("a whole number")
+@example("[" * 300 + "]" * 300).via("deeper than the fast reader goes")
+@example('"\\ud83d"').via("half of a character")
+def test_bytes_are_read_as_the_library_of_python_reads_them(text: str) -> None:
+    # independent: json.loads; by their spelling, because NaN is not equal to itself
+    try:
+        expected = repr(json.loads(text.removeprefix("\ufeff")))
+    except ValueError:
+        with pytest.raises(UnreadableJson):
+            read_json(text.encode())
+    else:
+        assert repr(read_json(text.encode())) == expected
 
 
 @pytest.mark.parametrize("text", ["NaN", "Infinity", "-Infinity", "1e999", "-1e999", "1" * 5000, "1" * 400])

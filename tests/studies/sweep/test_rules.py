@@ -8,7 +8,7 @@ import pytest
 
 from optimizer.errors import MissingInput
 from optimizer.outputs.registry import require_inputs
-from schemas.base.rules import Rule, first_of, larger
+from schemas.base.rules import Rule, first_of, largest
 from schemas.base.target import find_target, pointer
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep.request import SweepRequest
@@ -187,9 +187,10 @@ def test_only_the_first_of_rules_is_said_for_one_and_for_columns(broken: list[bo
     assert [rule.broken.tolist() for rule in first_of(columns)] == [[each, False] for each in said]
 
 
-def test_the_larger_of_two_is_exact() -> None:
+def test_the_largest_of_several_is_exact() -> None:
     # analytic
     pairs = [(1e300, 1e-300), (-0.1, -0.3), (0.1, 0.1), (0.0, -5e-324)]
-    assert [larger(one, other) for one, other in pairs] == [max(pair) for pair in pairs]
+    assert [largest([*pair]) for pair in pairs] == [max(pair) for pair in pairs]
     first, second = np.array(pairs).T
-    assert larger(first, second).tolist() == [max(pair) for pair in pairs]
+    assert largest([first, second]).tolist() == [max(pair) for pair in pairs]
+    assert largest([first, 1.0, second]).tolist() == [max(*pair, 1.0) for pair in pairs]
