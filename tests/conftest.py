@@ -1,6 +1,7 @@
 """Settings of the whole test run."""
 
 import gc
+import importlib
 import logging
 import os
 import sys
@@ -70,6 +71,12 @@ def pytest_collection() -> Generator[None, object, object]:
     finally:
         gc.freeze()
         gc.enable()
+
+
+def pytest_collection_finish() -> None:
+    """Where there are tests of the service, its document is made once."""
+    if "service.http.openapi" in sys.modules:
+        importlib.import_module("tests.documents").keep_documents()
 
 
 @pytest.hookimpl(optionalhook=True)
