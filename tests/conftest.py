@@ -1,6 +1,7 @@
 """Settings of the whole test run."""
 
 import gc
+import importlib
 import logging
 import os
 import sys
@@ -31,9 +32,9 @@ os.environ["COUNTERWEIGHT_DATABASE_BUSY_S"] = "60"
 os.environ["COUNTERWEIGHT_REQUEST_TIMEOUT_S"] = "600"
 
 # times are for benchmarks, and a run that failed must fail again;
-# HYPOTHESIS_PROFILE=night looks at ten times as many, =thorough at many more, other ones each time
+# HYPOTHESIS_PROFILE=night looks at fifteen times as many, =thorough at many more, other ones each time
 quick = {"deadline": None, "derandomize": True, "database": None, "suppress_health_check": [HealthCheck.too_slow]}
-settings.register_profile("quick", max_examples=30, **quick)
+settings.register_profile("quick", max_examples=20, **quick)
 settings.register_profile("night", max_examples=300, **quick)
 settings.register_profile("thorough", deadline=None, max_examples=1000)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))
@@ -70,6 +71,12 @@ def pytest_collection() -> Generator[None, object, object]:
     finally:
         gc.freeze()
         gc.enable()
+
+
+def pytest_collection_finish() -> None:
+    """Where there are tests of the service, its document is made once."""
+    if "service.http.openapi" in sys.modules:
+        importlib.import_module("tests.documents").keep_documents()
 
 
 @pytest.hookimpl(optionalhook=True)

@@ -22,6 +22,8 @@ from optimizer.numerics.memoization import cached_property
 _CUTS, _PARTS = 10, 64
 #: Newton's steps: the fourth leaves rounding alone
 _STEPS = 4
+#: of the outer radius: a hub that is smaller is none to any digit, and would be too small to divide by
+_HUB = 1e-300
 #: below it x - sin x is summed as a series
 _SMALL = 0.05
 
@@ -152,7 +154,8 @@ class Segment(Plate):
     @cached_property
     def _wider(self) -> Real:
         """Outer over inner radius; that of the disc itself where there is no hub."""
-        return self.outer / np.where(np.asarray(self.inner) > 0, self.inner, 1.0)
+        hub = np.asarray(self.inner) > _HUB * np.asarray(self.outer)
+        return self.outer / np.where(hub, self.inner, 1.0)
 
 
 class _OfAngle(Protocol):

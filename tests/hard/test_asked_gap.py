@@ -33,7 +33,7 @@ _OBJECTIVES: st.SearchStrategy[dict[str, Any]] = st.fixed_dictionaries(
 
 
 def _search(count: int) -> settings:
-    # at night ten times as many
+    # at night ten times as many, by day two thirds
     return settings(
         max_examples=_COUNT or count * settings.default.max_examples // 30,
         derandomize=not _COUNT,

@@ -108,6 +108,17 @@ def test_chords_through_the_hub_and_beside_it_are_found_to_the_last_digits() -> 
         assert float(plate.opened(plate.unbalance(RIGHT))) == RIGHT
 
 
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("inner", [5e-324, 1e-309, 1e-301, 1e-160])
+def test_a_hub_too_small_to_divide_by_is_none(shape: type[Segment], inner: float) -> None:
+    # analytic: beside the outer radius it is nothing, to the last digit
+    plate, without = shape(inner, 1.0, 300.0, RIGHT), shape(0.0, 1.0, 300.0, RIGHT)
+    angle = np.array([0.0, 1e-3, 0.5, 1.5, RIGHT])
+    for name in ("mass", "unbalance", "inertia", "lever"):
+        assert getattr(plate, name)(angle) == pytest.approx(getattr(without, name)(angle), rel=1e-15)
+    assert plate.opened(without.unbalance(angle)) == pytest.approx(without.opened(without.unbalance(angle)), rel=1e-15)
+
+
 @given(plates(), st.floats(0.01, 0.99), st.floats(0.0, 1.0))
 def test_masses_are_convex_with_their_levers_as_tangents(plate: Envelope, share: float, other: float) -> None:
     # analytic: a convex function is above its tangents

@@ -11,7 +11,7 @@ import numpy as np
 from optimizer.analyze import analyze
 from schemas.answer.answers import Certificate, OptimizeAnswer
 from schemas.request.requests import AnalyzeRequest
-from tests.verification.checking import broken, optimized
+from tests.verification.checking import sound_answer
 
 MASSES, HOLES = [4.0, 11.0], [0.0, 120.0, 240.0]
 BEARINGS = {"a": -0.6, "b": 0.6}
@@ -65,11 +65,16 @@ class Loads:
         self.radius = np.array([web["counterweight_radius_m"] for web in machine["webs"]])
         self.at = np.array(list(BEARINGS.values()))
 
-    def over(self, u: np.ndarray) -> np.ndarray:
-        """(sets, bearings, angles) N of unbalances (sets, webs)."""
+    def peak(self, u: np.ndarray) -> np.ndarray:
+        """
+        Largest load of a bearing (sets,) N with unbalances (sets, webs): turned back with the shaft, it is a constant
+        more at every angle.
+        """
         share = (self.place - self.at[0]) / (self.at[1] - self.at[0])
-        each = np.stack([u @ (1.0 - share), u @ share], axis=-1) * self.square
-        return self.still + each[..., None] * np.exp(1j * self.theta)
+        added = np.stack([u @ (1.0 - share), u @ share], axis=-1)[..., None] * self.square
+        still = self.still * np.exp(-1j * self.theta)
+        square = (still.real + added.real) ** 2 + (still.imag + added.imag) ** 2
+        return np.asarray(np.sqrt(np.max(square, axis=(-2, -1))))
 
     def frame(self, u: np.ndarray, plane: float) -> tuple[np.ndarray, np.ndarray]:
         """Peaks of the first-order force and moment about a plane: phasors with the shaft and against it."""
@@ -98,10 +103,9 @@ def every_set(
 
 
 def certified(body: dict[str, Any]) -> tuple[OptimizeAnswer, Certificate]:
-    found = optimized(body)
+    found = sound_answer(body)
     assert found.status == "optimal", found.status_reason
     assert found.certificate is not None
-    assert not broken(body, found.model_dump(mode="json"))
     return found, found.certificate
 
 

@@ -1,9 +1,10 @@
 """Machines for the tests of the whole flow, as JSON, and an independent simulation of their first order."""
 
-import cmath
 import math
 import random
 from typing import Any
+
+import numpy as np
 
 
 def row(axis: float, mass: float, **more: Any) -> dict[str, Any]:
@@ -75,8 +76,8 @@ def random_machine(seed: int) -> dict[str, Any]:
     )
 
 
-def first_order(body: dict[str, Any], weights: list[dict[str, Any]], theta_deg: float) -> tuple[complex, complex]:
-    """First-order force [N] and couple [N m] at one shaft angle, from the definitions of the contract alone.
+def first_order(body: dict[str, Any], weights: list[dict[str, Any]], theta_deg: Any) -> np.ndarray:
+    """First-order force [N] and couple [N m] (2, angles) at shaft angles, from the definitions of the contract alone.
 
     Independent of the package: row by row, cos of the row's own crank angle along its axis.
     """
@@ -85,15 +86,15 @@ def first_order(body: dict[str, Any], weights: list[dict[str, Any]], theta_deg: 
     planes = [one["position_m"] for one in body["throws"]]
     reference = body.get("reference_plane_m")
     reference = 0.5 * (min(planes) + max(planes)) if reference is None else reference
-    force = couple = 0j
+    theta = np.asarray(theta_deg, float)
+    both = np.zeros((2, *theta.shape), complex)
 
-    def add(vector: complex, plane: float) -> None:
-        nonlocal force, couple
-        force += vector
-        couple += (plane - reference) * vector
+    def add(vector: np.ndarray, plane: float) -> None:
+        both[0] += vector
+        both[1] += (plane - reference) * vector
 
-    def turned(angle_deg: float) -> complex:
-        return cmath.exp(1j * math.radians(angle_deg + sense * theta_deg))
+    def turned(angle_deg: float) -> np.ndarray:
+        return np.asarray(np.exp(1j * np.radians(angle_deg + sense * theta)))
 
     for one in body["throws"]:
         radius, angle, plane = one["crank_radius_m"], one["crank_angle_deg"], one["position_m"]
@@ -101,15 +102,15 @@ def first_order(body: dict[str, Any], weights: list[dict[str, Any]], theta_deg: 
         for each in one["rows"]:
             rod = each.get("connecting_rod") or {"mass_kg": 0.0}
             share = rod.get("reciprocating_share", 1 / 3)
-            phi = math.radians(theta_deg + sense * (angle - each["axis_deg"]))
+            phi = np.radians(theta + sense * (angle - each["axis_deg"]))
             moving = each["reciprocating_mass_kg"] + share * rod["mass_kg"]
-            axis = cmath.exp(1j * math.radians(each["axis_deg"]))
+            axis = np.exp(1j * np.radians(each["axis_deg"]))
             own = plane + each.get("offset_m", 0.0)
-            add(moving * radius * omega**2 * math.cos(phi) * axis, own)
+            add(moving * radius * omega**2 * np.cos(phi) * axis, own)
             add((1 - share) * rod["mass_kg"] * radius * omega**2 * turned(angle), own)
     place = {one["name"]: one for one in body["webs"]}
     for weight in weights:
         at = place[weight["web"]]
         size = weight["mass_kg"] * at["counterweight_radius_m"] * omega**2
         add(size * turned(weight["angle_deg"]), at["position_m"])
-    return force, couple
+    return both

@@ -45,7 +45,7 @@ def by_hand(loads: Loads, u: np.ndarray, plane: float, goal: dict[str, Any]) -> 
     combined = np.maximum if goal.get("combine") == "max" else np.add
     return {
         "external": combined(0.5 * force, 2.0 * moment),
-        "bearings": np.max(np.abs(loads.over(u)), axis=(-2, -1)),
+        "bearings": loads.peak(u),
     }
 
 

@@ -43,8 +43,7 @@ def test_no_set_by_hand_is_better(goal: dict[str, Any]) -> None:
     loads, (_, u) = Loads(machine), every_set(machine)
 
     def value(u: np.ndarray) -> np.ndarray:
-        over = loads.over(u)
-        parts = [np.max(np.abs(over), axis=(-2, -1))]
+        parts = [loads.peak(u)]
         if goal["force_weight"]:
             force, moment = loads.frame(u, found.reference_plane_m)
             parts += [0.5 * force, 2.0 * moment]
@@ -88,8 +87,7 @@ def test_ceilings_and_counts() -> None:
     machine = twin(max_counterweights=2)
     loads, (sets, u) = Loads(machine), every_set(machine)
     few = np.array([sum(mass > 0 for mass, _ in each) <= 2 for each in sets])
-    over = loads.over(u[few])
-    peak = np.max(np.abs(over), axis=(-2, -1))
+    peak = loads.peak(u[few])
     ceiling = float(np.sort(peak)[12]) * (1 + DEGREE)
     goal = {"moment_weight": 0, "bearing_ceiling_N": ceiling}
     found, proof = certified(asked(machine, **goal))
@@ -121,7 +119,7 @@ def test_least_masses() -> None:
             each.append([(0.0, 0.0), *product(masses.tolist(), angles.tolist())])
         sets = np.array(list(product(*each)))
         u = sets[..., 0] * 0.12 * np.exp(1j * np.deg2rad(sets[..., 1]))
-        values = np.max(np.abs(loads.over(u)), axis=(-2, -1))
+        values = loads.peak(u)
         least, at, step = float(np.min(values)), sets[np.argmin(values)], step * 0.5
     assert 0.99 * least <= proof.objective <= least * (1 + 1e-4)
 
@@ -133,7 +131,7 @@ def test_in_scenarios() -> None:
     found, proof = certified(body)
     _, u = every_set(machine)
     slow, fast = Loads(machine), Loads(machine | {"speed_rpm": 1300})
-    worst = np.maximum(*(w * np.max(np.abs(each.over(u)), axis=(-2, -1)) for w, each in ((1.0, slow), (0.5, fast))))
+    worst = np.maximum(*(w * each.peak(u) for w, each in ((1.0, slow), (0.5, fast))))
     assert proof.objective == pytest.approx(float(np.min(worst)), rel=DEGREE)
     assert found.price_of_robustness is not None
     assert found.price_of_robustness.nominal_optimum is not None

@@ -156,7 +156,7 @@ def test_over_the_turn_and_in_scenarios() -> None:
     _, proof = certified(asked(machine, **goal) | {"scenarios": [FAST, SLOW]})
     _, u = every_set(machine)
     cases = ((1.0, Loads(machine)), (0.5, Loads(machine | {"speed_rpm": 1300})))
-    value = np.max([weight * np.max(np.abs(loads.over(u)), axis=(-2, -1)) for weight, loads in cases], axis=0)
+    value = np.max([weight * loads.peak(u) for weight, loads in cases], axis=0)
     pieces = np.count_nonzero(np.abs(u) > 0, axis=-1)
     mass = np.sum(np.abs(u) / 0.12, axis=-1)
     most = float(np.min(value)) + 0.1 * float(value[0])
@@ -175,7 +175,7 @@ def test_cheaper_choices_over_the_turn() -> None:
     body = asked(machine, bearing_weight=1, force_weight=0, moment_weight=0) | {"alternatives": [0.05, 0.3]}
     found, proof = certified(body)
     _, u = every_set(machine)
-    value = np.max(np.abs(Loads(machine).over(u)), axis=(-2, -1))
+    value = Loads(machine).peak(u)
     pieces = np.count_nonzero(np.abs(u) > 0, axis=-1)
     for one in found.alternatives:
         most = proof.objective * (1 + one.allowance)

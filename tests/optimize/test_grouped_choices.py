@@ -12,7 +12,7 @@ from optimizer.studies.pareto.pareto import pareto
 from schemas.front.pareto import ParetoRequest
 from tests.optimize.test_mirrored_groups import PAIRS, alike, grouped
 from tests.optimize.test_web_groups import ANGLES, NAMES, RADIUS, objective
-from tests.verification.checking import broken, optimized
+from tests.verification.checking import optimized, sound_answer
 
 HALVES = [["0a", "1b", "2a"], ["0b", "1a", "2b"]]
 MASSES = [1.5, 3.0, 4.5, 6.0, 9.0]
@@ -61,7 +61,7 @@ def test_no_set_by_hand_is_better(
     catalogue = body["machine"]["catalogue"]
     for name, value in limits.items():
         (catalogue if name == "max_part_numbers" else body["machine"])[name] = value
-    found = optimized(body)
+    found = sound_answer(body)
     alike(found, groups, mirror)
     mass, u = every_set(body)
     kept = np.sum(mass, axis=-1) <= limits.get("max_total_mass_kg", np.inf) * (1 + 1e-12)
@@ -73,7 +73,6 @@ def test_no_set_by_hand_is_better(
     assert found.certificate is not None
     assert found.certificate.objective == pytest.approx(best, rel=1e-9)
     assert found.certificate.lower_bound == pytest.approx(best, rel=1e-9)
-    assert not broken(body, found.model_dump(mode="json"))
 
 
 @pytest.mark.parametrize("mirror", [False, True])
@@ -85,7 +84,7 @@ def test_a_tree_finds_what_trying_all_sets_does(
     monkeypatch.setattr("optimizer.choices.discrete.search._SUMS", 1)
     monkeypatch.setattr("optimizer.choices.discrete.branch._SETS", 20)
     body = asked(PAIRS, mirror, [2.0, 5.0, 9.0], 22.5, objective={"force_ceiling_N": ceiling})
-    found = optimized(body)
+    found = sound_answer(body)
     assert found.certificate is not None
     assert found.certificate.method == "branch and bound"
     alike(found, PAIRS, mirror)
@@ -95,7 +94,6 @@ def test_a_tree_finds_what_trying_all_sets_does(
     assert found.status == "optimal"
     assert found.certificate.objective == pytest.approx(best, rel=1e-9)
     assert found.certificate.lower_bound == pytest.approx(best, rel=1e-9)
-    assert not broken(body, found.model_dump(mode="json"))
 
 
 @pytest.mark.parametrize("mirror", [False, True])
@@ -148,7 +146,7 @@ def test_no_least_mass_by_hand_is_better(mirror: bool, groups: list[list[str]], 
     for web in body["machine"]["webs"]:
         web["min_fitted_mass_kg"] = least
     body["accuracy"] = {"relative_gap": 1e-3, "time_limit_s": 30}
-    found = optimized(body)
+    found = sound_answer(body)
     alike(found, groups, mirror)
     assert all(one.mass_kg == 0 or one.mass_kg >= least for one in found.counterweights)
     turn = np.exp(1j * np.radians(np.repeat(ANGLES, 2))) * RADIUS
@@ -174,4 +172,3 @@ def test_no_least_mass_by_hand_is_better(mirror: bool, groups: list[list[str]], 
     assert found.certificate.objective <= min(values) + 1e-3 * found.certificate.yardstick
     assert found.certificate.lower_bound is not None
     assert found.certificate.lower_bound <= min(values) * (1 + 1e-9)
-    assert not broken(body, found.model_dump(mode="json"))

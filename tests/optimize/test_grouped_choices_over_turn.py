@@ -42,7 +42,7 @@ def grouped_sets(machine: dict[str, Any]) -> np.ndarray:
 
 def value(loads: Loads, u: np.ndarray, plane: float, goal: dict[str, Any], limit: float | None) -> np.ndarray:
     """What is to be small by statics, inf where a goal before it is above its limit."""
-    bearings = np.max(np.abs(loads.over(u)), axis=(-2, -1))
+    bearings = loads.peak(u)
     if not goal["force_weight"]:
         return bearings
     force, moment = (weight * each for weight, each in zip((0.5, 2.0), loads.frame(u, plane), strict=True))
@@ -103,6 +103,6 @@ def test_groups_of_so_many_counterweights() -> None:
     found, proof = certified(asked(machine, bearing_weight=1, **ALONE))
     u = grouped_sets(machine)
     few = u[np.sum(u != 0, axis=-1) <= 3]
-    least = float(np.min(np.max(np.abs(Loads(machine).over(few)), axis=(-2, -1))))
+    least = float(np.min(Loads(machine).peak(few)))
     assert least * (1 - 1e-9) <= proof.objective <= least * (1 + DEGREE)
     assert sum(one.mass_kg > 0 for one in found.counterweights) <= 3

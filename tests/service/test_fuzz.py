@@ -194,7 +194,7 @@ def answered_properly(client: TestClient, path: str, content: bytes) -> None:
         assert (found.status, bool(found.errors)) == (answer.status_code, answer.status_code == 422)
 
 
-#: 60 by day, 600 at night
+#: 40 by day, 600 at night
 MANY = settings(
     max_examples=2 * settings.default.max_examples,
     suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],

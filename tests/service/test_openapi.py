@@ -12,6 +12,7 @@ from starlette.testclient import TestClient
 from service.app import CORS, create_app
 from service.computations import COMPUTATIONS
 from service.guard.keys import make, write
+from service.http.openapi import Documented
 from service.settings import Settings
 
 OPERATIONS = {
@@ -105,7 +106,9 @@ def test_names_that_clients_depend_on(document: dict[str, Any]) -> None:
 
 
 def test_it_is_the_same_every_time(document: dict[str, Any]) -> None:
-    assert create_app(Settings()).openapi() == document
+    # past the copies that tests share
+    anew = Documented.openapi.__wrapped__  # type: ignore[attr-defined]
+    assert anew(create_app(Settings())) == document
 
 
 @pytest.mark.parametrize(

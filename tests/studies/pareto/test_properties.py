@@ -41,7 +41,9 @@ def check(found: ParetoFront, asked: float = 1e-6) -> None:
         assert proof.force_N <= force
         assert proof.moment_Nm <= moment
         over = max((force - proof.force_N) / found.scale.force_N, (moment - proof.moment_Nm) / found.scale.moment_Nm)
-        assert proof.relative_gap == pytest.approx(over, abs=1e-15)
+        # a peak may be many times what it is divided by, and the difference is rounded as the peak is
+        size = max(1.0, force / found.scale.force_N, moment / found.scale.moment_Nm)
+        assert proof.relative_gap == pytest.approx(over, abs=1e-15 * size)
         assert force >= found.ends.smallest_force_lower_bound_N
         assert moment >= found.ends.smallest_moment_lower_bound_Nm
         assert not below_a_corner(force, moment, found, 1e-12)
@@ -67,11 +69,8 @@ def test_a_front_is_what_it_says(seed: int) -> None:
     # independent: the peaks of a simulation over the turn, sampled every degree
     for point in found.points[:: max(1, len(found.points) - 1)]:
         weights = [one.model_dump() for one in point.counterweights]
-        vectors = [first_order(body, weights, float(theta)) for theta in range(360)]
-        for peak, sampled in (
-            (point.force_peak_N, max(abs(force) for force, _ in vectors)),
-            (point.moment_peak_Nm, max(abs(couple) for _, couple in vectors)),
-        ):
+        turn = np.max(np.abs(first_order(body, weights, np.arange(360.0))), axis=-1)
+        for peak, sampled in zip((point.force_peak_N, point.moment_peak_Nm), turn, strict=True):
             assert sampled <= peak * (1 + 1e-9) + 1e-6
             assert sampled >= peak * (1 - 2e-4) - 1e-6
 
@@ -144,11 +143,11 @@ def test_direction_weights_are_traded_and_both_peaks_are_shown(across: dict[str,
     for point in found.points:
         assert point.certificate.relative_gap <= 1e-6
         weights = [one.model_dump() for one in point.counterweights]
-        vectors = np.array([first_order(body, weights, theta) for theta in np.arange(0.0, 360.0, 0.25)])
+        vectors = first_order(body, weights, np.arange(0.0, 360.0, 0.25))
         # independent: sampled components, weighed one by one; four samples a degree miss 1e-5 of a peak
-        sampled = np.max(np.hypot(across["x"] * vectors.real, across["y"] * vectors.imag), axis=0)
+        sampled = np.max(np.hypot(across["x"] * vectors.real, across["y"] * vectors.imag), axis=-1)
         assert traded(point) == pytest.approx(tuple(sampled), rel=2e-5)
-        plain = np.max(np.abs(vectors), axis=0)
+        plain = np.max(np.abs(vectors), axis=-1)
         assert (point.force_peak_N, point.moment_peak_Nm) == pytest.approx(tuple(plain), rel=2e-5)
 
 

@@ -1,0 +1,29 @@
+"""OpenAPI documents of applications that are alike: the first is made, which takes a second, the others are copies.
+
+How one is made is tested where it is made anew, by ``Documented.openapi.__wrapped__``.
+"""
+
+import json
+from collections.abc import Hashable
+from functools import wraps
+from typing import Any
+
+from service.computations import COMPUTATIONS
+from service.http.openapi import Documented
+
+
+def keep_documents() -> None:
+    """From now on."""
+    make = Documented.openapi
+    texts: dict[Hashable, str] = {}
+
+    @wraps(make)
+    def openapi(app: Documented) -> dict[str, Any]:
+        # all that applications differ in: tests add computations, and routes after the first look
+        key = (app._keyed, tuple(COMPUTATIONS), len(app.routes), app.title)
+        if key not in texts:
+            texts[key] = json.dumps(make(app))
+        document: dict[str, Any] = json.loads(texts[key])
+        return document
+
+    Documented.openapi = openapi  # type: ignore[method-assign]
