@@ -32,7 +32,8 @@ def packages(line: str) -> list[str]:
             elif word == "beside":
                 # a message goes on
                 break
-            elif not word.startswith("-"):
+            elif not word.startswith(("-", "$@")):
+                # what a script was handed stands where it is called
                 found.append(word.rstrip(".,") or ".")
     return found
 

@@ -50,7 +50,7 @@ def is_needed(request: OptimizeRequest, answer: OptimizeAnswer, web: str) -> boo
     plain &= not (request.scenarios or request.robust or machine.web_groups or machine.balance_shafts)
     if not plain or any(each.envelope is not None or each.max_mass_kg is None for each in machine.webs):
         return False
-    scene = prepare(request, (), effects_of_objective(objective))
+    scene = prepare(request, ("residual",), effects_of_objective(objective))
     case = Case(machine, scene.omega_squared, (scene.responses,), (whole_turn_of(scene, objective), scene.laden))
     program = formulate(machine, objective, [case], scene.omega_squared, request.fidelity).program
     if program.ceilings or program.limited:
