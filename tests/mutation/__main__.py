@@ -34,7 +34,7 @@ class Room(NamedTuple):
     least: float
 
 
-_JOBS = tuple(f"tests/jobs/test_{name}.py" for name in ("steps", "coordinator", "store", "damage"))
+_JOBS = tuple(f"tests/jobs/test_{name}.py" for name in ("steps", "coordinator", "store", "damage", "races", "schema"))
 
 ROOMS = {
     "mechanics": Room(
