@@ -68,6 +68,7 @@ _FORMULATION: dict[str, str] = {
     "counterweights.py too_heavy: weight.mass_kg > most.get(str(weight.web), np.inf) * (1.0 + _ABOVE_ENVELOPE)"
     " -> weight.mass_kg >= most.get(str(weight.web), np.inf) * (1.0 + _ABOVE_ENVELOPE)": "a mass above what is held by"
     " 1e-12 exactly may be taken or not",
+    "groups.py _same_options: one[:, 1] - angle + 180.0 -> one[:, 1] - angle - 180.0": "a whole turn",
     "groups.py _masses: mass is not None and angle is None -> mass is not None or angle is None": "angles are"
     " compared with their masses beside",
 }
