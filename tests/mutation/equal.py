@@ -83,6 +83,7 @@ _VERIFY: dict[str, str] = {
 }
 _SERVICE: dict[str, str] = {
     "guard/keys.py caller: record.expires < time.time() -> record.expires <= time.time()": "no clock stands still",
+    "guard/keys.py _stamped": "no file is of such a time: it tells that there is none",
     "jobs/coordinator.py _AT_A_TIME": _SPEED,
     "jobs/coordinator.py _begin: 0 -> 1": "of a chunk of rows it is not read: a selection alone covers any",
     "jobs/coordinator.py _collect_rows: len(came) > _AT_A_TIME -> len(came) >= _AT_A_TIME": _SPEED,
