@@ -15,7 +15,10 @@ _MECHANICS: dict[str, str] = {
     "row_data.py _opened: np.where(closed, discharge, 1.0) -> np.where(closed, discharge, 1.011)": _OPEN,
     "row_data.py _opened: np.where(closed, suction, 1.0) -> np.where(closed, suction, 1.011)": _OPEN,
     "row_work.py beside_mean: own < 0.5 * TURN -> own <= 0.5 * TURN": _ALIKE,
+    "indicated.py _WIDEST_PANEL": _FINER,
     "turn.py _NODES": _FINER,
+    "turn.py _to_crossing: (high - low) * at_low / _nonzero(at_low - at_high)"
+    " -> (high - low) * at_low * _nonzero(at_low - at_high)": "Newton's method begins elsewhere in the same interval",
     "turn.py fluctuation: value[..., :-1] * value[..., 1:] < 0.0"
     " -> value[..., :-1] * value[..., 1:] < 0.001": "one place more of the integral is looked at, which is never"
     " beyond its extremes",
