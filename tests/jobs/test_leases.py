@@ -178,3 +178,16 @@ def test_a_chunk_that_is_not_finished_is_given_no_digest(house: House) -> None:
     assert row(house, job, 0)["digest"] is None
     assert house.store.get(job).bytes == ASKED
     assert house.leases.finish([Computed(chunk, *FIRST)]) == [True]
+
+
+def test_halves_were_tried_once_and_are_counted_once(house: House) -> None:
+    job = submitted(house, selects=False)
+    whole = claimed(house)
+    assert [house.leases.halve(whole), house.leases.halve(whole)] == [1, 1]
+    halves = [house.leases.claim("one", 600.0, attempted=True) for _ in range(3)]
+    expected = [Chunk(job, "synthetic", b"{}", start, start + 5, 1) for start in (0, 5)]
+    assert halves == [*expected, None]
+    # what is finished is not halved
+    assert house.leases.finish([Computed(expected[0], *FIRST)]) == [True]
+    assert house.leases.halve(expected[0]) == 1
+    assert house.leases.halve(expected[1]) == 2
