@@ -138,6 +138,10 @@ def test_a_selection_that_is_put_off_waits_for_more_rows(house: House) -> None:
     assert house.leases.claim("two", 600.0) is None
     house.leases.finish([Computed(second, *SECOND)])
     assert row(house, job, 20)["state"] == "pending"
+    # a file takes the place of the one before, and so do its bytes
+    assert counts(house.store.get(job))[4] == BYTES + 4096
+    assert house.leases.finish_selection(claimed(house), 20, 3, Record(20, 20, "t", 9000)) == Record(20, 20, "s", 4096)
+    assert counts(house.store.get(job)) == ("done", 20, 5, 3, BYTES + 12288, 0)
 
 
 def test_a_job_goes_on_without_a_selection_that_cannot_be_made(house: House) -> None:
@@ -191,3 +195,10 @@ def test_halves_were_tried_once_and_are_counted_once(house: House) -> None:
     assert house.leases.finish([Computed(expected[0], *FIRST)]) == [True]
     assert house.leases.halve(expected[0]) == 1
     assert house.leases.halve(expected[1]) == 2
+
+
+def test_an_owner_of_many_jobs_has_as_many_chunks_in_work_as_one_of_one(house: House) -> None:
+    first, second = (house.submit(owner="a", number=number) for number in (1, 2))
+    other = house.submit(owner="b")
+    turns = [claimed(house).job for _ in range(6)]
+    assert turns == [first, other, second, other, first, other]

@@ -7,6 +7,7 @@ _FINER = "finer or coarser than is needed, within what is told of it"
 _LOOKS = "a hundredth of the width of a line, or a px of the sample of a line in a legend: nobody can see it"
 _SIDES = "the moment is the same from either side"
 _OPEN = "of open sides nothing is used"
+_LIMITED = "what it limits is not used: the series is that of exponents below 1"
 _MECHANICS: dict[str, str] = {
     "bearings.py bending_moment: terms(-1.0) < terms(1.0) -> terms(-1.0) <= terms(1.0)": _ALIKE,
     "bearings.py bending_moment: terms(-1.0) -> terms(-1.011)": _SIDES,
@@ -15,6 +16,7 @@ _MECHANICS: dict[str, str] = {
     "row_data.py _opened: np.where(closed, discharge, 1.0) -> np.where(closed, discharge, 1.011)": _OPEN,
     "row_data.py _opened: np.where(closed, suction, 1.0) -> np.where(closed, suction, 1.011)": _OPEN,
     "row_work.py beside_mean: own < 0.5 * TURN -> own <= 0.5 * TURN": _ALIKE,
+    "gas.py _above_start: np.minimum(exponent[..., None] * u, 1.0) -> np.minimum(exponent[..., None] * u, 1.011)": _LIMITED,
     "indicated.py _WIDEST_PANEL": _FINER,
     "turn.py _NODES": _FINER,
     "turn.py _to_crossing: (high - low) * at_low / _nonzero(at_low - at_high)"
