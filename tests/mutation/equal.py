@@ -16,7 +16,8 @@ _MECHANICS: dict[str, str] = {
     "row_data.py _opened: np.where(closed, discharge, 1.0) -> np.where(closed, discharge, 1.011)": _OPEN,
     "row_data.py _opened: np.where(closed, suction, 1.0) -> np.where(closed, suction, 1.011)": _OPEN,
     "row_work.py beside_mean: own < 0.5 * TURN -> own <= 0.5 * TURN": _ALIKE,
-    "gas.py _above_start: np.minimum(exponent[..., None] * u, 1.0) -> np.minimum(exponent[..., None] * u, 1.011)": _LIMITED,
+    "gas.py _above_start: np.minimum(exponent[..., None] * u, 1.0)"
+    " -> np.minimum(exponent[..., None] * u, 1.011)": _LIMITED,
     "indicated.py _WIDEST_PANEL": _FINER,
     "turn.py _NODES": _FINER,
     "turn.py _to_crossing: (high - low) * at_low / _nonzero(at_low - at_high)"
