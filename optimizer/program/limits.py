@@ -114,8 +114,7 @@ class Limits:
             return np.zeros(g.shape)
         rotated = g * np.conj(self.centre)
         growth = np.abs(rotated.imag) * self.half_angle_cos - rotated.real * self.half_angle_sin
-        outwards = np.abs(rotated.imag) * self.half_angle_sin + rotated.real * self.half_angle_cos > 0
-        return np.where(self.free | ~outwards, 0.0, np.maximum(growth, 0.0))
+        return np.where(self.free, 0.0, np.maximum(growth, 0.0))
 
     def only(self, webs: np.ndarray) -> "Limits":
         """The limits of some of the webs (K,) bool."""

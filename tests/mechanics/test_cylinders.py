@@ -17,6 +17,7 @@ from optimizer.mechanics.cylinders import (
     without_gas,
 )
 from optimizer.mechanics.layout import layout
+from schemas.base.variation import with_fields
 from schemas.machine.cylinder import Cylinder
 from schemas.machine.reciprocating import ReciprocatingMachine
 
@@ -258,3 +259,16 @@ def test_rows_times_entries_are_limited(most: int, many: bool, monkeypatch: pyte
 def test_what_is_missing_is_named_with_the_reason(cylinder: dict[str, Any], words: dict[str, str]) -> None:
     found = {str(problem.path[-1]): problem.message for problem in gas_problems(machine(cylinder))}
     assert found == {name: f"gas forces need this field{word}" for name, word in words.items()}
+
+
+@pytest.mark.parametrize("field", ["suction_pressure_Pa", "relative_clearance", "bore_m"])
+def test_a_column_of_one_cylinder_is_each_of_its_values_alone(field: str) -> None:
+    column = np.array([1.0, 1.1, 1.3]) * FULL[field]
+    path = ("throws", 0, "rows", 1, "cylinder", field)
+    plain = machine(FULL, FULL, FULL)
+    together = chambers(with_fields(plain, {path: column}))
+    assert together.area.shape == (3, 3, 2)
+    for n, value in enumerate(column):
+        alone = chambers(with_fields(plain, {path: float(value)}))
+        for name, array in vars(alone).items():
+            assert np.array_equal(getattr(together, name)[n], array), name

@@ -10,7 +10,7 @@ from optimizer.mechanics.friction import reciprocating_friction
 from optimizer.mechanics.gas import gas_forces, switching_angles
 from optimizer.mechanics.kinematics import motion
 from optimizer.mechanics.rod import rod_forces, shaft_loads
-from optimizer.mechanics.row_data import row_data
+from optimizer.mechanics.row_data import row_data, shared
 from optimizer.mechanics.row_series import Reading, RowSeries
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn, break_angles, whole_turn
 from optimizer.responses.piecewise_cubics import Bracket
@@ -135,6 +135,50 @@ def test_root_mean_squares_are_off_by_no_more_than_is_told(
         assert np.all(curves.rms_error <= 1e-9 * curves.pieces.size)
 
 
+def _at(curves: TurnCurves, places: np.ndarray) -> np.ndarray:
+    """Values (C, P, n) at places of every piece."""
+    angle = curves.pieces.centre[..., None] + curves.pieces.half[..., None] * places
+    curve, piece, _ = np.indices(angle.shape)
+    return curves.values(curve.ravel(), piece.ravel(), angle.ravel()).reshape(angle.shape)
+
+
+@pytest.mark.parametrize("style", STYLES)
+def test_values_in_pieces_are_those_at_their_angles(style: str) -> None:
+    turn, _, _ = _driven(2, style, friction=1e3)
+    curves, places = _peaks_of_rows(turn, "on_shaft"), np.array([-0.9, 0.0, 0.35])
+    wanted = _at(curves, places)
+    found = curves.in_pieces(places).reshape(wanted.shape)
+    assert np.all(np.abs(found - wanted) <= 1e-12 * np.max(curves.pieces.size))
+
+
+def test_what_is_left_out_everywhere_is_counted_once_for_each_of_both() -> None:
+    """Analytic: a root mean square and its quadrature, over a whole turn of 3 N that are left out."""
+    turn, _, _ = _driven(2, STYLES[0])
+    curves = _peaks_of_rows(turn, "on_shaft")
+    pieces = curves.pieces
+    vars(curves).update(_left_out=np.full(pieces.half.shape, 3.0), _parts=np.ones(pieces.half.shape[-1]))
+    assert curves.rms_error == pytest.approx(6.0, abs=1e-11 * float(np.max(pieces.size)))
+
+
+@pytest.mark.parametrize("style", STYLES)
+def test_parts_of_a_curve_are_bounded_and_are_what_their_cubics_say(style: str) -> None:
+    """Property: Taylor's theorem for every row, and all rows together below what they come to at most."""
+    turn, _, _ = _driven(1, style)
+    count = turn.rows.crank_radius.shape[-1]
+    curves = turn.curves("piston", np.linspace(0.5, 2.0, 2 * count).reshape(1, 2, count))
+    parts = curves.parts
+    curve, piece = np.nonzero(curves.pieces.half > 0)
+    centre, half = curves.pieces.centre[curve, piece], curves.pieces.half[curve, piece]
+    cubics, largest = parts.cubics(curve, piece, centre, half), parts.largest[curve, piece]
+    fourth = parts.fourth(curve, piece) * half[:, None] ** 4
+    assert cubics.shape == (curve.size, count, 4)
+    for place in (-1.0, -0.3, 0.6, 1.0):
+        values = parts.values(curve, piece, centre + place * half)
+        size = 1e-11 * np.max(largest)
+        assert np.all(np.abs(values - cubics @ place ** np.arange(4)) <= fourth * place**4 + size)
+        assert np.all(np.sum(np.abs(values), axis=-1) <= largest + size)
+
+
 @pytest.mark.parametrize("reading", ["rod", "rod_at_rest", "rod_without_gas", "on_shaft"])
 def test_designs_together_are_as_designs_alone(reading: Reading) -> None:
     # property: to the bit, whether what all designs have in common is worked out once or for each
@@ -149,6 +193,14 @@ def test_designs_together_are_as_designs_alone(reading: Reading) -> None:
         found = _peaks(WholeTurn(rows, *cut), reading)
         for part, each in zip(found, zip(*expected, strict=True), strict=True):
             assert np.array_equal(part, np.concatenate(each))
+
+
+def test_what_all_designs_have_alike_stands_once() -> None:
+    for designs in (1, 2, 3):
+        same = np.broadcast_to([1.0, 2.0], (designs, 2)).copy()
+        assert shared(same).tolist() == [[1.0, 2.0]]
+        same[-1, 1] += designs - 1.0
+        assert shared(same).tolist() == same.tolist()
 
 
 def test_a_design_taken_alone_keeps_its_curves() -> None:

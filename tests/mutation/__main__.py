@@ -34,6 +34,8 @@ class Room(NamedTuple):
     least: float
 
 
+_JOBS = tuple(f"tests/jobs/test_{name}.py" for name in ("steps", "coordinator", "store", "damage", "races", "schema"))
+
 ROOMS = {
     "mechanics": Room(
         "optimizer/mechanics/*.py",
@@ -76,11 +78,8 @@ ROOMS = {
         ),
         0.9,
     ),
-    "leases": Room(
-        "service/jobs/coordinator.py",
-        tuple(f"tests/jobs/test_{name}.py" for name in ("steps", "coordinator", "store")),
-        0.8,
-    ),
+    "leases": Room("service/jobs/leases.py", _JOBS, 0.8),
+    "coordinator": Room("service/jobs/coordinator.py", _JOBS, 0.8),
     "report": Room(
         "service/report/**/*.py",
         ("tests/report_document", "tests/studies/accuracy/test_document.py", "tests/optimize/test_alternatives.py"),

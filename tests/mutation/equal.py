@@ -7,6 +7,7 @@ _FINER = "finer or coarser than is needed, within what is told of it"
 _LOOKS = "a hundredth of the width of a line, or a px of the sample of a line in a legend: nobody can see it"
 _SIDES = "the moment is the same from either side"
 _OPEN = "of open sides nothing is used"
+_LIMITED = "what it limits is not used: the series is that of exponents below 1"
 _MECHANICS: dict[str, str] = {
     "bearings.py bending_moment: terms(-1.0) < terms(1.0) -> terms(-1.0) <= terms(1.0)": _ALIKE,
     "bearings.py bending_moment: terms(-1.0) -> terms(-1.011)": _SIDES,
@@ -15,7 +16,12 @@ _MECHANICS: dict[str, str] = {
     "row_data.py _opened: np.where(closed, discharge, 1.0) -> np.where(closed, discharge, 1.011)": _OPEN,
     "row_data.py _opened: np.where(closed, suction, 1.0) -> np.where(closed, suction, 1.011)": _OPEN,
     "row_work.py beside_mean: own < 0.5 * TURN -> own <= 0.5 * TURN": _ALIKE,
+    "gas.py _above_start: np.minimum(exponent[..., None] * u, 1.0)"
+    " -> np.minimum(exponent[..., None] * u, 1.011)": _LIMITED,
+    "indicated.py _WIDEST_PANEL": _FINER,
     "turn.py _NODES": _FINER,
+    "turn.py _to_crossing: (high - low) * at_low / _nonzero(at_low - at_high)"
+    " -> (high - low) * at_low * _nonzero(at_low - at_high)": "Newton's method begins elsewhere in the same interval",
     "turn.py fluctuation: value[..., :-1] * value[..., 1:] < 0.0"
     " -> value[..., :-1] * value[..., 1:] < 0.001": "one place more of the integral is looked at, which is never"
     " beyond its extremes",
@@ -68,6 +74,7 @@ _FORMULATION: dict[str, str] = {
     "counterweights.py too_heavy: weight.mass_kg > most.get(str(weight.web), np.inf) * (1.0 + _ABOVE_ENVELOPE)"
     " -> weight.mass_kg >= most.get(str(weight.web), np.inf) * (1.0 + _ABOVE_ENVELOPE)": "a mass above what is held by"
     " 1e-12 exactly may be taken or not",
+    "groups.py _same_options: one[:, 1] - angle + 180.0 -> one[:, 1] - angle - 180.0": "a whole turn",
     "groups.py _masses: mass is not None and angle is None -> mass is not None or angle is None": "angles are"
     " compared with their masses beside",
 }
@@ -82,6 +89,7 @@ _VERIFY: dict[str, str] = {
 }
 _SERVICE: dict[str, str] = {
     "guard/keys.py caller: record.expires < time.time() -> record.expires <= time.time()": "no clock stands still",
+    "guard/keys.py _stamped": "no file is of such a time: it tells that there is none",
     "jobs/coordinator.py _AT_A_TIME": _SPEED,
     "jobs/coordinator.py _begin: 0 -> 1": "of a chunk of rows it is not read: a selection alone covers any",
     "jobs/coordinator.py _collect_rows: len(came) > _AT_A_TIME -> len(came) >= _AT_A_TIME": _SPEED,

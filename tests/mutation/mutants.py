@@ -125,6 +125,8 @@ def _faults(tree: ast.Module) -> Iterator["_Fault"]:
         elif (
             isinstance(node, ast.Constant) and isinstance(node.value, int | float) and not isinstance(node.value, bool)
         ):
+            if _left_to_numpy(node, around):
+                continue
             value = node.value
             yield _Fault(
                 node, "value", value + 1 if isinstance(value, int) else 1.01 * value + 1e-3, _said(node, around)
@@ -164,6 +166,15 @@ def _computing(node: ast.AST) -> Iterator[ast.AST]:
             if isinstance(child, ast.AST) and not isinstance(child, ast.JoinedStr):
                 yield child
                 yield from _computing(child)
+
+
+def _left_to_numpy(node: ast.Constant, around: Mapping[ast.AST, ast.AST]) -> bool:
+    """Whether it is the 1 of ``reshape(-1)``: of whatever is below 0 numpy finds the length itself."""
+    sign = around[node]
+    home = around.get(sign)
+    home = around.get(home) if isinstance(home, ast.Tuple) else home
+    called = home.func if isinstance(home, ast.Call) else None
+    return isinstance(sign, ast.UnaryOp) and isinstance(called, ast.Attribute) and called.attr == "reshape"
 
 
 def _of_text(node: ast.BinOp) -> bool:

@@ -171,3 +171,10 @@ def test_fields_of_one_function_are_told_apart() -> None:
     found = names("def f(a, b):\n    return np.maximum(np.max(a), np.max(b)) + a.lower[-1]\n")
     assert {"f: np.max(a) -> np.min(a)", "f: np.max(b) -> np.min(b)"} <= found
     assert {"f: a.lower[-1] -> a.upper[-1]", "f: a.lower[-1] -> a.lower[+1]"} <= found
+
+
+def test_the_length_that_numpy_finds_is_no_number() -> None:
+    """Of any negative one it is the same; the sign counts."""
+    found = names("def f(a):\n    return a.reshape(-1), a.reshape(3, -1), a.sum(-1), a.reshape(1, a[-1])\n")
+    assert {"f: a.reshape(-1) -> a.reshape(+1)", "f: a.sum(-1) -> a.sum(-2)", "f: a[-1] -> a[-2]"} <= found
+    assert not any("-2)" in one for one in found if "reshape" in one)

@@ -288,6 +288,21 @@ def test_the_file_is_looked_at_no_more_often_than_it_may(tmp_path: Path, monkeyp
     assert known.caller(new) is not None
 
 
+def test_a_file_that_is_gone_takes_no_key_away_and_is_told_of_once(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(keys, "_LOOK_S", 0.0)
+    file = tmp_path / "keys"
+    (old, first), (new, second) = keys.make("a", ("read",)), keys.make("b", ("read",))
+    keys.write(file, [first])
+    known = keys.Keys(file)
+    file.unlink()
+    assert [known.caller(key) is None for key in (old, old, new, old)] == [False, False, True, False]
+    assert caplog.text.count("cannot read the keys") == 1
+    keys.write(file, [second])
+    assert [known.caller(key) is None for key in (old, new)] == [True, False]
+
+
 def test_no_key_is_in_the_file_and_nobody_else_can_read_it(made: tuple[Path, dict[str, str]]) -> None:
     text = made[0].read_text()
     assert not any(key in text or key.split("_", 2)[2] in text for key in made[1].values())

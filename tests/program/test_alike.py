@@ -11,6 +11,7 @@ from optimizer.program.ceilings import Ceilings
 from optimizer.program.equal_castings import Alike
 from optimizer.program.equal_unknowns import apart, united
 from optimizer.program.limits import Limits
+from optimizer.program.methods.rounding import made_up
 from optimizer.program.norms import Norms
 from optimizer.program.statement import Names, Statement, Term
 
@@ -118,3 +119,20 @@ def test_what_one_web_carries_in_a_direction_tells_those_of_all(
     told = np.exp(1j * webs.angles(web, angle))
     assert np.allclose(told[web], np.exp(1j * angle), rtol=0, atol=1e-12)
     assert np.allclose(webs.nearest(told), told, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("group", GROUPS)
+def test_alike_webs_make_up_for_a_change_together(group: tuple[tuple[int, ...], tuple[bool, ...]]) -> None:
+    """Analytic: the change is taken back, of two programs each by itself; what has no room carries nothing."""
+    webs = alike(*group, 5)
+    random = np.random.default_rng(5)
+    influence = random.normal(size=(2, 1, WEBS))
+    room = random.uniform(0.5, 2.0, size=(2, webs.first.size))[:, webs.owner]
+    room[1, webs.owner == 0] = 0.0
+    change = points(6, 2)[:, :1]
+    found = made_up(webs, influence, room, change)
+    assert found.shape == (2, WEBS)
+    assert np.allclose(webs.nearest(found), found, rtol=0, atol=1e-12)
+    assert np.all(found[1, webs.owner == 0] == 0.0)
+    moved = np.sum(influence * found[:, None, :], axis=-1)
+    assert np.allclose(moved, -change, rtol=0, atol=1e-9)

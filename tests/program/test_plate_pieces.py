@@ -8,6 +8,7 @@ import pytest
 from optimizer.mechanics.envelope import AnnularSector, Segment
 from optimizer.mechanics.plates import Plates
 from optimizer.numerics.arrays import Real
+from optimizer.program.methods.plate_sizes import CutWeights, equal_sizes
 from optimizer.program.plate_pieces import (
     Webs,
     closer_nodes,
@@ -20,13 +21,13 @@ from optimizer.program.plate_pieces import (
 from tests.program.test_leading_axes import WEBS, _program
 
 
-def _plates() -> Plates:
+def _plates(kinds: tuple[int, ...] = (0, 1, 2)) -> Plates:
     """A sector on web 1, and two segments on 0 and 3, of which one is open to a right angle."""
     right = np.pi / 2
     sector = AnnularSector(np.array([0.05]), np.array([0.2]), np.array([300.0]), np.array([1.2]))
     segments = Segment(np.array([0.03, 0.0]), np.array([0.25, 0.3]), np.array([250.0, 200.0]), np.array([right, 0.9]))
     parts = [(np.array([1]), sector), (np.array([0, 2]), segments)]
-    return Plates(np.array([0, 1, 3]), np.arange(3), parts)
+    return Plates(np.array([0, 1, 3]), np.array(kinds), parts)
 
 
 PLATES = _plates()
@@ -141,3 +142,39 @@ def test_a_plate_without_room_is_no_piece() -> None:
     assert 1 not in cut.owner
     carried: Real = np.abs(cut.carried(np.ones(cut.owner.size, complex)))
     assert carried[1] == 0.0
+
+
+def test_a_plate_that_cannot_be_opened_has_all_nodes_at_nothing() -> None:
+    nodes = closer_nodes(np.array([[0.0, 0.0], [0.0, 0.5], [0.0, 1.0]]), np.array([0.0, 0.5]))
+    assert np.all(nodes[:, 0] == 0.0)
+    assert np.any(nodes[:, 1] == 0.5)
+
+
+@pytest.mark.parametrize(
+    ("kinds", "largest", "mean"),
+    [
+        # the first and the last are of one kind, then the last two, then all
+        ((0, 1, 0), (0.6 + 1e-6, 0.6 + 3e-6, 0.6 + 1e-6), (0.6 + 5e-7, 0.6 + 3e-6, 0.6 + 5e-7)),
+        ((0, 3, 3), (0.6, 0.6 + 3e-6, 0.6 + 3e-6), (0.6, 0.6 + 2e-6, 0.6 + 2e-6)),
+        ((2, 2, 2), (0.6 + 3e-6,) * 3, (0.6 + 4e-6 / 3,) * 3),
+    ],
+)
+def test_plates_of_one_kind_are_put_to_one_size(
+    kinds: tuple[int, ...], largest: tuple[float, ...], mean: tuple[float, ...]
+) -> None:
+    """Analytic: those that nearly agree to their largest opening, or to their mean; the cut as it is comes last."""
+    plates, whole = _plates(kinds), _program(3, "plain").alone()
+    angle = np.array([0.6, 0.6 + 3e-6, 0.6 + 1e-6])
+    u = np.zeros(WEBS, complex)
+    u[plates.webs] = plates.unbalance(angle) * np.exp(1j * np.arange(3))
+    u[2] = 0.1
+    cuts = list(equal_sizes(whole, plates, CutWeights(u, angle, 0.0)))
+    assert cuts[1].angle == pytest.approx(largest, rel=1e-13)
+    assert cuts[3].angle == pytest.approx(mean, rel=1e-13)
+    for cut in cuts[1:4:2]:
+        assert np.abs(cut.unbalance[plates.webs]) == pytest.approx(plates.unbalance(cut.angle), rel=1e-12)
+        assert np.angle(cut.unbalance[plates.webs]) == pytest.approx(np.arange(3), abs=1e-12)
+        assert cut.unbalance[2] == 0.1
+        masses = np.sum(plates.mass(cut.angle)) + 0.1 / whole.limits.radius[0, 2]
+        assert cut.mass == pytest.approx(masses, rel=1e-12)
+    assert cuts[-1].unbalance is u
