@@ -93,7 +93,8 @@ def bounds(  # type: ignore[no-untyped-def]
                 along = -slope.real * centre[n, k].real - slope.imag * centre[n, k].imag
                 across = abs(slope.real * centre[n, k].imag - slope.imag * centre[n, k].real)
                 if across * cosine[n, k] > along * sine[n, k]:
-                    support = along * cosine[n, k] + across * sine[n, k]
+                    # below 0 it is where this is dear: in full (limits.support)
+                    support = max(along * cosine[n, k] + across * sine[n, k], 0.0)
             gain[k] = max(radius[n, k] * (support + rounding) - mass_cost, 0.0)
         dear[m] = off > DEAR * size
         fill(gain, max_mass[n], budget[n], order[0], order[1], masses)
