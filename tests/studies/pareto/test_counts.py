@@ -212,7 +212,7 @@ def test_numbers_for_the_whole_turn(of: str) -> None:
     """Independent: the largest bearing load of all 2,401 sets of no more than a number, by statics."""
     machine = choices.twin()
     chosen, u = choices.every_set(machine)
-    loads = np.max(np.abs(choices.Loads(machine).over(u)), axis=(-2, -1))
+    loads = choices.Loads(machine).peak(u)
     used = np.array([_used(one, of) for one in chosen])
     found = front(choices.asked(machine, bearing_weight=1, force_weight=0, moment_weight=0), of, "objective")
     assert found.status == "optimal"
@@ -231,7 +231,7 @@ def test_the_least_mass_for_the_whole_turn(of: str) -> None:
     """Independent: of all 2,401 sets that keep a ceiling on the bearings the lightest."""
     machine = choices.twin()
     chosen, u = choices.every_set(machine)
-    loads = np.max(np.abs(choices.Loads(machine).over(u)), axis=(-2, -1))
+    loads = choices.Loads(machine).peak(u)
     used, mass = np.array([_used(one, of) for one in chosen]), np.array([sum(m for m, _ in one) for one in chosen])
     # between two loads, so that angles in between tell nothing else
     ordered = np.unique(loads)
