@@ -2,6 +2,7 @@
 
 import itertools
 from copy import deepcopy
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,8 @@ import pytest
 from pydantic import ValidationError
 
 from optimizer.analyze import analyze
+from optimizer.program.optimum import optimum
+from optimizer.solve import uncertain_program
 from optimizer.solve.uncertain_program import scatter_of
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from schemas.request.scenarios import Tolerances
@@ -333,3 +336,11 @@ def test_a_limit_that_is_over_at_once_leaves_the_price_open_and_says_so() -> Non
     assert in_time.price_of_robustness is not None
     assert in_time.price_of_robustness.nominal_optimum is not None
     assert worst(in_time) <= case.objective * (1 + 1e-9)
+
+
+def test_out_of_time_the_worst_masses_are_those_of_its_own_counterweights(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Independent: the peak at all corners of the masses, which the worst case lists by itself."""
+    monkeypatch.setattr(uncertain_program, "optimum", lambda *posed: replace(optimum(*posed), timed_out=True))
+    answer = answered(six_rows(), objective={"moment_weight": 0}, tolerances={"reciprocating_mass_relative": 0.1})
+    assert answer.worst_case is not None
+    assert worst(answer) == pytest.approx(answer.worst_case.force_peak_N, rel=1e-12)
