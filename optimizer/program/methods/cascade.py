@@ -116,7 +116,7 @@ def _by_all(
         return quick.lightest
     found = solver.smallest_objective(statement, _SHARPNESS * target.share, quick.smallest)
     if statement.row.size == 1 and statement.limits.radius.size and found.gap > target.demand:
-        found = _single_web(statement, found)
+        found = _single_term(statement, found)
     if target.least_mass and found.below_ceilings:
         found = solver.least_mass(statement, found, target.share, _MASS_GAP, quick.lightest)
     precision = finest(statement.limits.radius.size) if finer and suits_kernel(statement) else None
@@ -127,7 +127,7 @@ def _by_all(
     return fine.lightest if fine.certified else _better_of(found, fine.lightest, target.share)
 
 
-def _single_web(statement: Statement, solution: Solution) -> Solution:
+def _single_term(statement: Statement, solution: Solution) -> Solution:
     """The better of a point and of what each web comes to alone, exact of the only term, and what that term proves.
 
     Where one web does 1e10 times as much with a kilogram as another, no units suit both in a solver. What is left of
