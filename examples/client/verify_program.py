@@ -334,7 +334,9 @@ def support(pull: Number, sector: tuple[float, float] | None) -> Number:
     if sector is None:
         return abs(pull)
     (along, across), (cos, sin) = (pull * direction(sector[0]).conjugate()).parts(), direction(sector[1]).parts()
-    across = abs(across)
-    if (along * sin).high > (across * cos).low:
-        return abs(pull)
-    return largest(along * cos + across * sin, ZERO)
+    across, most = abs(across), abs(pull)
+    edge = largest(along * cos + across * sin, ZERO)
+    if (along * sin).high <= (across * cos).low:
+        return edge
+    # what may be inside the sector or beside it is no less than at its edge
+    return most if (along * sin).low > (across * cos).high else Number(min(edge.low, most.low), most.high)

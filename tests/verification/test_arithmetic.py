@@ -74,6 +74,17 @@ def test_products_are_those_of_all_corners(one: Any, other: Any) -> None:
     assert along.y == (0, 0)
 
 
+@given(rectangles(), st.floats(0, 360), st.floats(1e-9, 90))
+def test_what_a_sector_takes_off_is_enclosed(pull: Any, centre: float, half: float) -> None:
+    """Independent: doubles, of every corner in its own direction where that is in the sector, and at both edges."""
+    low, high = map(float, ends(part("program").support(pull, (centre, half))))
+    for x, y in product(ends(pull), sides(pull)):
+        length, angle = math.hypot(x, y), math.degrees(math.atan2(y, x))
+        beside = abs((angle - centre + 180) % 360 - 180)
+        taken = length if beside <= half else max(0.0, length * math.cos(math.radians(beside - half)))
+        assert low - 1e-12 * length <= taken <= high + 1e-12 * length
+
+
 @given(rectangles(real=True), rectangles(real=True))
 def test_real_products_and_quotients(one: Any, other: Any) -> None:
     corners = [a * b for a, b in product(ends(one), ends(other))]

@@ -55,6 +55,8 @@ from tests.verification.test_curves import part
         ("plates", 4677, 92, "shadow_prices"),
         # 5e18 kg at a radius of 6e4 m, in a sector that points away
         ("catalogue", 1337, 83, "smallest_force"),
+        # 9e17 kg m in a sector that points away, of which it is not told whether it does
+        ("balance shafts", 1031, 94, "lower_bound"),
     ],
 )
 def test_what_cancels_is_judged_by_its_parts(mode: str, number: int, seed: int, claim: str) -> None:
