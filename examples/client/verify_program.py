@@ -108,8 +108,10 @@ class Statement:
         most = {response: arm if arm.low > 0 else ONE for response, arm in most.items()}
         moving = [one for one in self.terms.values() if abs(one.factor).low > 0]
         called = [abs(one.start) / (abs(one.factor) * most[one.moves]) for one in moving]
-        size = most[name.partition(":")[0]] * largest(ZERO, *called)
-        return size if size.low > 0 else self.machine.square
+        other = most[name.partition(":")[0]] * largest(ZERO, *called)
+        other = other if other.low > 0 else self.machine.square
+        # what may be rounding alone, or a little that is there
+        return other if size.high <= 0 else Number(min(max(size.low, 1), other.low), max(size.high, other.high))
 
     def peak(self, response: tuple[Number, Number], weight: Number) -> tuple[Number, dict[str, tuple[Number, ...]]]:
         """A floor, and vectors whose lengths it adds; each with the factors of the phasors in it, forwards first."""
