@@ -18,10 +18,10 @@ _LONG = 3600.0
     webs=st.integers(1, 4),
     fitted=st.none() | st.integers(1, 3),
     parts=st.none() | st.integers(1, 2),
-    share=st.sampled_from([1.0, 1.01, 1.2, 2.0]),
+    share=st.sampled_from([1.0, 1.01, 1.2, 2.0, np.inf]),
 )
 def test_the_lightest_of_all_sets(seed: int, webs: int, fitted: int | None, parts: int | None, share: float) -> None:
-    """Independent: at a level that some keep, the lightest of all sets, and the bound is its mass."""
+    """Independent: at a level that some keep, or at none, the lightest of all sets, and the bound is its mass."""
     combine, weights, sectors, budget, ceilings = COMBINATIONS[seed % len(COMBINATIONS)]
     problem = random_statement(seed, combine, weights, sectors, budget, ceilings, webs=webs)
     most = float(np.max(problem.limits.max_mass))

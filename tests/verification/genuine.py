@@ -2,7 +2,7 @@
 
 Pairs of features of tests/pairs, and random machines of tests/hard with what their bodies may ask for, some with masses
 that are off. Prints what came of them, and every claim that was broken. Exit code 1 where there was one, or where the
-checker raised something.
+checker or the optimiser raised something; a warning is raised.
 """
 
 import argparse
@@ -10,6 +10,7 @@ import json
 import random
 import sys
 import time
+import warnings
 from collections import Counter
 from collections.abc import Iterator
 from typing import Any
@@ -95,6 +96,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--seconds", type=float, default=float("inf"), help="of computing, at most")
     arguments = parser.parse_args()
+    warnings.simplefilter("error")
     verdicts, faults = run(arguments.count, arguments.seed, arguments.seconds)
     print(verdicts.total(), dict(verdicts))
     return int(bool(faults))

@@ -125,7 +125,6 @@ def _compared(split: Halves, incumbent: Incumbent, most_pairs: int, clock: Clock
         incumbent.offer(split.sets(i, j))
 
     pairs = Pairs(incumbent.statement, split.first, split.second, split.lever, split.terms, incumbent, offered)
-    # without coordinates all pairs are in one place, and none is nearer than another
-    if not np.isfinite(incumbent.level) or pairs.count <= _FEW or not split.lever.shape[-1]:
+    if pairs.count <= _FEW:
         return pairs.count <= most_pairs and pairs.all(clock)
     return pairs.near(most_pairs, clock)

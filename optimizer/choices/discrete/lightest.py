@@ -160,6 +160,4 @@ def _compared(
             offer(split.sets(i[light], j[light]))
 
     pairs = Pairs(within.statement, one, other, split.lever, split.terms, within, offered)
-    if not split.lever.shape[-1]:
-        return pairs.count <= most_pairs and pairs.all(clock)
     return pairs.near(most_pairs, clock)

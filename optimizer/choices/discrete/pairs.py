@@ -88,6 +88,9 @@ class Pairs:
 
     def near(self, most: int, clock: Clock) -> bool:
         """Every pair that can be no worse than the best; whether they were few enough for number and time."""
+        # without a level all are as good, and without coordinates all are in one place
+        if not np.isfinite(self.incumbent.level) or not self.lever.shape[-1]:
+            return self.count <= most and self.all(clock)
         ball = self._ball()
         if ball is None:
             return True
