@@ -118,7 +118,9 @@ def prices(statement: Statement, request: Place, answer: Place, there: Fitted, c
     touched = {(one.text()) for one in answer / "active_limits"}
     slopes, ceilings = slope(statement, multipliers)
     arms = [1 + abs((web.position - machine.plane).middle()) for web in machine.webs]
-    widest = max((abs(web.radius.middle()) * arm for web, arm in zip(machine.webs, arms)), default=0.0)
+    # of a plate a kilogram metre has the price
+    levers = [1.0 if web.plate else abs(web.radius.middle()) for web in machine.webs]
+    widest = max((lever * arm for lever, arm in zip(levers, arms)), default=0.0)
     lengths = (abs(complex((one / "x").double(), (one / "y").double())) for one in multipliers / "terms")
     factor = max((abs(term.factor.middle()) for term in statement.terms.values()), default=0.0)
     dust = 1e-11 * widest * machine.square.middle().real * (sum(lengths) * factor + sum(ceilings.values()))
