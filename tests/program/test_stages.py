@@ -90,7 +90,7 @@ def test_the_smallest_excess_is_a_goal_of_its_own() -> None:
 @pytest.mark.parametrize(
     ("over", "under", "step"),
     [([-1.0, -2.0], [-3.0, -3.0], 0.0), ([1.0, -2.0], [-1.0, -3.0], 0.5), ([1.0, 3.0], [-1.0, -1.0], 0.75),
-     ([1.0], [0.0], 1.0), ([], [], 0.0)],
+     ([1.0], [0.0], 1.0), ([1e300, 2.0], [1e300, 2.0], 1.0), ([0.0], [0.0], 0.0), ([], [], 0.0)],
 )  # fmt: skip
 def test_how_far_towards_what_is_inside_all_is_kept(over: list[float], under: list[float], step: float) -> None:
     assert _step(np.array(over), np.array(under)) == pytest.approx(step)

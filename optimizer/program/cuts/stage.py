@@ -384,6 +384,6 @@ class Search:
 
 
 def _step(over: Real, under: Real) -> float:
-    """How far from a point towards one inside all is kept, by the excess of both."""
-    worst = np.where(over > 0, over / np.maximum(over - under, np.finfo(float).tiny), 0.0)
+    """How far from a point towards one inside all is kept, by the excess of both; 1 where that is not inside."""
+    worst = np.divide(over, np.maximum(over - under, over), out=np.zeros(over.shape), where=over > 0)
     return float(np.max(worst, initial=0.0))
