@@ -149,14 +149,18 @@ def light(statement: Statement, proof: Place, sizes: dict[str, Number], mass: Nu
     size = place.number(0.0)
     if least and place:
         limited = Statement(statement.machine, Place({}), {name: {name: ONE} for name in statement.caps}, capped=False)
-        cancelling = (statement.lightest(sizes), limited.lightest(statement.sizes))
-        counts = min(
-            (number for number in cancelling if number is not None), key=lambda number: number.high, default=ZERO
-        )
-        most = largest(mass - statement.machine.fixed, counts * real(MASS_SHARE)) * ABOUT_ONE
-        # what is cut from a plate has another radius than all that could be
-        cut = any(web.plate for web in statement.machine.webs) and (most - size).high < 0
-        yield "yardstick", place, None if cut else most - size, size
+
+        def most(implied: Place) -> Number:
+            cancelling = statement.lightest(sizes, implied), limited.lightest(statement.sizes, implied)
+            every = [number for number in cancelling if number is not None]
+            counts = min(every, key=lambda number: number.high, default=ZERO)
+            return largest(mass - statement.machine.fixed, counts * real(MASS_SHARE)) * ABOUT_ONE
+
+        left = most(Place(None)) - size
+        # what is cut from a plate has another radius than all that could be; and webs may be implied to carry nothing
+        cut = any(web.plate for web in statement.machine.webs)
+        unknown = left.high < 0 and (cut or (most(proof / "implied_max_mass_kg") - size).high >= 0)
+        yield "yardstick", place, None if unknown else left, size
 
 
 def yardstick(statement: Statement, place: Place, rest: Number, implied: Place) -> Claim:

@@ -257,9 +257,9 @@ class Statement:
             added = added + total(self.change(web, row) for row in self.rows) * limit
         return added
 
-    def lightest(self, sizes: dict[str, Number]) -> Number | None:
+    def lightest(self, sizes: dict[str, Number], implied: Place) -> Number | None:
         """The least mass that could cancel one of the rows, of these sizes; None where none can be."""
-        limits = [(web, self.reach(web, Place(None))) for web in self.machine.webs]
+        limits = [(web, self.reach(web, implied)) for web in self.machine.webs]
         webs = [web for web, limit in limits if limit is None or limit.high > 0]
         most = {row: largest(ZERO, *(self.change(web, row) for web in webs)) for row in self.rows}
         masses = [sizes[row] / does for row, does in most.items() if does.low > 0 and sizes[row].low > 0]

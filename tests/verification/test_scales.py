@@ -75,6 +75,18 @@ def test_what_cancels_is_judged_by_its_parts(mode: str, number: int, seed: int, 
     assert "broken" not in found.values()
 
 
+def test_a_yardstick_of_what_webs_are_implied_to_carry_is_named() -> None:
+    """Regression: webs that are implied to carry nothing cancel nothing, which the checker does not show."""
+    sent = drawn(4934, 95, "parts")
+    assert sent is not None
+    answer = json.loads(optimize(OptimizeRequest.model_validate(sent)).model_dump_json())
+    assert answer["certificate"]["implied_max_mass_kg"] == {"1": 0.0, "2": 0.0}
+    found = checker().verify(json.loads(json.dumps(sent)), answer)
+    assert [one["claim"] for one in found["claims"] if one["verdict"] != "held"] == ["yardstick"]
+    answer["certificate"]["mass_yardstick_kg"] *= 1.01
+    assert [claim.split()[0] for claim in broken(sent, answer)] == ["yardstick"]
+
+
 @pytest.mark.parametrize(
     ("mode", "number", "seed", "share"),
     [
@@ -130,14 +142,16 @@ def test_every_figure_of_masses_that_are_off_is_covered() -> None:
 
 @pytest.mark.parametrize("size", [1e-6, 0.5, 20.0])
 def test_the_lightest_that_cancels_a_row_of_any_size(size: float) -> None:
-    """Analytic: a force by a kilogram on the web of the larger radius, and no row of nothing."""
+    """Analytic: a force by a kilogram on the web of the larger radius that may carry any, and no row of nothing."""
     place, real = part("numbers").Place, part("numbers").real
     body = {"machine": machine([throw(0.0, 0.0, [row(0.0, 1.0)])], [web("a", 0.0, 4.0, 0.1), web("b", 0.2, 4.0, 0.4)])}
     asked = place(body, "request")
     built = part("machine").Machine(asked / "machine", asked / "objective", place(None), place(None))
     rows = {name: {name: part("numbers").ONE} for name in ("force", "moment")}
-    found = part("program").Statement(built, place({}), rows).lightest({"force": real(size), "moment": real(0.0)})
-    assert float(found) == pytest.approx(size / (0.4 * float(built.square)), rel=1e-12)
+    statement, sizes = part("program").Statement(built, place({}), rows), {"force": real(size), "moment": real(0.0)}
+    for implied, radius in ({}, 0.4), ({"b": 0.0}, 0.1):
+        found = statement.lightest(sizes, place(implied))
+        assert float(found) == pytest.approx(size / (radius * float(built.square)), rel=1e-12)
 
 
 def _full_plate(opening_deg: float) -> bool:
