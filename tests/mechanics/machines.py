@@ -33,6 +33,7 @@ from optimizer.mechanics.row_data import row_data
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn, break_angles, whole_turn
 from optimizer.responses.curve import TurnResponse
 from schemas.machine.machine import Machine
+from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.requests import AnalyzeRequest
 from tests.analyze.driven import random_driven
 from tests.pairs.asking import body_of
@@ -88,12 +89,12 @@ def _layout(name: str) -> Layout:
 
 @cache
 def _traces(name: str) -> tuple[Trace, ...]:
-    return cylinders.traces(machine(name), _layout(name))
+    return cylinders.traces(_driven(name), _layout(name))
 
 
 @cache
 def _turn(name: str) -> WholeTurn:
-    plan, data = _layout(name), cylinders.chambers(machine(name))
+    plan, data = _layout(name), cylinders.chambers(_driven(name))
     opens = gas.switching_angles(data, plan, _exact(name))
     cut = break_angles(plan, opens, _traces(name))
     friction = 100.0 * np.arange(1.0, plan.reciprocating.mass.size + 1.0)
@@ -167,8 +168,14 @@ def _first_order(name: str) -> list[Any]:
     return [wrench, found, parts, signs, scatter.changed(parts.force, signs[0], 0.1)]
 
 
+def _driven(name: str) -> ReciprocatingMachine:
+    one = machine(name)
+    assert isinstance(one, ReciprocatingMachine)
+    return one
+
+
 def _gas(name: str) -> list[Any]:
-    one, plan = machine(name), _layout(name)
+    one, plan = _driven(name), _layout(name)
     data, moving = cylinders.chambers(one), motion(plan, _ANGLES, _exact(name))
     forces = gas.gas_forces(data, moving, plan, _traces(name))
     counts = [cylinders.cycle_turns(one), cylinders.entry_count(one), cylinders.without_gas(one)]
@@ -182,7 +189,7 @@ def _gas(name: str) -> list[Any]:
 def _work(name: str) -> list[Any]:
     plan = _layout(name)
     friction = 100.0 * np.arange(1.0, plan.reciprocating.mass.size + 1.0)
-    work = row_work.RowWork(plan, friction, cylinders.chambers(machine(name)))
+    work = row_work.RowWork(plan, friction, cylinders.chambers(_driven(name)))
     found = work.fluctuation(_turn(name).torque)
     return [work.of_a_turn, work.beside_mean(_ANGLES), found.value]
 
@@ -219,7 +226,7 @@ def _radii(one: Machine) -> list[Any]:
 
 def _cranks(name: str) -> list[Any]:
     one = machine(name)
-    shares = [crank_of_web.shares(one)] if one.kind == "reciprocating" else []
+    shares = [crank_of_web.shares(one)] if isinstance(one, ReciprocatingMachine) else []
     return [shares, crank_of_web.own_throws(one), crank_of_web.crank_angles(one)]
 
 
@@ -247,7 +254,8 @@ def _answer(name: str) -> Any:
 
 def _listed(value: Any) -> list[Any]:
     """The numbers of an output side by side, and a word for all the rest of it."""
-    numbers, rest = [], []
+    numbers: list[float] = []
+    rest: list[Any] = []
 
     def walk(one: Any) -> None:
         for each in one.values() if isinstance(one, dict) else one:
@@ -263,7 +271,7 @@ def _listed(value: Any) -> list[Any]:
 def cylinders_of(name: str) -> bool:
     """Whether every row of a machine has gas."""
     one = machine(name)
-    return one.kind == "reciprocating" and not cylinders.without_gas(one)
+    return isinstance(one, ReciprocatingMachine) and not cylinders.without_gas(one)
 
 
 _TURNING = ("twin", "twin, pressure", "vee", "vee, order 2", "w")
