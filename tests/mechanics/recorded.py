@@ -8,7 +8,7 @@ from typing import Any
 
 from tests.mechanics.functions import FUNCTIONS, together
 from tests.mechanics.machines import OF_MACHINES
-from tests.mechanics.prints import print_of
+from tests.prints import print_of
 
 _FILE = Path(__file__).with_name("recorded.json")
 

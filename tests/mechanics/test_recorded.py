@@ -2,8 +2,8 @@
 
 import pytest
 
-from tests.mechanics.prints import alike, print_of
 from tests.mechanics.recorded import cases, records
+from tests.prints import alike, print_of
 
 
 @pytest.mark.parametrize("name", cases())
