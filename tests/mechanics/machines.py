@@ -165,7 +165,8 @@ def _first_order(name: str) -> list[Any]:
     found = balance_shafts.first_order_responses(plan, wrench)
     parts = scatter.row_parts(plan)
     signs = [scatter.worst_signs(pair, *weights) for pair in parts for weights in ((1.0, 1.0), (0.3, 1.0))]
-    return [wrench, found, parts, signs, scatter.changed(parts.force, signs[0], 0.1)]
+    mixed = frame.first_order("c", "N", frame.Shares(0.4, 1.7), *found)
+    return [wrench, found, mixed, parts, signs, scatter.changed(parts.force, signs[0], 0.1)]
 
 
 def _driven(name: str) -> ReciprocatingMachine:
