@@ -105,9 +105,22 @@ def names() -> tuple[str, ...]:
     return tuple(_requests())
 
 
+def request_of(name: str) -> Body:
+    """Request of a kind."""
+    return copy.deepcopy(_requests()[name])
+
+
+def answered(body: Body) -> Any:
+    """The answer to a request of any kind."""
+    return json.loads(_answer(body))
+
+
 @cache
 def _text(name: str) -> str:
-    body = _requests()[name]
+    return _answer(_requests()[name])
+
+
+def _answer(body: Body) -> str:
     if "parts" in body:
         return match(MatchRequest.model_validate(body)).model_dump_json()
     if "base" in body:
@@ -123,4 +136,4 @@ def _text(name: str) -> str:
 
 def pair(name: str) -> tuple[Body, Any]:
     """Request and answer of a kind."""
-    return copy.deepcopy(_requests()[name]), json.loads(_text(name))
+    return request_of(name), json.loads(_text(name))
