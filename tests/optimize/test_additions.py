@@ -72,7 +72,7 @@ NAMED_IN = {
     "studies/pareto/pareto.py": "a front is of these two: fields of its answer",
     "studies/pareto/chosen_front.py": "weighs and limits one of these two: fields of its answer",
     "solve/worst_case.py": "fields of the answer",
-    "studies/pareto/trades.py": "fields of the answer",
+    "studies/pareto/lines.py": "fields of the answer",
     "studies/pareto/chosen_trades.py": "fields of the answer",
     # another force or torque altogether
     "effects/dynamics.py": "friction",
