@@ -14,7 +14,7 @@ from optimizer.numerics.arrays import SMALLEST, Complex, Real
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, ceiling_allowance, normalised
 from optimizer.program.methods.implied_bounds import within_reach
-from optimizer.program.methods.optima import optima
+from optimizer.program.methods.optima import Optima, optima
 from optimizer.program.methods.rounding import has_dust
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE, Solution
@@ -202,35 +202,51 @@ def _size(trade: Trade, u: Complex) -> Real:
 
 
 def _meet(trade: Trade, anchor: Real, unit: Real, least_mass: bool, share: float, solver: Solver) -> Point:
-    """The point of the front on the line anchor + t unit.
+    """The point of the front on the line anchor + t unit."""
+    (point,) = _meets(trade, anchor[None], unit, least_mass, share, solver)
+    return point
+
+
+def _meets(
+    trade: Trade, anchors: Real, unit: Real, least_mass: bool, share: float, solver: Solver
+) -> tuple[Point, ...]:
+    """The points of the front on the lines from anchors (N, 2).
 
     Parameters
     ----------
     share : how much of t the answer may lie above the smallest.
     """
-    program = trade.along(anchor, unit)
-
-    def within(part: float) -> Solution:
-        result = optima(program.alone(), part * share, least_mass, solver).single()
-        if result.conflict is not None:
-            raise _Undecided
-        return result
-
     first, *more = _ALLOWANCES if least_mass else _ALLOWANCES[:1]
-    best = within(first)
-    for part in more:
-        if _mass_gap(best) <= MASS_GAP:
-            break
-        best = min(best, within(part), key=_mass_gap)
-    usable, _ = normalised(program, best.multipliers)
-    of_mass = best.mass_multipliers if least_mass else None
-    return Point(
-        best,
-        np.minimum(anchor + trade.parameter(_bound(program, best), anchor, unit) * unit, trade.cap),
-        trade.per_peak(usable, unit),
-        None if of_mass is None else trade.per_peak(of_mass.admissible(program), unit),
-        np.minimum(anchor + trade.parameter(best.mass_target, anchor, unit) * unit, trade.cap),
-    )
+    programs = trade.along(anchors, unit)
+    optimum = _reached(optima(programs, first * share, least_mass, solver))
+    points = []
+    for n, anchor in enumerate(anchors):
+        program, best = programs.chosen(n), optimum.single(n)
+        for part in more:
+            if _mass_gap(best) <= MASS_GAP:
+                break
+            best = min(
+                best, _reached(optima(program.alone(), part * share, least_mass, solver)).single(), key=_mass_gap
+            )
+        usable, _ = normalised(program, best.multipliers)
+        of_mass = best.mass_multipliers if least_mass else None
+        points.append(
+            Point(
+                best,
+                np.minimum(anchor + trade.parameter(_bound(program, best), anchor, unit) * unit, trade.cap),
+                trade.per_peak(usable, unit),
+                None if of_mass is None else trade.per_peak(of_mass.admissible(program), unit),
+                np.minimum(anchor + trade.parameter(best.mass_target, anchor, unit) * unit, trade.cap),
+            )
+        )
+    return tuple(points)
+
+
+def _reached(optimum: Optima) -> Optima:
+    """Optima under ceilings that have been kept."""
+    if optimum.unreachable.any():
+        raise _Undecided
+    return optimum
 
 
 def _bound(statement: Statement, solution: Solution) -> float:
@@ -294,7 +310,7 @@ def _points(
     # the answer may lie above the front by a share of its range, where that is less than the sizes
     share *= min(1.0, float(np.min(size / span)))
     spread = _spread(trade, start, step, count, share, solver)
-    between = [_meet(trade, start + each * step, span, least_mass, share, solver) for each in spread[1:-1]]
+    between = _meets(trade, start + spread[1:-1, None] * step, span, least_mass, share, solver)
     first, last = (_at_end(trade, end, span, size, share, least_mass, solver) for end in ends)
     return (first, *between, last)
 
@@ -322,10 +338,10 @@ def _spread(trade: Trade, start: Real, step: Real, count: int, share: float, sol
     sounded = 0.5 * (1.0 - np.cos(np.linspace(0.0, np.pi, _SOUNDINGS + 1)))
     # depth of the front below the chord, in units of the range
     depth = np.zeros(sounded.size)
-    for i in range(1, _SOUNDINGS):
-        anchor = start + sounded[i] * step
-        point = _meet(trade, anchor, np.abs(step), False, max(share, _SOUNDED), solver)
-        depth[i] = np.min((anchor - trade.peaks(point.solution.unbalance)) / np.abs(step))
+    anchors = start + sounded[1:-1, None] * step
+    lines = trade.along(anchors, np.abs(step))
+    u = _reached(optima(lines, max(share, _SOUNDED), False, solver)).unbalance
+    depth[1:-1] = np.min((anchors - trade.peaks(u)) / np.abs(step), axis=-1)
     curve = np.array([sounded - depth, 1.0 - sounded - depth])
     length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(curve, axis=1)))])
     return np.interp(np.linspace(0.0, length[-1], count), length, sounded)
