@@ -18,8 +18,8 @@ from optimizer.studies.matching.search import searched
 _BARE = 0.25
 
 
-class Best(NamedTuple):
-    """Where a search ended."""
+class BestAssignment(NamedTuple):
+    """The assignment that a search ended with."""
 
     mass: Real  # (T,) masses at places
     lower_bound: float  # over omega squared
@@ -27,7 +27,7 @@ class Best(NamedTuple):
     late: bool = False  # its time was over before the asked gap was reached
 
 
-def as_fitted(problem: Problem, near: float, seconds: float, has_nuts: bool) -> Best:
+def as_fitted(problem: Problem, near: float, seconds: float, has_nuts: bool) -> BestAssignment:
     """The best assignment with the counterweights as they are.
 
     Parameters
@@ -66,7 +66,7 @@ def as_fitted(problem: Problem, near: float, seconds: float, has_nuts: bool) -> 
                 ended = exhausted(problem, cut, value, near, spent)
                 mass, value = (mass, value) if ended.mass is None else (ended.mass, ended.value)
                 bound, all_counted = max(bound, ended.lower_bound), ended.complete
-    return Best(mass, bound - problem.rounding, all_counted, value - bound > near and spent())
+    return BestAssignment(mass, bound - problem.rounding, all_counted, value - bound > near and spent())
 
 
 def few(problem: Problem) -> bool:
