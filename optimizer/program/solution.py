@@ -27,7 +27,7 @@ CLOSED_FORM = "closed form, nothing to choose"
 
 
 @dataclass(frozen=True)
-class Solution:
+class ConeSolution:
     """Counterweights with their proof; every figure is evaluated from ``unbalance``, none is the solver's.
 
     With a conflict no counterweights keep the ceilings, and these are closest to them.
@@ -60,17 +60,17 @@ class Solution:
         """Up to rounding."""
         return self.excess <= CEILING_ROUNDING
 
-    def bounded(self, bound: float, multipliers: Multipliers) -> "Solution":
+    def bounded(self, bound: float, multipliers: Multipliers) -> "ConeSolution":
         """The same point with the better of two proofs of its objective."""
         return replace(self, lower_bound=bound, multipliers=multipliers) if bound > self.lower_bound else self
 
-    def weighed(self, bound: float, multipliers: Multipliers | None, target: float) -> "Solution":
+    def weighed(self, bound: float, multipliers: Multipliers | None, target: float) -> "ConeSolution":
         """The same point with the better of two proofs of its mass."""
         if not bound > self.mass_lower_bound:
             return self
         return replace(self, mass_lower_bound=bound, mass_multipliers=multipliers, mass_target=target)
 
-    def moved_to(self, statement: Statement, u: Complex) -> "Solution":
+    def moved_to(self, statement: Statement, u: Complex) -> "ConeSolution":
         """Another point with the bounds that are proven already."""
         return replace(
             self,
@@ -119,7 +119,7 @@ def joined(parts: Sequence[Any], order: np.ndarray) -> Any:
     return type(parts[0])(*(joined([getattr(part, name) for part in parts], order) for name in names))
 
 
-def evaluated(statement: Statement, u: Complex) -> Solution:
+def evaluated(statement: Statement, u: Complex) -> ConeSolution:
     """What an unbalance amounts to; nothing proven yet."""
-    nothing = Solution(u, np.inf, -np.inf, np.inf, 0.0, np.inf, nothing_proven(statement))
+    nothing = ConeSolution(u, np.inf, -np.inf, np.inf, 0.0, np.inf, nothing_proven(statement))
     return nothing.moved_to(statement, u)

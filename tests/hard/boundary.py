@@ -23,7 +23,7 @@ from optimizer.optimize import optimize
 from optimizer.outputs.registry import prepare
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import combined, statement, weighted_peak
-from optimizer.program.solution import CEILING_TOLERANCE, Solution
+from optimizer.program.solution import CEILING_TOLERANCE, ConeSolution
 from optimizer.program.verdict import yardstick
 from optimizer.responses.response import Response
 from schemas.request.requests import OptimizeRequest
@@ -134,7 +134,7 @@ def _peaks(place: str, request: OptimizeRequest, limited: Sequence[Response], wi
     # all of them by the same share of what they are without counterweights
     lowered = [weighted_peak(response, 1.0 / rest[response.name]) for response in limited]
     least = optimum(statement(combined(lowered, "max"), [], limits(request.machine)), 1e-13, False)
-    assert isinstance(least, Solution)
+    assert isinstance(least, ConeSolution)
     return {name: peak * least.objective for name, peak in rest.items()}
 
 

@@ -22,7 +22,7 @@ from optimizer.mechanics.slider_crank import acceleration_harmonic
 from optimizer.outputs.registry import prepare
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import combined, statement, weighted_peak
-from optimizer.program.solution import Solution
+from optimizer.program.solution import ConeSolution
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import claim, verdict
 from optimizer.responses.response import Phasors, Response
@@ -72,7 +72,7 @@ NAMED_IN = {
     "studies/pareto/pareto.py": "a front is of these two: fields of its answer",
     "studies/pareto/chosen_front.py": "weighs and limits one of these two: fields of its answer",
     "solve/worst_case.py": "fields of the answer",
-    "studies/pareto/trades.py": "fields of the answer",
+    "studies/pareto/lines.py": "fields of the answer",
     "studies/pareto/chosen_trades.py": "fields of the answer",
     # another force or torque altogether
     "effects/dynamics.py": "friction",
@@ -100,11 +100,11 @@ def _register(monkeypatch: pytest.MonkeyPatch, ceiling: float | None = None) -> 
     return REQUEST.model_copy(update={"objective": _Objective(couple_ceiling_Nm=ceiling)})
 
 
-def _solved(request: OptimizeRequest) -> tuple[Prepared, Statement, Solution]:
+def _solved(request: OptimizeRequest) -> tuple[Prepared, Statement, ConeSolution]:
     scene = prepare(request, ("residual",))
     program = cone_program(request.machine, request.objective, scene.responses, scene.omega_squared)
     found = optimum(program, 1e-6, True)
-    assert isinstance(found, Solution)
+    assert isinstance(found, ConeSolution)
     return scene, program, found
 
 
@@ -140,7 +140,7 @@ def test_a_response_is_weighed_limited_and_certified(monkeypatch: pytest.MonkeyP
     if limited:
         peak = combined([weighted_peak(scene.responses[2], 1.0)], "max")
         least = optimum(statement(peak, [], limits(request.machine)), 1e-6, False)
-        assert isinstance(least, Solution)
+        assert isinstance(least, ConeSolution)
         # half-way from what it is to what it can be
         limit = 0.5 * (float(scene.responses[2].to(free.unbalance).peak) + least.objective) * scene.omega_squared
         request = _register(monkeypatch, limit)
@@ -185,7 +185,7 @@ def test_order_and_sense_say_how_a_response_turns(monkeypatch: pytest.MonkeyPatc
     response = _backwards(scene.layout)
     program = cone_program(request.machine, request.objective, (response,), scene.omega_squared)
     found = optimum(program, 1e-6, True)
-    assert isinstance(found, Solution)
+    assert isinstance(found, ConeSolution)
     assert found.gap <= 1e-6 * float(program.at_rest)
     turned = np.linspace(0.0, 2.0 * np.pi, 3_601)
     rows = scene.layout.reciprocating

@@ -15,7 +15,7 @@ from optimizer.numerics.kernel import circle, knapsack, meeting
 from optimizer.program.kernel import bounds, cancelling, discs, interior_point, outlines, settling, symmetries, values
 from optimizer.responses.kernel import motion
 from optimizer.responses.kernel import outlines as of_curves
-from optimizer.studies.matching.kernel import joined, quarters
+from optimizer.studies.matching.kernel import halves
 from optimizer.warm_up import follow_a_turn, match_parts, plain_discs, warm_up
 
 #: what most answers need, and what few do: it takes longer than all else
@@ -66,8 +66,7 @@ def test_what_is_compiled_is_what_answers_need() -> None:
         circle: ("smallest",),
         of_curves: ("farthest", "nearer", "outlines"),
         motion: ("in_motion",),
-        quarters: ("tabled",),
-        joined: ("joined",),
+        halves: ("best_below",),
         meeting: ("met",),
         near_sums: ("gridded", "near"),
     }

@@ -13,7 +13,7 @@ from optimizer.program.limits import Limits
 from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import combined, statement, weighted_peak
-from optimizer.program.solution import Solution
+from optimizer.program.solution import ConeSolution
 from optimizer.program.statement import Statement
 from optimizer.responses.response import Phasors, Response
 
@@ -24,7 +24,7 @@ COMBINATIONS = tuple(
 )  # combine, direction weights, sectors, budget, ceilings
 
 
-def optimum(problem: Statement, relative_gap: float, least_mass: bool) -> Solution:
+def optimum(problem: Statement, relative_gap: float, least_mass: bool) -> ConeSolution:
     """Of one program, the only one of a batch."""
     return optima(problem.alone(), relative_gap, least_mass, SOLVER).single()
 

@@ -8,7 +8,7 @@ from optimizer.program.limits import Limits
 from optimizer.program.reference.assembled import Assembled, GroupLimit, NoPoint, solved
 from optimizer.program.rows import Row, statement, weighted_peak
 from optimizer.program.scaling import natural_reach, scale
-from optimizer.program.solution import Solution
+from optimizer.program.solution import ConeSolution
 from optimizer.program.statement import Statement
 from optimizer.responses.response import Phasors, Response
 from tests.program.cases import COMBINATIONS, optimum, random_limits, random_point, random_statement
@@ -44,7 +44,7 @@ def _solved(problem: Statement, stage: str, target: float = 0.0, mass_unit: floa
 def test_groups_reach_the_optimum_of_the_modelling_layer_and_prove_it(seed: int) -> None:
     problem = _groups(seed)
     expected = optimum(problem, 1e-8, False)
-    assert isinstance(expected, Solution)
+    assert isinstance(expected, ConeSolution)
     found, scaling = _solved(problem, "objective")
     rest = float(problem.at_rest)
     u = problem.limits.into(scaling.unbalance(problem, found.solution))  # type: ignore[attr-defined]
@@ -58,7 +58,7 @@ def test_groups_reach_the_optimum_of_the_modelling_layer_and_prove_it(seed: int)
 def test_the_least_mass_of_groups_is_proven_by_its_multipliers(seed: int) -> None:
     problem = _groups(seed)
     best = optimum(problem, 1e-8, False)
-    assert isinstance(best, Solution)
+    assert isinstance(best, ConeSolution)
     target = 0.5 * (best.objective + float(problem.at_rest))
     found, scaling = _solved(problem, "mass", target, best.mass)
     u = problem.limits.into(scaling.unbalance(problem, found.solution))  # type: ignore[attr-defined]
@@ -74,7 +74,7 @@ def test_the_least_mass_of_groups_is_proven_by_its_multipliers(seed: int) -> Non
 def test_ceilings_and_limits_of_every_kind(case: int) -> None:
     problem = random_statement(case, *COMBINATIONS[case])
     expected = optimum(problem, 1e-8, False)
-    assert isinstance(expected, Solution)
+    assert isinstance(expected, ConeSolution)
     found, scaling = _solved(problem, "objective")
     multipliers = scaling.multipliers(problem, found.solution)  # type: ignore[attr-defined]
     bound = float(objective_lower_bound(problem, multipliers))

@@ -16,7 +16,7 @@ from optimizer.program.kernel.finer_numbers import EXTENDED, FIFTY_DIGITS, fines
 from optimizer.program.methods.compiled import BothStages, both_stages
 from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import Solver
-from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM, INTERIOR_POINT, Solution
+from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM, INTERIOR_POINT, ConeSolution
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import yardstick
 from schemas.request.requests import OptimizeRequest
@@ -182,7 +182,7 @@ def test_what_is_not_certified_goes_to_the_whole_procedure() -> None:
     assert found.excess[2] > 0
     for n in (0, 1, 3):
         alone = optimum(problems[n], 1e-6, True)
-        assert isinstance(alone, Solution)
+        assert isinstance(alone, ConeSolution)
         assert found.method[n] == alone.method
         assert np.array_equal(found.unbalance[n], alone.unbalance)
         # numpy adds the rows of a table in another order than those of one program
@@ -226,7 +226,7 @@ def test_every_method_answers_some_program() -> None:
         problem, _ = formulated(_HARD[name])
         asked = _HARD[name].body.get("accuracy", {}).get("relative_gap", 1e-6)
         found = optimum(problem, asked, True)
-        assert isinstance(found, Solution)
+        assert isinstance(found, ConeSolution)
         assert found.gap <= asked * float(yardstick(problem))
         methods[found.method] = name
     # without the least mass the demand is sharper: some of these are sharpened by the modelling layer's solver

@@ -11,7 +11,7 @@ from optimizer.program.methods.compiled import suits_kernel
 from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import Row, statement, weighted_peak
-from optimizer.program.solution import CONE_PROGRAM, Solution
+from optimizer.program.solution import CONE_PROGRAM, ConeSolution
 from optimizer.program.statement import Statement
 from optimizer.responses.response import Phasors, Response
 from tests.program.cases import optimum, random_limits, random_point, stacked
@@ -63,7 +63,7 @@ def test_two_groups_reach_their_analytic_optimum() -> None:
     limits = type(one)(**{**vars(one), "radius": np.array([0.5]), "max_mass": np.array([4.0])})
     program = statement([[Row("a", (peaks[0],))], [Row(p.name, (p,)) for p in peaks[1:]]], [], limits)
     found = optimum(program, 1e-6, True)
-    assert isinstance(found, Solution)
+    assert isinstance(found, ConeSolution)
     assert 5.0 <= found.objective <= 5.0 + 7e-6
     assert found.lower_bound == pytest.approx(5.0, rel=1e-6)
     assert found.unbalance[0] == pytest.approx(2.0, rel=1e-5)
@@ -80,7 +80,7 @@ def test_a_response_out_of_line_is_cancelled_at_a_right_angle() -> None:
     limits = type(limits)(**{**vars(limits), "radius": np.array([0.5]), "max_mass": np.array([2.0])})
     program = statement([[Row("a", (weighted_peak(_one_web("a", 2, influence=1j), 1.0),))]], [], limits)
     found = optimum(program, 1e-6, True)
-    assert isinstance(found, Solution)
+    assert isinstance(found, ConeSolution)
     assert found.method == CONE_PROGRAM
     assert found.unbalance[0] == pytest.approx(1j, abs=1e-5)
     assert found.objective == pytest.approx(1.0, rel=1e-5)
@@ -92,7 +92,7 @@ def test_a_response_out_of_line_is_cancelled_at_a_right_angle() -> None:
 def test_groups_and_complex_influences_are_certified(seed: int, ceiling: bool) -> None:
     problem = _groups(seed, ceiling)
     found = optimum(problem, 1e-6, True)
-    assert isinstance(found, Solution)
+    assert isinstance(found, ConeSolution)
     rest = float(problem.objective(np.zeros(4, complex)))
     assert 0 <= found.gap <= 1e-6 * rest
     assert found.keeps_ceilings
@@ -120,7 +120,7 @@ def test_many_programs_of_several_groups_are_each_solved_as_if_alone() -> None:
     assert set(found.method) == {CONE_PROGRAM}
     for n, problem in enumerate(problems):
         alone = optimum(problem, 1e-6, True)
-        assert isinstance(alone, Solution)
+        assert isinstance(alone, ConeSolution)
         np.testing.assert_array_equal(found.unbalance[n], alone.unbalance)
         assert found.lower_bound[n] == alone.lower_bound
 

@@ -10,16 +10,16 @@ from hypothesis import strategies as st
 from optimizer.program.certificate import Multipliers, mass_lower_bound
 from optimizer.program.methods.cascade import _better_of
 from optimizer.program.methods.optima import optima
-from optimizer.program.solution import Solution
+from optimizer.program.solution import ConeSolution
 from tests.hard.bodies import drawn, tried
 from tests.program.cases import COMBINATIONS, SOLVER, random_statement
 
 _SHARE = 1.0
 
 
-def _solution(objective: float, mass: float, bound: float, target: float) -> Solution:
+def _solution(objective: float, mass: float, bound: float, target: float) -> ConeSolution:
     nothing = Multipliers(np.zeros(0, complex), np.zeros(0), np.zeros(0, complex))
-    return Solution(np.zeros(0), objective, 0.0, mass, bound, -np.inf, nothing, mass_target=target)
+    return ConeSolution(np.zeros(0), objective, 0.0, mass, bound, -np.inf, nothing, mass_target=target)
 
 
 def test_a_lighter_point_beyond_the_target_of_a_proof_does_not_take_it_over() -> None:
@@ -52,7 +52,7 @@ _SOLUTIONS = st.builds(
 
 
 @given(_SOLUTIONS, _SOLUTIONS)
-def test_of_two_optima_the_proof_counts_what_it_goes_with(first: Solution, second: Solution) -> None:
+def test_of_two_optima_the_proof_counts_what_it_goes_with(first: ConeSolution, second: ConeSolution) -> None:
     found = _better_of(first, second, _SHARE)
     assert found.objective <= found.mass_target
     assert found.mass - found.mass_lower_bound <= min(one.mass - one.mass_lower_bound for one in (first, second))

@@ -13,7 +13,7 @@ from optimizer.program.limits import Limits
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import combined, statement, weighted_peak
-from optimizer.program.solution import Solution
+from optimizer.program.solution import ConeSolution
 from optimizer.program.statement import Statement
 from optimizer.responses.response import Phasors, Response
 from tests.program.cases import COMBINATIONS, optimum, random_statement
@@ -21,9 +21,9 @@ from tests.program.cases import COMBINATIONS, optimum, random_statement
 SOLVER = Solver()
 
 
-def solve(problem: Statement, gap: float = 1e-6, least_mass: bool = True) -> Solution:
+def solve(problem: Statement, gap: float = 1e-6, least_mass: bool = True) -> ConeSolution:
     solution = optimum(problem, gap, least_mass)
-    assert isinstance(solution, Solution)
+    assert isinstance(solution, ConeSolution)
     return solution
 
 

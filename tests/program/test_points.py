@@ -10,7 +10,7 @@ from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import nothing_proven
 from optimizer.program.methods.compiled import _better, _nearer, plain_discs, pulled, suits_kernel
 from optimizer.program.points import Points, excess_at, points_at
-from optimizer.program.solution import CEILING_ROUNDING, Solution, evaluated, joined
+from optimizer.program.solution import CEILING_ROUNDING, ConeSolution, evaluated, joined
 from tests.program.cases import random_point
 from tests.program.test_leading_axes import WEBS, _multipliers, _program
 
@@ -121,7 +121,7 @@ def test_the_better_of_two_proofs_goes_with_a_point() -> None:
 )  # fmt: skip
 def test_ceilings_are_kept_to_their_tolerance_and_to_rounding(excess: float, keeps: bool, below: bool) -> None:
     nothing = nothing_proven(_program(1, "plain"))
-    found = Solution(np.zeros(WEBS, complex), 1.0, 0.0, 1.0, 0.0, excess, nothing)
+    found = ConeSolution(np.zeros(WEBS, complex), 1.0, 0.0, 1.0, 0.0, excess, nothing)
     assert (found.keeps_ceilings, found.below_ceilings) == (keeps, below)
 
 

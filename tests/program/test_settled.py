@@ -13,7 +13,7 @@ from optimizer.program.limits import Limits
 from optimizer.program.methods.rounding import settled
 from optimizer.program.points import points_at
 from optimizer.program.rows import combined, statement, weighted_peak
-from optimizer.program.solution import Solution
+from optimizer.program.solution import ConeSolution
 from optimizer.program.statement import Statement
 from optimizer.responses.response import Phasors, Response
 from tests.program.cases import COMBINATIONS, optimum, random_statement, stacked
@@ -95,7 +95,7 @@ def test_answers_stay_optima(seed: int, kind: tuple[Any, ...]) -> None:
     """Limits, objective and mass as they are proven, whatever was settled."""
     program = random_statement(seed, *kind)
     found = optimum(program, 1e-6, True)
-    assert isinstance(found, Solution)
+    assert isinstance(found, ConeSolution)
     assert np.all(np.abs(found.unbalance) <= program.limits.reach * (1 + 1e-15))
     assert found.gap <= 1e-6 * float(program.at_rest) * (1 + 1e-6)
     assert found.mass - found.mass_lower_bound <= 1e-4 * found.mass

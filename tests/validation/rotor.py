@@ -15,7 +15,7 @@ from optimizer.program.limits import Limits
 from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import Row, statement, weighted_peak
-from optimizer.program.solution import Solution
+from optimizer.program.solution import ConeSolution
 from optimizer.responses.response import Phasors, Response
 from tests.validation.comparison import Comparison, Misprint
 
@@ -52,7 +52,7 @@ def _vectors(pairs: tuple[tuple[float, float], ...]) -> Complex:
 _NAME = "rotor of Foiles, Allaire and Gunter"
 
 
-def _found() -> Solution:
+def _found() -> ConeSolution:
     rows = [
         Row(str(k), (weighted_peak(Response(str(k), "N", Phasors(np.asarray(reading), np.asarray(0j)), each), 1.0),))
         for k, (reading, each) in enumerate(zip(_vectors(_READINGS), _influence(), strict=True))
@@ -60,7 +60,7 @@ def _found() -> Solution:
     free, ones = np.ones(4, bool), np.ones(4)
     limits = Limits(ones, _MOST * ones, free, ones + 0j, 0.0 * ones, ones, np.asarray(np.inf))
     found = optima(statement([rows], [], limits).alone(), 1e-7, False, Solver()).single()
-    assert isinstance(found, Solution)
+    assert isinstance(found, ConeSolution)
     return found
 
 

@@ -61,7 +61,7 @@ def lightest(
     while least < most and not clock.spent():
         cap = min(max(_STEP * cap, _next_mass(options, least)), most)
         split = halves(options, which, within, _SUMS, clock, cap * (1.0 + _ROUNDING))
-        best = _Best(statement, options, level)
+        best = _LightestSet(statement, options, level)
         if split is None or not _compared(split, within, cap, best.offer, clock):
             return Lightest(best.chosen, least)
         if best.chosen is not None:
@@ -91,7 +91,7 @@ def lighter(
     within = Incumbent(statement, options, 0.0)
     within.least = level
     cap = below_kg * (1.0 - (0.0 if fewer_than else _LIGHTER))
-    best = _Best(statement, options, level, cap, fewer_than or options.slots + 1)
+    best = _LightestSet(statement, options, level, cap, fewer_than or options.slots + 1)
     if cap <= 0:
         return Lightest(None, np.inf)
     counted = options.limits_fitted or options.limits_parts
@@ -107,7 +107,7 @@ def _next_mass(options: Options, least: float) -> float:
     return least + float(np.min(masses, initial=np.inf)) if masses.size else np.inf
 
 
-class _Best:
+class _LightestSet:
     """The lightest set so far; of equal ones that on the fewest slots, and of these the one with the smallest value."""
 
     def __init__(

@@ -29,7 +29,7 @@ from optimizer.program.methods.rounding import settled
 from optimizer.program.methods.single import StagePair, Target, enough, interior_point
 from optimizer.program.points import points_at
 from optimizer.program.reference.solver import Solver
-from optimizer.program.solution import CEILING_ROUNDING, CLOSED_FORM, CONE_PROGRAM, Solution, evaluated
+from optimizer.program.solution import CEILING_ROUNDING, CLOSED_FORM, CONE_PROGRAM, ConeSolution, evaluated
 from optimizer.program.statement import Statement
 
 #: the smallest objective is sought this much more sharply than optima are told apart
@@ -38,7 +38,7 @@ _SHARPNESS = 1e-4
 _MASS_GAP = 1e-6
 
 
-def cascade(statement: Statement, target: Target, solver: Solver, quick: StagePair) -> Solution:
+def cascade(statement: Statement, target: Target, solver: Solver, quick: StagePair) -> ConeSolution:
     """Certified optimum of one program whose webs can all carry something.
 
     Parameters
@@ -47,7 +47,7 @@ def cascade(statement: Statement, target: Target, solver: Solver, quick: StagePa
 
     Returns
     -------
-    Solution, whose gap tells how far it is certified and whose excess whether the ceilings are kept
+    ConeSolution, whose gap tells how far it is certified and whose excess whether the ceilings are kept
     (if neither could be decided, on the very boundary, they are not); or the proof that they cannot be.
     """
     find = _under_ceilings if statement.ceilings.names else _by_all
@@ -60,7 +60,7 @@ def cascade(statement: Statement, target: Target, solver: Solver, quick: StagePa
     return _settled(statement, target, found)
 
 
-def _settled(statement: Statement, target: Target, solution: Solution) -> Solution:
+def _settled(statement: Statement, target: Target, solution: ConeSolution) -> ConeSolution:
     """The same without dust, and at the limits that it touches."""
     limit = solution.objective
     if solution.below_ceilings:
@@ -75,7 +75,7 @@ def _settled(statement: Statement, target: Target, solution: Solution) -> Soluti
     return solution.moved_to(statement, points.unbalance[0])
 
 
-def _under_ceilings(statement: Statement, target: Target, solver: Solver, quick: StagePair) -> Solution:
+def _under_ceilings(statement: Statement, target: Target, solver: Solver, quick: StagePair) -> ConeSolution:
     """With ceilings: first whether they can be kept, and with how much room (docs/mathematics.md section 9)."""
     nearest = smallest_excess(statement, solver)
     if nearest.lower_bound > CEILING_ROUNDING:
@@ -103,7 +103,7 @@ def _by_all(
     quick: StagePair,
     inside: Complex | None = None,
     finer: bool = True,
-) -> Solution:
+) -> ConeSolution:
     """One method after the other, each with what is known already.
 
     Parameters
@@ -127,7 +127,7 @@ def _by_all(
     return fine.lightest if fine.certified else _better_of(found, fine.lightest, target.share)
 
 
-def _single_term(statement: Statement, solution: Solution) -> Solution:
+def _single_term(statement: Statement, solution: ConeSolution) -> ConeSolution:
     """The better of a point and of what each web comes to alone, exact of the only term, and what that term proves.
 
     Where one web does 1e10 times as much with a kilogram as another, no units suit both in a solver. What is left of
@@ -145,7 +145,7 @@ def _single_term(statement: Statement, solution: Solution) -> Solution:
     return solution.bounded(float(objective_lower_bound(statement, along)), along)
 
 
-def _better_of(first: Solution, second: Solution, share: float) -> Solution:
+def _better_of(first: ConeSolution, second: ConeSolution, share: float) -> ConeSolution:
     """The better point with the better bound on the objective; of two optima the one that is closer to the least mass.
 
     A bound on the mass holds for what comes to no more than its own first stage counts as an optimum. That of the other

@@ -14,7 +14,7 @@ from optimizer.program.certificate import (
 from optimizer.program.kernel.finer_numbers import EXTENDED
 from optimizer.program.methods.single import Target, interior_point
 from optimizer.program.reference.solver import Solver
-from optimizer.program.solution import CEILING_ROUNDING, Solution
+from optimizer.program.solution import CEILING_ROUNDING, ConeSolution
 from optimizer.program.statement import Statement
 
 #: room below the ceilings, as a share of their size, from which on they are kept as they are
@@ -25,7 +25,7 @@ _RAISED = CEILING_TOLERANCE - CEILING_ROUNDING
 _PRINTED = 1e-13
 
 
-def smallest_excess(statement: Statement, solver: Solver) -> Solution:
+def smallest_excess(statement: Statement, solver: Solver) -> ConeSolution:
     """The smallest largest excess over the ceilings, as far as its sign and the room below them are told."""
     program = statement.excess()
     asked = Target(CEILING_TOLERANCE, CEILING_TOLERANCE, False)
@@ -38,11 +38,11 @@ def smallest_excess(statement: Statement, solver: Solver) -> Solution:
     return found if _tells(found) else solver.smallest_objective(program, _PRINTED, found, _tells)
 
 
-def _tells(excess: Solution) -> bool:
+def _tells(excess: ConeSolution) -> bool:
     return excess.lower_bound > CEILING_ROUNDING or excess.objective <= -AMPLE or excess.gap <= _PRINTED
 
 
-def at_rest(statement: Statement, target: Target, solution: Solution) -> Solution | None:
+def at_rest(statement: Statement, target: Target, solution: ConeSolution) -> ConeSolution | None:
     """No counterweights, where they are an optimum but for the tolerance of the ceilings: nothing is lighter."""
     rest = solution.moved_to(statement, np.zeros_like(solution.unbalance))
     if not rest.keeps_ceilings or rest.below_ceilings:
@@ -58,7 +58,7 @@ def raised(statement: Statement) -> Statement:
     return replace(statement, ceilings=statement.ceilings.raised(_RAISED))
 
 
-def proven_again(statement: Statement, solution: Solution) -> Solution:
+def proven_again(statement: Statement, solution: ConeSolution) -> ConeSolution:
     """The same point with its bounds, both for the ceilings that were asked for."""
     solution = solution.moved_to(statement, solution.unbalance)
     solution = replace(solution, lower_bound=float(objective_lower_bound(statement, solution.multipliers)))

@@ -24,7 +24,7 @@ from optimizer.program.solution import (
     CONE_PROGRAM,
     INTERIOR_POINT,
     OPTIMUM_SHARE,
-    Solution,
+    ConeSolution,
     Solutions,
     joined,
 )
@@ -54,9 +54,9 @@ class Optima(Solutions):
         bound = mass_bound_up_to(self.mass_lower_bound, price, more)
         return replace(self, mass_lower_bound=bound, mass_target=np.maximum(self.mass_target, objective))
 
-    def single(self, n: int = 0) -> Solution:
+    def single(self, n: int = 0) -> ConeSolution:
         """One of them."""
-        return Solution(
+        return ConeSolution(
             self.unbalance[n],
             float(self.objective[n]),
             float(self.lower_bound[n]),
@@ -153,9 +153,9 @@ def _nothing(statement: Statement) -> Optima:
     )
 
 
-def _put(answer: Optima, n: int, solution: Solution) -> None:
+def _put(answer: Optima, n: int, solution: ConeSolution) -> None:
     answer.unreachable[n] = solution.conflict is not None
-    for field in fields(Solution):
+    for field in fields(ConeSolution):
         value = getattr(solution, field.name)
         if isinstance(value, Multipliers):
             getattr(answer, field.name).put(n, value)

@@ -11,7 +11,7 @@ from optimizer.program.kernel.finer_numbers import FIFTY_DIGITS, Precision
 from optimizer.program.methods.compiled import ENOUGH, ENOUGH_FOR_MASS, pulled
 from optimizer.program.methods.single import StagePair, Target, interior_point, light
 from optimizer.program.multipliers import mass_multipliers, objective_multipliers, supporting_multipliers
-from optimizer.program.solution import Solution
+from optimizer.program.solution import ConeSolution
 from optimizer.program.statement import Statement
 
 #: how often the least mass is sought again in units of the least so far, and what a web may carry of it then
@@ -76,7 +76,7 @@ def lightened(statement: Statement, target: Target, stages: StagePair, precision
     return stages
 
 
-def _pulled(statement: Statement, solution: Solution, inside: Complex | None) -> Solution:
+def _pulled(statement: Statement, solution: ConeSolution, inside: Complex | None) -> ConeSolution:
     """A point above a ceiling, moved towards one below it just so far; excesses are convex."""
     if inside is None or solution.below_ceilings:
         return solution

@@ -10,7 +10,7 @@ from optimizer.program.kernel.finer_numbers import Precision
 from optimizer.program.methods.compiled import MASS_ENOUGH, BothStages, both_stages, suits_kernel
 from optimizer.program.multipliers import resting_multipliers
 from optimizer.program.reference.solver import proven
-from optimizer.program.solution import INTERIOR_POINT, Solution, evaluated
+from optimizer.program.solution import INTERIOR_POINT, ConeSolution, evaluated
 from optimizer.program.statement import Statement
 
 
@@ -25,8 +25,8 @@ class Target(NamedTuple):
 class StagePair(NamedTuple):
     """The ends of both stages."""
 
-    smallest: Solution
-    lightest: Solution
+    smallest: ConeSolution
+    lightest: ConeSolution
     certified: bool
 
 
@@ -52,7 +52,7 @@ def interior_point(
 
 def only(statement: Statement, target: Target, stages: BothStages, method: str = INTERIOR_POINT) -> StagePair:
     """The only answer of a leading axis (1,)."""
-    nothing = Solution(
+    nothing = ConeSolution(
         stages.smallest[0],
         np.inf,
         float(stages.lower_bound[0]),
@@ -76,12 +76,12 @@ def only(statement: Statement, target: Target, stages: BothStages, method: str =
     return StagePair(smallest, lightest.moved_to(statement, stages.unbalance[0]), bool(stages.certified[0]))
 
 
-def enough(solution: Solution, target: Target) -> bool:
+def enough(solution: ConeSolution, target: Target) -> bool:
     """Whether finer numbers are not worth their time."""
     optimal = solution.below_ceilings and solution.gap <= target.share
     return optimal and (not target.least_mass or light(solution))
 
 
-def light(solution: Solution) -> bool:
+def light(solution: ConeSolution) -> bool:
     """Whether the mass is proven as well as is worth any time."""
     return solution.mass - solution.mass_lower_bound <= MASS_ENOUGH * solution.mass

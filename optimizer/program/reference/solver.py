@@ -18,7 +18,7 @@ from optimizer.program.multipliers import (
 from optimizer.program.reference.modelling import CompiledPrograms
 from optimizer.program.scaled_program import ScaledData, ScaledSolution
 from optimizer.program.scaling import Scaling, cancelling, natural_reach, scale
-from optimizer.program.solution import CONE_PROGRAM, NEGLIGIBLE, Solution, evaluated
+from optimizer.program.solution import CONE_PROGRAM, NEGLIGIBLE, ConeSolution, evaluated
 from optimizer.program.statement import Statement
 
 
@@ -60,9 +60,9 @@ class Solver:
         self,
         statement: Statement,
         enough: float,
-        start: Solution | None = None,
-        stop: Callable[[Solution], bool] = lambda best: False,
-    ) -> Solution:
+        start: ConeSolution | None = None,
+        stop: Callable[[ConeSolution], bool] = lambda best: False,
+    ) -> ConeSolution:
         """The smallest objective, with its bound.
 
         Tries harder until the certified gap is at most ``enough``. If no point that keeps the
@@ -98,8 +98,8 @@ class Solver:
         return best
 
     def least_mass(
-        self, statement: Statement, first: Solution, share: float, enough: float, start: Solution | None = None
-    ) -> Solution:
+        self, statement: Statement, first: ConeSolution, share: float, enough: float, start: ConeSolution | None = None
+    ) -> ConeSolution:
         """The least total mass among the optima, with its bound.
 
         Parameters
@@ -120,7 +120,7 @@ class Solver:
         best, natural = first, float(natural_reach(statement))
         needed, largest = float(np.max(np.abs(first.unbalance))), float(np.max(statement.limits.reach))
 
-        def admit(old: Solution, new: Solution) -> bool:
+        def admit(old: ConeSolution, new: ConeSolution) -> bool:
             return new.below_ceilings and new.objective <= target and new.mass < old.mass
 
         if start is not None:
@@ -152,13 +152,13 @@ class Solver:
     def _attempt(
         self,
         statement: Statement,
-        best: Solution,
+        best: ConeSolution,
         data: ScaledData,
         scaling: Scaling,
         tolerance: float,
-        better: Callable[[Solution, Solution], bool],
-        blend: tuple[Solution, float] | None = None,
-    ) -> tuple[Solution, tuple[Complex, Multipliers] | None]:
+        better: Callable[[ConeSolution, ConeSolution], bool],
+        blend: tuple[ConeSolution, float] | None = None,
+    ) -> tuple[ConeSolution, tuple[Complex, Multipliers] | None]:
         """One solve: the better of the best so far and the new point, and what a bound can be made of."""
         with self._programs.lend(data.shape) as program:
             found: ScaledSolution | None = program.solve(data, tolerance)
@@ -173,7 +173,7 @@ class Solver:
         return best, (u, scaling.multipliers(statement, found))
 
 
-def _better_objective(old: Solution, new: Solution) -> bool:
+def _better_objective(old: ConeSolution, new: ConeSolution) -> bool:
     if old.below_ceilings and new.below_ceilings:
         return new.objective < old.objective
     return new.below_ceilings or (not old.below_ceilings and new.excess < old.excess)
@@ -185,7 +185,7 @@ def _tidied(u: Complex) -> tuple[Complex, ...]:
     return (u, np.where(small, 0.0, u)) if np.any(small & (u != 0)) else (u,)
 
 
-def _blended(statement: Statement, u: Complex, safe: Solution, target: float) -> Complex:
+def _blended(statement: Statement, u: Complex, safe: ConeSolution, target: float) -> Complex:
     """The point moved towards a safe one just so far that the objective, which is convex, meets the target."""
     value = float(statement.objective(u))
     if value <= target or value <= safe.objective:
@@ -195,7 +195,7 @@ def _blended(statement: Statement, u: Complex, safe: Solution, target: float) ->
     return statement.limits.into(u + step * (safe.unbalance - u))
 
 
-def proven(statement: Statement, solution: Solution, candidates: Iterable[Multipliers]) -> Solution:
+def proven(statement: Statement, solution: ConeSolution, candidates: Iterable[Multipliers]) -> ConeSolution:
     """The same point with the best bound of several multipliers."""
     for multipliers in candidates:
         solution = solution.bounded(float(objective_lower_bound(statement, multipliers)), multipliers)

@@ -14,7 +14,7 @@ from typing import TypeVar
 import numpy as np
 
 from optimizer.program.ceilings import CEILING_TOLERANCE
-from optimizer.studies.accuracy.methods import Attempt, Method, Run, Task
+from optimizer.studies.accuracy.methods import Method, MethodResult, Run, Task
 
 Answer = TypeVar("Answer")
 
@@ -86,7 +86,7 @@ def time_rounds(task: Task, trials: Sequence[Trial], repeats: int, clock: Clock)
             start = time.perf_counter()
             outcome = trial.run(task, trial.worst.position, SOLVE_S)
             elapsed = time.perf_counter() - start
-            if isinstance(outcome, Attempt):
+            if isinstance(outcome, MethodResult):
                 trial.times_s.append(elapsed)
 
 
@@ -111,7 +111,7 @@ def _tried(task: Task, method: Method, clock: Clock) -> Trial:
     return trial
 
 
-def _judge(task: Task, position: float, weights: Attempt) -> Judged:
+def _judge(task: Task, position: float, weights: MethodResult) -> Judged:
     statement = task.statement
     return Judged(
         position,

@@ -19,7 +19,7 @@ from optimizer.program.certificate import ceiling_allowance
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import Solver
-from optimizer.program.solution import Solution
+from optimizer.program.solution import ConeSolution
 from optimizer.program.statement import Statement
 from optimizer.studies.accuracy.choices import at_rest, choices_ladder
 from optimizer.studies.accuracy.effects import effects_ladder
@@ -125,7 +125,7 @@ def _run(task: Task, repeats: int) -> list[Trial]:
     return trials
 
 
-def _proven(statement: Statement, best: Solution, bounds: list[float], objective: float, excess: float) -> float:
+def _proven(statement: Statement, best: ConeSolution, bounds: list[float], objective: float, excess: float) -> float:
     """The sharpest bound; NaN where a value that was found is below it.
 
     A value is known to its rounding, and counterweights that exceed ceilings within the tolerance may gain what these
@@ -141,7 +141,7 @@ def _proven(statement: Statement, best: Solution, bounds: list[float], objective
 
 
 def _judged(
-    task: Task, trials: list[Trial], best: Solution, rest: float, square: float
+    task: Task, trials: list[Trial], best: ConeSolution, rest: float, square: float
 ) -> tuple[Reference | None, tuple[AccuracyRow, ...]]:
     kept = [one for trial in trials for one in trial.judged if one.excess <= CEILING_TOLERANCE]
     objective = min([best.objective, *(one.objective for one in kept)])

@@ -40,7 +40,7 @@ class Task:
 
 
 @dataclass(frozen=True)
-class Attempt:
+class MethodResult:
     """Counterweights that a method found, unjudged."""
 
     unbalance: Complex  # (K,) kg m
@@ -49,7 +49,7 @@ class Attempt:
 
 
 #: one run for a position of the grid and a limit of time in seconds; or why there is no answer
-Run = Callable[[Task, float, float], Attempt | str]
+Run = Callable[[Task, float, float], MethodResult | str]
 
 
 @dataclass(frozen=True)
@@ -109,18 +109,18 @@ def methods() -> Iterator[Method]:
 def _service(relative_gap: float) -> Run:
     solver = Solver()
 
-    def run(task: Task, position: float, time_limit_s: float) -> Attempt | str:
+    def run(task: Task, position: float, time_limit_s: float) -> MethodResult | str:
         outcome = optima(task.statement.alone(), relative_gap, False, solver).single()
         if outcome.conflict is not None:
             return "no counterweights keep the ceilings"
         bound = outcome.lower_bound
-        return Attempt(outcome.unbalance, outcome.objective, lambda: bound)
+        return MethodResult(outcome.unbalance, outcome.objective, lambda: bound)
 
     return run
 
 
 def _interior_point(relative_gap: float, precision: Precision | None) -> Run:
-    def run(task: Task, position: float, time_limit_s: float) -> Attempt | str:
+    def run(task: Task, position: float, time_limit_s: float) -> MethodResult | str:
         webs = task.statement.limits.radius.size
         if precision is not None and webs > precision.most_webs:
             return f"too large: {webs} webs, at most {precision.most_webs} are tried"
@@ -134,7 +134,7 @@ def _interior_point(relative_gap: float, precision: Precision | None) -> Run:
 def _batch(relative_gap: float) -> Run:
     batch: Statement | None = None
 
-    def run(task: Task, position: float, time_limit_s: float) -> Attempt | str:
+    def run(task: Task, position: float, time_limit_s: float) -> MethodResult | str:
         nonlocal batch
         # put together in the first run; the rounds time what solves it
         batch = batch or _lighter(task.statement, np.linspace(1.0, 0.9, BATCH))
@@ -161,9 +161,9 @@ def _lighter(statement: Statement, share: Real) -> Statement:
     )
 
 
-def _first(stages: BothStages) -> Attempt:
+def _first(stages: BothStages) -> MethodResult:
     bound = float(stages.lower_bound[0])
-    return Attempt(stages.unbalance[0], float(stages.objective[0]), lambda: bound)
+    return MethodResult(stages.unbalance[0], float(stages.objective[0]), lambda: bound)
 
 
 def _rest(batch: Statement) -> Real:
@@ -173,7 +173,7 @@ def _rest(batch: Statement) -> Real:
 def _cone_program(tolerance: float) -> Run:
     programs = CompiledPrograms()
 
-    def run(task: Task, position: float, time_limit_s: float) -> Attempt | str:
+    def run(task: Task, position: float, time_limit_s: float) -> MethodResult | str:
         statement = task.statement
         data, scaling = matrices.scaled(statement, tolerance)
         with programs.lend(data.shape) as program:
@@ -181,7 +181,7 @@ def _cone_program(tolerance: float) -> Run:
         if solution is None:
             return "the solver has no point to offer"
         unbalance = statement.limits.into(scaling.unbalance(statement, solution))
-        return _proving(task, matrices.Point(unbalance, scaling.multipliers(statement, solution), None))
+        return _proving(task, matrices.RivalPoint(unbalance, scaling.multipliers(statement, solution), None))
 
     return run
 
@@ -198,7 +198,7 @@ def _polygonal(sides: int) -> Run:
     return lambda task, position, limit: _proving(task, polygonal(task.statement, sides, position, limit))
 
 
-def _proving(task: Task, point: matrices.Point | NoPoint) -> Attempt | str:
+def _proving(task: Task, point: matrices.RivalPoint | NoPoint) -> MethodResult | str:
     if isinstance(point, NoPoint):
         return point.reason
 
@@ -206,7 +206,7 @@ def _proving(task: Task, point: matrices.Point | NoPoint) -> Attempt | str:
         candidates = objective_multipliers(task.statement, point.unbalance, point.multipliers)
         return max(float(objective_lower_bound(task.statement, candidate)) for candidate in candidates)
 
-    return Attempt(point.unbalance, point.claimed, prove)
+    return MethodResult(point.unbalance, point.claimed, prove)
 
 
 def _sampled_entries(angles: int, task: Task) -> int:

@@ -25,6 +25,7 @@ from optimizer.program.certificate import Multipliers, normalised, objective_low
 from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
+from optimizer.solve.solution import Solution
 from optimizer.solve.solve import solve
 from optimizer.studies.matching.problem import Minorants, Problem
 from schemas.base.rules import Path
@@ -41,20 +42,13 @@ _OPEN, _CLOSEST = 0.5, 1e-12
 _SHORTEST_S = 1e-3
 
 
-class Fitted(NamedTuple):
-    """Counterweights that are not fixed."""
-
-    mass: Real  # (K,) kg
-    angle: Real  # (K,) degrees
-
-
 class Solved(NamedTuple):
     """What assignments (N,) come to, over omega squared."""
 
     value: Real  # (N,), inf where the bound leaves no room for a better one, or the time was over
     lower_bound: Real  # (N,)
     below: Minorants  # of all assignments
-    fitted: list[Fitted | None]  # None where any mass at any angle is a choice
+    fitted: list[Solution | None]  # None where any mass at any angle is a choice
 
 
 @dataclass(frozen=True)
@@ -87,7 +81,7 @@ class Chosen:
         if not self.as_made:
             return Solved(found.objective, found.lower_bound, below, [None] * len(mass))
         value, bound = np.full(len(mass), np.inf), found.lower_bound.copy()
-        fitted_there: list[Fitted | None] = [None] * len(mass)
+        fitted_there: list[Solution | None] = [None] * len(mass)
         for n in np.argsort(bound, kind="stable").tolist():
             late = time.thread_time() >= self.until and np.isfinite(best)
             if late or bound[n] >= best:
@@ -113,7 +107,7 @@ class Chosen:
         base = responses(plan, rotating(plan).plus(reciprocating(plan, 1)), self.request.objective)
         return cone_program(machine, self.request.objective, base, np.ones(leading))
 
-    def _searched(self, row_mass: Real, at_rest: float) -> tuple[float, float, Fitted]:
+    def _searched(self, row_mass: Real, at_rest: float) -> tuple[float, float, Solution]:
         """Value, certified bound and counterweights of one assignment, over omega squared.
 
         Parameters
@@ -129,7 +123,7 @@ class Chosen:
         solution = solve(task, scene, self.solver, in_full=False).certain()
         proof = solution.certificate
         bound = -np.inf if proof.lower_bound is None else proof.lower_bound / scene.omega_squared
-        return proof.objective / scene.omega_squared, bound, Fitted(solution.mass, solution.angle)
+        return proof.objective / scene.omega_squared, bound, solution
 
     def _minorants(self, program: Statement, multipliers: Multipliers, mass: Real) -> Minorants:
         """The bounds as functions of the vectors of the parts."""

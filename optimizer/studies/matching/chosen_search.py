@@ -7,10 +7,11 @@ import numpy as np
 
 from optimizer.numerics.arrays import Real
 from optimizer.solve.process_solver import own_solver
+from optimizer.solve.solution import Solution
 from optimizer.studies.matching.bound import best_plane
-from optimizer.studies.matching.chosen import Chosen, Fitted
+from optimizer.studies.matching.chosen import Chosen
 from optimizer.studies.matching.exhaustion import candidates
-from optimizer.studies.matching.fitted import Best, few
+from optimizer.studies.matching.fitted import BestAssignment, few
 from optimizer.studies.matching.problem import Minorants, Problem
 from optimizer.studies.matching.search import searched
 from schemas.match.request import MatchRequest
@@ -22,33 +23,33 @@ _PROGRAMS = 16
 _CANDIDATES = 2_000
 
 
-class _Evaluation(NamedTuple):
+class _Assignment(NamedTuple):
     """An assignment with what it comes to."""
 
     value: float  # over omega squared; inf where that was not found out
     bound: float
     mass: Real  # (T,)
-    fitted: Fitted | None  # its counterweights, where they are no optimum of any masses
+    fitted: Solution | None  # its counterweights, where they are no optimum of any masses
 
 
 class WithChosen(NamedTuple):
     """Where the search ended, and the counterweights of the best assignment and of the parts as they are listed."""
 
-    best: Best
-    fitted: Fitted | None
-    listed: Fitted | None
+    best: BestAssignment
+    fitted: Solution | None
+    listed: Solution | None
 
 
 class _Search:
     """The assignments that are known, and the minorants of all."""
 
     def __init__(self, problem: Problem, chosen: Chosen) -> None:
-        self.problem, self.chosen, self._evaluations = problem, chosen, dict[bytes, _Evaluation]()
+        self.problem, self.chosen, self._evaluations = problem, chosen, dict[bytes, _Assignment]()
         self.below = Minorants(np.zeros(0), np.zeros((0, problem.start.size), complex), np.zeros((0, problem.row.size)))
         self.solve(problem.listed[None])
 
     @property
-    def best(self) -> _Evaluation:
+    def best(self) -> _Assignment:
         return min(self._evaluations.values(), key=lambda evaluation: evaluation.value)
 
     @property
@@ -57,7 +58,7 @@ class _Search:
         return min(evaluation.bound for evaluation in self._evaluations.values())
 
     @property
-    def listed(self) -> _Evaluation:
+    def listed(self) -> _Assignment:
         return self._evaluations[self._key(self.problem.listed)]
 
     @property
@@ -69,7 +70,7 @@ class _Search:
         result = self.chosen.at(mass, self.best.value if self._evaluations else np.inf)
         each = zip(result.value.tolist(), result.lower_bound.tolist(), mass, result.fitted, strict=True)
         for one in each:
-            self._evaluations[self._key(one[2])] = _Evaluation(*one)
+            self._evaluations[self._key(one[2])] = _Assignment(*one)
         self.below = self.below.plus(result.below)
 
     def values(self, mass: Real) -> Real:
@@ -93,7 +94,7 @@ def with_chosen(request: MatchRequest, problem: Problem, near: float) -> WithCho
     return WithChosen(result, search.best.fitted, search.listed.fitted)
 
 
-def _best(search: _Search, near: float) -> Best:
+def _best(search: _Search, near: float) -> BestAssignment:
     problem = search.problem
     for _ in range(_ROUNDS):
         if search.late:
@@ -106,11 +107,11 @@ def _best(search: _Search, near: float) -> Best:
     best = search.best
     cut = best_plane(problem, search.below, best.value, near)
     if (best.value - cut.least <= near and not few(problem)) or search.late:
-        return Best(best.mass, cut.least - problem.rounding, False, best.value - cut.least > near)
+        return BestAssignment(best.mass, cut.least - problem.rounding, False, best.value - cut.least > near)
     return _proven(search, cut.least, near)
 
 
-def _proven(search: _Search, bound: float, near: float) -> Best:
+def _proven(search: _Search, bound: float, near: float) -> BestAssignment:
     """The best of all assignments whose minorants leave room for a better one, where they are not too many.
 
     Parameters
@@ -122,7 +123,7 @@ def _proven(search: _Search, bound: float, near: float) -> Best:
     cut = best_plane(problem, search.below, best.value, 0.0)
     left = candidates(problem, search.below, best.value, cut)
     if left is None or len(left[0]) > _CANDIDATES:
-        return Best(best.mass, max(bound, cut.least) - problem.rounding, False)
+        return BestAssignment(best.mass, max(bound, cut.least) - problem.rounding, False)
     remaining = left[0]
     while len(remaining):
         # what has been solved has cut off others
@@ -135,9 +136,9 @@ def _proven(search: _Search, bound: float, near: float) -> Best:
             # of those that are not known the smallest minorant, of the others their bounds, and no better is left out
             least = min(best.value, search.least, float(np.min(search.values(new))))
             bound = max(bound, cut.least, least)
-            return Best(best.mass, bound - problem.rounding, False, best.value - bound > near)
+            return BestAssignment(best.mass, bound - problem.rounding, False, best.value - bound > near)
         search.solve(new[:_PROGRAMS])
     best = search.best
     # every other assignment has a minorant that is no better than the best
     bound = min(best.value, search.least)
-    return Best(best.mass, bound - problem.rounding, True, search.late and best.value - bound > near)
+    return BestAssignment(best.mass, bound - problem.rounding, True, search.late and best.value - bound > near)

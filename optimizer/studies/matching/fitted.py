@@ -1,29 +1,25 @@
 """The best assignment with the counterweights as they are: search, bound, exhaustion, as far as the time goes."""
 
 import time
-from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from optimizer.numerics.arrays import Real
-from optimizer.studies.matching.bound import Plane, best_plane, plane
+from optimizer.studies.matching.bound import best_plane
 from optimizer.studies.matching.exhaustion import candidates
 from optimizer.studies.matching.four_lists import near_to_nothing
-from optimizer.studies.matching.problem import Places, Problem
-from optimizer.studies.matching.row_halves import MOST, exhausted
+from optimizer.studies.matching.problem import Problem
+from optimizer.studies.matching.row_halves import all_sets, exhausted, single_class
 from optimizer.studies.matching.search import searched
 
-#: sets of parts of a class that are looked at before it is another's turn
-_SETS = 400
 #: share of the time that is spent on parts without nuts
 _BARE = 0.25
-_SEED = 17
 
 
-class Best(NamedTuple):
-    """Where a search ended."""
+class BestAssignment(NamedTuple):
+    """The assignment that a search ended with."""
 
     mass: Real  # (T,) masses at places
     lower_bound: float  # over omega squared
@@ -31,7 +27,7 @@ class Best(NamedTuple):
     late: bool = False  # its time was over before the asked gap was reached
 
 
-def as_fitted(problem: Problem, near: float, seconds: float, has_nuts: bool) -> Best:
+def as_fitted(problem: Problem, near: float, seconds: float, has_nuts: bool) -> BestAssignment:
     """The best assignment with the counterweights as they are.
 
     Parameters
@@ -62,16 +58,15 @@ def as_fitted(problem: Problem, near: float, seconds: float, has_nuts: bool) -> 
             result, values = better
             mass, value = (result[0], float(values[0])) if values.size else (mass, value)
             bound, all_counted = value, True
-        elif len(problem.classes) == 1 and listed.size <= MOST:
-            ended = exhausted(problem, cut, value, near, spent)
-            mass, value = (mass, value) if ended.mass is None else (ended.mass, ended.value)
-            bound, all_counted = max(bound, ended.lower_bound), ended.complete
         else:
-            mass, value = _improved(problem, cut, mass, bound + near, spent)
-            if bound <= problem.rounding:
+            if bound <= problem.rounding and not all_sets(problem):
                 mass = near_to_nothing(problem, mass, bound + near, spent)
                 value = _value(problem, mass)
-    return Best(mass, bound - problem.rounding, all_counted, value - bound > near and spent())
+            if single_class(problem):
+                ended = exhausted(problem, cut, value, near, spent)
+                mass, value = (mass, value) if ended.mass is None else (ended.mass, ended.value)
+                bound, all_counted = max(bound, ended.lower_bound), ended.complete
+    return BestAssignment(mass, bound - problem.rounding, all_counted, value - bound > near and spent())
 
 
 def few(problem: Problem) -> bool:
@@ -81,37 +76,3 @@ def few(problem: Problem) -> bool:
 
 def _value(problem: Problem, mass: Real) -> float:
     return float(problem.peaks.at(problem.vectors(mass)))
-
-
-def _improved(problem: Problem, cut: Plane, mass: Real, enough: float, spent: Callable[[], bool]) -> tuple[Real, float]:
-    """An assignment and its value, made better class by class, some places of it at a time, until it is good enough.
-
-    It ends as well where no class was made better.
-    """
-    chance = np.random.default_rng(_SEED)
-    value, before = _value(problem, mass), np.inf
-    while enough < value < before and not spent():
-        before = value
-        for group, part in zip(problem.classes, problem.slices, strict=True):
-            # of more than so many places some
-            places = np.sort(chance.permutation(group.mass.size)[:MOST])
-            free = part.start + places
-            alone = _alone(problem, group, mass, places, free)
-            low = plane(alone, cut.constant, cut.slope)[0]
-            result = exhausted(alone, low, value, max(enough - low.least, 0.0), spent, _SETS)
-            if result.mass is not None:
-                tried = mass.copy()
-                tried[free] = result.mass
-                mass = min((mass, tried), key=lambda assignment: _value(problem, assignment))
-                value = _value(problem, mass)
-    return mass, value
-
-
-def _alone(problem: Problem, group: Places, mass: Real, places: np.ndarray, free: np.ndarray) -> Problem:
-    """The problem with only these places of a class free, all other parts where they are."""
-    held = mass.copy()
-    held[free] = 0.0
-    names = tuple(group.names[k] for k in places.tolist())
-    some = Places(group.kind, names, mass[free], group.row[places])
-    sizes = problem.start_size + problem.size_of_row @ problem.row_masses(held)
-    return replace(problem, start=problem.vectors(held), classes=(some,), start_size=sizes)

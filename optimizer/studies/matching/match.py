@@ -18,10 +18,11 @@ from optimizer.mechanics.shapes import fitted_masses
 from optimizer.numerics.arrays import Real
 from optimizer.optimize import optimize
 from optimizer.program.verdict import Claim, verdict
+from optimizer.solve.solution import Solution
 from optimizer.solve.statuses import LATE
-from optimizer.studies.matching.chosen import Fitted, with_masses
+from optimizer.studies.matching.chosen import with_masses
 from optimizer.studies.matching.chosen_search import WithChosen, with_chosen
-from optimizer.studies.matching.fitted import Best, as_fitted
+from optimizer.studies.matching.fitted import BestAssignment, as_fitted
 from optimizer.studies.matching.problem import Problem, stated
 from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer, Timing
 from schemas.answer.first_order import FirstOrder, Residual
@@ -124,7 +125,7 @@ def _answer(request: MatchRequest, problem: Problem, result: WithChosen) -> dict
     }
 
 
-def _reason(best: Best, status: str, judged: str) -> str:
+def _reason(best: BestAssignment, status: str, judged: str) -> str:
     """Why the answer is what it is: a gap that is left is the search's, or of the arithmetic if all were compared."""
     if status == "inaccurate" and best.late:
         return LATE
@@ -141,7 +142,7 @@ class _Evaluated(NamedTuple):
     rounding: float  # of the objective
 
 
-def _evaluated(request: MatchRequest, machine: ReciprocatingMachine, chosen: Fitted | None) -> _Evaluated:
+def _evaluated(request: MatchRequest, machine: ReciprocatingMachine, chosen: Solution | None) -> _Evaluated:
     """A machine with its parts.
 
     Parameters
@@ -175,7 +176,7 @@ def _evaluated(request: MatchRequest, machine: ReciprocatingMachine, chosen: Fit
     )
 
 
-def _counterweights(request: MatchRequest, chosen: Fitted | None) -> Iterator[dict[str, Any]]:
+def _counterweights(request: MatchRequest, chosen: Solution | None) -> Iterator[dict[str, Any]]:
     """Counterweights that are on the machine, those that were chosen or those of the request."""
     if chosen is None:
         yield from (counterweight.model_dump() for counterweight in request.counterweights)

@@ -7,28 +7,24 @@ its edge of the box, is a point inside, or proves that there is none (weighted C
 bound t proves that nothing is below the corner t times the edges. The largest box is searched next.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
-from time import thread_time
 from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.formulation.formulate import weighing
 from optimizer.formulation.simulation import Prepared
-from optimizer.formulation.task import Task
-from optimizer.mechanics.scatter import weighted
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Real
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.solve.prices import touched_limits
 from optimizer.solve.solution import Infeasible
-from optimizer.solve.solve import solve
-from optimizer.studies.pareto.points import ChosenPoint, knee, undominated
+from optimizer.studies.pareto.choice_search import ChoiceSearch, ChosenPoint
+from optimizer.studies.pareto.points import knee, undominated
+from optimizer.studies.pareto.trades import needed
 from schemas.base.responses import PAIR
 from schemas.front.pareto import CornerCertificate, Ends, ParetoFront, ParetoPoint, ParetoRequest, Reason, Scale
 from schemas.machine.machine import Machine
-from schemas.request.objective import Objective
 
 #: share of the time limit that either end has
 _END = 0.2
@@ -38,10 +34,6 @@ _SLACK = 0.1
 _SEARCHES = 4
 #: an optimum no nearer to its box than this leaves it empty
 _INSIDE = 1e-12
-#: least gap that may be asked of an optimum
-_LEAST_GAP = 1e-12
-#: least time of a search, s
-_LEAST_TIME = 1e-3
 
 
 class _Box(NamedTuple):
@@ -68,26 +60,22 @@ def chosen_front(request: ParetoRequest, machine: Machine, scene: Prepared, solv
     ----------
     machine : that of the request under one limit of the total mass.
     """
-    return _Search(request, machine, replace(scene, machine=machine), solver).front()
+    task = needed(request, PAIR, machine)
+    scene = replace(scene, machine=machine, objective=task.objective)
+    return _Boxes(task, PAIR, scene, solver).front(request.points)
 
 
-class _Search:
-    """What the searches of one front share."""
+class _Boxes(ChoiceSearch):
+    """The search of one front."""
 
-    def __init__(self, request: ParetoRequest, machine: Machine, scene: Prepared, solver: Solver) -> None:
-        self.request, self.machine, self.scene, self.solver = request, machine, scene, solver
-        self.task = replace(Task.of(request), machine=machine)
-        self.gap, self.seconds = request.accuracy.relative_gap, request.accuracy.time_limit_s
-        self.until = thread_time() + self.seconds
-        self.at_rest = self._peaks(np.zeros(len(machine.webs), complex))
-
-    def front(self) -> ParetoFront:
-        """Both ends, and what lies between them."""
-        force = self._optimum(_only(0), self.gap, _END * self.seconds)
-        moment = force if isinstance(force, Infeasible) else self._optimum(_only(1), self.gap, _END * self.seconds)
+    def front(self, count: int) -> ParetoFront:
+        """Both ends, and what lies between them, of so many points at most."""
+        machine, seconds = self.task.machine, _END * self.seconds
+        force = self.optimum({PAIR[0]: 1.0}, self.gap, seconds)
+        moment = force if isinstance(force, Infeasible) else self.optimum({PAIR[1]: 1.0}, self.gap, seconds)
         if isinstance(force, Infeasible) or isinstance(moment, Infeasible):
             return ParetoFront(
-                max_total_mass_kg=self.machine.max_total_mass_kg,
+                max_total_mass_kg=machine.max_total_mass_kg,
                 status="infeasible",
                 points=(),
                 infeasibility=moment.infeasibility if isinstance(moment, Infeasible) else None,
@@ -95,10 +83,10 @@ class _Search:
         edges = np.maximum(force.values, moment.values)
         size = np.where(self.at_rest > OPTIMUM_SHARE * edges, self.at_rest, np.where(edges > 0, edges, 1.0))
         bounds = force.corner[0], moment.corner[1]
-        optima, reason = self._between(self._corner(force, 0, size), self._corner(moment, 1, size), size)
+        optima, reason = self._between(self._corner(force, 0, size), self._corner(moment, 1, size), size, count)
         first, last, points = optima[0].values, optima[-1].values, tuple(self._point(each, size) for each in optima)
         return ParetoFront(
-            max_total_mass_kg=self.machine.max_total_mass_kg,
+            max_total_mass_kg=machine.max_total_mass_kg,
             status="optimal" if all(point.status == "optimal" for point in points) else "inaccurate",
             points=points,
             reason=reason,
@@ -116,78 +104,48 @@ class _Search:
 
     def _corner(self, end: ChosenPoint, axis: int, size: Real) -> ChosenPoint:
         """Of all whose peak ``axis`` is the smallest, but for a share of the gap, the least of the other peak."""
-        across, field = self.request.objective.direction_weights, ("force_ceiling_N", "moment_ceiling_Nm")[axis]
+        objective, field = self.task.objective, ("force_ceiling_N", "moment_ceiling_Nm")[axis]
+        across = objective.direction_weights
         if (across.x, across.y) != (1.0, 1.0):
             # a ceiling is of a whole vector; the boxes find the corner
             return end
         most = float(end.values[axis] + _SLACK * self.gap * size[axis])
-        limit = getattr(self.request.objective, field)
+        limit = getattr(objective, field)
         if limit is not None and limit <= most:
             return end
-        under = _only(1 - axis, {field: most})
-        corner = self._optimum(under, self.gap, _END * self.seconds)
+        corner = self.optimum({PAIR[1 - axis]: 1.0}, self.gap, _END * self.seconds, **{field: most})
         if isinstance(corner, Infeasible) or corner.values[1 - axis] > end.values[1 - axis]:
             return end
         # what exceeds the ceiling by no more than this optimum has no less of the other peak
         proven = np.where(np.arange(2) == axis, max(most, float(corner.values[axis])), corner.corner)
         return replace(corner, corner=proven)
 
-    def _between(self, force: ChosenPoint, moment: ChosenPoint, size: Real) -> tuple[list[ChosenPoint], Reason | None]:
+    def _between(
+        self, force: ChosenPoint, moment: ChosenPoint, size: Real, points: int
+    ) -> tuple[list[ChosenPoint], Reason | None]:
         """Points in the order of rising force, and why there are no more of them."""
-        optima, boxes, points = _undominated([force, moment]), [_Box(force, moment)], self.request.points
+        optima, boxes = _undominated([force, moment]), [_Box(force, moment)]
         if len(optima) == 1:
             return optima, "reached_together"
         undecided = False
         for _ in range(_SEARCHES * points):
             boxes = [each for each in boxes if np.all(each.size > self.gap * size)]
-            left_s = self.until - thread_time()
+            left_s = self.left_s
             if not boxes or len(optima) >= points or left_s <= 0.0:
                 break
             box = boxes.pop(int(np.argmax([np.prod(each.size / size) for each in boxes])))
-            inside = self._inside(box, size, left_s / (points - len(optima)))
-            if inside is not None and np.all(inside.values < box.edges * (1.0 - _INSIDE)):
+            inside = self.first_along(box.edges, size, left_s / (points - len(optima)))
+            if isinstance(inside, ChosenPoint) and np.all(inside.values < box.edges * (1.0 - _INSIDE)):
                 optima = _undominated([*optima, inside])
                 boxes += [_Box(box.left, inside), _Box(inside, box.right)]
             else:
                 # nothing better is found; whether there is nothing tells the proof
-                undecided |= inside is None or not bool(np.all(inside.corner >= box.edges - self.gap * size))
+                undecided |= isinstance(inside, Infeasible) or not bool(
+                    np.all(inside.corner >= box.edges - self.gap * size)
+                )
         if len(optima) >= points:
             return optima, None
         return optima, "time" if boxes or undecided else "complete"
-
-    def _inside(self, box: _Box, size: Real, seconds: float) -> ChosenPoint | None:
-        """The optimum of the larger peak, each as a share of its edge; None where no search keeps the ceilings."""
-        edges = box.edges
-        # gaps are relative to the larger share without counterweights, and are asked for of either peak
-        yardstick = float(np.max(self.at_rest / edges)) or 1.0
-        gap = self.gap * float(np.min(size / edges)) / yardstick
-        weights = 1.0 / edges
-        inside = self._optimum(_larger(weights), min(max(gap, _LEAST_GAP), 1.0), seconds)
-        return None if isinstance(inside, Infeasible) else inside
-
-    def _optimum(self, of: "_Goal", gap: float, seconds: float) -> ChosenPoint | Infeasible:
-        """The best choice for a goal."""
-        goal, limit = of(self.request.objective), min(max(seconds, _LEAST_TIME), self.seconds)
-        task = replace(self.task, objective=goal, relative_gap=gap, time_limit_s=limit)
-        best = solve(task, replace(self.scene, objective=goal), self.solver, in_full=False)
-        if isinstance(best, Infeasible):
-            return best
-        bound, peaks = best.certificate.lower_bound, self._peaks(best.unbalance)
-        weights = np.array([goal.force_weight, goal.moment_weight])
-        corner = np.full(2, np.nan)
-        if bound is not None:
-            # a peak that does not count is not below what it comes to here
-            corner = np.where(weights > 0, bound / np.where(weights > 0, weights, 1.0), peaks)
-        return ChosenPoint(best, peaks, corner)
-
-    def _peaks(self, u: Complex) -> Real:
-        """Weighted peak force and moment (2,) with unbalances (K,)."""
-        across = self.request.objective.direction_weights
-        vectors = (response.to(u) for response in self.scene.responses if response.name in PAIR)
-        return (
-            np.array([float(weighted(vector, across.x, across.y).peak) for vector in vectors])
-            * self.scene.omega_squared
-        )
 
     def _point(self, optimum: ChosenPoint, size: Real) -> ParetoPoint:
         best, proven = optimum.solution, bool(np.all(np.isfinite(optimum.corner)))
@@ -205,8 +163,8 @@ class _Search:
             counterweights=shown.counterweights,
             # of the request: a search has ceilings of its own
             active_limits=touched_limits(
-                self.machine,
-                self.request.objective,
+                self.task.machine,
+                self.task.objective,
                 self.scene.responses,
                 np.array([counterweight.mass_kg for counterweight in shown.counterweights]),
                 best.unbalance,
@@ -226,20 +184,6 @@ class _Search:
                 method=best.certificate.method,
             ),
         )
-
-
-_Goal = Callable[[Objective], Objective]
-
-
-def _only(axis: int, ceilings: Mapping[str, float] | None = None) -> _Goal:
-    """One of both peaks alone, the force (0) or the moment (1), under ceilings that are given by field."""
-    return lambda objective: weighing(objective, {PAIR[axis]: 1.0}, combine="sum", **(ceilings or {}))
-
-
-def _larger(weights: Real) -> _Goal:
-    """The larger of both peaks, weighed (2,) in 1/N and 1/(N m)."""
-    pair = dict(zip(PAIR, weights.tolist(), strict=True))
-    return lambda objective: weighing(objective, pair, combine="max")
 
 
 def _undominated(optima: Sequence[ChosenPoint]) -> list[ChosenPoint]:

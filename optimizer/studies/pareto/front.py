@@ -14,10 +14,10 @@ from optimizer.numerics.arrays import SMALLEST, Complex, Real
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, ceiling_allowance, normalised
 from optimizer.program.methods.implied_bounds import within_reach
-from optimizer.program.methods.optima import optima
+from optimizer.program.methods.optima import Optima, optima
 from optimizer.program.methods.rounding import has_dust
 from optimizer.program.reference.solver import Solver
-from optimizer.program.solution import OPTIMUM_SHARE, Solution
+from optimizer.program.solution import OPTIMUM_SHARE, ConeSolution
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import MASS_GAP
 from optimizer.studies.pareto.trade import Trade
@@ -48,10 +48,10 @@ _SOUNDED = 1e-3
 
 
 @dataclass(frozen=True)
-class Point:
+class FrontPoint:
     """Counterweights on the front; the figures are evaluated from ``solution.unbalance``."""
 
-    solution: Solution
+    solution: ConeSolution
     corner: Real  # (2,) proven: no counterweights are below this in both peaks
     proof: Multipliers  # of the corner, one row for each peak, of which the corner is what they weigh
     mass_proof: Multipliers | None  # of the mass likewise; None where the least mass was not asked for
@@ -62,7 +62,7 @@ class Point:
 class Front:
     """Points in the order of rising force; a single one where both smallest peaks are reached together."""
 
-    points: tuple[Point, ...]
+    points: tuple[FrontPoint, ...]
     ideal: Real  # (2,) proven: no counterweights have a smaller force, none a smaller moment
     size: Real  # (2,) what gaps are relative to (:func:`_size`)
     ideal_proofs: tuple[Multipliers, Multipliers]  # of the ideal's parts, each with one row
@@ -74,7 +74,7 @@ class _Undecided(Exception):
     """Ceilings that were kept within their tolerance are out of reach by less than that."""
 
 
-def front(trade: Trade, count: int, relative_gap: float, least_mass: bool, solver: Solver) -> Front | Solution:
+def front(trade: Trade, count: int, relative_gap: float, least_mass: bool, solver: Solver) -> Front | ConeSolution:
     """The front of a trade.
 
     Parameters
@@ -88,7 +88,7 @@ def front(trade: Trade, count: int, relative_gap: float, least_mass: bool, solve
     Front, or a solution with the proof that the ceilings cannot be kept.
     """
     smallest = _smallest(trade, solver)
-    if isinstance(smallest, Solution):
+    if isinstance(smallest, ConeSolution):
         return smallest
     trade, alone = smallest
     ideal = np.array([_bound(each, result) for each, result in zip(trade.alone, alone, strict=True)])
@@ -104,7 +104,7 @@ def front(trade: Trade, count: int, relative_gap: float, least_mass: bool, solve
     return Front(points, ideal, size, proofs, trade)
 
 
-def _smallest(trade: Trade, solver: Solver) -> tuple[Trade, list[Solution]] | Solution:
+def _smallest(trade: Trade, solver: Solver) -> tuple[Trade, list[ConeSolution]] | ConeSolution:
     """What makes each peak smallest, and the trade within the reach in which all of its front is proven.
 
     A corner of one line is held against the points of all, so they are all to be within the same limits: those in which
@@ -116,7 +116,7 @@ def _smallest(trade: Trade, solver: Solver) -> tuple[Trade, list[Solution]] | So
     within = trade.within(np.maximum(force, moment), np.zeros(2))
     for _ in range(_REACHES):
         result = _alone(within, solver)
-        if isinstance(result, Solution):
+        if isinstance(result, ConeSolution):
             return result
         u = np.array([one.unbalance for one in result[1]])
         peaks = np.max([*trade.peaks(u), _size(trade, u)], axis=0)
@@ -126,8 +126,8 @@ def _smallest(trade: Trade, solver: Solver) -> tuple[Trade, list[Solution]] | So
     return result
 
 
-def _alone(trade: Trade, solver: Solver) -> tuple[Trade, list[Solution]] | Solution:
-    results: list[Solution] = []
+def _alone(trade: Trade, solver: Solver) -> tuple[Trade, list[ConeSolution]] | ConeSolution:
+    results: list[ConeSolution] = []
     for program in trade.alone:
         one = optima(program.alone(), _SHARPNESS, True, solver).single()
         if one.conflict is not None:
@@ -136,7 +136,7 @@ def _alone(trade: Trade, solver: Solver) -> tuple[Trade, list[Solution]] | Solut
     return trade, results
 
 
-def _of_ends(trade: Trade, alone: list[Solution]) -> tuple[Multipliers, Multipliers]:
+def _of_ends(trade: Trade, alone: list[ConeSolution]) -> tuple[Multipliers, Multipliers]:
     """Proofs of the smallest peaks, as of the program of both."""
     force, moment = alone
     usable = normalised(trade.alone[0], force.multipliers)[0], normalised(trade.alone[1], moment.multipliers)[0]
@@ -144,8 +144,8 @@ def _of_ends(trade: Trade, alone: list[Solution]) -> tuple[Multipliers, Multipli
 
 
 def _closest(
-    trade: Trade, alone: list[Solution], ideal: Real, proofs: tuple[Multipliers, Multipliers], least_mass: bool
-) -> Point:
+    trade: Trade, alone: list[ConeSolution], ideal: Real, proofs: tuple[Multipliers, Multipliers], least_mass: bool
+) -> FrontPoint:
     """Of the counterweights that make a peak smallest those that come closest to keeping the ceilings."""
     which = min((0, 1), key=lambda peak: alone[peak].excess)
     result = alone[which]
@@ -154,7 +154,7 @@ def _closest(
     of_mass = None
     if least_mass and result.mass_multipliers is not None:
         of_mass = trade.widened(which, result.mass_multipliers.admissible(trade.alone[which]))
-    return Point(result, ideal, proofs[which], of_mass, np.minimum(limit, trade.cap))
+    return FrontPoint(result, ideal, proofs[which], of_mass, np.minimum(limit, trade.cap))
 
 
 def _between(
@@ -166,7 +166,7 @@ def _between(
     share: float,
     least_mass: bool,
     solver: Solver,
-) -> tuple[Point, ...]:
+) -> tuple[FrontPoint, ...]:
     """The points of the front; a single one where both peaks are smallest together."""
     # half the asked gap for the programs, half for the distance of the point from the ideal
     together = replace(_meet(trade, ideal, size, least_mass, 0.25 * share, solver), corner=ideal, proof=proofs[0])
@@ -201,45 +201,61 @@ def _size(trade: Trade, u: Complex) -> Real:
     return np.where(size > SMALLEST, size, 1.0)
 
 
-def _meet(trade: Trade, anchor: Real, unit: Real, least_mass: bool, share: float, solver: Solver) -> Point:
-    """The point of the front on the line anchor + t unit.
+def _meet(trade: Trade, anchor: Real, unit: Real, least_mass: bool, share: float, solver: Solver) -> FrontPoint:
+    """The point of the front on the line anchor + t unit."""
+    (point,) = _meets(trade, anchor[None], unit, least_mass, share, solver)
+    return point
+
+
+def _meets(
+    trade: Trade, anchors: Real, unit: Real, least_mass: bool, share: float, solver: Solver
+) -> tuple[FrontPoint, ...]:
+    """The points of the front on the lines from anchors (N, 2).
 
     Parameters
     ----------
     share : how much of t the answer may lie above the smallest.
     """
-    program = trade.along(anchor, unit)
-
-    def within(part: float) -> Solution:
-        result = optima(program.alone(), part * share, least_mass, solver).single()
-        if result.conflict is not None:
-            raise _Undecided
-        return result
-
     first, *more = _ALLOWANCES if least_mass else _ALLOWANCES[:1]
-    best = within(first)
-    for part in more:
-        if _mass_gap(best) <= MASS_GAP:
-            break
-        best = min(best, within(part), key=_mass_gap)
-    usable, _ = normalised(program, best.multipliers)
-    of_mass = best.mass_multipliers if least_mass else None
-    return Point(
-        best,
-        np.minimum(anchor + trade.parameter(_bound(program, best), anchor, unit) * unit, trade.cap),
-        trade.per_peak(usable, unit),
-        None if of_mass is None else trade.per_peak(of_mass.admissible(program), unit),
-        np.minimum(anchor + trade.parameter(best.mass_target, anchor, unit) * unit, trade.cap),
-    )
+    programs = trade.along(anchors, unit)
+    optimum = _reached(optima(programs, first * share, least_mass, solver))
+    points = []
+    for n, anchor in enumerate(anchors):
+        program, best = programs.chosen(n), optimum.single(n)
+        for part in more:
+            if _mass_gap(best) <= MASS_GAP:
+                break
+            best = min(
+                best, _reached(optima(program.alone(), part * share, least_mass, solver)).single(), key=_mass_gap
+            )
+        usable, _ = normalised(program, best.multipliers)
+        of_mass = best.mass_multipliers if least_mass else None
+        points.append(
+            FrontPoint(
+                best,
+                np.minimum(anchor + trade.parameter(_bound(program, best), anchor, unit) * unit, trade.cap),
+                trade.per_peak(usable, unit),
+                None if of_mass is None else trade.per_peak(of_mass.admissible(program), unit),
+                np.minimum(anchor + trade.parameter(best.mass_target, anchor, unit) * unit, trade.cap),
+            )
+        )
+    return tuple(points)
 
 
-def _bound(statement: Statement, solution: Solution) -> float:
+def _reached(optimum: Optima) -> Optima:
+    """Optima under ceilings that have been kept."""
+    if optimum.unreachable.any():
+        raise _Undecided
+    return optimum
+
+
+def _bound(statement: Statement, solution: ConeSolution) -> float:
     """What is proven of all that counts as keeping the ceilings: one bound is held against many points."""
     tolerance = np.full(statement.ceilings.cap.shape, CEILING_TOLERANCE)
     return solution.lower_bound - float(ceiling_allowance(statement, solution.multipliers, tolerance))
 
 
-def _mass_gap(solution: Solution) -> float:
+def _mass_gap(solution: ConeSolution) -> float:
     return (solution.mass - solution.mass_lower_bound) / solution.mass if solution.mass > 0 else 0.0
 
 
@@ -287,23 +303,25 @@ def _points(
     share: float,
     least_mass: bool,
     solver: Solver,
-) -> tuple[Point, ...]:
+) -> tuple[FrontPoint, ...]:
     """The ends, and points between them that are evenly apart in the plane of shares of the range."""
     start, step = ends[0].peaks, ends[1].peaks - ends[0].peaks
     span = np.abs(step)
     # the answer may lie above the front by a share of its range, where that is less than the sizes
     share *= min(1.0, float(np.min(size / span)))
     spread = _spread(trade, start, step, count, share, solver)
-    between = [_meet(trade, start + each * step, span, least_mass, share, solver) for each in spread[1:-1]]
+    between = _meets(trade, start + spread[1:-1, None] * step, span, least_mass, share, solver)
     first, last = (_at_end(trade, end, span, size, share, least_mass, solver) for end in ends)
     return (first, *between, last)
 
 
-def _at_end(trade: Trade, end: _End, span: Real, size: Real, share: float, least_mass: bool, solver: Solver) -> Point:
+def _at_end(
+    trade: Trade, end: _End, span: Real, size: Real, share: float, least_mass: bool, solver: Solver
+) -> FrontPoint:
     """The point at an end, whose gap is of the sizes: where a share of the range leaves dust, one of these may not."""
     limits = trade.both.limits
 
-    def nearest(unit: Real) -> Point:
+    def nearest(unit: Real) -> FrontPoint:
         result = _meet(trade, end.peaks, unit, least_mass, _END_SHARE * share, solver)
         return replace(result, corner=end.corner, proof=end.proof)
 
@@ -322,10 +340,10 @@ def _spread(trade: Trade, start: Real, step: Real, count: int, share: float, sol
     sounded = 0.5 * (1.0 - np.cos(np.linspace(0.0, np.pi, _SOUNDINGS + 1)))
     # depth of the front below the chord, in units of the range
     depth = np.zeros(sounded.size)
-    for i in range(1, _SOUNDINGS):
-        anchor = start + sounded[i] * step
-        point = _meet(trade, anchor, np.abs(step), False, max(share, _SOUNDED), solver)
-        depth[i] = np.min((anchor - trade.peaks(point.solution.unbalance)) / np.abs(step))
+    anchors = start + sounded[1:-1, None] * step
+    lines = trade.along(anchors, np.abs(step))
+    u = _reached(optima(lines, max(share, _SOUNDED), False, solver)).unbalance
+    depth[1:-1] = np.min((anchors - trade.peaks(u)) / np.abs(step), axis=-1)
     curve = np.array([sounded - depth, 1.0 - sounded - depth])
     length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(curve, axis=1)))])
     return np.interp(np.linspace(0.0, length[-1], count), length, sounded)

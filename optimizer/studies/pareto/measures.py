@@ -10,7 +10,6 @@ from optimizer.formulation.goals import Case, formulate
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
 from optimizer.mechanics.shapes import closed
-from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.numerics.arrays import SMALLEST, Complex, Real
 from optimizer.numerics.memoization import cached_property
 from optimizer.program.cuts.dominance import Group, Weighed
@@ -18,6 +17,7 @@ from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.norms import Norms
 from optimizer.program.rows import Row, total_mass
 from optimizer.program.solution import OPTIMUM_SHARE
+from optimizer.solve.whole_turn import whole_turn_of
 from schemas.base.variation import with_fields
 from schemas.front.trade import Traded
 from schemas.request.objective import Objective
@@ -101,14 +101,10 @@ class Measures:
         return replace(self.program, goals=(Goal("trade", (_largest(rows),), 1.0),))
 
 
-def measures(task: Task, names: tuple[Traded, ...], scene: Prepared, turn: WholeTurn | None) -> Measures:
-    """The responses of a task by their names.
-
-    Parameters
-    ----------
-    turn : of the machine, where anything is asked of the whole turn.
-    """
+def measures(task: Task, names: tuple[Traded, ...], scene: Prepared) -> Measures:
+    """The responses of a task by their names."""
     objective = alone(task.objective, names)
+    turn = whole_turn_of(scene, objective) if objective.of_the_revolution else None
     machine, square = closed(task.machine), scene.omega_squared
     case = Case(machine, square, (scene.responses,), None if turn is None else (turn, scene.laden))
     program = formulate(machine, objective, [case], square, task.fidelity).program

@@ -15,7 +15,7 @@ from optimizer.outputs.first_order import first_order, floor
 from optimizer.outputs.registry import prepare
 from optimizer.program.methods.symmetry import symmetric
 from optimizer.program.reference.solver import Solver
-from optimizer.program.solution import Solution
+from optimizer.program.solution import ConeSolution
 from optimizer.program.verdict import Claim, mass_resolution, verdict
 from optimizer.solve.prices import touched_limits
 from optimizer.solve.process_solver import own_solver
@@ -24,7 +24,7 @@ from optimizer.solve.solution import Infeasible, finite_or_null
 from optimizer.solve.solve import solve
 from optimizer.studies.pareto.chosen_front import chosen_front
 from optimizer.studies.pareto.counts import count_front
-from optimizer.studies.pareto.front import Front, Point, front
+from optimizer.studies.pareto.front import Front, FrontPoint, front
 from optimizer.studies.pareto.points import knee, undominated, weighted_peaks
 from optimizer.studies.pareto.trade import Trade, trade
 from optimizer.studies.pareto.trades import needed, traded_front
@@ -121,7 +121,7 @@ def _front(request: ParetoRequest, machine: Machine, scene: Prepared, solver: So
     traded = trade(machine, request.objective, scene.responses, scene.omega_squared)
     result = front(traded, request.points, request.accuracy.relative_gap, request.objective.least_mass, solver)
     solve_s = time.perf_counter() - start
-    if isinstance(result, Solution):
+    if isinstance(result, ConeSolution):
         return _Made(_infeasible(request, machine, scene, solver), solve_s, result.certify_s)
     certify_s = sum(point.solution.certify_s for point in result.points)
     return _Made(_certified(request, machine, scene, result), solve_s, certify_s)
@@ -164,7 +164,7 @@ def _certified(request: ParetoRequest, machine: Machine, scene: Prepared, curve:
     )
 
 
-def _point(request: ParetoRequest, machine: Machine, scene: Prepared, curve: Front, point: Point) -> ParetoPoint:
+def _point(request: ParetoRequest, machine: Machine, scene: Prepared, curve: Front, point: FrontPoint) -> ParetoPoint:
     solution, square, traded = point.solution, scene.omega_squared, curve.trade
     limits = traded.both.limits
     unbalance_there = solution.unbalance
@@ -222,7 +222,7 @@ def _point(request: ParetoRequest, machine: Machine, scene: Prepared, curve: Fro
     )
 
 
-def _of_point(traded: Trade, point: Point, omega_squared: float) -> Multipliers:
+def _of_point(traded: Trade, point: FrontPoint, omega_squared: float) -> Multipliers:
     """The proofs of a point: of its corner, and of its mass."""
     both, of_mass = traded.both, point.mass_proof
     return Multipliers(

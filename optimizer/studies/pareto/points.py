@@ -1,4 +1,4 @@
-"""Points of a front: those of two peaks that no other beats, the knee, and what searches of choices come to."""
+"""Points of a front: its ends, those of two peaks that no other beats, and the knee."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -7,7 +7,6 @@ from typing import TypeVar
 import numpy as np
 
 from optimizer.numerics.arrays import Real
-from optimizer.solve.solution import Solution
 from schemas.front.pareto import ParetoPoint
 
 Point = TypeVar("Point")
@@ -17,12 +16,16 @@ _STRAIGHT = 1e-4
 
 
 @dataclass(frozen=True)
-class ChosenPoint:
-    """Counterweights that are chosen, beside what they come to in D responses, in the units of the answer."""
+class TradeEnds:
+    """Where each of D responses is smallest; in the answer all but sizes are times ``square`` and above ``there``."""
 
-    solution: Solution
-    values: Real  # (D,)
-    corner: Real  # (D,) no choice is below this in all of them; nan where nothing is proven
+    values: Real  # (D, D) what all come to where each counts first
+    smallest: Real  # (D,)
+    lower_bound: Real  # (D,)
+    size: Real  # (D,) what gaps are relative to
+    at_rest: Real  # (D,) without counterweights
+    square: Real | float = 1.0  # (D,) omega^2, where figures are over it
+    there: Real | float = 0.0  # (D,) what is there whatever is chosen
 
 
 def weighted_peaks(point: ParetoPoint) -> tuple[float, float]:

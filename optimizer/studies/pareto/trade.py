@@ -65,7 +65,7 @@ class Trade:
         Whatever comes to such peaks, its like lies within them: one that changes as much, and is no heavier.
         """
         nothing = np.zeros(2)
-        return bounded(self.along(nothing, peaks), 1.0 - self._shift(nothing, peaks)).limits.max_mass
+        return bounded(self.along(nothing, peaks), 1.0 - float(self._shift(nothing, peaks))).limits.max_mass
 
     @property
     def far(self) -> bool:
@@ -80,18 +80,20 @@ class Trade:
 
         Parameters
         ----------
-        anchor, unit : (2,) a point of the plane of peaks, and a direction with both components above 0.
+        anchor : (2,) a point of the plane of peaks, or (N, 2) for N programs.
+        unit : (2,) a direction with both components above 0.
         """
-        norms, row = self.both.norms, self.both.row
+        both = self.both if anchor.ndim == 1 else self.both.alone().chosen(np.zeros(len(anchor), int))
+        norms, row = both.norms, both.row
         return replace(
-            self.both,
+            both,
             norms=Norms(norms.constant / unit[row], norms.influence / unit[row, None]),
-            floor=(self.both.floor - anchor) / unit - self._shift(anchor, unit),
+            floor=(both.floor - anchor) / unit - self._shift(anchor, unit)[..., None],
         )
 
     def parameter(self, objective: float, anchor: Real, unit: Real) -> float:
         """t of an objective of :meth:`along`."""
-        return objective + self._shift(anchor, unit)
+        return objective + float(self._shift(anchor, unit))
 
     def per_peak(self, multipliers: Multipliers, unit: Real) -> Multipliers:
         """Multipliers of :meth:`along`, rows summing to 1 or in kg, as those of :attr:`both`, per unit of a peak."""
@@ -103,8 +105,8 @@ class Trade:
         term[self.both.row == which] = multipliers.term
         return Multipliers(term, np.where(np.arange(2) == which, multipliers.row, 0.0), multipliers.ceiling)
 
-    def _shift(self, anchor: Real, unit: Real) -> float:
-        return float(np.max((self.at_rest - anchor) / unit)) - 1.0
+    def _shift(self, anchor: Real, unit: Real) -> Real:
+        return np.asarray(np.max((self.at_rest - anchor) / unit, axis=-1)) - 1.0
 
 
 def trade(machine: Machine, objective: Objective, responses: Sequence[Response], omega_squared: float) -> Trade:

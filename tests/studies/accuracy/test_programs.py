@@ -12,7 +12,7 @@ from optimizer.program.kernel.finer_numbers import PRECISIONS
 from optimizer.program.reference.assembled import NoPoint
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import combined, statement, weighted_peak
-from optimizer.program.solution import Solution
+from optimizer.program.solution import ConeSolution
 from optimizer.responses.response import Phasors, Response
 from optimizer.studies.accuracy.methods import (
     ANGLES,
@@ -20,8 +20,8 @@ from optimizer.studies.accuracy.methods import (
     POSITIONS,
     SIDES,
     TOLERANCES,
-    Attempt,
     Method,
+    MethodResult,
     Task,
     _lighter,
     methods,
@@ -35,9 +35,9 @@ from tests.studies.accuracy.problems import free_limits, random_task, single
 SOLVER = Solver()
 
 
-def reference(task: Task) -> Solution:
+def reference(task: Task) -> ConeSolution:
     found = optimum(task.statement, 1e-9, False)
-    assert isinstance(found, Solution)
+    assert isinstance(found, ConeSolution)
     return found
 
 
@@ -45,8 +45,8 @@ def rest(task: Task) -> float:
     return float(task.statement.objective(np.zeros(task.statement.limits.radius.shape, complex)))
 
 
-def solved(outcome: matrices.Point | NoPoint) -> matrices.Point:
-    assert isinstance(outcome, matrices.Point), outcome
+def solved(outcome: matrices.RivalPoint | NoPoint) -> matrices.RivalPoint:
+    assert isinstance(outcome, matrices.RivalPoint), outcome
     return outcome
 
 
@@ -160,7 +160,7 @@ def test_no_bound_of_any_method_is_above_what_another_reached(case: int) -> None
     assert answered >= 8
 
 
-def good(task: Task, outcome: Attempt, bound: float) -> bool:
+def good(task: Task, outcome: MethodResult, bound: float) -> bool:
     """Whether a point is no better than the bound, or breaks a ceiling."""
     reached = float(task.statement.objective(outcome.unbalance))
     excess = float(np.max(task.statement.ceilings.excess(outcome.unbalance), initial=-np.inf))
@@ -214,8 +214,8 @@ def test_the_first_of_a_batch_is_the_program_itself(case: int) -> None:
         )
         for name in ("interior_point", "interior_point_batch")
     )
-    assert isinstance(alone, Attempt)
-    assert isinstance(batch, Attempt)
+    assert isinstance(alone, MethodResult)
+    assert isinstance(batch, MethodResult)
     assert np.allclose(batch.unbalance, alone.unbalance, rtol=1e-9, atol=1e-12)
     assert batch.prove() == pytest.approx(alone.prove(), rel=1e-12)
     share = np.array([1.0, 0.9])

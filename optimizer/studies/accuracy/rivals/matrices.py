@@ -16,7 +16,7 @@ _REACH = 10.0
 
 
 @dataclass(frozen=True)
-class Point:
+class RivalPoint:
     """What a program found, unjudged: the certificate decides what it is worth."""
 
     unbalance: Complex  # (K,) kg m, within the limits
@@ -43,7 +43,7 @@ def add_rows(program: Assembly, statement: Statement, data: ScaledData, norms: i
 
 def point(
     statement: Statement, scaling: Scaling, v: Real, claimed: float, row: Real, term: Complex, ceiling: Complex
-) -> Point:
+) -> RivalPoint:
     """Scaled variables and multipliers in physical units; the point is brought into the limits.
 
     Parameters
@@ -53,10 +53,10 @@ def point(
     webs = scaling.reach.size
     result = ScaledSolution(v[:webs], v[webs : 2 * webs], row, term, ceiling, "")
     unbalance = statement.limits.into(scaling.unbalance(statement, result))
-    return Point(unbalance, scaling.multipliers(statement, result), claimed * scaling.objective)
+    return RivalPoint(unbalance, scaling.multipliers(statement, result), claimed * scaling.objective)
 
 
-def exact(statement: Statement, tolerance: float, time_limit_s: float) -> Point | NoPoint:
+def exact(statement: Statement, tolerance: float, time_limit_s: float) -> RivalPoint | NoPoint:
     """The exact cone program of :class:`optimizer.program.reference.modelling.ConeProgram`, first stage, as matrices.
 
     Parameters
@@ -69,4 +69,4 @@ def exact(statement: Statement, tolerance: float, time_limit_s: float) -> Point 
         return result
     claimed = float(np.sum(result.level) + np.sum(statement.largest(statement.floor)) / scaling.objective)
     unbalance = statement.limits.into(scaling.unbalance(statement, result.solution))
-    return Point(unbalance, scaling.multipliers(statement, result.solution), claimed * scaling.objective)
+    return RivalPoint(unbalance, scaling.multipliers(statement, result.solution), claimed * scaling.objective)

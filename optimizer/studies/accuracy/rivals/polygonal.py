@@ -12,7 +12,7 @@ from scipy.optimize import linprog
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.reference.assembled import Assembly, NoPoint, Part, add_limits, dense
 from optimizer.program.statement import Statement
-from optimizer.studies.accuracy.rivals.matrices import Point, add_rows, point, scaled
+from optimizer.studies.accuracy.rivals.matrices import RivalPoint, add_rows, point, scaled
 
 #: ceilings are lowered by this share of their size: the feasibility tolerance of HiGHS
 _CEILING_MARGIN = 1e-7
@@ -29,7 +29,7 @@ def directions(sides: int, position: float) -> Complex:
     return np.exp(2j * np.pi * (np.arange(sides) + 0.5 + position) / sides)
 
 
-def polygonal(statement: Statement, sides: int, position: float, time_limit_s: float) -> Point | NoPoint:
+def polygonal(statement: Statement, sides: int, position: float, time_limit_s: float) -> RivalPoint | NoPoint:
     """Solve the linear program.
 
     Parameters

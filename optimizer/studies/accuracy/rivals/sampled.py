@@ -19,7 +19,7 @@ from optimizer.program.reference.assembled import Assembly, NoPoint, Part, add_d
 from optimizer.program.scaling import Scaling
 from optimizer.program.statement import Statement
 from optimizer.responses.response import Response
-from optimizer.studies.accuracy.rivals.matrices import Point, point, scaled
+from optimizer.studies.accuracy.rivals.matrices import RivalPoint, point, scaled
 
 _TOLERANCE = 1e-9
 
@@ -67,7 +67,7 @@ def half_turn(angles: int, position: float) -> Real:
 
 def sampled(
     statement: Statement, turn: OverTheTurn, angles: int, position: float, time_limit_s: float
-) -> Point | NoPoint:
+) -> RivalPoint | NoPoint:
     """Solve the sampled program; the multipliers are those of the exact program that they amount to.
 
     Parameters

@@ -1,0 +1,108 @@
+"""Two lists of sums that all but cancel, set by set of the parts; compiled."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.compiling import inner, inner_with_arrays, kernel
+
+
+class Window(NamedTuple):
+    """Real coordinates of an assignment that are between bounds, where its peak is below a level.
+
+    start : (C,) without the parts.
+    effect : (C, n) what a kilogram at a place adds.
+    anchor : (C,) share of the level about which a coordinate lies.
+    reach : (2, C) how far below and above that, as a share of what the level leaves above a set.
+    """
+
+    start: Real
+    effect: Real
+    anchor: Real
+    reach: Real
+
+
+class Peaks(NamedTuple):
+    """The largest of some weighted sums of lengths of start + effect m."""
+
+    start: Complex  # (J,)
+    effect: Complex  # (J, n)
+    weight: Real  # (K, J)
+
+
+@kernel
+def best_below(window, peaks, mass, least, orders, level):  # type: ignore[no-untyped-def]
+    """The smallest peak below a level of all assignments that have a set of parts on the first half of the places.
+
+    Parameters
+    ----------
+    window : its first coordinate is what sums are sorted by.
+    mass : (n,) of the parts on the first half, then of the others.
+    least : that no assignment with the set is below.
+    orders : (p, h) and (q, n - h) of the parts of either half.
+
+    Returns
+    -------
+    float : that peak, or the level where there is none below it.
+    (n,) : masses place by place, where there is one.
+    """
+    half, slack = orders[0].shape[1], level - least
+    best, put = np.zeros(mass.size), np.zeros(mass.size)
+    first = _sums(window.effect[:, :half], mass[:half], orders[0])
+    second = _sums(window.effect[:, half:], mass[half:], orders[1])
+    rising = np.argsort(first[:, 0])
+    key = first[rising, 0]
+    for k in range(len(second)):
+        there = window.start[0] - window.anchor[0] * level + second[k, 0]
+        at = np.searchsorted(key, -window.reach[0, 0] * slack - there)
+        while at < len(key) and key[at] + there <= window.reach[1, 0] * slack:
+            i = rising[at]
+            at += 1
+            if not _within(window, first[i], second[k], level, slack):
+                continue
+            for place in range(half):
+                put[place] = mass[orders[0][i, place]]
+            for place in range(put.size - half):
+                put[half + place] = mass[half + orders[1][k, place]]
+            value = _peak(peaks, put)
+            if value < level:
+                level, slack = value, value - least
+                best[:] = put
+    return level, best
+
+
+@inner_with_arrays
+def _sums(effect, mass, orders):  # type: ignore[no-untyped-def]
+    """What parts come to in every order (p, C)."""
+    sums = np.zeros((len(orders), len(effect)))
+    for k in range(len(orders)):
+        for c in range(len(effect)):
+            for place in range(orders.shape[1]):
+                sums[k, c] += effect[c, place] * mass[orders[k, place]]
+    return sums
+
+
+@inner
+def _within(window, first, second, level, slack):  # type: ignore[no-untyped-def]
+    """Whether all other coordinates of two sums are between their bounds."""
+    for c in range(1, window.start.size):
+        total = window.start[c] - window.anchor[c] * level + first[c] + second[c]
+        if total < -window.reach[0, c] * slack or total > window.reach[1, c] * slack:
+            return False
+    return True
+
+
+@inner
+def _peak(peaks, put):  # type: ignore[no-untyped-def]
+    largest = 0.0
+    for row in range(peaks.weight.shape[0]):
+        total = 0.0
+        for j in range(peaks.start.size):
+            if peaks.weight[row, j] > 0.0:
+                v = peaks.start[j]
+                for place in range(put.size):
+                    v += peaks.effect[j, place] * put[place]
+                total += peaks.weight[row, j] * abs(v)
+        largest = max(largest, total)
+    return largest

@@ -1,0 +1,137 @@
+"""Searches of a front for what is chosen: from a catalogue, heavy enough where it is fitted, or cut from plates.
+
+Such sets are not convex, and no line from an anchor meets their front. A point is the optimum of the largest of the
+responses, each as a share of a unit, with the mass under a budget where it is traded as well (weighted Chebyshev,
+Steuer and Choo 1983; epsilon constraint, Haimes, Lasdon and Wismer 1971). A bound t_low of that search proves that no
+choice within the budget is below t_low times the unit in every other response.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from time import thread_time
+
+import numpy as np
+
+from optimizer.formulation.formulate import weighing
+from optimizer.formulation.formulate import weights as own_weights
+from optimizer.formulation.simulation import Prepared
+from optimizer.formulation.task import Task
+from optimizer.mechanics.fixed_weights import fixed_masses
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.reference.solver import Solver
+from optimizer.solve.solution import Infeasible, Solution
+from optimizer.solve.solve import solve
+from optimizer.studies.pareto.measures import measures
+from schemas.base.variation import with_fields
+from schemas.front.trade import Traded
+from schemas.request.objective import Objective
+
+#: least gap that may be asked of an optimum
+_LEAST_GAP = 1e-12
+#: least time of a search, s
+_LEAST_TIME = 1e-3
+#: fields of the weights of what is traded inside the shaft
+_INSIDE: Mapping[Traded, str] = {"bearings": "bearing_weight", "bending": "bending_weight"}
+
+
+@dataclass(frozen=True)
+class ChosenPoint:
+    """Counterweights that are chosen, beside what they come to in D responses, in the units of the answer."""
+
+    solution: Solution
+    values: Real  # (D,)
+    corner: Real  # (D,) no choice is below this in all of them; nan where nothing is proven
+
+
+class ChoiceSearch:
+    """What the searches of one front share, in the units of the answer; all together end at the time of the task.
+
+    Parameters
+    ----------
+    task : weighs all that is traded, under one limit of the total mass.
+    """
+
+    def __init__(self, task: Task, names: tuple[Traded, ...], scene: Prepared, solver: Solver) -> None:
+        self.task, self.names, self.scene, self.solver = task, names, scene, solver
+        self.gap, self.seconds = task.relative_gap, task.time_limit_s
+        self.until = thread_time() + self.seconds
+        self.traded = measures(task, names, scene)
+        self.square = np.array([1.0 if name == "mass" else scene.omega_squared for name in names])
+        self.fixed = float(np.sum(fixed_masses(task.machine)))
+        self.is_mass = np.array([name == "mass" for name in names])
+        self.nothing = np.zeros(len(task.machine.webs), complex)
+        self.at_rest = self.values(self.nothing)
+
+    @property
+    def left_s(self) -> float:
+        """Time that is left, s."""
+        return self.until - thread_time()
+
+    def values(self, u: Complex) -> Real:
+        """What unbalances (K,) come to (D,)."""
+        result = self.traded.values(u) * self.square
+        return np.where(self.is_mass, result + self.fixed, result)
+
+    def gross(self, point: ChosenPoint) -> Real:
+        """What every counterweight of a point by itself adds to each response at most, summed (D,)."""
+        return self.traded.gross(point.solution.unbalance) * self.square
+
+    def first_along(
+        self, unit: Real, size: Real, seconds: float, budget: float | None = None
+    ) -> ChosenPoint | Infeasible:
+        """The best choice as shares of a unit (D,), under a budget where the mass is traded.
+
+        Parameters
+        ----------
+        size : (D,) what gaps are relative to.
+        """
+        counts = ~self.is_mass
+        weights = {name: 1.0 / float(each) for name, each in zip(self.names, unit, strict=True) if name != "mass"}
+        # gaps are relative to the largest share without counterweights, and are asked for of every response
+        yardstick = float(np.max((self.at_rest / unit)[counts])) or 1.0
+        gap = self.gap * float(np.min((size / unit)[counts])) / yardstick
+        return self.optimum(weights, gap, seconds, budget)
+
+    def optimum(
+        self,
+        weights: Mapping[Traded, float],
+        gap: float,
+        seconds: float,
+        budget: float | None = None,
+        **ceilings: float,
+    ) -> ChosenPoint | Infeasible:
+        """The best choice for the largest of some responses times their weights.
+
+        Parameters
+        ----------
+        budget : limit of the total mass, kg; None is that of the task.
+        ceilings : of the objective in place of its own, by field.
+        """
+        machine = self.task.machine
+        if budget is not None:
+            # nothing checked: a budget below what is fixed leaves no counterweights
+            machine = with_fields(machine, {("max_total_mass_kg",): budget})
+        goal = self._weighing(weights, ceilings)
+        limit = min(max(seconds, _LEAST_TIME), self.seconds)
+        task = Task(machine, goal, self.task.fidelity, min(max(gap, _LEAST_GAP), 1.0), limit)
+        best = solve(task, replace(self.scene, machine=machine, objective=goal), self.solver, in_full=False)
+        if isinstance(best, Infeasible):
+            return best
+        values = np.where(self.is_mass, best.shown.total_mass_kg, self.values(best.unbalance))
+        bound = best.certificate.lower_bound
+        corner = np.full(values.shape, np.nan)
+        if bound is not None:
+            # a response that does not count is not below what it comes to here
+            proven = [bound / weights[name] if name in weights else np.nan for name in self.names]
+            corner = np.where(np.isnan(proven), values, proven)
+        return ChosenPoint(best, values, corner)
+
+    def _weighing(self, weights: Mapping[Traded, float], ceilings: Mapping[str, float]) -> Objective:
+        """The largest of the responses times their weights; the objective itself times its own."""
+        objective = self.task.objective
+        if "objective" in weights:
+            own = own_weights(self.task.machine, objective)
+            more = {name: float(each) * weights["objective"] for name, each in own.items()}
+            return weighing(objective, more)
+        inside = {field: weights.get(name, 0.0) for name, field in _INSIDE.items()}
+        return weighing(objective, weights, combine="max", **inside, **ceilings)

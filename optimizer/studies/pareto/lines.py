@@ -1,0 +1,143 @@
+"""Points of a front of any masses on lines anchor + t unit, by the program over the turn.
+
+A point is the first attainable on its line. The bound t_low of the program proves that nothing is below the corner
+anchor + t_low unit in every response.
+"""
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from optimizer.formulation.counterweights import counterweights, masses_and_angles, unbalance
+from optimizer.formulation.simulation import Prepared
+from optimizer.formulation.task import Task
+from optimizer.mechanics.fixed_weights import beside, fixed_masses
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.certificate import ceiling_allowance
+from optimizer.program.cuts.optimum import METHOD, CertifiedOptimum, Conflict, over_turn
+from optimizer.program.reference.solver import Solver
+from optimizer.program.solution import OPTIMUM_SHARE
+from optimizer.program.verdict import Claim, mass_resolution, verdict
+from optimizer.solve.solution import Infeasible, Solution, finite_or_null
+from optimizer.solve.solve import solve
+from optimizer.studies.pareto.measures import measures, sizes
+from optimizer.studies.pareto.points import TradeEnds
+from schemas.front.trade import Traded, TradedCertificate, TradedPoint
+
+#: at an end the others may use so much of what counts first, as a share of its yardstick
+_END_SLACK = 1e-6
+#: a range below this share of the yardstick is none
+_NARROW = 1e-6
+
+
+class Lines:
+    """What the lines of one front share; figures are over omega^2 but for the mass.
+
+    square, there : (D,) what figures are times and above in the units of the answer: the mass is above what is fixed.
+    """
+
+    def __init__(self, task: Task, names: tuple[Traded, ...], scene: Prepared, solver: Solver) -> None:
+        self.task, self.scene, self.solver = task, scene, solver
+        self.traded = measures(task, names, scene)
+        self.square = np.array([1.0 if name == "mass" else scene.omega_squared for name in names])
+        self.fixed = float(np.sum(fixed_masses(task.machine)))
+        self.there = np.array([self.fixed if name == "mass" else 0.0 for name in names])
+        # where the mass is traded, the corner speaks of it
+        self.least_mass = task.objective.least_mass and "mass" not in names
+
+    def ends(self) -> TradeEnds | Infeasible | Solution:
+        """What all come to where each counts first; else what there is of one objective under the same ceilings."""
+        traded = self.traded
+        size = np.where(traded.at_rest > 0, traded.at_rest, 1.0)
+        for _ in range(2):
+            ends, smallest, gross = [], [], np.zeros(size.shape)
+            for which in range(len(traded.names)):
+                result = over_turn(traded.first(which, size, _END_SLACK), OPTIMUM_SHARE, False)
+                if isinstance(result, Conflict):
+                    return solve(self.task, self.scene, self.solver, in_full=False)
+                ends.append(traded.values(result.point.unbalance))
+                gross = np.maximum(gross, traded.gross(result.point.unbalance))
+                smallest.append((result.goals[0].value, result.goals[0].proof.bound))
+            known = sizes(traded.at_rest, gross)
+            if np.all(known == size):
+                break
+            size = known
+        value, bound = np.array(smallest).T
+        return TradeEnds(np.array(ends), value, bound, size, traded.at_rest, self.square, self.there)
+
+    def points(self, shares: Real, ends: TradeEnds) -> tuple[list[TradedPoint], bool]:
+        """Points for shares of the ends (n, D), and that there is one for each; one where all are smallest together."""
+        span = np.max(ends.values, axis=0) - ends.lower_bound
+        if np.all(span <= _NARROW * ends.size):
+            return [self._point(ends.lower_bound, ends.size, ends.size)], True
+        unit = np.maximum(span, _NARROW * ends.size)
+        return _with_rivals([self._point(share @ ends.values, unit, ends.size) for share in shares]), True
+
+    def _point(self, anchor: Real, unit: Real, size: Real) -> TradedPoint:
+        """The first attainable point on a line."""
+        least, wanted = self.least_mass, self.task.relative_gap
+        share = min(1.0, float(np.min(size / unit)))
+        # the ends have kept the ceilings
+        result = over_turn(self.traded.along(anchor, unit), share * wanted, least).certain()
+        masses, angles = masses_and_angles(self.task.machine, result.point.unbalance, result.limits)
+        u = unbalance(masses, angles, result.limits.radius)
+        values, excess = self.traded.values(u), self.traded.excess(u)
+        bound, rounding = _bound(result, u, excess)
+        mass = float(np.sum(masses))
+        proof = result.mass_proof
+        judged = verdict(
+            Claim(
+                value=values,
+                lower_bound=anchor + bound * unit,
+                rounding=rounding * unit,
+                yardstick=size,
+                excess=np.asarray(excess),
+                mass=np.asarray(mass),
+                mass_resolution=mass_resolution(result.proof.statement, np.ones(1)),
+                mass_lower_bound=np.asarray(0.0 if proof is None else proof.bound) if least else None,
+                contradicted=result.contradicted,
+            ),
+            wanted,
+        )
+        on_crank = beside(self.task.machine, masses, angles)
+        plain = self.scene.first_order(unbalance(*on_crank, result.limits.radius))
+        return TradedPoint(
+            status="optimal" if judged.status == "optimal" else "inaccurate",
+            status_reason=str(judged.reason),
+            values=tuple((values * self.square + self.there).tolist()),
+            force_peak_N=float(plain.force.peak),
+            moment_peak_Nm=float(plain.moment.peak),
+            total_mass_kg=mass + self.fixed,
+            counterweights=counterweights(self.task.machine, *on_crank),
+            certificate=TradedCertificate(
+                corner=tuple(finite_or_null(each) for each in judged.lower_bound * self.square + self.there),
+                relative_gap=finite_or_null(judged.relative_gap),
+                mass_lower_bound_kg=finite_or_null(judged.mass_lower_bound + self.fixed) if least else None,
+                mass_relative_gap=finite_or_null(judged.mass_gap) if least else None,
+                cuts=result.cuts,
+                rounds=result.rounds,
+                method=METHOD,
+            ),
+        )
+
+
+def _bound(optimum: CertifiedOptimum, u: Complex, excess: float) -> tuple[float, float]:
+    """What is proven of t for all that exceed no ceiling by more than u does, and the rounding of its value."""
+    proof = optimum.proof
+    over = np.full(proof.statement.ceilings.size.shape, max(excess, 0.0))
+    allowance = float(ceiling_allowance(proof.statement, proof.multipliers, over))
+    rounding = float(proof.statement.rounding(u)) + proof.charge * np.finfo(float).eps
+    return proof.bound - allowance, rounding
+
+
+def _with_rivals(points: Sequence[TradedPoint]) -> list[TradedPoint]:
+    """The points with what beats them, of two responses in the order of the rising first."""
+    ordered = sorted(points, key=lambda point: point.values) if points and len(points[0].values) == 2 else list(points)
+    values = np.array([point.values for point in ordered])
+    return [point.model_copy(update={"beaten_by": next(_beating(values, n), None)}) for n, point in enumerate(ordered)]
+
+
+def _beating(values: Real, n: int) -> Iterator[int]:
+    """Indices of the points that are as small as one in all values (n, D) and smaller in one."""
+    better = np.all(values <= values[n], axis=-1) & np.any(values < values[n], axis=-1)
+    yield from np.flatnonzero(better).tolist()
