@@ -8,6 +8,7 @@ next.
 import multiprocessing
 import os
 import signal
+import sys
 import traceback
 import warnings
 from collections import deque
@@ -17,7 +18,7 @@ from dataclasses import dataclass, field
 from itertools import count
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import ForkProcess
-from typing import Any
+from typing import Any, NoReturn
 
 import pytest
 from _pytest.capture import CaptureManager
@@ -186,7 +187,7 @@ def _end(code: int | None) -> str:
     return f"exit code {code}" if code is None or code >= 0 else signal.Signals(-code).name
 
 
-def work(session: pytest.Session, connection: Connection, others: Iterable[Connection], number: int) -> None:
+def work(session: pytest.Session, connection: Connection, others: Iterable[Connection], number: int) -> NoReturn:
     """In a process: the tests that are sent, until there is none."""
     prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
     # by which it would not be missed that the first process has ended
@@ -210,12 +211,15 @@ def work(session: pytest.Session, connection: Connection, others: Iterable[Conne
             place = following
     except (EOFError, BrokenPipeError):
         # the first process has ended
-        return
+        os._exit(1)
     except BaseException:
         # else it would be captured
         _capture(config).stop_global_capturing()
         traceback.print_exc()
-        raise SystemExit(1) from None
+        os._exit(1)
+    sys.stdout.flush()
+    # threads that tests have left are not waited for, and no files removed that are of the first process
+    os._exit(0)
 
 
 def _move(config: pytest.Config, number: int) -> None:

@@ -33,7 +33,10 @@ def place(request, tmp_path_factory):
 """
 _FILES = {
     "test_first.py": """
-import pytest, warnings
+import pytest, threading, time, warnings
+
+def test_thread_left():
+    threading.Thread(target=time.sleep, args=(600,)).start()
 
 @pytest.mark.parametrize("number", range(5))
 def test_number(number, place):
@@ -84,15 +87,15 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def result(folder: Path) -> subprocess.CompletedProcess[str]:
-    """Of a run of six tests in one file, of which one fails, and of four in another, of which two end their process."""
+    """Of a run of seven tests in one file, of which one fails, and of four in another, of which two end their process."""
     return pytest_run(folder, "-n", "2", "-v", "--durations=0", "-vv", f"--junitxml={folder / 'report.xml'}")
 
 
 def test_all_is_reported_once(result: subprocess.CompletedProcess[str]) -> None:
     assert result.returncode == pytest.ExitCode.TESTS_FAILED
-    assert "3 failed, 7 passed, 1 warning" in result.stdout
+    assert "3 failed, 8 passed, 1 warning" in result.stdout
     verdicts = re.findall(r"(test_\w+\.py::\S+) (PASSED|FAILED)", result.stdout)
-    assert len(verdicts) == 10
+    assert len(verdicts) == 11
     assert {name for name, verdict in verdicts if verdict == "FAILED"} == {
         "test_first.py::test_number[3]", "test_second.py::test_killed", "test_second.py::test_left",
     }  # fmt: skip
@@ -113,7 +116,7 @@ def test_how_a_process_has_ended_is_said_of_its_test(result: subprocess.Complete
 
 def test_reports_are_written(result: subprocess.CompletedProcess[str], folder: Path) -> None:
     suite = ET.parse(folder / "report.xml").getroot()[0]
-    assert (suite.get("tests"), suite.get("failures"), suite.get("errors")) == ("10", "3", "0")
+    assert (suite.get("tests"), suite.get("failures"), suite.get("errors")) == ("11", "3", "0")
 
 
 def test_fixtures_are_shared_within_a_process_and_end_with_it(
