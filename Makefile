@@ -8,25 +8,23 @@ bin := .venv/bin
 kernels := optimizer/program/kernel/__pycache__/kernels
 pip := $(bin)/pip --quiet --disable-pip-version-check
 
-.PHONY: install run test prepared collected quick bytecode chromium freecad mono lint bench hard validate nightly lock settings map pictures docs package image image-check smoke sbom licences audit clean
+.PHONY: install run test tests quick bytecode chromium freecad mono lint bench hard validate nightly lock settings map pictures docs package image image-check smoke sbom licences audit clean
 
 install: $(kernels)
 
 run: $(kernels)
 	$(bin)/counterweight serve
 
-# on two cores, half of the processes begin with tests that wait (tests/distribution.py). What is downloaded comes while the
-# code is checked and compiled. Bytecode is kept: read from source, tests and modules cost every process a third of its start
+# The code is checked while kernels are compiled, browsers downloaded and tests run: many tests wait for other processes
+# (tests/distribution.py), so two cores have room for five. Bytecode is kept: read from source, tests and modules cost
+# every process a third of its start
 test: export PYTHONDONTWRITEBYTECODE :=
 test: .venv/development
-	$(MAKE) --no-print-directory --jobs 2 --output-sync=target prepared
-	$(bin)/pytest --numprocesses 4 --dist loadfile -m "not nightly"
+	$(MAKE) --no-print-directory --jobs 3 lint tests
 
-prepared: lint mono bytecode $(kernels) collected
-
-# by one process, before four do the same: each would compile the tests, and whatever they import, for itself
-collected: .venv/development $(kernels)
-	said=$$($(bin)/pytest -qqq --collect-only -m "not nightly") || { echo "$$said"; exit 1; }
+# not by the command of pytest, which every process that a test starts workers from would run anew
+tests: mono bytecode $(kernels)
+	$(bin)/python -m pytest --numprocesses 5 -m "not nightly"
 
 # what goes wrong first, within a minute: for between the changes, not in place of all tests
 quick: .venv/development $(kernels)
@@ -34,7 +32,7 @@ quick: .venv/development $(kernels)
 	$(bin)/ruff format --check .
 	$(bin)/mypy
 	$(bin)/lint-imports
-	$(bin)/pytest --quiet --numprocesses 2 --dist loadfile tests/schemas tests/effects tests/outputs \
+	$(bin)/python -m pytest --quiet --numprocesses 2 tests/schemas tests/effects tests/outputs \
 	    tests/service/test_computations.py tests/optimize/test_optimize.py
 
 # where PYTHONDONTWRITEBYTECODE is set, every process would read all modules from their source, a third of its start
@@ -89,7 +87,7 @@ long := tests.choices.against_rounding tests.hard.bodies tests.hard.boundary tes
     tests.network.schema tests.verification.fabricated tests.verification.genuine
 nightly: .venv/development $(kernels)
 	failed=0; $(MAKE) hard || failed=1; \
-	HYPOTHESIS_PROFILE=night CHECKED_ANSWERS=every $(bin)/pytest --numprocesses 4 --dist loadfile || failed=1; \
+	HYPOTHESIS_PROFILE=night CHECKED_ANSWERS=every $(bin)/python -m pytest --numprocesses 4 || failed=1; \
 	$(MAKE) image-check || failed=1; \
 	$(bin)/python -m tests.mutation --count 300 || failed=1; \
 	for each in $(long); do echo "$$each"; $(bin)/python -m $$each || failed=1; done; exit $$failed

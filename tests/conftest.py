@@ -8,19 +8,20 @@ import sys
 import tempfile
 from collections import Counter
 from collections.abc import Generator, Iterator
-from typing import TYPE_CHECKING
 
 import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 
+# read when these libraries are loaded: a process that has threads is not forked, see tests/forks.py
+os.environ["OPENBLAS_NUM_THREADS"] = "1"
+os.environ["JE_ARROW_MALLOC_CONF"] = "background_thread:false"
+
 from service.workers.process import preload
 from tests.verification.every import check_answers
 
-if TYPE_CHECKING:
-    from xdist.remote import Producer
-
-    from tests.distribution import Distribution
+# with `-n 4`, or `--numprocesses 4`, in four processes
+pytest_plugins = ["tests.forks"]
 
 # no test may touch the jobs of whoever runs it; processes that tests start inherit this
 _DATA = tempfile.TemporaryDirectory(prefix="counterweight-tests-")
@@ -74,17 +75,11 @@ def pytest_collection() -> Generator[None, object, object]:
 
 
 def pytest_collection_finish() -> None:
-    """Where there are tests of the service, its document is made once."""
+    """What is loaded is loaded. Where there are tests of the service, its document is made once."""
+    for name in ("OPENBLAS_NUM_THREADS", "JE_ARROW_MALLOC_CONF"):
+        os.environ.pop(name, None)
     if "service.http.openapi" in sys.modules:
         importlib.import_module("tests.documents").keep_documents()
-
-
-@pytest.hookimpl(optionalhook=True)
-def pytest_xdist_make_scheduler(config: pytest.Config, log: "Producer") -> "Distribution | None":
-    """`--dist loadfile` as tests/distribution.py orders it."""
-    from tests.distribution import Distribution
-
-    return Distribution(config, log) if config.getvalue("dist") == "loadfile" else None
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

@@ -5,10 +5,9 @@ with those that compute: so neither the cores are idle, nor start all servers at
 last files decide when the run ends.
 """
 
+from collections import defaultdict, deque
+from collections.abc import Iterable
 from pathlib import Path
-
-from xdist.scheduler import LoadScopeScheduling
-from xdist.workermanage import WorkerController
 
 TESTS = Path(__file__).parent
 #: folders whose tests mostly wait for other processes
@@ -67,27 +66,41 @@ LONG = (
 )
 
 
-class Distribution(LoadScopeScheduling):  # type: ignore[misc]
-    """Units of work of a parallel run: files, or folders whose files share a server."""
+class Distribution:
+    """Units of work of a parallel run: files, or folders whose files share a server.
 
-    def _split_scope(self, nodeid: str) -> str:
-        name = nodeid.split("::", 1)[0].removeprefix("tests/")
-        folder = name.split("/", 1)[0]
-        if folder not in TOGETHER:
-            return name
-        half = HALVES.get(folder)
-        return half if half is not None and name >= half else folder
+    Parameters
+    ----------
+    names : of all tests, in their order, as pytest gives them: ``tests/folder/test_file.py::test_name``.
+    """
 
-    def _assign_work_unit(self, node: WorkerController) -> None:
-        begins_waiting = self.nodes.index(node) % 2 == 0
-        self.workqueue.move_to_end(
-            min(self.workqueue, key=lambda unit: (waits(unit) != begins_waiting, *self._rank(unit))), last=False
-        )
-        super()._assign_work_unit(node)
+    def __init__(self, names: Iterable[str]) -> None:
+        self._units: defaultdict[str, deque[int]] = defaultdict(deque)
+        for place, name in enumerate(names):
+            self._units[_unit(name)].append(place)
+
+    def __len__(self) -> int:
+        """Number of units that are left."""
+        return len(self._units)
+
+    def take(self, waiting: bool) -> deque[int]:
+        """Places of the tests of the next unit, of one that waits or of one that computes if it may choose; or none."""
+        if not self._units:
+            return deque()
+        return self._units.pop(min(self._units, key=lambda unit: (waits(unit) != waiting, *self._rank(unit))))
 
     def _rank(self, unit: str) -> tuple[int, int]:
         place = LONG.index(unit) if unit in LONG else len(LONG)
-        return place, -len(self.workqueue[unit])
+        return place, -len(self._units[unit])
+
+
+def _unit(name: str) -> str:
+    file = name.split("::", 1)[0].removeprefix("tests/")
+    folder = file.split("/", 1)[0]
+    if folder not in TOGETHER:
+        return file
+    half = HALVES.get(folder)
+    return half if half is not None and file >= half else folder
 
 
 def waits(unit: str) -> bool:

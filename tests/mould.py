@@ -27,6 +27,16 @@ _LOADED = (
     "service.watch.logs",
     "service.wire.server",
     "uvicorn.lifespan.on",
+    # when it serves, or prints an answer
+    "anyio._backends._asyncio",
+    "multiprocessing.popen_forkserver",
+    "schemas.answer.shaft",
+    "schemas.match.answer",
+    "schemas.rating.answer",
+    "service.report.terminal",
+    "sqlalchemy.dialects.sqlite.aiosqlite",
+    "typer.rich_utils",
+    "uvicorn.loops.asyncio",
 )
 #: what may be asked for at a time [bytes]
 LARGEST = 1 << 17

@@ -1,41 +1,14 @@
 """Which process gets which tests."""
 
-from types import SimpleNamespace
-from typing import Any
-
 import pytest
 
 from tests.distribution import HALVES, LONG, TESTS, TOGETHER, WAITING, Distribution, waits
 
 
-class Node:
-    """A process that notes which tests it is sent."""
-
-    shutting_down = False
-
-    def __init__(self, collection: list[str], name: str) -> None:
-        self.collection = collection
-        self.gateway = SimpleNamespace(id=name)
-        self.sent: list[str] = []
-
-    def send_runtest_some(self, places: list[int]) -> None:
-        self.sent += [self.collection[place] for place in places]
-
-    def shutdown(self) -> None:
-        self.shutting_down = True
-
-
-def distributed(collection: list[str], processes: int) -> tuple[Distribution, list[Node]]:
-    options = {"tx": [f"{processes}*popen"], "dist": "loadfile"}
-    config: Any = SimpleNamespace(getvalue=options.get, option=SimpleNamespace(loadscopereorder=True))
-    found = Distribution(config)
-    nodes = [Node(collection, f"gw{number}") for number in range(processes)]
-    for node in nodes:
-        found.add_node(node)
-    for node in nodes:
-        found.add_node_collection(node, collection)
-    found.schedule()
-    return found, nodes
+def taken(collection: list[str], *waiting: bool) -> list[list[str]]:
+    """The tests that processes get one after the other, which want tests that wait, or others."""
+    distribution = Distribution(collection)
+    return [[collection[place] for place in distribution.take(wanted)] for wanted in waiting]
 
 
 def names(file: str, count: int) -> list[str]:
@@ -44,35 +17,36 @@ def names(file: str, count: int) -> list[str]:
 
 def test_half_begin_with_what_waits_and_half_with_what_computes() -> None:
     files = {"mechanics/test_rod.py": 40, "jobs/test_store.py": 4, "schemas/test_units.py": 9, "network/test_cut.py": 5}
-    _, nodes = distributed([one for file, count in files.items() for one in names(file, count)], 4)
-    assert [node.sent[0].split("::")[0].removeprefix("tests/") for node in nodes] == [
-        "network/test_cut.py", "mechanics/test_rod.py", "jobs/test_store.py", "schemas/test_units.py",
+    collection = [one for file, count in files.items() for one in names(file, count)]
+    units = taken(collection, True, False, True, False, True)
+    assert [{one.split("::")[0].removeprefix("tests/") for one in unit} for unit in units] == [
+        {"network/test_cut.py"}, {"mechanics/test_rod.py"}, {"jobs/test_store.py"}, {"schemas/test_units.py"}, set(),
     ]  # fmt: skip
 
 
 def test_a_shared_server_is_started_by_one_process_and_what_is_long_comes_first() -> None:
     pages = [*names("browser/test_form.py", 3), *names("browser/test_link.py", 2)]
     collection = [*names("network/test_cut.py", 30), *pages, *names("program/test_cone.py", 30)]
-    _, nodes = distributed(collection, 2)
-    assert nodes[0].sent == pages
-    assert nodes[1].sent == collection[-30:]
+    assert taken(collection, True, False) == [pages, collection[-30:]]
 
 
 def test_a_folder_that_would_end_last_is_run_by_two() -> None:
     halves = names("browser/test_form.py", 3), [*names("browser/test_paper.py", 1), *names("browser/test_trials.py", 2)]
-    _, nodes = distributed([*halves[0], *halves[1], *names("program/test_cone.py", 30)], 4)
-    assert [node.sent for node in nodes[:3]] == [halves[1], names("program/test_cone.py", 30), halves[0]]
+    computing = names("program/test_cone.py", 30)
+    assert taken([*halves[0], *halves[1], *computing], True, False, True) == [halves[1], computing, halves[0]]
 
 
-def test_nothing_is_left_or_sent_twice() -> None:
+def test_who_wants_tests_that_wait_gets_others_when_there_are_none() -> None:
+    collection = [*names("program/test_cone.py", 3), *names("jobs/test_store.py", 2)]
+    assert taken(collection, True, True) == [collection[3:], collection[:3]]
+    assert taken(collection, False, False) == [collection[:3], collection[3:]]
+
+
+def test_nothing_is_left_or_taken_twice() -> None:
     collection = [one for number in range(9) for one in names(f"jobs/test_{number}.py", 1 + number % 4)]
-    found, nodes = distributed(collection, 3)
-    while not found.tests_finished:
-        for node in nodes:
-            done = [place for unit in found.assigned_work[node].values() for place, ended in unit.items() if not ended]
-            if done:
-                found.mark_test_complete(node, collection.index(done[0]))
-    assert sorted(one for node in nodes for one in node.sent) == sorted(collection)
+    units = taken(collection, *[True, False] * 5)
+    assert units[-1] == []
+    assert sorted(one for unit in units for one in unit) == sorted(collection)
 
 
 @pytest.mark.parametrize("name", [*LONG, *WAITING, *TOGETHER, *HALVES.values()])

@@ -5,6 +5,7 @@ to by name.
 """
 
 from collections.abc import Mapping
+from functools import cache
 from typing import Any
 
 from schemas.answer.problem import Problem
@@ -210,5 +211,11 @@ def _examples(model: type[Model], folder: str) -> Described:
             "summary": body.get("machine", body).get("name", name),
             "value": {key: value for key, value in body.items() if key in model.model_fields},
         }
-        for name, body in bodies(folder).items()
+        for name, body in _bodies(folder).items()
     }
+
+
+@cache
+def _bodies(folder: str) -> dict[str, Any]:
+    """Read once, not for every route; not to be changed."""
+    return bodies(folder)
