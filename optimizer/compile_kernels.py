@@ -1,8 +1,8 @@
 """Compile the kernels, once for an installation: ``python -m optimizer.compile_kernels``.
 
 Two processes take about as long: one what budgets are spent by, the interior points for any limits and for plain
-discs, and what parts are matched by, the other what follows the turn and what sums of options are compared by. What
-both interior points have in common is inlined in each.
+discs, what proves and settles, and what parts are matched by; the other what follows the turn and what sums of
+options are compared by. What both interior points have in common is inlined in each.
 """
 
 import gc
@@ -32,6 +32,23 @@ def budgets() -> None:
     filled(np.ones((1, 1)), np.ones((1, 1)), np.ones(1))
 
 
+def proofs() -> None:
+    """Compile what proves bounds of choices and settles counterweights over the turn: one web, one term, one row."""
+    from optimizer.program.ceilings import Ceilings
+    from optimizer.program.certificate import affine_minorant, nothing_proven
+    from optimizer.program.compiled_evaluation import near_limits
+    from optimizer.program.limits import Limits
+    from optimizer.program.norms import Norms
+    from optimizer.program.statement import Names, Statement
+
+    one, first, vector = np.ones(1), np.zeros(1, int), np.ones(1, complex)
+    limits, none = Limits(one, one, one > 0, vector, one, one, np.array(1.0)), Norms(vector[:0], np.ones((0, 1)))
+    no_ceilings = Ceilings((), none, one[:0], one[:0])
+    program = Statement(Norms(vector, np.ones((1, 1))), first, first, one, no_ceilings, limits, Names((), ()))
+    affine_minorant(program, nothing_proven(program))
+    near_limits(limits, np.ones((1, 1, 1)), np.ones((1, 1), complex), 0.0, 0.0)
+
+
 def moving_curves() -> None:
     """Compile what brings curves into motion: one piece."""
     from optimizer.responses.kernel.motion import STILL, in_motion
@@ -53,7 +70,7 @@ def main() -> None:
     begun = time.perf_counter()
     beside = get_context("spawn").Process(target=_alone, args=(follow_a_turn, moving_curves, near_sums))
     beside.start()
-    _alone(budgets, any_limits, plain_discs, match_parts)
+    _alone(budgets, any_limits, plain_discs, proofs, match_parts)
     beside.join()
     if beside.exitcode:
         raise SystemExit("the second process failed; what it said stands above")

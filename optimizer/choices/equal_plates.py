@@ -12,11 +12,11 @@ import numpy as np
 
 from optimizer.mechanics.plates import Plates
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.compiled_evaluation import balanced
 from optimizer.program.methods.compiled import suits_kernel, unproven
 from optimizer.program.methods.plate_sizes import NEARLY, SAME_SIZE, CutWeights, at_limits, total_mass
-from optimizer.program.methods.rounding import made_up
 from optimizer.program.plate_pieces import pieces, tangents
-from optimizer.program.points import excess_at
+from optimizer.program.points import points_at
 from optimizer.program.solution import CEILING_ROUNDING
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import MASS_GAP
@@ -72,9 +72,8 @@ def emptied(whole: Statement, plates: Plates, cut: CutWeights, empty: np.ndarray
     """The same with some webs (K,) bool left empty, for which counterweights between their limits make up."""
     limits, put = whole.limits, np.where(empty, 0.0, cut.unbalance)
     room = np.where(empty | at_limits(whole, cut), 0.0, np.abs(cut.unbalance))
-    change = whole.every_influence[0] @ (put - cut.unbalance)
-    balanced = put + made_up(limits.alike, whole.every_influence, room[None], change[None])[0]
-    u = np.where(room > 0, limits.into(balanced[None])[0], put)
+    new = balanced(limits, whole.every_influence, cut.unbalance[None], put[None], room[None])[0]
+    u = np.where(room > 0, new, put)
     angle = np.where(room[plates.webs] > 0, plates.opened(np.abs(u[plates.webs])), cut.angle)
     angle = np.where(empty[plates.webs], 0.0, angle)
     return CutWeights(u, angle, float(total_mass(whole, plates, u, angle)))
@@ -120,7 +119,7 @@ def _admitted(whole: Statement, cut: CutWeights, optimum: tuple[float, float], l
     return _Admitted(
         optimum[0],
         float(np.maximum(optimum[1], whole.objective(u)[0])),
-        float(np.maximum(excess_at(whole, u[None])[0], CEILING_ROUNDING)),
+        float(np.maximum(points_at(whole, u[None]).excess[0], CEILING_ROUNDING)),
         heaviest,
         bool(np.isfinite(least_mass)),
     )
@@ -164,7 +163,7 @@ def _opened(
         share = _OF_OBJECTIVE * (admitted.objective - admitted.bound)
         tried = _others(many, plates, nodes, held, tried, share, admitted.least_mass)
         close = many.objective(tried) <= admitted.objective + many.rounding(tried)
-        close &= excess_at(many, tried) <= admitted.excess
+        close &= points_at(many, tried).excess <= admitted.excess
         opened = plates.opened(np.abs(tried[:, plates.webs]))
         mass = total_mass(whole, plates, tried, opened)
         light = mass <= admitted.mass

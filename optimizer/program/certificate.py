@@ -5,26 +5,19 @@ affine function of u whose minimum over the limits is a support function and a k
 So any multipliers give a rigorous bound; better ones give a better bound.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.records import record
-from optimizer.program.limits import Limits
+from optimizer.program.compiled_evaluation import Minorants
 from optimizer.program.statement import Statement
 
 _EPS = float(np.finfo(float).eps)
-#: roundings of one product of a bound with its data (responses, sectors, multipliers of sum 1), in eps; a sum of n
-#: such products is off by less than n + this times eps of the sum of their magnitudes (Higham 2002, section 3.1)
-_PER_PRODUCT = 16
-#: of these, those of influences (arms, weights) and of multipliers as they are printed, which no finer sum mends
-_DATA = 6
 #: for the rounding of a product
 _UP = 1.0 + 64 * _EPS
-#: a slope is summed in finer numbers where its rounding would cost the bound this share of its constant
-_DEAR = 1e-10
 
 
 @record
@@ -92,34 +85,12 @@ def nothing_proven(statement: Statement) -> Multipliers:
     )
 
 
-@dataclass(frozen=True)
-class _Minorant:
-    """constant + sum_k (Re(conj(slope_k) u_k) + spread_k |u_k|), and what they may be off by."""
-
-    constant: Real  # (...)
-    constant_size: Real  # (...) sum of magnitudes that the rounding of the constant is a share of
-    slope: Complex  # (..., K)
-    slope_rounding: Real  # (..., K)
-    spread: Real | float = 0.0  # (..., K) no more than it is
-
-    def support(self, limits: Limits) -> Real:
-        """What a kilogram metre on each web can lower it by, or more (..., K); below 0 it only raises it."""
-        return limits.support(-self.slope) + self.slope_rounding - self.spread
-
-
 def objective_lower_bound(statement: Statement, multipliers: Multipliers) -> Real:
     """No u within limits and ceilings has a smaller objective than this (...).
 
     -inf where the multipliers of the rows are all 0, which says nothing about the objective.
     """
-
-    def in_full() -> Real:
-        usable, known = normalised(statement, multipliers)
-        minorant = _minorant(statement, usable, statement.ceilings.cap)
-        least = _least_over_limits(minorant, 0.0, statement.limits)
-        return np.where(known, minorant.constant + least - _rounding(statement, minorant.constant_size), -np.inf)
-
-    return _in_loops(statement, multipliers, None, in_full)
+    return statement.flat.bounds(multipliers.term, multipliers.row, multipliers.ceiling)
 
 
 def best_proof(statement: Statement, proofs: Iterable[Multipliers]) -> tuple[Real, Multipliers]:
@@ -149,16 +120,7 @@ def mass_lower_bound(statement: Statement, multipliers: Multipliers, target: Rea
         the rows of a group is the price nu of P(u) <= target.
     target : (...) largest objective that still counts as optimal.
     """
-
-    def in_full() -> Real:
-        usable = multipliers.admissible(statement)
-        minorant = _minorant(statement, usable, statement.ceilings.counted)
-        charge = usable.price(statement) * target
-        least = _least_over_limits(minorant, 1.0, statement.limits)
-        rounding = _rounding(statement, minorant.constant_size + np.abs(charge))
-        return np.maximum(minorant.constant - charge + least - rounding, 0.0)
-
-    return _in_loops(statement, multipliers, target, in_full)
+    return statement.flat.bounds(multipliers.term, multipliers.row, multipliers.ceiling, target)
 
 
 def mass_bound_up_to(bound: Real, price: Real, more: Real) -> Real:
@@ -171,22 +133,6 @@ def mass_bound_up_to(bound: Real, price: Real, more: Real) -> Real:
     return np.maximum(bound - price * more * _UP, 0.0)
 
 
-def _in_loops(statement: Statement, multipliers: Multipliers, target: Real | None, in_full: Callable[[], Real]) -> Real:
-    """A bound by compiled loops; in full where those are not for such programs, or finer numbers are called for.
-
-    Parameters
-    ----------
-    target : (...) of a bound on the mass; None of one on the objective.
-    """
-    flat = statement.flat
-    if flat is None or not flat.suits(multipliers.row.shape[:-1]):
-        return in_full()
-    if target is not None and target.shape != flat.leading:
-        return in_full()
-    bound, dear = flat.bounds(multipliers.term, multipliers.row, multipliers.ceiling, target)
-    return np.where(dear, in_full(), bound) if np.count_nonzero(dear) else bound
-
-
 def affine_minorant(statement: Statement, multipliers: Multipliers) -> tuple[Real, Complex, Real]:
     """An affine function that is nowhere above the objective of what counts as keeping the ceilings.
 
@@ -195,10 +141,8 @@ def affine_minorant(statement: Statement, multipliers: Multipliers) -> tuple[Rea
     constant (...) without its rounding, -inf where nothing is proven; slopes (..., K), Re(conj(slope_k) u_k) of the
     unbalances; and what the slopes may be off by (..., K).
     """
-    usable, known = normalised(statement, multipliers)
-    minorant = _minorant(statement, usable, statement.ceilings.counted)
-    constant = minorant.constant - _rounding(statement, minorant.constant_size)
-    return np.where(known, constant, -np.inf), minorant.slope, minorant.slope_rounding
+    found = _minorants(statement, multipliers, counted=True, normal=True)
+    return found.constant, found.slope, found.rounding
 
 
 def tolerance_allowance(statement: Statement, multipliers: Multipliers) -> Real:
@@ -221,10 +165,10 @@ def budget_price(statement: Statement, multipliers: Multipliers, mass_cost: floa
     ends = limits.budget_ends
     if not np.count_nonzero(ends):
         return np.zeros(ends.shape)
-    minorant = _minorant(statement, multipliers, statement.ceilings.cap)
+    found = _minorants(statement, multipliers, counted=False, normal=False)
     # with the rounding of the slopes, as in the bound: at a lower price a web behind this one would gain something
     # a plate that is opened further adds a kilogram at its edge (section 18)
-    _, price = limits.spent(limits.margin * minorant.support(limits) - mass_cost)
+    _, price = limits.spent(limits.margin * found.support - mass_cost)
     return price
 
 
@@ -257,68 +201,13 @@ def proves(price: Real) -> np.ndarray:
     return (price > 0) & np.isfinite(price)
 
 
-def _minorant(statement: Statement, multipliers: Multipliers, cap: Real) -> _Minorant:
-    """The affine minorant of the Lagrangian under some caps of the ceilings."""
-    norms, ceilings = statement.norms, statement.ceilings
-    parts = [multipliers.row * statement.floor, (np.conj(multipliers.term) * norms.constant).real]
-    if ceilings.names:
-        parts += [(np.conj(multipliers.ceiling) * ceilings.norms.constant).real, -np.abs(multipliers.ceiling) * cap]
-    fixed = np.concatenate(parts, axis=-1)
-    size = np.add.reduce(np.abs(fixed), axis=-1)
-    slope, rounding = _slope(statement, multipliers, size)
-    return _Minorant(np.add.reduce(fixed, axis=-1), size, slope, rounding, spread(statement, multipliers))
-
-
 def spread(statement: Statement, multipliers: Multipliers) -> Real | float:
     """What a bound rises by, or less, for a kilogram metre on each web because counterweights scatter (..., K)."""
-    norms, ceilings = statement.norms, statement.ceilings.norms
-    if not norms.scatter and not ceilings.scatter:
+    if not statement.norms.scatter and not statement.ceilings.norms.scatter:
         return 0.0
-    of_terms = norms.scatter * multipliers.row[..., statement.row, None] * np.abs(norms.influence)
-    of_ceilings = ceilings.scatter * np.abs(multipliers.ceiling)[..., None] * np.abs(ceilings.influence)
-    each: Real = np.add.reduce(of_terms, axis=-2) + np.add.reduce(of_ceilings, axis=-2)
-    alike = statement.limits.alike
-    if alike is not None:
-        # webs that carry as much as one another share what it is
-        each = (alike.summed(each) / alike.count)[..., alike.owner]
-    return each * (1.0 - _EPS * (_PER_PRODUCT + statement.row.size + multipliers.ceiling.shape[-1]))
+    return _minorants(statement, multipliers, counted=False, normal=False).spread
 
 
-def _slope(statement: Statement, multipliers: Multipliers, worth: Real) -> tuple[Complex, Real]:
-    """Slopes of the minorant and what they may be off by (..., K).
-
-    Parameters
-    ----------
-    worth : (...) what the rounding is cheap or dear beside, in units of what is bounded.
-    """
-    influence = np.conj(statement.every_influence)
-    price = np.concatenate([multipliers.term, multipliers.ceiling], axis=-1)[..., None]
-    terms = price.shape[-2]
-    slope, size = np.add.reduce(influence * price, axis=-2), np.add.reduce(np.abs(influence) * np.abs(price), axis=-2)
-    rounding = _EPS * (_PER_PRODUCT + terms) * size
-    dear = np.add.reduce(statement.limits.reach * rounding, axis=-1) > _DEAR * worth
-    if not dear.any():
-        return slope, rounding
-    # webs that can hardly be told apart, with limits that are far away: what is left of the data, no more
-    finer = np.add.reduce(influence * price.astype(np.clongdouble), axis=-2)
-    rest = float(np.finfo(np.longdouble).eps) * (2 + terms) * size
-    slope = np.where(dear[..., None], finer.astype(complex), slope)
-    return slope, np.where(dear[..., None], _EPS * (_DATA * size + _PER_PRODUCT * np.abs(slope)) + rest, rounding)
-
-
-def _rounding(statement: Statement, size: Real) -> Real:
-    """Rounding of a sum over terms, rows and ceilings whose magnitudes sum to ``size``."""
-    count = statement.row.size + 2 * len(statement.ceilings.names) + statement.floor.shape[-1]
-    return _EPS * (_PER_PRODUCT + count) * size
-
-
-def _least_over_limits(minorant: _Minorant, mass_cost: float, limits: Limits) -> Real:
-    """Below the minimum of sum_k (mass_cost m_k + Re(conj(slope_k) u_k)) over the limits, by its rounding (...).
-
-    One kilogram on web k gains at best R_k sigma_k - cost; the rounding of the slope is a gain too, so that it counts
-    as far as the limits let the web reach. With a budget the webs are filled in falling order of that gain.
-    """
-    gain = np.maximum(limits.radius * minorant.support(limits) - mass_cost, 0.0)
-    masses, _ = limits.spent(gain)
-    gained = np.add.reduce(gain * masses, axis=-1)
-    return -gained * (1.0 + _EPS * (_PER_PRODUCT + 2 * gain.shape[-1]))
+def _minorants(statement: Statement, multipliers: Multipliers, counted: bool, normal: bool) -> Minorants:
+    """As :meth:`optimizer.program.compiled_evaluation.Flat.minorants`."""
+    return statement.flat.minorants(multipliers.term, multipliers.row, multipliers.ceiling, counted, normal)

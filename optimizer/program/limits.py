@@ -7,6 +7,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, plain, spread
 from optimizer.numerics.records import record
+from optimizer.program.compiled_evaluation import into
 from optimizer.program.equal_castings import Alike
 
 #: fields with an entry for each web
@@ -72,25 +73,9 @@ class Limits:
         )
         return masses.reshape(gain.shape), price.reshape(leading)
 
-    def into_sectors(self, u: Complex) -> Complex:
-        """The nearest unbalance inside the sectors, kg m (..., K)."""
-        if self.free.all():
-            return u
-        v = u * np.conj(self.centre)
-        edge = self.half_angle_cos + 1j * np.where(v.imag < 0, -1.0, 1.0) * self.half_angle_sin
-        along = np.maximum((v * np.conj(edge)).real, 0.0)
-        inside = self.free | (np.abs(v.imag) * self.half_angle_cos <= v.real * self.half_angle_sin)
-        return np.where(inside, u, along * edge * self.centre)
-
     def into(self, u: Complex) -> Complex:
         """An unbalance within all limits, close to one that is nearly so, kg m (..., K)."""
-        u = self.into_sectors(self._nearest(u))
-        size = np.abs(u)
-        largest = self.reach
-        u = u * np.where(size > largest, largest / np.where(size > 0, size, 1.0), 1.0)
-        mass = np.add.reduce(np.abs(u) / self.radius, axis=-1)
-        over = mass > self.max_total_mass
-        return u * np.where(over, self.max_total_mass / np.where(over, mass, 1.0), 1.0)[..., None]
+        return into(self, u)
 
     def support(self, g: Complex) -> Real:
         """Largest Re(conj(g_k) v) over unit vectors v in sector k (docs/mathematics.md section 5), (..., K).
@@ -99,7 +84,7 @@ class Limits:
 
         Of alike webs the mean of theirs, with vectors that are alike.
         """
-        g = self._nearest(g)
+        g = g if self.alike is None else self.alike.nearest(g)
         if self.free.all():
             return np.abs(g)
         rotated = g * np.conj(self.centre)
@@ -126,6 +111,3 @@ class Limits:
         """Of alike webs the sum, of others as it is (..., U)."""
         summed: Real = of_webs if self.alike is None else self.alike.summed(of_webs)
         return summed
-
-    def _nearest(self, u: Complex) -> Complex:
-        return u if self.alike is None else self.alike.nearest(u)

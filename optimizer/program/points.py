@@ -35,28 +35,7 @@ class Points(NamedTuple):
             *(np.where(mask, mine, others) for mine, others in zip(self[1:], other[1:], strict=True)),
         )
 
-    def chosen(self, programs: np.ndarray) -> "Points":
-        """Those of some of the programs."""
-        return Points(*(values[programs] for values in self))
-
-    def put(self, programs: np.ndarray, others: "Points") -> "Points":
-        """Others for some of the programs."""
-        if programs.size == self.mass.size:
-            return others
-        copies = self.chosen(np.arange(self.mass.size))
-        for mine, other in zip(copies, others, strict=True):
-            mine[programs] = other
-        return copies
-
 
 def points_at(statement: Statement, u: Complex) -> Points:
     """What unbalances (..., N, K) [kg m] come to."""
-    flat = statement.flat
-    if flat is not None and flat.suits(u.shape[:-1]):
-        return Points(u, *flat.values(u))
-    return Points(u, statement.objective(u), statement.mass(u), excess_at(statement, u), statement.rounding(u))
-
-
-def excess_at(statement: Statement, u: Complex) -> Real:
-    """Largest relative excess over a ceiling (N,); -inf without ceilings."""
-    return np.maximum.reduce(statement.ceilings.excess(u), axis=-1, initial=-np.inf)
+    return Points(u, *statement.flat.values(u))

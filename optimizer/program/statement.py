@@ -85,12 +85,9 @@ class Statement:
         return np.concatenate([self.norms.influence, self.ceilings.norms.influence], axis=-2)
 
     @cached_property
-    def flat(self) -> Flat | None:
-        """The same for compiled loops; None where those are not for such programs."""
-        if self.group[-1] > 0:
-            return None
-        terms = self.every_constant, self.every_influence
-        return flat(self.norms, self.row, self.floor, self.ceilings, self.limits, *terms)
+    def flat(self) -> Flat:
+        """The same for compiled loops."""
+        return flat(self)
 
     def objective(self, u: Complex) -> Real:
         """P(u), exact (..., )."""
@@ -217,7 +214,7 @@ class Statement:
         found = self._mapped(lambda array: array[None])
         # what is known of it is not found out again
         known = {"at_rest": self.at_rest[None], "single_reach": self.single_reach[None]}
-        vars(found).update(known, flat=None if self.flat is None else variant(self.flat, leading=(1,)))
+        vars(found).update(known, flat=variant(self.flat, leading=(1,)))
         return found
 
     def chosen(self, programs: "int | tuple[int, ...] | np.ndarray") -> "Statement":

@@ -74,7 +74,7 @@ def test_a_bound_falls_by_its_allowance_where_ceilings_are_exceeded(kind: str) -
 def test_the_budget_has_the_price_at_which_webs_are_filled(seed: int, cost: float) -> None:
     """Analytic: with it, what all webs gain is as much as in falling order of their gain."""
     program = _program(seed, "sector, budget")
-    proof = _multipliers(seed, program).times(np.asarray(20.0))
+    proof = _multipliers(seed, program).times(np.asarray(20.0)).admissible(program)
     price = float(budget_price(program, proof, cost))
     limits = program.limits
     slope = np.sum(np.conj(program.norms.influence) * proof.term[:, None], axis=0)

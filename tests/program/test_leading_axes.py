@@ -23,7 +23,7 @@ from optimizer.program.certificate import (
 from optimizer.program.misplacement import angle_corners, mass_corners, worst_by_angle, worst_by_mass
 from optimizer.program.multipliers import resting_multipliers
 from optimizer.program.norms import Norms
-from optimizer.program.points import excess_at
+from optimizer.program.points import points_at
 from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.scaling import cancelling, natural_reach
 from optimizer.program.sensitivity import shadow_prices
@@ -111,12 +111,10 @@ FUNCTIONS: dict[str, Function] = {
     ],
     "limits": lambda program, u, _: [
         program.limits.reach, program.limits.most, program.limits.budget_ends, *program.limits.spent(np.abs(u)),
-        *(each(3.0 * u) for each in (
-            program.limits.into_sectors, program.limits.into, program.limits.support, program.limits.opening
-        )),
+        *(each(3.0 * u) for each in (program.limits.into, program.limits.support, program.limits.opening)),
     ],
     "excess": lambda program, u, _: [
-        program.ceilings.excess(u)[..., : max(1, len(program.ceilings.names))], excess_at(program, u),
+        program.ceilings.excess(u)[..., : max(1, len(program.ceilings.names))], points_at(program, u).excess,
         program.ceilings.counted, program.ceilings.raised(0.1).cap,
     ],
     "certificate": _certified,

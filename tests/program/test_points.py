@@ -9,7 +9,7 @@ import pytest
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import nothing_proven
 from optimizer.program.methods.compiled import _better, _nearer, plain_discs, pulled, suits_kernel
-from optimizer.program.points import Points, excess_at, points_at
+from optimizer.program.points import Points, points_at
 from optimizer.program.solution import CEILING_ROUNDING, ConeSolution, evaluated, joined
 from tests.program.cases import random_point
 from tests.program.test_leading_axes import WEBS, _multipliers, _program
@@ -66,16 +66,16 @@ def test_points_above_a_ceiling_are_moved_to_it_and_no_farther() -> None:
         for size in (0.1, 3.0, 10.0):
             u = size * random_point(np.random.default_rng(seed), program.limits)[None]
             found = pulled(one, u, inside)
-            above, below = float(excess_at(one, u)[0]), float(excess_at(one, inside)[0])
+            above, below = float(points_at(one, u).excess[0]), float(points_at(one, inside).excess[0])
             if above <= CEILING_ROUNDING:
                 assert np.array_equal(found, u)
             elif below < 0.0:
-                assert excess_at(one, found)[0] <= 1e-9
+                assert points_at(one, found).excess[0] <= 1e-9
                 share = above / (above - below)
                 np.testing.assert_allclose(found, u * (1.0 - share), rtol=1e-9)
 
 
-def test_points_are_taken_and_put_program_by_program() -> None:
+def test_points_are_taken_program_by_program() -> None:
     every = points_at(_program(1, "ceiling"), np.arange(12.0).reshape(3, 4) + 0j)
     other = Points(*(values + 100.0 for values in every))
     for mask in product([False, True], repeat=3):
@@ -83,9 +83,6 @@ def test_points_are_taken_and_put_program_by_program() -> None:
         for part, mine, others in zip(found, every, other, strict=True):
             for n, own in enumerate(mask):
                 assert np.array_equal(part[n], (mine if own else others)[n])
-    few = every.put(np.array([2]), other.chosen(np.array([0])))
-    assert few.mass.tolist() == [every.mass[0], every.mass[1], other.mass[0]]
-    assert every.put(np.arange(3), other) is other
     assert [one.mass.tolist() for one in Points(*(np.stack([a, a + 1]) for a in every)).items] == [
         every.mass.tolist(),
         (every.mass + 1).tolist(),

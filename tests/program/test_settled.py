@@ -122,25 +122,3 @@ def test_a_ceiling_is_not_traded_for_dust() -> None:
     limited = statement(combined([weighted_peak(force, 1.0)], "sum"), [(force, 3.0 - 1e-6)], replace(program.limits))
     np.testing.assert_array_equal(once(limited, u, target=10.0), u)
     np.testing.assert_array_equal(once(replace(limited, ceilings=program.ceilings), u, target=10.0), [-2.0, 0.0])
-
-
-@given(seed=st.integers(0, 10**6), case=st.sampled_from(COMBINATIONS))
-def test_loops_settle_what_arrays_settle(seed: int, case: tuple) -> None:
-    """Independent: of complex influences the same by arrays."""
-    program, rng = random_statement(seed, *case).alone(), np.random.default_rng(seed)
-    limits = program.limits
-    in_full = replace(program, norms=replace(program.norms, influence=program.norms.influence.astype(complex)))
-    assert program.flat is not None
-    assert in_full.flat is None
-    # next to limits, next to nothing, and between; not at limits, where rounding would decide as well
-    share = rng.choice([1e-9, 1e-7, 1e-5, 0.5, 1.0 - 1e-9, 1.0 - 1e-5], limits.radius.shape)
-    off = rng.choice([-1.0 + 1e-9, 0.2, 1.0 - 1e-5], limits.radius.shape)
-    across = off * np.arctan2(limits.half_angle_sin, limits.half_angle_cos)
-    u = limits.into(share * limits.reach * limits.centre * np.exp(1j * across))
-    if np.any(points_at(program, u).excess > 0):
-        return  # what made up for what was moved exceeds a ceiling as it did, but for rounding
-    # never the objective itself, of which rounding would decide
-    target = program.objective(u) * (1.0 + rng.choice([1e-6, 1e-3, 0.1])) + 1e-7
-    found = [settled(each, points_at(each, u), target, None) for each in (program, in_full)]
-    for one, other in zip(*found, strict=True):
-        np.testing.assert_allclose(one, other, rtol=1e-9, atol=1e-9)

@@ -5,11 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, mapped
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.compiled_evaluation import near_limits
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.cuts.stage import Point
 from optimizer.program.methods.plate_sizes import CutWeights, equal_sizes, unlike
-from optimizer.program.methods.rounding import HEAVIER, NEAR, brought
+from optimizer.program.methods.rounding import HEAVIER, NEAR
 from optimizer.program.solution import CEILING_ROUNDING
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import MASS_GAP
@@ -35,13 +36,12 @@ def settled_turn(
     responses = [term.response for term in statement.names.terms]
     rows = [responses.index(name) for name in dict.fromkeys(responses)]
     influence = np.concatenate([statement.norms.influence[rows], statement.ceilings.norms.influence])
-    limits = mapped(statement.limits, lambda array: array[None])
     # the edge of a full plate weighs much and moves little
     heavier = HEAVIER if program.plates is None else _HEAVIER_PLATES
     heaviest = np.inf if mass_bound is None else mass_bound / (1.0 - heavier)
     for dust, touched in _STEPS:
-        u, moved = brought(limits, influence[None], point.unbalance[None], dust, touched)
-        if not moved.size:
+        u, moved = near_limits(statement.limits, influence[None], point.unbalance[None], dust, touched)
+        if not moved[0]:
             continue
         point = _settled(program, point, u[0], most, heaviest, width) or point
     if program.plates is None:

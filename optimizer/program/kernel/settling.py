@@ -5,88 +5,120 @@ import numpy as np
 
 from optimizer.program.kernel.cancelling import change
 from optimizer.program.kernel.compiling import in_place, inner
+from optimizer.program.kernel.regions import into
 from optimizer.program.kernel.values import value
 
 
 @inner
-def into(u, radius, max_mass, budget, free, centre, cosine, sine):  # type: ignore[no-untyped-def]
-    """An unbalance (K,) within all limits, in place: :meth:`optimizer.program.limits.Limits.into`."""
-    mass = 0.0
-    for k in range(u.size):
-        if not free[k]:
-            v = u[k] * np.conj(centre[k])
-            if abs(v.imag) * cosine[k] > v.real * sine[k]:
-                edge = complex(cosine[k], -sine[k] if v.imag < 0.0 else sine[k])
-                u[k] = max((v * np.conj(edge)).real, 0.0) * edge * centre[k]
-        size, largest = abs(u[k]), radius[k] * min(max_mass[k], budget)
-        if size > largest:
-            u[k] = complex(u[k].real * (largest / size), u[k].imag * (largest / size))
-        mass += abs(u[k]) / radius[k]
-    if mass > budget:
-        for k in range(u.size):
-            u[k] = complex(u[k].real * (budget / mass), u[k].imag * (budget / mass))
-
-
-@in_place
-def bring(u, radius, max_mass, budget, free, centre, cosine, sine):  # type: ignore[no-untyped-def]
-    """The same of M = P N unbalances (M, K) of N programs, unbalance m of program m % N."""
-    for m in range(u.shape[0]):
-        n = m % budget.size
-        into(u[m], radius[n], max_mass[n], budget[n], free[n], centre[n], cosine[n], sine[n])
-
-
-@inner
-def put(u, dust, touched, radius, max_mass, free, centre, cosine, sine, room, settled):  # type: ignore[no-untyped-def]
+def put(u, dust, touched, region, n, room, settled):  # type: ignore[no-untyped-def]
     """What is next to nothing, or to a limit, there (K,); whether anything was, and the room of the others (K,)."""
     most, moved = 0.0, False
     for k in range(u.size):
-        most = max(most, abs(u[k]) / radius[k])
+        most = max(most, abs(u[k]) / region.radius[n, k])
     for k in range(u.size):
-        size = abs(u[k])
-        mass, settled[k], edge = size / radius[k], u[k], False
+        size, max_mass, sine = abs(u[k]), region.max_mass[n, k], region.sine[n, k]
+        mass, settled[k], edge = size / region.radius[n, k], u[k], False
         none = mass > 0.0 and mass <= dust * most
-        next_to = mass >= max_mass[k] * (1.0 - touched)
+        next_to = mass >= max_mass * (1.0 - touched)
         if none:
             settled[k] = 0.0
-        elif next_to and mass < max_mass[k]:
-            settled[k] = radius[k] * max_mass[k] / size * u[k]
-        if not (free[k] or none) and size > 0.0:
-            v = u[k] * np.conj(centre[k])
-            edge = v.real * sine[k] - abs(v.imag) * cosine[k] <= touched * sine[k] * size
+        elif next_to and mass < max_mass:
+            settled[k] = region.radius[n, k] * max_mass / size * u[k]
+        if not (region.free[n, k] or none) and size > 0.0:
+            cosine, centre = region.cosine[n, k], region.centre[n, k]
+            v = u[k] * np.conj(centre)
+            edge = v.real * sine - abs(v.imag) * cosine <= touched * sine * size
             if edge:
-                side = complex(cosine[k], np.copysign(sine[k], v.imag))
-                settled[k] = abs(settled[k]) * side * centre[k]
+                side = complex(cosine, np.copysign(sine, v.imag))
+                settled[k] = abs(settled[k]) * side * centre
         moved = moved or settled[k] != u[k]
         room[k] = 0.0 if none or edge or next_to else size
     return moved
 
 
+@inner
+def make_up(influence, across, region, n, room, left, work, scaled, u):  # type: ignore[no-untyped-def]
+    """Add to u (K,) the least change, relative to a room, that takes back what it changed; of alike webs alike.
+
+    Parameters
+    ----------
+    influence, across : (J, K) real and imaginary parts, the latter (J, 0) where they are real.
+    room : (K,).
+    left : (J,) complex, what is to be taken back.
+    work : (3, max(2 J, 2 K)) complex, to be written to.
+    scaled : (2, J, K) complex, to be written to; of alike webs (2, 2 J, 2 K).
+    """
+    terms, webs = influence.shape
+    turned, row, made = across.shape[1] > 0, work[0], work[1]
+    if not region.leader.size:
+        for j in range(terms):
+            for k in range(webs):
+                scaled[0, j, k] = influence[j, k] * room[k]
+                if turned:
+                    scaled[0, j, k] += complex(0.0, across[j, k] * room[k])
+        made[:webs] = 0.0
+        change(scaled[0], left, 1, row[:webs], scaled[1], made[:webs])
+        for k in range(webs):
+            u[k] += room[k] * made[k]
+        return
+    # mirror images are no complex multiples: in real and imaginary parts of what the first webs carry
+    scaled[0] = 0.0
+    for j in range(terms):
+        for k in range(webs):
+            first, sign = region.leader[k], -1.0 if region.mirrored[k] else 1.0
+            part = complex(influence[j, k], across[j, k] if turned else 0.0) * region.turn[n, k] * room[first]
+            scaled[0, j, first] += part.real
+            scaled[0, terms + j, first] += part.imag
+            scaled[0, j, webs + first] -= sign * part.imag
+            scaled[0, terms + j, webs + first] += sign * part.real
+        work[2, j], work[2, terms + j] = left[j].real, left[j].imag
+    made[: 2 * webs] = 0.0
+    change(scaled[0], work[2, : 2 * terms], 1, row[: 2 * webs], scaled[1], made[: 2 * webs])
+    for k in range(webs):
+        first = region.leader[k]
+        each = room[first] * complex(made[first].real, made[webs + first].real)
+        u[k] += region.turn[n, k] * (each.conjugate() if region.mirrored[k] else each)
+
+
+@inner
+def balance(u, influence, across, region, n, room, work, scaled, new):  # type: ignore[no-untyped-def]
+    """Make up for what differs between u and new (K,), which is written to, and bring it within all limits.
+
+    Parameters
+    ----------
+    influence, across, room, scaled : as of :func:`make_up`.
+    work : (4, max(2 J, 2 K)) complex, to be written to.
+    """
+    left, terms = work[3], influence.shape[0]
+    for j in range(terms):
+        left[j] = 0.0
+        for k in range(u.size):
+            left[j] += influence[j, k] * (new[k] - u[k])
+            if across.shape[1] > 0:
+                left[j] += complex(0.0, across[j, k]) * (new[k] - u[k])
+    make_up(influence, across, region, n, room, left[:terms], work, scaled, new)
+    into(new, region, n, work[0])
+
+
 @in_place
-def settle(  # type: ignore[no-untyped-def]
-    u,
-    figures,
-    target,
-    heaviest,
-    rounding,
-    rungs,
-    owner,
-    constant,
-    influence,
-    floor,
-    cap,
-    size,
-    radius,
-    max_mass,
-    budget,
-    free,
-    centre,
-    cosine,
-    sine,
-    rows,
-    room,
-    work,
-    scaled,
-):
+def rebalance(u, near, influence, across, region, room, work, scaled, new, moved):  # type: ignore[no-untyped-def]
+    """Of N points (N, K) what is near to nothing, or to a limit, there, and the others made up for it.
+
+    Parameters
+    ----------
+    near : (2,) share of the largest mass that is next to nothing, and of a limit that is next to it; below 0 where
+        ``new`` says what is put, and ``room`` which others there are.
+    influence, across : (N, J, K) on what is to stay as it is, as of :func:`make_up`.
+    room, new, moved : (N, K), (N, K) and (N,) bool, the points and which of them are others, to be written to.
+    """
+    for n in range(u.shape[0]):
+        moved[n] = near[0] < 0.0 or put(u[n], near[0], near[1], region, n, room[n], new[n])
+        if moved[n]:
+            balance(u[n], influence[n], across[n], region, n, room[n], work, scaled, new[n])
+
+
+@in_place
+def settle(u, figures, target, heaviest, rounding, rungs, programs, work, scaled):  # type: ignore[no-untyped-def]
     """N points and what they come to, in place.
 
     Parameters
@@ -96,30 +128,19 @@ def settle(  # type: ignore[no-untyped-def]
     rounding : of an excess over the ceilings.
     rungs : (n, 3) share of the largest mass that is next to nothing, share of a limit that is next to it, and which
         rung is next where this one moved something, and was no worse, or nothing: the last is n.
-    rows, room, work, scaled : (R,), (K,), (4, max(J + I, K)) and (2, J + I, K) complex, to be written to.
+    work, scaled : (5, ...) and (2, ..., ...) complex as of :func:`make_up`, to be written to.
     """
-    number, terms, webs = influence.shape
-    new, made, row, left = work[0, :webs], work[1, :webs], work[2, :webs], work[3, :terms]
+    number, _, webs = programs.influence.shape
+    influence, across, region = programs.influence, programs.across, programs.region
+    new, room = work[4, :webs], programs.numbers[1, :webs]
     for n in range(number):
         rung = 0
         while rung < rungs.shape[0]:
             dust, touched, after = rungs[rung, 0], rungs[rung, 1], int(rungs[rung, 2])
             rung += 1
-            moved = put(u[n], dust, touched, radius[n], max_mass[n], free[n], centre[n], cosine[n], sine[n], room, new)
-            if moved:
-                for j in range(terms):
-                    left[j] = 0.0
-                    for k in range(webs):
-                        left[j] += influence[n, j, k] * (new[k] - u[n, k])
-                        scaled[0, j, k] = influence[n, j, k] * room[k]
-                made[:] = 0.0
-                change(scaled[0], left, 1, row, scaled[1], made)
-                for k in range(webs):
-                    new[k] += room[k] * made[k]
-                into(new, radius[n], max_mass[n], budget[n], free[n], centre[n], cosine[n], sine[n])
-                objective, mass, excess, off = value(
-                    new, owner, constant[n], influence[n], floor[n], cap[n], size[n], radius[n], rows
-                )
+            if put(u[n], dust, touched, region, n, room, new):
+                balance(u[n], influence[n], across[n], region, n, room, work, scaled, new)
+                objective, mass, excess, off = value(new, programs, n)
                 no_worse = objective <= max(target[n], figures[0, n]) + off
                 no_worse = (
                     no_worse and excess <= max(figures[2, n], rounding) and mass <= max(figures[1, n], heaviest[n])

@@ -1,6 +1,6 @@
 """What points come to, compiled: :meth:`optimizer.program.statement.Statement.objective` and what is asked beside it.
 
-For objectives of one group of real influences.
+Programs are :class:`optimizer.program.compiled_evaluation.Programs`.
 """
 
 import numpy as np
@@ -12,49 +12,61 @@ ROUNDING = 4 * float(np.finfo(float).eps)
 
 
 @inner
-def value(u, owner, constant, influence, floor, cap, size, radius, rows):  # type: ignore[no-untyped-def]
+def value(u, programs, n):  # type: ignore[no-untyped-def]
     """Objective, mass, largest relative excess over a ceiling, and rounding of the objective, of one point.
 
     Parameters
     ----------
     u : (K,) kg m.
-    owner : (J,) row of a term.
-    constant, influence, floor : (J + I,), (J + I, K), (R,).
-    cap, size : (I,) of the ceilings.
-    rows : (R,) to be written to.
     """
-    mass, rounding, excess, own = 0.0, 0.0, -np.inf, owner.size
-    for k in range(u.size):
+    rows = programs.numbers[0]
+    influence, across, magnitude = programs.influence, programs.across, programs.magnitude
+    mass, rounding, excess, own = 0.0, 0.0, -np.inf, programs.owner.size
+    webs, turned = u.size, across.shape[2] > 0
+    for k in range(webs):
         long = abs(u[k])
-        mass += long / radius[k]
+        mass += long / programs.region.radius[n, k]
         for j in range(own):
-            rounding += abs(influence[j, k]) * long
-    rows[:] = 0.0
-    for j in range(constant.size):
-        x, y = 0.0, 0.0
-        for k in range(u.size):
-            x, y = x + influence[j, k] * u[k].real, y + influence[j, k] * u[k].imag
-        long = abs(complex(constant[j].real + x, constant[j].imag + y))
-        if j < own:
-            rounding += abs(constant[j])
-            rows[owner[j]] += long
+            rounding += (magnitude[n, j, k] if turned else abs(influence[n, j, k])) * long
+    # what scatters is off as well
+    rounding *= 1.0 + programs.scatter[0]
+    for r in range(programs.floor.shape[1]):
+        rows[r] = 0.0
+    for j in range(programs.constant.shape[1]):
+        x, y, constant = 0.0, 0.0, programs.constant[n, j]
+        if turned:
+            for k in range(webs):
+                x += influence[n, j, k] * u[k].real - across[n, j, k] * u[k].imag
+                y += influence[n, j, k] * u[k].imag + across[n, j, k] * u[k].real
         else:
-            over = (long - cap[j - own]) / size[j - own]
+            for k in range(webs):
+                x, y = x + influence[n, j, k] * u[k].real, y + influence[n, j, k] * u[k].imag
+        long = abs(constant.real + x) if programs.scalar[j] else abs(complex(constant.real + x, constant.imag + y))
+        share = programs.scatter[0 if j < own else 1]
+        if share > 0.0:
+            off = 0.0
+            for k in range(webs):
+                off += (magnitude[n, j, k] if turned else abs(influence[n, j, k])) * abs(u[k])
+            long += share * off
+        if j < own:
+            rounding += abs(constant)
+            rows[programs.owner[j]] += long
+        else:
+            over = (long - programs.cap[n, j - own]) / programs.size[n, j - own]
             # no number is larger than what is none
             excess = over if over > excess or over != over else excess
-    objective = -np.inf
-    for r in range(rows.size):
-        row = floor[r] + rows[r]
-        objective = row if row > objective or row != row else objective
-    return objective, mass, excess, ROUNDING * rounding
+    objective, largest = 0.0, -np.inf
+    for r in range(programs.floor.shape[1]):
+        if r > 0 and programs.group[r] != programs.group[r - 1]:
+            objective, largest = objective + largest, -np.inf
+        row = programs.floor[n, r] + rows[r]
+        largest = row if row > largest or row != row else largest
+    return objective + largest, mass, excess, ROUNDING * rounding
 
 
 @in_place
-def values(u, owner, constant, influence, floor, cap, size, radius, rows, figures):  # type: ignore[no-untyped-def]
+def values(u, programs, figures):  # type: ignore[no-untyped-def]
     """The same (4, M) of M = P N points of N programs, point m of program m % N, which all have a leading axis."""
-    number = influence.shape[0]
     for m in range(figures.shape[1]):
-        n = m % number
-        figures[0, m], figures[1, m], figures[2, m], figures[3, m] = value(
-            u[m], owner, constant[n], influence[n], floor[n], cap[n], size[n], radius[n], rows
-        )
+        n = m % programs.floor.shape[0]
+        figures[0, m], figures[1, m], figures[2, m], figures[3, m] = value(u[m], programs, n)

@@ -14,7 +14,7 @@ from optimizer.program.certificate import Multipliers, best_proof, mass_lower_bo
 from optimizer.program.kernel.finer_numbers import Precision, solve_in
 from optimizer.program.methods.rounding import settled
 from optimizer.program.multipliers import resting_multipliers
-from optimizer.program.points import Points, excess_at, points_at
+from optimizer.program.points import Points, points_at
 from optimizer.program.scaling import natural_reach
 from optimizer.program.solution import CEILING_ROUNDING, Solutions, joined
 from optimizer.program.statement import Statement
@@ -144,7 +144,7 @@ def _in_any_limits(statement: Statement, share: Real, demand: Real, least_mass: 
         return found
     left = np.flatnonzero(~found.certified)
     nearest = _solve(statement.chosen(left).excess(), np.full(left.size, CEILING_TOLERANCE), False, _DOUBLE).smallest
-    room = excess_at(statement.chosen(left), nearest) < 0
+    room = points_at(statement.chosen(left), nearest).excess < 0
     left, inside = left[room], nearest[room]
     for tolerances in (_DOUBLE, _ELSEWHERE):
         if not left.size:
@@ -256,7 +256,7 @@ def _solve(
         tolerances.mass,
     )
     points = reach * limits.centre * (v[:, :, 1] + 1j * limits.half_angle_sin * v[:, :, 2])
-    points = limits.into(points) if statement.flat is None else statement.flat.into(points)
+    points = statement.flat.into(points)
     # in units of what is minimised (the first is any), per unit of objective or response
     value, terms = np.array([np.ones_like(share), mass_unit]), norms.constant.shape[-1]
     vectors, worth = cone[..., 0] + 1j * cone[..., 1], (value / unit)[..., None]
@@ -267,7 +267,7 @@ def _solve(
 
 def pulled(statement: Statement, u: Complex, inside: Complex) -> Complex:
     """Points above a ceiling, moved towards ones below it just so far; excesses are convex (..., K)."""
-    above, below = excess_at(statement, u), excess_at(statement, inside)
+    above, below = points_at(statement, np.array([u, inside])).excess
     needed = above > CEILING_ROUNDING
     step = np.where(needed, above / np.where(needed, above - np.minimum(below, 0.0), 1.0), 0.0)
     return u + step[..., None] * (inside - u)

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.program.methods.rounding import at_edge, made_up
+from optimizer.program.compiled_evaluation import balanced
 from optimizer.program.plate_pieces import Plates
 from optimizer.program.statement import Statement
 
@@ -50,11 +50,10 @@ def equal_sizes(whole: Statement, plates: Plates, cut: CutWeights) -> Iterator[C
                 continue
             put = cut.unbalance.copy()
             put[plates.webs] *= plates.unbalance(angle) / np.where(size[plates.webs] > 0, size[plates.webs], 1.0)
-            change = whole.every_influence[0] @ (put - cut.unbalance)
-            balanced = put + made_up(limits.alike, whole.every_influence, room[None], change[None])[0]
-            balanced = np.where(room > 0, limits.into(balanced[None])[0], put)
-            moved = np.where(room[plates.webs] > 0, plates.opened(np.abs(balanced[plates.webs])), angle)
-            for u, half in ((balanced, moved), (put, angle)):
+            new = balanced(limits, whole.every_influence, cut.unbalance[None], put[None], room[None])[0]
+            new = np.where(room > 0, new, put)
+            moved = np.where(room[plates.webs] > 0, plates.opened(np.abs(new[plates.webs])), angle)
+            for u, half in ((new, moved), (put, angle)):
                 yield CutWeights(u, half, float(total_mass(whole, plates, u, half)))
     yield cut
 
@@ -70,7 +69,10 @@ def at_limits(whole: Statement, cut: CutWeights) -> np.ndarray:
     """Webs (K,) that are all but full, or next to an edge of their sector."""
     limits = whole.limits
     full = np.abs(cut.unbalance) >= limits.reach[0] * (1.0 - NEARLY)
-    return np.asarray(full | at_edge(limits, cut.unbalance[None], NEARLY)[0])
+    v = cut.unbalance * np.conj(limits.centre[0])
+    inwards = v.real * limits.half_angle_sin[0] - np.abs(v.imag) * limits.half_angle_cos[0]
+    at_edge = ~limits.free[0] & (np.abs(v) > 0) & (inwards <= NEARLY * limits.half_angle_sin[0] * np.abs(v))
+    return np.asarray(full | at_edge)
 
 
 def total_mass(whole: Statement, plates: Plates, u: Complex, angle: Real) -> Real:
