@@ -33,6 +33,7 @@ from optimizer.program.multipliers import (
     resting_multipliers,
     supporting_multipliers,
 )
+from optimizer.program.points import points_at
 from optimizer.program.rows import statement, total_mass
 from optimizer.program.statement import Statement
 from tests.prints import print_of
@@ -91,19 +92,15 @@ def _rounded(kind: str) -> list[Any]:
     bound = objective_lower_bound(one, proof)
     free = replace(one, norms=replace(one.norms, influence=0.0 * one.norms.influence))
     mass = mass_lower_bound(free, proof, np.asarray(1.0))
-    minorant = certificate._minorant(one, proof, one.ceilings.cap)
+    exact = certificate._minorants(one, proof, counted=False, normal=True)
     # limits that are far away, beside which slopes are summed in finer numbers
     distant = replace(one, limits=replace(one.limits, max_mass=2.0**40 * ones, max_total_mass=np.asarray(np.inf)))
-    _, finer = certificate._slope(distant, proof, np.asarray(2.0))
-    exact = replace(minorant, slope_rounding=0.0 * minorant.slope_rounding)
-    gained = certificate._least_over_limits(exact, 0.0, one.limits)
+    finer = certificate._minorants(distant, proof, counted=False, normal=True)
     # of ceilings, whose numbers are no powers, the rounding of the sum itself would be all
-    more = (gained + np.rint(-gained)) / _EPS if "ceiling" not in kind else gained
+    rounded = [] if "ceiling" in kind else [(each - np.rint(each)) / _EPS for each in (bound, exact.constant)]
     return [
-        more, *(np.asarray(each) for each in (bound, mass, minorant.constant, minorant.constant_size, minorant.slope)),
-        minorant.slope_rounding / _EPS, finer / _EPS, np.asarray(certificate._rounding(one, minorant.constant_size)),
-        np.asarray(certificate._least_over_limits(replace(minorant, slope=minorant.slope * 0.0), 0.0, one.limits)),
-        minorant.support(one.limits),
+        rounded, bound, mass, exact.constant, exact.slope, exact.rounding / _EPS, exact.support,
+        finer.rounding / _EPS, finer.support,
     ]  # fmt: skip
 
 
@@ -128,15 +125,18 @@ def _sharper(kind: str) -> list[Any]:
     ]  # fmt: skip
 
 
-def _brought(kind: str) -> list[Any]:
+def _settled(kind: str) -> list[Any]:
     """Points next to limits, edges and nothing, and what the others make up for it."""
     program = _program(5, kind).alone()
     limits = program.limits
     size = limits.reach * np.array([1e-7, 0.4, 1.0 - 1e-7, 0.3])
     turn = limits.centre * np.array([1.0, 1.0, 1.0j, 1.0]) * np.exp(1j * np.arange(WEBS))
-    u = limits.into_sectors(size * turn)
-    found = [rounding.brought(limits, program.every_influence, u, *near) for near in ((1e-5, 1e-5), (0.0, 1e-5))]
-    return [found, rounding.at_edge(limits, u, 1e-6), rounding.has_dust(limits, u)]
+    u = limits.into(size * turn)
+    points = points_at(program, u)
+    worse = 1.1 * points.objective
+    found = [rounding.settled(program, points, target, bound) for target in (points.objective, worse)
+             for bound in (None, 0.9 * points.mass)]  # fmt: skip
+    return [found, rounding.has_dust(limits, u)]
 
 
 def _alike(number: int) -> list[Any]:
@@ -156,7 +156,6 @@ def _alike(number: int) -> list[Any]:
         webs.summed(u.real),
         limits.into(3.0 * u), limits.support(u), whole.objective(u), scaling.scale(whole, "objective", 0.4)[0],
         objective_lower_bound(whole, proof), mass_lower_bound(whole, proof, np.asarray(1.0)),
-        rounding.made_up(webs, influence[None], ones[None], influence[None] @ u),
     ]  # fmt: skip
     if webs.plain:
         one = united(whole, webs)
@@ -288,7 +287,7 @@ def cases() -> dict[str, Callable[[], Any]]:
         for name in FUNCTIONS:
             found[f"{name} of {kind}"] = partial(_of_all, name, kind)
             found[f"{name} of one {kind}"] = partial(_of_one, name, kind)
-        of_kind = {"rounding": _rounded, "scaling": _scaled, "brought": _brought}
+        of_kind = {"rounding": _rounded, "scaling": _scaled, "settled": _settled}
         if kind in ("plain", "sector, budget", "scalar, ceiling", "scatter"):
             of_kind["reach"] = _reach
         if "ceiling, scatter" not in kind:
