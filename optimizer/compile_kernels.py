@@ -33,12 +33,14 @@ def budgets() -> None:
 
 
 def proofs() -> None:
-    """Compile what proves bounds of choices and settles counterweights over the turn: one web, one term, one row."""
+    """Compile what proves bounds of single proofs, and settles by itself: one web, one term, one row."""
     from optimizer.program.ceilings import Ceilings
-    from optimizer.program.certificate import affine_minorant, nothing_proven
+    from optimizer.program.certificate import affine_minorant, nothing_proven, objective_lower_bound
     from optimizer.program.compiled_evaluation import near_limits
     from optimizer.program.limits import Limits
+    from optimizer.program.methods.rounding import settled
     from optimizer.program.norms import Norms
+    from optimizer.program.points import points_at
     from optimizer.program.statement import Names, Statement
 
     one, first, vector = np.ones(1), np.zeros(1, int), np.ones(1, complex)
@@ -46,7 +48,9 @@ def proofs() -> None:
     no_ceilings = Ceilings((), none, one[:0], one[:0])
     program = Statement(Norms(vector, np.ones((1, 1))), first, first, one, no_ceilings, limits, Names((), ()))
     affine_minorant(program, nothing_proven(program))
+    objective_lower_bound(program, nothing_proven(program))
     near_limits(limits, np.ones((1, 1, 1)), np.ones((1, 1), complex), 0.0, 0.0)
+    settled(program.alone(), points_at(program.alone(), np.zeros((1, 1), complex)), one, None)
 
 
 def moving_curves() -> None:

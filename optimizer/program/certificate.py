@@ -12,7 +12,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.records import record
-from optimizer.program.compiled_evaluation import Minorants
+from optimizer.program.compiled_evaluation import Dual, Minorants
 from optimizer.program.statement import Statement
 
 _EPS = float(np.finfo(float).eps)
@@ -33,6 +33,11 @@ class Multipliers:
     term: Complex
     row: Real
     ceiling: Complex
+
+    @property
+    def parts(self) -> Dual:
+        """Of terms, rows and ceilings."""
+        return self.term, self.row, self.ceiling
 
     def times(self, factor: Real) -> "Multipliers":
         factor = np.asarray(factor)[..., None]
@@ -90,7 +95,7 @@ def objective_lower_bound(statement: Statement, multipliers: Multipliers) -> Rea
 
     -inf where the multipliers of the rows are all 0, which says nothing about the objective.
     """
-    return statement.flat.bounds(multipliers.term, multipliers.row, multipliers.ceiling)
+    return statement.flat.bounds(*multipliers.parts)
 
 
 def best_proof(statement: Statement, proofs: Iterable[Multipliers]) -> tuple[Real, Multipliers]:
@@ -120,7 +125,7 @@ def mass_lower_bound(statement: Statement, multipliers: Multipliers, target: Rea
         the rows of a group is the price nu of P(u) <= target.
     target : (...) largest objective that still counts as optimal.
     """
-    return statement.flat.bounds(multipliers.term, multipliers.row, multipliers.ceiling, target)
+    return statement.flat.bounds(*multipliers.parts, target)
 
 
 def mass_bound_up_to(bound: Real, price: Real, more: Real) -> Real:
@@ -210,4 +215,4 @@ def spread(statement: Statement, multipliers: Multipliers) -> Real | float:
 
 def _minorants(statement: Statement, multipliers: Multipliers, counted: bool, normal: bool) -> Minorants:
     """As :meth:`optimizer.program.compiled_evaluation.Flat.minorants`."""
-    return statement.flat.minorants(multipliers.term, multipliers.row, multipliers.ceiling, counted, normal)
+    return statement.flat.minorants(*multipliers.parts, counted, normal)

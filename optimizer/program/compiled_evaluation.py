@@ -55,6 +55,10 @@ class Programs(NamedTuple):
     places: np.ndarray  # (2, K)
 
 
+#: leaders, images and numbers of webs where none are alike
+_NONE_ALIKE = (np.empty(0, np.int64), np.empty(0, bool), np.empty(0))
+
+
 class Minorants(NamedTuple):
     """Affine functions that are nowhere above an objective, Re(conj(slope_k) u_k) of the unbalances."""
 
@@ -63,6 +67,34 @@ class Minorants(NamedTuple):
     rounding: Real  # (..., K) what the slopes may be off by
     spread: Real  # (..., K) what a kilogram metre raises them by because counterweights scatter, no more than it is
     support: Real  # (..., K) what a kilogram metre can lower them by within the sectors, or more
+
+
+#: what multipliers are told by: of terms (..., J), of rows (..., R), of ceilings (..., I)
+Dual = tuple[Complex, Real, Complex]
+
+
+class Shares(NamedTuple):
+    """By what points and proofs are judged; the first is of what optima may differ by, others of what they are."""
+
+    target: float  # how far optima reach into what they may differ by
+    enough: float  # largest gap of the first stage that is good enough, of what optima may differ by
+    mass_enough: float  # relative gap of the mass that is
+    heavier: float  # relative gap of the mass that may be left by what is settled
+    rounding: float  # excess over a ceiling that rounding alone may make
+    tolerance: float  # excess up to which it counts as kept
+
+
+class Judgement(NamedTuple):
+    """Of two points of each of N programs the ones to take, with their proofs."""
+
+    smallest: Complex  # (N, K) kg m, the smallest objective
+    unbalance: Complex  # (N, K) kg m, the lightest that is an optimum, settled
+    figures: Real  # (4, N) what that comes to, as of :meth:`Flat.values`
+    proof: Dual  # of the objective
+    lower_bound: Real  # (N,)
+    mass_lower_bound: Real  # (N,) kg
+    mass_target: Real  # (N,) largest objective that this bound counts as an optimum
+    certified: np.ndarray  # (N,) bool
 
 
 @record
@@ -145,6 +177,52 @@ class Flat:
             *_work(self.programs.region, terms, webs),
         )
 
+    def judge(
+        self,
+        share: Real,
+        demand: Real,
+        shares: Shares,
+        ends: tuple[Complex, Complex],
+        solver: Dual,
+        mass_solver: Dual | None,
+        rungs: Real,
+    ) -> Judgement:
+        """The points to take of N programs (one leading axis), as :func:`optimizer.program.kernel.judging.judge`.
+
+        Parameters
+        ----------
+        ends : (N, K) where both stages ended.
+        solver, mass_solver : what the interior point proves the objective and the mass by; None where that is free.
+        """
+        from optimizer.program.kernel.judging import judge
+
+        many, terms, webs = self.programs.influence.shape
+        smallest, lightest = np.array(ends[0], order="C"), in_order(ends[1])
+        found, figures, bounds = np.empty((many, webs), complex), np.empty((4, many)), np.empty((3, many))
+        certified, own = np.empty(many, bool), _in_order(solver)
+        proof = np.empty_like(own[0]), np.empty_like(own[1]), np.empty_like(own[2])
+        judge(
+            in_order(share),
+            in_order(demand),
+            mass_solver is not None,
+            shares,
+            smallest,
+            lightest,
+            own,
+            own if mass_solver is None else _in_order(mass_solver),
+            self.programs,
+            # to the last digit as of :func:`optimizer.program.multipliers.resting_multipliers`
+            np.abs(self.programs.constant[:, : own[0].shape[1]]),
+            rungs,
+            *_work(self.programs.region, terms, webs),
+            found,
+            figures,
+            proof,
+            bounds,
+            certified,
+        )
+        return Judgement(smallest, found, figures, proof, bounds[0], bounds[1], bounds[2], certified)
+
     def _of(self, axes: tuple[int, ...]) -> tuple[int, ...]:
         """Leading axes of what has these, which are those of the programs and others before them."""
         if axes == self.leading:
@@ -161,20 +239,17 @@ def flat(statement: "Statement") -> Flat:
     constant, influence = statement.every_constant, statement.every_influence
     leading = statement.floor.shape[:-1]
     others = constant.shape[:-1], influence.shape[:-2], limits.radius.shape[:-1]
-    if any(other != leading for other in others):
+    if others != (leading, leading, leading):
         leading = np.broadcast_shapes(leading, *others)
-    many, (terms, webs), rows = math.prod(leading), influence.shape[-2:], statement.floor.shape[-1]
-    across, large = np.empty((many, terms, 0)), np.empty((many, terms, 0))
-    if influence.dtype != float:
-        across = _of_programs(np.imag(influence), leading, 2)
-        large = _of_programs(np.abs(influence), leading, 2)
-        influence = np.real(influence)
+    (terms, webs), rows = influence.shape[-2:], statement.floor.shape[-1]
+    of_programs, none = _OfPrograms(leading), np.empty((math.prod(leading), terms, 0))
+    plain = influence.dtype == float
     if any(norms.scalar) or any(ceilings.norms.scalar):
         every = [each.scalar or (False,) * each.constant.shape[-1] for each in (norms, ceilings.norms)]
         scalar = np.array([*every[0], *every[1]])
     else:
         scalar = np.zeros(terms, bool)
-    counted = ceilings.counted if ceilings.names else ceilings.cap
+    cap = of_programs(ceilings.cap, 1)
     return Flat(
         leading,
         Programs(
@@ -182,14 +257,14 @@ def flat(statement: "Statement") -> Flat:
             group=in_order(statement.group),
             scalar=scalar,
             scatter=np.array([norms.scatter, ceilings.norms.scatter]),
-            constant=_of_programs(constant, leading, 1),
-            influence=_of_programs(influence, leading, 2),
-            across=across,
-            magnitude=large,
-            floor=_of_programs(statement.floor, leading, 1),
-            cap=_of_programs(ceilings.cap, leading, 1),
-            counted=_of_programs(counted, leading, 1),
-            size=_of_programs(ceilings.size, leading, 1),
+            constant=of_programs(constant, 1),
+            influence=of_programs(influence if plain else influence.real, 2),
+            across=none if plain else of_programs(influence.imag, 2),
+            magnitude=none if plain else of_programs(np.abs(influence), 2),
+            floor=of_programs(statement.floor, 1),
+            cap=cap,
+            counted=of_programs(ceilings.counted, 1) if ceilings.names else cap,
+            size=of_programs(ceilings.size, 1) if ceilings.names else cap,
             region=region(limits, leading),
             numbers=np.empty((6, max(terms, webs, rows))),
             vectors=np.empty((4, max(terms, webs)), complex),
@@ -200,24 +275,21 @@ def flat(statement: "Statement") -> Flat:
 
 def region(limits: "Limits", leading: tuple[int, ...]) -> Region:
     """Limits of programs of these axes as loops take them."""
-    alike, many = limits.alike, math.prod(leading)
-    turn, leader = np.empty((many, 0), complex), np.empty(0, np.int64)
-    mirrored, members = np.empty(0, bool), np.empty(0)
-    if alike is not None:
-        turn, leader = _of_programs(alike.turn, leading, 1), np.array(alike.leader, np.int64)
-        mirrored, members = np.array(alike.mirrored, bool), alike.count[alike.owner].astype(float)
+    of_programs, alike = _OfPrograms(leading), limits.alike
+    if alike is None:
+        own: tuple[np.ndarray, ...] = np.empty((math.prod(leading), 0), complex), *_NONE_ALIKE
+    else:
+        leader, mirrored = np.array(alike.leader, np.int64), np.array(alike.mirrored, bool)
+        own = of_programs(alike.turn, 1), leader, mirrored, alike.count[alike.owner].astype(float)
     return Region(
-        radius=_of_programs(limits.radius, leading, 1),
-        max_mass=_of_programs(limits.max_mass, leading, 1),
-        budget=_of_programs(limits.max_total_mass, leading, 0),
-        free=_of_programs(limits.free, leading, 1),
-        centre=_of_programs(limits.centre, leading, 1),
-        cosine=_of_programs(limits.half_angle_cos, leading, 1),
-        sine=_of_programs(limits.half_angle_sin, leading, 1),
-        turn=turn,
-        leader=leader,
-        mirrored=mirrored,
-        members=members,
+        of_programs(limits.radius, 1),
+        of_programs(limits.max_mass, 1),
+        of_programs(limits.max_total_mass, 0),
+        of_programs(limits.free, 1),
+        of_programs(limits.centre, 1),
+        of_programs(limits.half_angle_cos, 1),
+        of_programs(limits.half_angle_sin, 1),
+        *own,
     )
 
 
@@ -283,9 +355,9 @@ def _rebalance(
 
 def _parts(influence: Real | Complex, leading: tuple[int, ...]) -> tuple[Real, Real]:
     """Real and imaginary parts (N, J, K), the latter (N, J, 0) where all are real."""
-    many, terms = math.prod(leading), influence.shape[-2]
-    across = np.empty((many, terms, 0)) if influence.dtype == float else _of_programs(influence.imag, leading, 2)
-    return _of_programs(influence.real, leading, 2), across
+    of_programs = _OfPrograms(leading)
+    across = of_programs(influence[..., :0] if influence.dtype == float else influence.imag, 2)
+    return of_programs(influence.real, 2), across
 
 
 def _work(own: Region, terms: int, webs: int) -> tuple[Complex, Complex]:
@@ -295,13 +367,25 @@ def _work(own: Region, terms: int, webs: int) -> tuple[Complex, Complex]:
     return np.empty((5, max(terms, webs)), complex), np.empty((2, terms, webs), complex)
 
 
+def _in_order(dual: Dual) -> Dual:
+    return in_order(dual[0]), in_order(dual[1]), in_order(dual[2])
+
+
 def _rows(leading: tuple[int, ...], *parts: np.ndarray) -> tuple[np.ndarray, ...]:
     """Arrays (..., n) as (M, n), of what has these leading axes."""
     many = math.prod(leading)
     return tuple(in_order(spread(each, (*leading, each.shape[-1]))).reshape(many, each.shape[-1]) for each in parts)
 
 
-def _of_programs(array: np.ndarray, leading: tuple[int, ...], own: int) -> np.ndarray:
-    """An array of these leading axes, or of none, with one axis in their place and its own ones."""
-    last = array.shape[array.ndim - own :]
-    return in_order(spread(array, (*leading, *last))).reshape(math.prod(leading), *last)
+class _OfPrograms:
+    """Arrays of some leading axes, or of none, with one axis in their place."""
+
+    def __init__(self, leading: tuple[int, ...]) -> None:
+        self.leading, self.many = leading, math.prod(leading)
+
+    def __call__(self, array: np.ndarray, own: int) -> np.ndarray:
+        """An array with its last axes as they are."""
+        last = array.shape[array.ndim - own :]
+        if array.shape != (*self.leading, *last):
+            array = spread(array, (*self.leading, *last))
+        return in_order(array).reshape(self.many, *last)

@@ -26,14 +26,11 @@ PARTS: dict[str, tuple[str, ...]] = {
         "optimizer.solve.certify:cone_program",
     ),
     _STAGES: ("optimizer.program.kernel.discs:solve", "optimizer.program.kernel.interior_point:solve"),
-    "scaling, choice of the point": (
+    "scaling": (
         "optimizer.program.methods.optima:both_stages",
         "optimizer.program.methods.optima:yardstick",
     ),
-    "certificate": (
-        "optimizer.program.methods.compiled:best_proof",
-        "optimizer.program.methods.compiled:mass_lower_bound",
-    ),
+    "certificate, choice of the point": ("optimizer.program.kernel.judging:judge",),
     "reference solver": ("optimizer.program.methods.optima:cascade",),
     "masses, angles, residuals": (
         "optimizer.solve.certify:masses_and_angles",

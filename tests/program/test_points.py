@@ -1,15 +1,15 @@
 """Points with their figures: which of two is taken, how far one is moved, which proof goes with it (analytic)."""
 
 from dataclasses import replace
-from itertools import product
 
 import numpy as np
 import pytest
 
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import nothing_proven
-from optimizer.program.methods.compiled import _better, _nearer, plain_discs, pulled, suits_kernel
-from optimizer.program.points import Points, points_at
+from optimizer.program.kernel.judging import is_better, step_towards
+from optimizer.program.methods.compiled import plain_discs, pulled, suits_kernel
+from optimizer.program.points import points_at
 from optimizer.program.solution import CEILING_ROUNDING, ConeSolution, evaluated, joined
 from tests.program.cases import random_point
 from tests.program.test_leading_axes import WEBS, _multipliers, _program
@@ -17,9 +17,8 @@ from tests.program.test_leading_axes import WEBS, _multipliers, _program
 _BROKEN = 2.0 * CEILING_TOLERANCE
 
 
-def _points(objective: float, mass: float, excess: float, web: complex = 1.0) -> Points:
-    one = np.ones(1)
-    return Points(np.array([[web]], complex), objective * one, mass * one, excess * one, 1e-3 * one)
+def _figures(objective: float, mass: float, excess: float) -> tuple[float, float, float, float]:
+    return objective, mass, excess, 1e-3
 
 
 @pytest.mark.parametrize(
@@ -40,8 +39,8 @@ def _points(objective: float, mass: float, excess: float, web: complex = 1.0) ->
     ],
 )
 def test_the_better_of_two_points(old: tuple[float, float], new: tuple[float, float], better: bool) -> None:
-    first, second = (_points(objective, 1.0, excess) for objective, excess in (old, new))
-    assert _better(first, second).objective == (second if better else first).objective
+    first, second = (_figures(objective, 1.0, excess) for objective, excess in (old, new))
+    assert is_better.py_func(first, second, CEILING_TOLERANCE) == better
 
 
 @pytest.mark.parametrize(
@@ -50,11 +49,8 @@ def test_the_better_of_two_points(old: tuple[float, float], new: tuple[float, fl
 )
 def test_the_lightest_is_moved_as_far_as_its_target_calls_for(target: float, share: float | None) -> None:
     """Over its target by what it comes to and a rounding of 1e-3, of a fall of 6; not where that is not enough."""
-    light, small = _points(8.0, 1.0, 0.0, 4.0), _points(2.0, 3.0, 0.0, 0.0)
-    found = _nearer(light, small, np.array([target]))
-    assert (found is None) == (share is None)
-    if found is not None and share is not None:
-        assert found[0, 0] == pytest.approx(4.0 * (1.0 - share), rel=1e-9)
+    light, small = _figures(8.0, 1.0, 0.0), _figures(2.0, 3.0, 0.0)
+    assert step_towards.py_func(light, small, target) == pytest.approx(share or 0.0, rel=1e-9)
 
 
 def test_points_above_a_ceiling_are_moved_to_it_and_no_farther() -> None:
@@ -73,20 +69,6 @@ def test_points_above_a_ceiling_are_moved_to_it_and_no_farther() -> None:
                 assert points_at(one, found).excess[0] <= 1e-9
                 share = above / (above - below)
                 np.testing.assert_allclose(found, u * (1.0 - share), rtol=1e-9)
-
-
-def test_points_are_taken_program_by_program() -> None:
-    every = points_at(_program(1, "ceiling"), np.arange(12.0).reshape(3, 4) + 0j)
-    other = Points(*(values + 100.0 for values in every))
-    for mask in product([False, True], repeat=3):
-        found = every.where(np.array(mask), other)
-        for part, mine, others in zip(found, every, other, strict=True):
-            for n, own in enumerate(mask):
-                assert np.array_equal(part[n], (mine if own else others)[n])
-    assert [one.mass.tolist() for one in Points(*(np.stack([a, a + 1]) for a in every)).items] == [
-        every.mass.tolist(),
-        (every.mass + 1).tolist(),
-    ]
 
 
 def test_the_better_of_two_proofs_goes_with_a_point() -> None:
@@ -123,8 +105,7 @@ def test_ceilings_are_kept_to_their_tolerance_and_to_rounding(excess: float, kee
 
 
 def test_parts_are_put_in_the_order_of_all_programs() -> None:
-    one, other = _points(1.0, 2.0, 3.0), _points(4.0, 5.0, 6.0)
-    assert joined([one.mass, other.mass], np.array([1, 0])).tolist() == [5.0, 2.0]
+    assert joined([np.array([2.0]), np.array([5.0])], np.array([1, 0])).tolist() == [5.0, 2.0]
 
 
 @pytest.mark.parametrize(

@@ -10,6 +10,13 @@ from optimizer.program.kernel.values import value
 
 
 @inner
+def copy(numbers, place):  # type: ignore[no-untyped-def]
+    """Numbers (n,) in their place."""
+    for k in range(place.size):
+        place[k] = numbers[k]
+
+
+@inner
 def put(u, dust, touched, region, n, room, settled):  # type: ignore[no-untyped-def]
     """What is next to nothing, or to a limit, there (K,); whether anything was, and the room of the others (K,)."""
     most, moved = 0.0, False
@@ -117,6 +124,26 @@ def rebalance(u, near, influence, across, region, room, work, scaled, new, moved
             balance(u[n], influence[n], across[n], region, n, room[n], work, scaled, new[n])
 
 
+@inner
+def settle_one(u, figures, target, heaviest, rounding, rungs, programs, n, work, scaled):  # type: ignore[no-untyped-def]
+    """A point (K,) of program n, and what it comes to (4, N), in place, parameters as of :func:`settle`."""
+    webs, influence, across, region = u.size, programs.influence[n], programs.across[n], programs.region
+    new, room, rung = work[4, :webs], programs.numbers[1, :webs], 0
+    while rung < rungs.shape[0]:
+        dust, touched, after = rungs[rung, 0], rungs[rung, 1], int(rungs[rung, 2])
+        rung += 1
+        if put(u, dust, touched, region, n, room, new):
+            balance(u, influence, across, region, n, room, work, scaled, new)
+            objective, mass, excess, off = value(new, programs, n)
+            no_worse = objective <= max(target, figures[0, n]) + off
+            no_worse = no_worse and excess <= max(figures[2, n], rounding) and mass <= max(figures[1, n], heaviest)
+            if not no_worse:
+                continue
+            copy(new, u)
+            figures[0, n], figures[1, n], figures[2, n], figures[3, n] = objective, mass, excess, off
+        rung = after
+
+
 @in_place
 def settle(u, figures, target, heaviest, rounding, rungs, programs, work, scaled):  # type: ignore[no-untyped-def]
     """N points and what they come to, in place.
@@ -130,24 +157,5 @@ def settle(u, figures, target, heaviest, rounding, rungs, programs, work, scaled
         rung is next where this one moved something, and was no worse, or nothing: the last is n.
     work, scaled : (5, ...) and (2, ..., ...) complex as of :func:`make_up`, to be written to.
     """
-    number, _, webs = programs.influence.shape
-    influence, across, region = programs.influence, programs.across, programs.region
-    new, room = work[4, :webs], programs.numbers[1, :webs]
-    for n in range(number):
-        rung = 0
-        while rung < rungs.shape[0]:
-            dust, touched, after = rungs[rung, 0], rungs[rung, 1], int(rungs[rung, 2])
-            rung += 1
-            if put(u[n], dust, touched, region, n, room, new):
-                balance(u[n], influence[n], across[n], region, n, room, work, scaled, new)
-                objective, mass, excess, off = value(new, programs, n)
-                no_worse = objective <= max(target[n], figures[0, n]) + off
-                no_worse = (
-                    no_worse and excess <= max(figures[2, n], rounding) and mass <= max(figures[1, n], heaviest[n])
-                )
-                if not no_worse:
-                    continue
-                for k in range(webs):
-                    u[n, k] = new[k]
-                figures[0, n], figures[1, n], figures[2, n], figures[3, n] = objective, mass, excess, off
-            rung = after
+    for n in range(target.size):
+        settle_one(u[n], figures, target[n], heaviest[n], rounding, rungs, programs, n, work, scaled)

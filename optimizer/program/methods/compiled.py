@@ -10,11 +10,11 @@ import numpy as np
 from optimizer.numerics.arrays import Complex, Real, mapped, plain
 from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
-from optimizer.program.certificate import Multipliers, best_proof, mass_lower_bound, nothing_proven
+from optimizer.program.certificate import Multipliers, nothing_proven
+from optimizer.program.compiled_evaluation import Shares
 from optimizer.program.kernel.finer_numbers import Precision, solve_in
-from optimizer.program.methods.rounding import settled
-from optimizer.program.multipliers import resting_multipliers
-from optimizer.program.points import Points, points_at
+from optimizer.program.methods.rounding import HEAVIER, RUNGS
+from optimizer.program.points import points_at
 from optimizer.program.scaling import natural_reach
 from optimizer.program.solution import CEILING_ROUNDING, Solutions, joined
 from optimizer.program.statement import Statement
@@ -48,6 +48,8 @@ _ELSEWHERE = _DOUBLE._replace(ceilings=2e-11)
 ENOUGH, ENOUGH_FOR_MASS, MASS_ENOUGH = 1e-3, 1e-2, 1e-5
 #: optima reach this far into the share, which leaves room for rounding
 TARGET = 1.0 - 1e-7
+_SHARES = Shares(TARGET, ENOUGH_FOR_MASS, MASS_ENOUGH, HEAVIER, CEILING_ROUNDING, CEILING_TOLERANCE)
+_SHARES_OF_ANY_MASS = _SHARES._replace(enough=ENOUGH)
 
 
 @record
@@ -162,51 +164,31 @@ def _in_any_limits(statement: Statement, share: Real, demand: Real, least_mass: 
 
 def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, solved: "_Solved") -> BothStages:
     """Of the points of both stages the ones to take, with their proofs."""
-    smallest, lightest = solved.smallest, solved.lightest
     began = time.perf_counter()
-    lower_bound, proof = best_proof(statement, (solved.proof, *resting_multipliers(statement)))
+    found = statement.flat.judge(
+        share,
+        demand,
+        _SHARES if least_mass else _SHARES_OF_ANY_MASS,
+        (solved.smallest, solved.lightest),
+        solved.proof.parts,
+        solved.mass_proof.parts if least_mass else None,
+        RUNGS,
+    )
     certify_s = time.perf_counter() - began
-    rest, first, light = points_at(statement, np.array([np.zeros(smallest.shape), smallest, lightest])).items
-    best = _better(rest, first)
-    target = np.maximum(best.objective, lower_bound + TARGET * share - best.rounding)
-    counted, chosen = np.maximum(best.objective, lower_bound) + share, best
-    if not least_mass:
-        mass_proof, mass_bound = nothing_proven(statement), np.zeros(share.shape)
-    else:
-        # what can be kept up to rounding is not traded for their tolerance
-        kept = np.minimum(np.maximum(light.excess, CEILING_ROUNDING), CEILING_TOLERANCE)
-        nearer = _nearer(light, best, target)
-        for point in (light, rest) if nearer is None else (light, points_at(statement, nearer), rest):
-            lighter = point.mass < chosen.mass
-            admitted = (point.objective <= target) & (point.excess <= kept)
-            chosen = chosen.where(~(lighter & admitted), point)
-        began = time.perf_counter()
-        mass_proof = solved.mass_proof
-        mass_bound = mass_lower_bound(statement, mass_proof, counted)
-        certify_s += time.perf_counter() - began
-    loose = (demand > share) & (chosen.objective - lower_bound <= demand)
-    enough = (ENOUGH_FOR_MASS if least_mass else ENOUGH) * share
-    certified = (loose | (best.objective - lower_bound <= enough)) & (chosen.excess <= CEILING_ROUNDING)
-    if least_mass:
-        # what counts as an optimum is told from a point that keeps the ceilings
-        certified &= (best.excess <= CEILING_ROUNDING) & (chosen.mass - mass_bound <= MASS_ENOUGH * chosen.mass)
-        chosen = settled(statement, chosen, target, mass_bound)
-    else:
-        chosen = settled(statement, chosen, lower_bound + ENOUGH * share, None)
+    objective, mass, excess, _ = found.figures
     return BothStages(
-        unbalance=chosen.unbalance,
-        objective=chosen.objective,
-        lower_bound=lower_bound,
-        mass=chosen.mass,
-        mass_lower_bound=mass_bound,
-        excess=chosen.excess,
-        multipliers=proof,
-        mass_multipliers=mass_proof,
-        mass_target=counted,
+        unbalance=found.unbalance,
+        objective=objective,
+        lower_bound=found.lower_bound,
+        mass=mass,
+        mass_lower_bound=found.mass_lower_bound,
+        excess=excess,
+        multipliers=Multipliers(*found.proof),
+        mass_multipliers=solved.mass_proof if least_mass else nothing_proven(statement),
+        mass_target=found.mass_target,
         certify_s=np.full(share.shape, certify_s / max(share.size, 1)),
-        # its own, because others are put in place of some of either
-        smallest=best.unbalance.copy(),
-        certified=certified,
+        smallest=found.smallest,
+        certified=found.certified,
     )
 
 
@@ -271,28 +253,6 @@ def pulled(statement: Statement, u: Complex, inside: Complex) -> Complex:
     needed = above > CEILING_ROUNDING
     step = np.where(needed, above / np.where(needed, above - np.minimum(below, 0.0), 1.0), 0.0)
     return u + step[..., None] * (inside - u)
-
-
-def _better(old: Points, new: Points) -> Points:
-    """Of two points the one with the smaller objective, or the smaller excess where one breaks a ceiling."""
-    kept = old.excess <= CEILING_TOLERANCE, new.excess <= CEILING_TOLERANCE
-    smaller = new.objective < old.objective
-    better = np.where(kept[0] & kept[1], smaller, kept[1] | (~kept[0] & (new.excess < old.excess)))
-    return new.where(better, old)
-
-
-def _nearer(lightest: Points, smallest: Points, target: Real) -> Complex | None:
-    """The lightest moved towards the smallest just so far that the objective, which is convex, meets the target.
-
-    None where it does for all.
-    """
-    over = lightest.objective - target + smallest.rounding
-    fall = lightest.objective - smallest.objective
-    needed = (over > 0) & (fall > over)
-    if not np.count_nonzero(needed):
-        return None
-    step = np.where(needed, over / np.where(needed, fall, 1.0), 0.0)
-    return lightest.unbalance + step[:, None] * (smallest.unbalance - lightest.unbalance)
 
 
 def _by_interior_point(statement: Statement, reach: Real, unit: Real, margin: float, *stages: Any) -> tuple[Any, ...]:

@@ -16,7 +16,7 @@ from optimizer.program.statement import Statement
 #: how near to nothing, or to a limit, as a share of the largest mass or of the limit: the next where one is too much
 NEAR = (1e-4, 1e-6, 1e-8)
 #: one after the other: of dust, of limits, and the next one where that did no harm, or nothing
-_RUNGS = np.array(
+RUNGS = np.array(
     [
         (NEAR[0], NEAR[0], 2 * len(NEAR)),
         *((dust, 0.0, len(NEAR)) for dust in NEAR[1:]),
@@ -39,7 +39,7 @@ def settled(statement: Statement, points: Points, target: Real, mass_bound: Real
     """
     heaviest = np.full(target.shape, np.inf) if mass_bound is None else mass_bound / (1.0 - HEAVIER)
     u, found = points.unbalance.copy(), np.array(points[1:])
-    statement.flat.settle(u, found, target, heaviest, CEILING_ROUNDING, _RUNGS)
+    statement.flat.settle(u, found, target, heaviest, CEILING_ROUNDING, RUNGS)
     return Points(u, *found)
 
 

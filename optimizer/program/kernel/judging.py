@@ -1,0 +1,200 @@
+"""Of the points where both stages ended the ones to take, with their proofs, compiled:
+:mod:`optimizer.program.methods.compiled`."""
+
+import numpy as np
+
+from optimizer.program.kernel.bounds import bound
+from optimizer.program.kernel.compiling import in_place, inner
+from optimizer.program.kernel.settling import copy, settle_one
+from optimizer.program.kernel.values import value
+
+
+@inner
+def largest_rows(programs, n, sizes, at_rest, row):  # type: ignore[no-untyped-def]
+    """1 at the first of the largest rows of each group (R,), 0 elsewhere.
+
+    Parameters
+    ----------
+    sizes : (J,) of the constants of the terms.
+    at_rest : whether rows are what they come to without counterweights; else their floors.
+    """
+    rows, group, sums = row.size, programs.group, programs.numbers[0]
+    for r in range(rows):
+        sums[r] = 0.0
+    if at_rest:
+        for j in range(programs.owner.size):
+            sums[programs.owner[j]] += sizes[j]
+    highest = 0
+    for r in range(rows):
+        row[r], sums[r] = 0.0, programs.floor[n, r] + sums[r]
+        highest = r if r == 0 or group[r] != group[r - 1] or sums[r] > sums[highest] else highest
+        if r == rows - 1 or group[r + 1] != group[r]:
+            row[highest] = 1.0
+
+
+@inner
+def resting(programs, n, sizes, at_rest, term, row, ceiling):  # type: ignore[no-untyped-def]
+    """Multipliers that need no solver: they prove the floor, or rest where rest is optimal.
+
+    As :func:`optimizer.program.multipliers.resting_multipliers`, in place; sizes as of :func:`largest_rows`.
+    """
+    largest_rows(programs, n, sizes, at_rest, row)
+    for j in range(term.size):
+        scale = row[programs.owner[j]] / (sizes[j] if sizes[j] > 0.0 else 1.0) if at_rest else 0.0
+        term[j] = complex(programs.constant[n, j].real * scale, programs.constant[n, j].imag * scale)
+    for i in range(ceiling.size):
+        ceiling[i] = 0.0
+
+
+@inner
+def proof_of(programs, n, sizes, solver, term, row, ceiling):  # type: ignore[no-untyped-def]
+    """The highest lower bound of the objective, and the multipliers that prove it, in place: the first of equal ones.
+
+    Parameters
+    ----------
+    solver : multipliers (J,), (R,), (I,) of the interior point.
+    """
+    lowest = bound(0.0, 0.0, solver[0], solver[1], solver[2], programs, n, programs.cap)
+    best, highest = 0, -np.inf if lowest != lowest else lowest
+    for which in range(1, 3):
+        resting(programs, n, sizes, which == 2, term, row, ceiling)
+        other = bound(0.0, 0.0, term, row, ceiling, programs, n, programs.cap)
+        if other > highest:
+            best, highest, lowest = which, other, other
+    if best == 1:
+        resting(programs, n, sizes, False, term, row, ceiling)
+    if best == 0:
+        copy(solver[0], term)
+        copy(solver[1], row)
+        copy(solver[2], ceiling)
+    return lowest
+
+
+@inner
+def larger(one, other):  # type: ignore[no-untyped-def]
+    """The larger of two numbers; of what is none that."""
+    return other if other > one or other != other else one
+
+
+@inner
+def is_better(old, new, tolerance):  # type: ignore[no-untyped-def]
+    """Whether another point has the smaller objective, or the smaller excess where one breaks a ceiling.
+
+    Parameters
+    ----------
+    old, new : objective, mass, excess, rounding.
+    tolerance : up to which ceilings count as kept.
+    """
+    if old[2] <= tolerance and new[2] <= tolerance:
+        return new[0] < old[0]
+    return new[2] <= tolerance or (not old[2] <= tolerance and new[2] < old[2])
+
+
+@inner
+def step_towards(light, smallest, target):  # type: ignore[no-untyped-def]
+    """How far the lightest is to be moved towards the smallest for the objective, which is convex, to meet a target.
+
+    0 where it meets it, or where that is not enough.
+
+    Parameters
+    ----------
+    light, smallest : objective, mass, excess, rounding.
+    """
+    over, fall = light[0] - target + smallest[3], light[0] - smallest[0]
+    return over / fall if over > 0.0 and fall > over else 0.0
+
+
+@in_place
+def judge(  # type: ignore[no-untyped-def]
+    share,
+    demand,
+    least_mass,
+    shares,
+    smallest,
+    lightest,
+    solver,
+    mass_solver,
+    programs,
+    sizes,
+    rungs,
+    work,
+    scaled,
+    unbalance,
+    figures,
+    proof,
+    bounds,
+    certified,
+):
+    """Of the ends of both stages of N programs the points to take, with their proofs.
+
+    Parameters
+    ----------
+    share, demand : (N,) as of :func:`optimizer.program.methods.compiled.both_stages`.
+    shares : :class:`optimizer.program.compiled_evaluation.Shares`.
+    smallest, lightest : (N, K) the ends; the first is written to: the smallest objective, rest among them.
+    solver, mass_solver : multipliers, three arrays (N, J), (N, R), (N, I) each.
+    sizes : (N, J) of the constants of the terms.
+    rungs, work, scaled : as of :func:`optimizer.program.kernel.settling.settle`.
+    unbalance, figures : (N, K), and (4, N) as of :func:`optimizer.program.kernel.values.values`, to be written to.
+    proof : three arrays as of the multipliers, to be written to.
+    bounds : (3, N) of the objective, of the mass, and the largest objective that this one counts as an optimum.
+    certified : (N,) bool.
+    """
+    number, _, webs = programs.influence.shape
+    for n in range(number):
+        u, best, light = unbalance[n], smallest[n], lightest[n]
+        lower = proof_of(
+            programs, n, sizes[n], (solver[0][n], solver[1][n], solver[2][n]), proof[0][n], proof[1][n], proof[2][n]
+        )
+        first, light_figures = value(best, programs, n), value(light, programs, n)
+        u[:] = 0.0
+        rest = value(u, programs, n)
+        chosen = rest
+        if is_better(rest, first, shares.tolerance):
+            chosen = first
+        else:
+            best[:] = 0.0
+        smallest_figures = chosen
+        copy(best, u)
+        # the lightest by its room below the largest objective of an optimum
+        target = larger(chosen[0], lower + shares.target * share[n] - chosen[3])
+        counted, mass_bound = larger(chosen[0], lower) + share[n], 0.0
+        if least_mass:
+            # what can be kept up to rounding is not traded for their tolerance
+            kept = shares.rounding if light_figures[2] < shares.rounding else light_figures[2]
+            kept = shares.tolerance if kept > shares.tolerance else kept
+            if light_figures[1] < chosen[1] and light_figures[0] <= target and light_figures[2] <= kept:
+                chosen = light_figures
+                copy(light, u)
+            # moved towards the smallest just so far that the objective, which is convex, meets the target
+            over = light_figures[0] - target + smallest_figures[3]
+            fall = light_figures[0] - smallest_figures[0]
+            if over > 0.0 and fall > over:
+                step, nearer = over / fall, work[4, :webs]
+                for k in range(webs):
+                    nearer[k] = light[k] + complex(
+                        step * (best[k].real - light[k].real), step * (best[k].imag - light[k].imag)
+                    )
+                near = value(nearer, programs, n)
+                if near[1] < chosen[1] and near[0] <= target and near[2] <= kept:
+                    chosen = near
+                    copy(nearer, u)
+            if rest[1] < chosen[1] and rest[0] <= target and rest[2] <= kept:
+                chosen = rest
+                u[:] = 0.0
+            mass_bound = bound(
+                1.0, counted, mass_solver[0][n], mass_solver[1][n], mass_solver[2][n], programs, n, programs.counted
+            )
+        loose = demand[n] > share[n] and chosen[0] - lower <= demand[n]
+        done = (loose or smallest_figures[0] - lower <= shares.enough * share[n]) and chosen[2] <= shares.rounding
+        heaviest = np.inf
+        if least_mass:
+            # what counts as an optimum is told from a point that keeps the ceilings
+            done = done and smallest_figures[2] <= shares.rounding
+            done = done and chosen[1] - mass_bound <= shares.mass_enough * chosen[1]
+            heaviest = mass_bound / (1.0 - shares.heavier)
+        else:
+            target = lower + shares.enough * share[n]
+        figures[0, n], figures[1, n], figures[2, n], figures[3, n] = chosen
+        settle_one(u, figures, target, heaviest, shares.rounding, rungs, programs, n, work, scaled)
+        bounds[0, n], bounds[1, n], bounds[2, n], certified[n] = lower, mass_bound, counted, done
