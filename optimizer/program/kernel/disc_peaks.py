@@ -41,7 +41,6 @@ from optimizer.program.kernel.disc_webs import (
     G,
     N,
     U,
-    W,
     clear,
     crossing,
     determinant,
@@ -58,14 +57,6 @@ from optimizer.program.kernel.disc_webs import (
 ) = range(0, 24 * LANES, LANES)  # fmt: skip
 #: numbers of a vector and of a block of 2 x 2
 PAIR, BLOCK = 2 * LANES, 4 * LANES
-
-
-@fused
-def weigh(basis, peak, own):  # type: ignore[no-untyped-def]
-    """Multipliers of force and moment."""
-    clear(own, W, U)
-    for j in range(basis.size):
-        _add_multiple(peak[j], YX, own[W + PAIR * basis[j] : U])
 
 
 @fused

@@ -1,8 +1,8 @@
 """Where the stages of the interior point for discs start, compiled, program by program.
 
-A state is a row of numbers: x and y of v, x and z of each web, (K,) each; x and y of the multiplier of each vector, its
-size and that of the multiplier, (Q, 4); prices of the objective and of the budget; and where there are sectors the
-multipliers of both edges, (2, K).
+A state is a row of numbers: x and y of v, x, z, x and y of p of each web, (K,) each; x and y of the multiplier of each
+vector, its size and that of the multiplier, (Q, 4); prices of the objective and of the budget; and where there are
+sectors the multipliers of both edges, (2, K).
 """
 
 from typing import NamedTuple
@@ -36,7 +36,7 @@ class Discs(NamedTuple):
 def begin_first(programs, n, budgeted, cost, where):  # type: ignore[no-untyped-def]
     """The first stage: nothing on free webs, others along their sectors, and sizes above the vectors."""
     vectors, webs = programs.basis.size, cost.size
-    terms, at_prices = vectors - programs.cap.shape[1], 4 * (webs + vectors)
+    terms, at_prices = vectors - programs.cap.shape[1], 6 * webs + 4 * vectors
     for k in range(webs):
         where[2 * webs + k] = 1.0
     price = 0.0
@@ -65,10 +65,12 @@ def begin_first(programs, n, budgeted, cost, where):  # type: ignore[no-untyped-
             where[k], where[webs + k] = along * along_x, along * along_y
             # the edges hold it where it is
             where[3 * webs + k] /= 1.0 - _ALONG * _ALONG
-            grip = _ALONG * where[3 * webs + k] / twice
+            pull = _ALONG * where[3 * webs + k]
+            where[4 * webs + k], where[5 * webs + k] = -pull * along_x / twice, -pull * along_y / twice
+            grip = pull / twice
         where[at_prices + 2 + k] = where[at_prices + 2 + webs + k] = grip
     for j in range(vectors):
-        at = 4 * webs + 4 * j
+        at = 6 * webs + 4 * j
         vx, vy = _vector(programs, n, j, where)
         size = np.sqrt(vx * vx + vy * vy) + 0.5
         where[at + 2], where[at + 3] = (size, 1.0) if j < terms else (max(size, programs.cap[n, j - terms]), 0.5)
@@ -78,7 +80,7 @@ def begin_first(programs, n, budgeted, cost, where):  # type: ignore[no-untyped-
 def begin_second(programs, n, budgeted, share, gap, end, cost, where):  # type: ignore[no-untyped-def]
     """The second stage, from where the first one ended and the middle of the optima; its unit of mass and target."""
     vectors, webs = programs.basis.size, cost.size
-    terms, at_prices = vectors - programs.cap.shape[1], 4 * (webs + vectors)
+    terms, at_prices = vectors - programs.cap.shape[1], 6 * webs + 4 * vectors
     total, value, sizes = 0.0, 0.0, 0.0
     for k in range(webs):
         total += programs.mass[n, k] * np.sqrt(end[k] ** 2 + end[webs + k] ** 2)
@@ -86,7 +88,7 @@ def begin_second(programs, n, budgeted, share, gap, end, cost, where):  # type: 
     for j in range(terms):
         vx, vy = _vector(programs, n, j, end)
         value += np.sqrt(vx * vx + vy * vy)
-        sizes += where[4 * webs + 4 * j + 2]
+        sizes += where[6 * webs + 4 * j + 2]
     # what the first stage leaves open is kept back, so that the lightest is an optimum for certain
     most = value + share * (1.0 - RESERVE) - OPEN * gap
     # every multiplier at the price of the objective
@@ -99,12 +101,12 @@ def begin_second(programs, n, budgeted, share, gap, end, cost, where):  # type: 
     # the first stage has found an optimum within the budget, and none that is lighter is beyond it
     where[at_prices], where[at_prices + 1] = price, 1.0
     for j in range(vectors):
-        at = 4 * webs + 4 * j
+        at = 6 * webs + 4 * j
         where[at], where[at + 1], where[at + 3] = where[at] * price, where[at + 1] * price, where[at + 3] * price
     for k in range(webs):
         px, py = 0.0, 0.0
         for j in range(vectors):
-            h, at = programs.multiple[n, j] * programs.influence[n, programs.basis[j], k], 4 * webs + 4 * j
+            h, at = programs.multiple[n, j] * programs.influence[n, programs.basis[j], k], 6 * webs + 4 * j
             px -= h * where[at]
             py -= h * where[at + 1]
         if programs.normals.shape[2] > 0:
@@ -120,7 +122,7 @@ def begin_second(programs, n, budgeted, share, gap, end, cost, where):  # type: 
         x = (1.0 + np.sqrt(1.0 + 3.0 * (vx * vx + vy * vy))) / 3.0
         z = max(np.sqrt(px * px + py * py), cost[k]) + CENTRALITY
         z = max(z, (CENTRALITY - vx * px - vy * py) / x, cost[k] + CENTRALITY / (1.0 - x))
-        where[2 * webs + k], where[3 * webs + k] = x, z
+        where[2 * webs + k], where[3 * webs + k], where[4 * webs + k], where[5 * webs + k] = x, z, px, py
     return unit, most
 
 

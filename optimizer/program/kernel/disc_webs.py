@@ -33,8 +33,8 @@ LANES = 16
 
 (
     H1, H2, COST,  # influence on force and moment, mass at full reach
-    VX, VY, X, Z,  # where the web stands
-    PX, PY, PER_DET, PER,  # its multiplier, 1 / (A zq + D q), 1 / z or, with edges, 1 over their determinant
+    VX, VY, X, Z, PX, PY,  # where the web stands
+    PER_DET, PER,  # 1 / (A zq + D q), 1 / z or, with edges, 1 over their determinant
     R0, RX, RY, RQ,  # right sides: z r_0 - <p, r>, r, r_q
     DVX, DVY, DX, DZ, DPX, DPY,  # the step
     WEB,  # numbers of a web
@@ -50,8 +50,7 @@ LANES = 16
 ) = range(0, 20 * LANES, LANES)  # fmt: skip
 
 (
-    W,  # multipliers of force and moment, two numbers each
-    U,  # what the webs add to these
+    U,  # what the webs add to force and moment, two numbers each
     N,  # sum_k h_i T h_j of (1, 1), (1, 2) and (2, 2), four numbers each
     G,  # sum_k h_j g_k, the steps of the webs where no multiplier of force, moment or budget changes
     DW, DU,  # the step
@@ -68,7 +67,7 @@ LANES = 16
     KEEP,  # share of what is over the ceilings that the step takes away
     BOTH,  # 1 where the step allows for the second order, else 0
     OWN,  # numbers of a program
-) = (LANES * row for row in (*range(0, 8, 4), 8, 20, 24, 28, 32, 36, *range(40, 59)))  # fmt: skip
+) = (LANES * row for row in (0, 4, 16, 20, 24, 28, 32, *range(36, 55)))  # fmt: skip
 
 
 @fused_inlined
@@ -107,16 +106,12 @@ def look_at_webs(sized, webs, web, edge, own):  # type: ignore[no-untyped-def]
         for t in range(LANES):
             at = k * WEB + t
             h1, h2, cost = web[at + H1], web[at + H2], web[at + COST]
-            vx, vy, x, z = web[at + VX], web[at + VY], web[at + X], web[at + Z]
-            px = -(h1 * own[t + W] + h2 * own[t + W + 2 * LANES])
-            py = -(h1 * own[t + W + LANES] + h2 * own[t + W + 3 * LANES])
+            vx, vy, x, z, px, py = web[at + VX], web[at + VY], web[at + X], web[at + Z], web[at + PX], web[at + PY]
             if edge is not None:
                 on = k * EDGE + t
                 n1x, n1y, n2x, n2y = edge[on + N1X], edge[on + N1Y], edge[on + N2X], edge[on + N2Y]
                 e1, e2, g1, g2 = edge[on + E1], edge[on + E2], edge[on + G1], edge[on + G2]
                 dpx, dpy = g1 * n1x + g2 * n2x, g1 * n1y + g2 * n2y
-                px -= dpx
-                py -= dpy
             q = 1.0 - x if sized else 0.0
             zq = z - own[t + BUDGET] * cost if sized else 1.0
             vp = vx * px + vy * py
@@ -181,7 +176,7 @@ def look_at_webs(sized, webs, web, edge, own):  # type: ignore[no-untyped-def]
             own[t + U + 3 * LANES] += h2 * vy
             own[t + GAP] += x * z + vp + q * zq
             own[t + MASS] += cost * x
-            web[at + PX], web[at + PY], web[at + PER_DET], web[at + PER] = px, py, per_det, per
+            web[at + PER_DET], web[at + PER] = per_det, per
             web[at + R0], web[at + RX], web[at + RY], web[at + RQ] = r0, rx, ry, rq
 
 
@@ -383,6 +378,9 @@ def move_webs(webs, web, edge, own):  # type: ignore[no-untyped-def]
             web[at + VY] += primal * web[at + DVY]
             web[at + X] += primal * web[at + DX]
             web[at + Z] += dual * web[at + DZ]
+            # moved with the others, not summed anew: sums of large multipliers may all but cancel
+            web[at + PX] += dual * web[at + DPX]
+            web[at + PY] += dual * web[at + DPY]
             if edge is not None:
                 on = k * EDGE + t
                 edge[on + E1] += primal * edge[on + DE1]

@@ -28,7 +28,6 @@ from optimizer.program.kernel.disc_peaks import (
     move_peaks,
     solve_peaks,
     step_peaks,
-    weigh,
 )
 from optimizer.program.kernel.disc_starts import begin_first, begin_second
 from optimizer.program.kernel.disc_webs import (
@@ -66,8 +65,8 @@ from optimizer.program.kernel.stages import BLOCK as AT_A_TIME
 _MOST_STEPS = 25
 #: least share of the way to the boundary that a step goes; the rest is the gap at most
 _STEP, _LONGEST = 0.99, 0.999
-#: multiple of the gap asked for that is enough where steps lead no farther
-_NEARLY = 8.0
+#: multiples of the gap asked for that are enough where a step led no farther, and where several did not
+_NEARLY, _LOOSEST, _LOOSEST_MASS = 8.0, 500.0, 30.0
 #: a step below this is short, and share of the gap that the next one aims at then
 _SHORT, _CAUTIOUS = 0.1, 0.5
 
@@ -76,12 +75,12 @@ _SHORT, _CAUTIOUS = 0.1, 0.5
 def _load(programs, n, cost, where, t, web, edge, peak, own):  # type: ignore[no-untyped-def]
     """Program n and where it stands (:mod:`optimizer.program.kernel.disc_starts`) into lane t."""
     vectors, webs = programs.multiple.shape[1], cost.size
-    terms, at_prices = vectors - programs.cap.shape[1], 4 * (webs + vectors)
+    terms, at_prices = vectors - programs.cap.shape[1], 6 * webs + 4 * vectors
     for k in range(webs):
         at = k * WEB + t
         web[at + H1], web[at + H2] = programs.influence[n, 0, k], programs.influence[n, 1, k]
         web[at + COST] = cost[k]
-        for i in range(4):
+        for i in range(6):
             web[at + VX + i * LANES] = where[i * webs + k]
         if edge is not None:
             on, normals = k * EDGE + t, programs.normals[n]
@@ -93,7 +92,7 @@ def _load(programs, n, cost, where, t, web, edge, peak, own):  # type: ignore[no
                 edge[on + E1 + i * LANES] = slack + 1.0 - normals[4, k]
                 edge[on + G1 + i * LANES] = where[at_prices + 2 + i * webs + k]
     for j in range(vectors):
-        one, at = peak[j], 4 * webs + 4 * j
+        one, at = peak[j], 6 * webs + 4 * j
         one[t + CX], one[t + CX + LANES] = programs.constant[n, j, 0], programs.constant[n, j, 1]
         one[t + CX + PAIR] = programs.multiple[n, j]
         for i in range(4):
@@ -106,16 +105,16 @@ def _load(programs, n, cost, where, t, web, edge, peak, own):  # type: ignore[no
 def _save(webs, t, web, edge, peak, own, where):  # type: ignore[no-untyped-def]
     """Where lane t stands."""
     vectors = peak.shape[0]
-    at_prices = 4 * (webs + vectors)
+    at_prices = 6 * webs + 4 * vectors
     for k in range(webs):
-        for i in range(4):
+        for i in range(6):
             where[i * webs + k] = web[k * WEB + VX + i * LANES + t]
         if edge is not None:
             for i in range(2):
                 where[at_prices + 2 + i * webs + k] = edge[k * EDGE + G1 + i * LANES + t]
     for j in range(vectors):
         for i in range(4):
-            where[4 * webs + 4 * j + i] = peak[j, YX + i * LANES + t]
+            where[6 * webs + 4 * j + i] = peak[j, YX + i * LANES + t]
     where[at_prices], where[at_prices + 1] = own[PRICE + t], own[BUDGET + t]
 
 
@@ -138,22 +137,22 @@ def run(least_mass, budgeted, programs, first, edge, cost, most, tolerance, midd
     web, own, peak = np.ones(webs * WEB), np.ones(OWN), np.ones((vectors, PEAK))
     matrix, step = np.ones((vectors + 1, vectors + 1, BLOCK)), np.zeros((vectors + 1, PAIR))
     program, steps, wanted = np.zeros(LANES, np.int64) - 1, np.zeros(LANES, np.int64), np.zeros(LANES)
-    degree, before = np.ones(LANES), np.zeros(LANES)
+    degree, before, held = np.ones(LANES), np.zeros(LANES), np.zeros(LANES, np.int64)
     # with edges or a budget limits are of very different size, and less is sure of steps to all of them at once
     longest = 1.0 if edge is None and not budgeted else _LONGEST
+    loosest = _LOOSEST_MASS if least_mass else _LOOSEST
     waiting, solved = 0, 0
     while True:
         for t in range(LANES):
             if program[t] < 0 and waiting < number:
                 n = waiting
-                program[t], steps[t], wanted[t] = n, 0, middle[n]
+                program[t], steps[t], held[t], wanted[t] = n, 0, 0, middle[n]
                 _load(programs, first + n, cost[n], starts[n], t, web, edge, peak, own)
                 own[MOST + t], own[BOTH + t], before[t] = most[n], 1.0, np.inf
                 degree[t] = 2.0 * webs + vectors + 1.0 if sized else 1.0 * (webs + vectors)
                 for k in range(programs.normals.shape[2]):
                     degree[t] += 2.0 * programs.normals[first + n, 4, k]
                 waiting += 1
-        weigh(basis, peak, own)
         look_at_webs(sized, webs, web, edge, own)
         look_at_peaks(least_mass, budgeted, terms, basis, peak, own)
         for t in range(LANES):
@@ -170,8 +169,8 @@ def run(least_mass, budgeted, programs, first, edge, cost, most, tolerance, midd
                 gap /= max(own[MASS + t], 1e-3)
             gap += over
             steps[t] += 1
-            # rounding may hold up the last steps
-            enough = tolerance[n] if own[BOTH + t] > 0.0 else _NEARLY * tolerance[n]
+            # rounding may hold up the last steps: where a norm vanishes that few webs are free to change
+            enough = tolerance[n] * (1.0 if held[t] == 0 else _NEARLY if held[t] == 1 else loosest)
             if gap <= enough or steps[t] > _MOST_STEPS or not np.isfinite(gap):
                 reached[n] = gap if gap <= enough else np.inf
                 _save(webs, t, web, edge, peak, own, ends[n])
@@ -207,9 +206,8 @@ def run(least_mass, budgeted, programs, first, edge, cost, most, tolerance, midd
             own[PRIMAL + t] = min(share * own[PRIMAL + t], 1.0)
             own[DUAL + t] = min(share * own[DUAL + t], 1.0)
             # after a short step, or one for nothing, back to the middle without the second order
-            own[BOTH + t] = (
-                1.0 if min(own[PRIMAL + t], own[DUAL + t]) >= _SHORT and own[GAP + t] < 0.9 * before[t] else 0.0
-            )
+            well = min(own[PRIMAL + t], own[DUAL + t]) >= _SHORT and own[GAP + t] < 0.9 * before[t]
+            own[BOTH + t], held[t] = (1.0, 0) if well else (0.0, held[t] + 1)
             before[t] = own[GAP + t]
         move_webs(webs, web, edge, own)
         move_peaks(terms, peak, own)
@@ -234,7 +232,7 @@ def solve(programs, budgeted, least_mass, share, tolerance, mass_tolerance):  # 
     v, p = np.zeros((2, number, webs, 2)), np.zeros((2, number, vectors, 2))
     prices, mass_unit = np.zeros((2, number, 1)), np.ones(number)
     edged = programs.normals.shape[2] > 0
-    size, edge = 4 * (webs + vectors) + 2 + 2 * programs.normals.shape[2], np.ones(webs * EDGE)
+    size, edge = 6 * webs + 4 * vectors + 2 + 2 * programs.normals.shape[2], np.ones(webs * EDGE)
     for begin in range(0, number, AT_A_TIME):
         count = min(AT_A_TIME, number - begin)
         cost, most, starts, ends = (
@@ -274,5 +272,5 @@ def _keep(where, v, p, price):  # type: ignore[no-untyped-def]
         for k in range(webs):
             v[k, c] = where[c * webs + k]
         for j in range(vectors):
-            p[j, c] = -where[4 * webs + 4 * j + c]
-    price[0] = where[4 * (webs + vectors)]
+            p[j, c] = -where[6 * webs + 4 * j + c]
+    price[0] = where[6 * webs + 4 * vectors]
