@@ -57,6 +57,11 @@ def plain(array: NDArray[Any]) -> NDArray[Any]:
     return np.array(array, order="C")
 
 
+def parts(vectors: Complex) -> Real:
+    """Real and imaginary parts side by side (..., 2), free to be written to."""
+    return plain(vectors).view(float).reshape(*vectors.shape, 2)
+
+
 def in_order(array: NDArray[Any]) -> NDArray[Any]:
     """The same numbers in the usual order in memory; not copied where they are in it, so that none may be written to.
 

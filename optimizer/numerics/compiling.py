@@ -49,3 +49,14 @@ inner = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True
 inner_with_arrays = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)
 #: for what stands in the innermost loops
 inlined = njit(error_model="numpy", inline="always")
+#: the same where a product and a sum may be rounded once, as one instruction: loops over a number of lanes that the
+#: compiler knows, which leave no rest that would be rounded otherwise
+fused = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True, _nrt=False, fastmath={"contract"})
+fused_inlined = njit(
+    error_model="numpy",
+    forceinline=True,
+    no_cpython_wrapper=True,
+    no_cfunc_wrapper=True,
+    _nrt=False,
+    fastmath={"contract"},
+)

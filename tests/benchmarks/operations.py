@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from optimizer.program.kernel import disc_steps, discs
+from optimizer.program.kernel import disc_peaks, disc_starts, disc_webs, discs
 from optimizer.program.kernel.finer_numbers import interpreted
 
 Operate = Callable[[Any, Any], Any]
@@ -74,11 +74,11 @@ def operations_per_program(calls: Sequence[tuple[Any, ...]]) -> tuple[float, flo
     ----------
     calls : arguments of :func:`optimizer.program.kernel.discs.solve`.
     """
-    space, iterations = interpreted(_numbers(), parts=(disc_steps, discs)), 0
+    space, iterations = interpreted(_numbers(), parts=(disc_webs, disc_peaks, disc_starts, discs)), 0
     # one lane, so that the rounds of the loop are the iterations of a program
-    for name, place in vars(disc_steps).items():
+    for name, place in (vars(disc_webs) | vars(disc_peaks)).items():
         if type(place) is int:
-            space[name] = place // disc_steps.LANES
+            space[name] = place // disc_webs.LANES
     eliminate = space["eliminate"]
 
     def one_more(*arguments: Any) -> None:

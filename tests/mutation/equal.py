@@ -51,7 +51,6 @@ _PROGRAM: dict[str, str] = {
     " -> np.add.reduce(mass, axis=+1, keepdims=True)": "it has two axes",
     "methods/compiled.py _solve: reachable > 0 -> reachable > 1": _STEERS,
     "methods/compiled.py _solve: unit > 0 -> unit > 1": _STEERS,
-    "methods/compiled.py plain_discs: 0 < norms.constant.shape[-1] < 3 -> 1 < norms.constant.shape[-1] < 3": _SPEED,
     "methods/implied_bounds.py _in_sectors: np.min(along[outside], initial=1.0)"
     " -> np.min(along[outside], initial=1.011)": "the shortest support is 1 along some ray outside; without such a ray"
     " nothing is divided by it",

@@ -8,7 +8,8 @@ import pytest
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import nothing_proven
 from optimizer.program.kernel.judging import is_better, step_towards
-from optimizer.program.methods.compiled import plain_discs, pulled, suits_kernel
+from optimizer.program.methods.compiled import pulled, suits_kernel
+from optimizer.program.methods.disc_programs import suits_discs
 from optimizer.program.points import points_at
 from optimizer.program.solution import CEILING_ROUNDING, ConeSolution, evaluated, joined
 from tests.program.cases import random_point
@@ -109,13 +110,13 @@ def test_parts_are_put_in_the_order_of_all_programs() -> None:
 
 
 @pytest.mark.parametrize(
-    ("kind", "rows", "terms", "plain"),
-    [("plain", 1, 1, True), ("plain", 1, 2, True), ("plain", 1, 3, False), ("plain", 2, 2, False),
-     ("sector", 1, 2, False), ("budget", 1, 2, False), ("ceiling", 1, 2, False), ("scatter", 1, 2, False),
+    ("kind", "rows", "terms", "suits"),
+    [("plain", 1, 1, True), ("plain", 1, 2, True), ("plain", 1, 3, True), ("plain", 2, 2, False),
+     ("sector", 1, 2, True), ("budget", 1, 2, True), ("ceiling", 1, 2, True), ("scatter", 1, 2, False),
      ("scalar", 1, 2, False)],
 )  # fmt: skip
-def test_programs_of_plain_discs_are_told_from_others(kind: str, rows: int, terms: int, plain: bool) -> None:
-    """Analytic: one row of one or two terms, with nothing but largest masses."""
+def test_programs_of_discs_are_told_from_others(kind: str, rows: int, terms: int, suits: bool) -> None:
+    """Analytic: one row of vectors that are multiples of two."""
     whole = _program(3, kind)
     some = np.arange(terms)
     norms = replace(
@@ -123,8 +124,9 @@ def test_programs_of_plain_discs_are_told_from_others(kind: str, rows: int, term
         scalar=whole.norms.scalar[:terms],
     )  # fmt: skip
     row = np.minimum(some, rows - 1)
-    program = replace(whole, norms=norms, row=row, group=np.zeros(rows, int), floor=whole.floor[:rows])
-    assert plain_discs(program.alone()).tolist() == [plain]
+    names = whole.names._replace(terms=whole.names.terms[:terms])
+    program = replace(whole, norms=norms, row=row, group=np.zeros(rows, int), floor=whole.floor[:rows], names=names)
+    assert suits_discs(program.alone()).tolist() == [suits]
 
 
 @pytest.mark.parametrize(("kind", "suits"), [("plain", True), ("group", False), ("sector, budget", True)])

@@ -1,173 +1,263 @@
-"""A primal-dual interior point for webs that have neither sector nor budget, compiled: both stages.
+"""A primal-dual interior point for webs under force and moment, compiled: both stages, any limits.
 
-Such webs are plain discs, |v_k| <= 1, and the objective is a sum of at most two terms. Every iterate is feasible in
-both senses: with y_j the multipliers of the terms that of web k is p_k = -sum_j H_jk y_j, and its size z_k above |p_k|
-is free; vectors of terms follow the webs. So no residuals are left but the products, and of a step what the programs
-have in common is the 4 or 5 unknowns of the terms (:mod:`optimizer.program.kernel.disc_steps`). Slacks and multipliers
-each go as far as they may.
+Every web is a disc, |v_k| <= 1, of which two straight edges leave a sector. The objective is a sum of sizes of vectors,
+each a constant and a multiple of force or moment; so are those below ceilings. With w_b the multipliers of force and
+moment, that of web k is p_k = -sum_b h_bk w_b - sum_e g_e n_e, and its size z_k above |p_k| is free; vectors follow the
+webs. So no residuals are left but the products, and what is over the ceilings. What the webs of a program have in
+common in a step is two unknowns of each vector, and the price of the objective or of a budget: what the webs do stands
+in :mod:`optimizer.program.kernel.disc_webs`, the rest in :mod:`optimizer.program.kernel.disc_peaks`. Slacks and
+multipliers each go as far as they may.
 
 It has one answer to all trouble, which is none: what does not reach its gap in a few steps is left at 0, which proves
 nothing, and is for :mod:`optimizer.program.kernel.interior_point`. Notation as there.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
-from optimizer.numerics.arrays import Real
 from optimizer.program.kernel.compiling import inner, inner_with_arrays, kernel
-from optimizer.program.kernel.disc_steps import (
+from optimizer.program.kernel.disc_peaks import (
+    BLOCK,
+    CX,
+    OVER,
+    PAIR,
+    PEAK,
+    YX,
+    correct_peaks,
+    eliminate,
+    look_at_peaks,
+    move_peaks,
+    solve_peaks,
+    step_peaks,
+)
+from optimizer.program.kernel.disc_starts import begin_first, begin_second
+from optimizer.program.kernel.disc_webs import (
     AIM,
-    C1X,
+    BOTH,
+    BUDGET,
     CHANGE,
     COST,
     DUAL,
+    E1,
+    EDGE,
+    G1,
     GAP,
     H1,
     H2,
+    KEEP,
     LANES,
     MASS,
     MOST,
+    N1X,
     OWN,
+    PRICE,
     PRIMAL,
+    RISE,
     VX,
     WEB,
-    Y1X,
-    correct,
-    eliminate,
-    find_step,
-    go,
-    look,
+    correct_webs,
+    look_at_webs,
+    move_webs,
+    share_budget,
+    step_webs,
 )
-from optimizer.program.kernel.stages import BLOCK, CENTRALITY, OPEN, RESERVE
+from optimizer.program.kernel.stages import BLOCK as AT_A_TIME
 
 _MOST_STEPS = 25
 #: least share of the way to the boundary that a step goes; the rest is the gap at most
-_STEP = 0.99
+_STEP, _LONGEST = 0.99, 0.999
+#: multiples of the gap asked for that are enough where a step led no farther, and where several did not
+_NEARLY, _LOOSEST, _LOOSEST_MASS = 8.0, 500.0, 30.0
+#: a step below this is short, and share of the gap that the next one aims at then
+_SHORT, _CAUTIOUS = 0.1, 0.5
 
 
 @inner
-def _load(program, where, t, web, own):  # type: ignore[no-untyped-def]
-    """A program and where it stands, (4 K + 7,) numbers each, into lane t."""
-    webs = (where.size - 7) // 4
+def _load(programs, n, cost, where, t, web, edge, peak, own):  # type: ignore[no-untyped-def]
+    """Program n and where it stands (:mod:`optimizer.program.kernel.disc_starts`) into lane t."""
+    vectors, webs = programs.multiple.shape[1], cost.size
+    terms, at_prices = vectors - programs.cap.shape[1], 6 * webs + 4 * vectors
     for k in range(webs):
         at = k * WEB + t
-        web[at + H1], web[at + H2], web[at + COST] = program[k], program[webs + k], program[2 * webs + k]
-        for i in range(4):
+        web[at + H1], web[at + H2] = programs.influence[n, 0, k], programs.influence[n, 1, k]
+        web[at + COST] = cost[k]
+        for i in range(6):
             web[at + VX + i * LANES] = where[i * webs + k]
-    for i in range(4):
-        own[C1X + i * LANES + t] = program[3 * webs + i]
-    for i in range(7):
-        own[Y1X + i * LANES + t] = where[4 * webs + i]
-    own[MOST + t] = program[3 * webs + 4]
+        if edge is not None:
+            on, normals = k * EDGE + t, programs.normals[n]
+            for i in range(5):
+                edge[on + N1X + i * LANES] = normals[i, k]
+            for i in range(2):
+                # where there is no edge its slack is 1, and stays so
+                slack = normals[2 * i, k] * where[k] + normals[2 * i + 1, k] * where[webs + k]
+                edge[on + E1 + i * LANES] = slack + 1.0 - normals[4, k]
+                edge[on + G1 + i * LANES] = where[at_prices + 2 + i * webs + k]
+    for j in range(vectors):
+        one, at = peak[j], 6 * webs + 4 * j
+        one[t + CX], one[t + CX + LANES] = programs.constant[n, j, 0], programs.constant[n, j, 1]
+        one[t + CX + PAIR] = programs.multiple[n, j]
+        for i in range(4):
+            one[t + YX + i * LANES] = where[at + i]
+        one[t + OVER] = where[at + 2] - programs.cap[n, j - terms] if j >= terms else 0.0
+    own[t + PRICE], own[t + BUDGET] = where[at_prices], where[at_prices + 1]
 
 
 @inner
-def _save(t, web, own, where):  # type: ignore[no-untyped-def]
-    """Where lane t stands (4 K + 7,)."""
-    webs = (where.size - 7) // 4
+def _save(webs, t, web, edge, peak, own, where):  # type: ignore[no-untyped-def]
+    """Where lane t stands."""
+    vectors = peak.shape[0]
+    at_prices = 6 * webs + 4 * vectors
     for k in range(webs):
-        for i in range(4):
+        for i in range(6):
             where[i * webs + k] = web[k * WEB + VX + i * LANES + t]
-    for i in range(7):
-        where[4 * webs + i] = own[Y1X + i * LANES + t]
+        if edge is not None:
+            for i in range(2):
+                where[at_prices + 2 + i * webs + k] = edge[k * EDGE + G1 + i * LANES + t]
+    for j in range(vectors):
+        for i in range(4):
+            where[6 * webs + 4 * j + i] = peak[j, YX + i * LANES + t]
+    where[at_prices], where[at_prices + 1] = own[PRICE + t], own[BUDGET + t]
 
 
 @inner_with_arrays
-def run(least_mass, programs, starts, tolerance, middle, ends, reached):  # type: ignore[no-untyped-def]
-    """A stage of every program.
+def run(least_mass, budgeted, programs, first, edge, cost, most, tolerance, middle, starts, ends, reached):  # type: ignore[no-untyped-def]
+    """A stage of N programs, from the first one on.
 
     Parameters
     ----------
-    programs : (N, 3 K + 5) influences on both terms and cost of each web, constants, largest sum of the sizes.
-    starts : (N, 4 K + 7) x and y of v, x and z of each web; y_1, y_2, sizes of the terms, price. Where ``middle`` is
-        above 0, the state with a gap below it for the first time is left here.
+    budgeted : whether cost is a share of the budget, that of the first stage.
+    edge : memory for the edges of the webs, None where no program has any.
+    cost, most : (N, K) of each web, and (N,) largest sum of the sizes, in the second stage.
     tolerance : (N,) gap at which the stage ends.
-    ends, reached : (N, 4 K + 7) and (N,) where it ended, and the gap; inf where it did not end well.
+    middle : (N,) where it is above 0, the state with a gap below it for the first time is left in ``starts``.
+    starts : (N, S) states.
+    ends, reached : (N, S) and (N,) where it ended, and the gap; inf where it did not end well.
     """
-    number, webs = starts.shape[0], (starts.shape[1] - 7) // 4
-    web, own, matrix, step = np.ones(webs * WEB), np.ones(OWN), np.ones(25 * LANES), np.zeros(5 * LANES)
-    degree = 2.0 * webs + 3.0 if least_mass else webs + 2.0
+    (number, webs), vectors = cost.shape, programs.basis.size
+    basis, terms, sized = programs.basis, vectors - programs.cap.shape[1], least_mass or budgeted
+    web, own, peak = np.ones(webs * WEB), np.ones(OWN), np.ones((vectors, PEAK))
+    matrix, step = np.ones((vectors + 1, vectors + 1, BLOCK)), np.zeros((vectors + 1, PAIR))
     program, steps, wanted = np.zeros(LANES, np.int64) - 1, np.zeros(LANES, np.int64), np.zeros(LANES)
+    degree, before, held = np.ones(LANES), np.zeros(LANES), np.zeros(LANES, np.int64)
+    # with edges or a budget limits are of very different size, and less is sure of steps to all of them at once
+    longest = 1.0 if edge is None and not budgeted else _LONGEST
+    loosest = _LOOSEST_MASS if least_mass else _LOOSEST
     waiting, solved = 0, 0
     while True:
         for t in range(LANES):
             if program[t] < 0 and waiting < number:
-                program[t], steps[t], wanted[t] = waiting, 0, middle[waiting]
-                _load(programs[waiting], starts[waiting], t, web, own)
+                n = waiting
+                program[t], steps[t], held[t], wanted[t] = n, 0, 0, middle[n]
+                _load(programs, first + n, cost[n], starts[n], t, web, edge, peak, own)
+                own[MOST + t], own[BOTH + t], before[t] = most[n], 1.0, np.inf
+                degree[t] = 2.0 * webs + vectors + 1.0 if sized else 1.0 * (webs + vectors)
+                for k in range(programs.normals.shape[2]):
+                    degree[t] += 2.0 * programs.normals[first + n, 4, k]
                 waiting += 1
-        look(least_mass, webs, web, own)
+        look_at_webs(sized, webs, web, edge, own)
+        look_at_peaks(least_mass, budgeted, terms, basis, peak, own)
         for t in range(LANES):
             n, gap = program[t], own[GAP + t]
             if n < 0:
                 continue
-            if wanted[t] > 0.0 and gap <= wanted[t]:
+            over = 0.0
+            for j in range(terms, vectors):
+                over = max(over, abs(peak[j, OVER + t]))
+            if wanted[t] > 0.0 and gap + over <= wanted[t]:
                 wanted[t] = 0.0
-                _save(t, web, own, starts[n])
+                _save(webs, t, web, edge, peak, own, starts[n])
             if least_mass:
                 gap /= max(own[MASS + t], 1e-3)
+            gap += over
             steps[t] += 1
-            if gap <= tolerance[n] or steps[t] > _MOST_STEPS or not np.isfinite(gap):
-                reached[n] = gap if gap <= tolerance[n] else np.inf
-                _save(t, web, own, ends[n])
+            # rounding may hold up the last steps: where a norm vanishes that few webs are free to change
+            enough = tolerance[n] * (1.0 if held[t] == 0 else _NEARLY if held[t] == 1 else loosest)
+            if gap <= enough or steps[t] > _MOST_STEPS or not np.isfinite(gap):
+                reached[n] = gap if gap <= enough else np.inf
+                _save(webs, t, web, edge, peak, own, ends[n])
                 program[t], solved = -1, solved + 1
         if solved == number:
             return
-        eliminate(least_mass, own, matrix)
-        # predictor
-        find_step(least_mass, webs, web, own, matrix, step)
+        if budgeted:
+            share_budget(webs, web, edge, own)
+        eliminate(least_mass, budgeted, terms, basis, peak, own, matrix)
         for t in range(LANES):
-            gap, change = own[GAP + t], own[CHANGE + t]
-            # both changes of the objectives together would close the gap
-            left = gap + min(own[PRIMAL + t], 1.0) * change - min(own[DUAL + t], 1.0) * (gap + change)
-            sigma = min(max(left / gap, 0.0), 1.0) ** 3
-            if wanted[t] > 0.0 and gap * sigma < 0.3 * wanted[t]:
-                # not past the middle of the optima in one step
-                sigma = 0.5 * wanted[t] / gap
-            own[AIM + t] = sigma * gap / degree
-        # corrector
-        correct(least_mass, webs, web, own, step)
-        find_step(least_mass, webs, web, own, matrix, step)
+            own[KEEP + t] = 1.0
+        # predictor, then corrector
+        for turn in range(2):
+            if turn > 0:
+                for t in range(LANES):
+                    gap, change = own[GAP + t], own[CHANGE + t] if least_mass else own[RISE + t]
+                    # both changes of the objectives together would close the gap
+                    left = gap + min(own[PRIMAL + t], 1.0) * change - min(own[DUAL + t], 1.0) * (gap + change)
+                    sigma = min(max(left / gap, 0.0), 1.0) ** 3
+                    if wanted[t] > 0.0 and gap * sigma < 0.3 * wanted[t]:
+                        # not past the middle of the optima in one step
+                        sigma = 0.5 * wanted[t] / gap
+                    if own[BOTH + t] == 0.0:
+                        sigma = max(sigma, _CAUTIOUS)
+                    own[AIM + t], own[KEEP + t] = sigma * gap / degree[t], 1.0 - sigma
+                correct_webs(sized, webs, web, edge, own)
+                correct_peaks(least_mass, budgeted, peak, own)
+            solve_peaks(least_mass, budgeted, terms, basis, peak, own, matrix, step)
+            step_webs(sized, webs, web, edge, own)
+            step_peaks(least_mass, budgeted, terms, basis, peak, own)
         for t in range(LANES):
-            share = max(_STEP, 1.0 - own[GAP + t])
+            share = min(max(_STEP, 1.0 - own[GAP + t]), longest)
             own[PRIMAL + t] = min(share * own[PRIMAL + t], 1.0)
             own[DUAL + t] = min(share * own[DUAL + t], 1.0)
-        go(webs, web, own, step)
-
-
-class Discs(NamedTuple):
-    """N scaled programs of one row of J terms, as in :class:`optimizer.program.kernel.interior_point.Programs`."""
-
-    constant: Real  # (N, J, 2)
-    influence: Real  # (N, J, K)
-    mass: Real  # (N, K) mass at full reach
+            # after a short step, or one for nothing, back to the middle without the second order
+            well = min(own[PRIMAL + t], own[DUAL + t]) >= _SHORT and own[GAP + t] < 0.9 * before[t]
+            own[BOTH + t], held[t] = (1.0, 0) if well else (0.0, held[t] + 1)
+            before[t] = own[GAP + t]
+        move_webs(webs, web, edge, own)
+        move_peaks(terms, peak, own)
 
 
 @kernel
-def solve(programs, least_mass, share, tolerance, mass_tolerance):  # type: ignore[no-untyped-def]
-    """Both stages of N programs, Discs, without ceilings, sectors and budgets.
+def solve(programs, budgeted, least_mass, share, tolerance, mass_tolerance):  # type: ignore[no-untyped-def]
+    """Both stages of N programs, Discs, all with a budget that can bind or none, all with sectors or none.
 
-    Other parameters, and results, are those of :func:`optimizer.program.kernel.interior_point.solve`; of a stage that
-    did not end well all is 0.
+    Parameters
+    ----------
+    budgeted : whether they have a budget.
+
+    Others are those of :func:`optimizer.program.kernel.interior_point.solve`.
+
+    Returns
+    -------
+    v (2, N, K, 2), multipliers of the vectors (2, N, Q, 2) and of the row (2, N, 1), for the first and for the second
+    stage; and the unit of mass of the second stage (N,). Of a stage that did not end well all is 0.
     """
-    number, terms, webs = programs.influence.shape
-    v, p = np.zeros((2, number, 3, webs)), np.zeros((2, number, terms, 2))
+    (number, vectors), webs = programs.multiple.shape, programs.mass.shape[1]
+    v, p = np.zeros((2, number, webs, 2)), np.zeros((2, number, vectors, 2))
     prices, mass_unit = np.zeros((2, number, 1)), np.ones(number)
-    for begin in range(0, number, BLOCK):
-        count = min(BLOCK, number - begin)
-        data, starts = np.zeros((count, 3 * webs + 5)), np.zeros((count, 4 * webs + 7))
-        ends, reached = np.zeros((count, 4 * webs + 7)), np.zeros(count)
-        middle, ending = np.zeros(count), np.zeros(count)
+    edged = programs.normals.shape[2] > 0
+    size, edge = 6 * webs + 4 * vectors + 2 + 2 * programs.normals.shape[2], np.ones(webs * EDGE)
+    for begin in range(0, number, AT_A_TIME):
+        count = min(AT_A_TIME, number - begin)
+        cost, most, starts, ends = (
+            np.zeros((count, webs)),
+            np.zeros(count),
+            np.zeros((count, size)),
+            np.zeros((count, size)),
+        )
+        middle, ending, reached = np.zeros(count), np.zeros(count), np.zeros(count)
         for stage in range(2 if least_mass else 1):
             for n in range(count):
                 at = begin + n
                 if stage == 0:
-                    _begin(programs.influence[at], programs.constant[at], data[n], starts[n])
+                    begin_first(programs, at, budgeted, cost[n], starts[n])
                     ending[n], middle[n] = tolerance[at], 0.5 * share[at] if least_mass else 0.0
                 else:
-                    mass_unit[at] = _aim(programs.mass[at], share[at], reached[n], ends[n], data[n], starts[n])
+                    mass_unit[at], most[n] = begin_second(
+                        programs, at, budgeted, share[at], reached[n], ends[n], cost[n], starts[n]
+                    )
                     ending[n], middle[n] = mass_tolerance, 0.0
-            run(stage > 0, data, starts, ending, middle, ends, reached)
+            own = budgeted and stage == 0
+            if edged:
+                run(stage > 0, own, programs, begin, edge, cost, most, ending, middle, starts, ends, reached)
+            else:
+                run(stage > 0, own, programs, begin, None, cost, most, ending, middle, starts, ends, reached)
             for n in range(count):
                 if np.isfinite(reached[n]):
                     _keep(ends[n], v[stage, begin + n], p[stage, begin + n], prices[stage, begin + n])
@@ -175,60 +265,12 @@ def solve(programs, least_mass, share, tolerance, mass_tolerance):  # type: igno
 
 
 @inner
-def _begin(influence, constant, program, where):  # type: ignore[no-untyped-def]
-    """A program, and where the first stage starts: nothing on the webs, sizes above the terms."""
-    terms, webs = influence.shape
-    for k in range(webs):
-        where[2 * webs + k], where[3 * webs + k] = 1.0, 0.5
-    where[4 * webs + 4], where[4 * webs + 5], where[4 * webs + 6] = 0.5, 0.5, 1.0
-    for j in range(terms):
-        for k in range(webs):
-            program[j * webs + k] = influence[j, k]
-        x, y = constant[j, 0], constant[j, 1]
-        program[3 * webs + 2 * j], program[3 * webs + 2 * j + 1] = x, y
-        where[4 * webs + 4 + j] += np.sqrt(x * x + y * y)
-
-
-@inner
-def _aim(mass, share, gap, end, program, where):  # type: ignore[no-untyped-def]
-    """The second stage, from where the first one ended and the middle of the optima; its unit of mass."""
-    webs = mass.size
-    total, value = 0.0, 0.0
-    for k in range(webs):
-        total += mass[k] * np.sqrt(end[k] ** 2 + end[webs + k] ** 2)
-    unit = total if total > 0.0 else 1.0
-    for j in range(2):
-        x, y = program[3 * webs + 2 * j], program[3 * webs + 2 * j + 1]
-        for k in range(webs):
-            x += program[j * webs + k] * end[k]
-            y += program[j * webs + k] * end[webs + k]
-        value += np.sqrt(x * x + y * y)
-    # what the first stage leaves open is kept back, so that the lightest is an optimum for certain
-    most = value + share * (1.0 - RESERVE) - OPEN * gap
-    program[3 * webs + 4] = most
-    # every multiplier at the price of the objective
-    price = CENTRALITY / max(most - where[4 * webs + 4] - where[4 * webs + 5], 1e-300)
-    for i in (0, 1, 2, 3, 6):
-        where[4 * webs + i] *= price
-    for k in range(webs):
-        vx, vy, cost = where[k], where[webs + k], mass[k] / unit
-        px = program[k] * where[4 * webs] + program[webs + k] * where[4 * webs + 2]
-        py = program[k] * where[4 * webs + 1] + program[webs + k] * where[4 * webs + 3]
-        # in the middle between |v| and 1
-        x = (1.0 + np.sqrt(1.0 + 3.0 * (vx * vx + vy * vy))) / 3.0
-        z = max(np.sqrt(px * px + py * py), cost) + CENTRALITY
-        z = max(z, (CENTRALITY + vx * px + vy * py) / x, cost + CENTRALITY / (1.0 - x))
-        program[2 * webs + k], where[2 * webs + k], where[3 * webs + k] = cost, x, z
-    return unit
-
-
-@inner
 def _keep(where, v, p, price):  # type: ignore[no-untyped-def]
-    """Webs (3, K), multipliers of the terms (J, 2) and of the row (1,)."""
-    webs = v.shape[1]
-    for k in range(webs):
-        v[0, k], v[1, k], v[2, k] = where[2 * webs + k], where[k], where[webs + k]
-    for j in range(p.shape[0]):
-        for c in range(2):
-            p[j, c] = -where[4 * webs + 2 * j + c]
-    price[0] = where[4 * webs + 6]
+    """Webs (K, 2), multipliers of the vectors (Q, 2) and of the row (1,)."""
+    webs, vectors = v.shape[0], p.shape[0]
+    for c in range(2):
+        for k in range(webs):
+            v[k, c] = where[c * webs + k]
+        for j in range(vectors):
+            p[j, c] = -where[6 * webs + 4 * j + c]
+    price[0] = where[6 * webs + 4 * vectors]

@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, mapped, plain
+from optimizer.numerics.arrays import Complex, Real, mapped, parts, plain
 from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, nothing_proven
 from optimizer.program.compiled_evaluation import Shares
 from optimizer.program.kernel.finer_numbers import Precision, solve_in
+from optimizer.program.methods.disc_programs import discs_of, suits_discs
 from optimizer.program.methods.rounding import HEAVIER, RUNGS
 from optimizer.program.points import points_at
 from optimizer.program.scaling import natural_reach
@@ -95,14 +96,14 @@ def both_stages(
         finer = _Tolerances(1e-7, finest, 100 * finest, precision.mass, 0.1 * CEILING_ROUNDING)
         solved = _solve(statement, share, least_mass, finer, _in(precision), at_least)
         return _judged(statement, share, demand, least_mass, solved)
-    (plain,), level = plain_discs(statement).nonzero(), at_least + np.zeros(share.shape)
-    if not plain.size:
+    (discs,), level = suits_discs(statement).nonzero(), at_least + np.zeros(share.shape)
+    if not discs.size:
         return _in_any_limits(statement, share, demand, least_mass, level)
-    part, wanted = statement.chosen(plain) if plain.size < share.size else statement, (share[plain], demand[plain])
-    quick = _judged(part, *wanted, least_mass, _solve(part, wanted[0], least_mass, _DOUBLE, _in_discs, level[plain]))
-    if quick.certified.all() and plain.size == share.size:
+    part, wanted = statement.chosen(discs) if discs.size < share.size else statement, (share[discs], demand[discs])
+    quick = _judged(part, *wanted, least_mass, _solve(part, wanted[0], least_mass, _DOUBLE, _in_discs, level[discs]))
+    if quick.certified.all() and discs.size == share.size:
         return quick
-    done = plain[quick.certified]
+    done = discs[quick.certified]
     left = np.setdiff1d(np.arange(share.size), done)
     rest = _in_any_limits(statement.chosen(left), share[left], demand[left], least_mass, level[left])
     return joined([quick.chosen(quick.certified), rest], np.argsort(np.concatenate([done, left])))
@@ -117,7 +118,7 @@ def unproven(statement: Statement, share: Real, least_mass: bool) -> tuple[Compl
     -------
     Unbalances (N, K) kg m, and multipliers (N, J + I) of the terms and ceilings in the last stage.
     """
-    found = _solve(statement, share, least_mass, _DOUBLE, _in_discs if plain_discs(statement).all() else None)
+    found = _guess(statement, share, least_mass)
     proof = found.mass_proof if least_mass else found.proof
     prices = np.concatenate([proof.term, proof.ceiling], axis=-1)
     return found.lightest if least_mass else found.smallest, prices
@@ -125,17 +126,20 @@ def unproven(statement: Statement, share: Real, least_mass: bool) -> tuple[Compl
 
 def ends(statement: Statement, share: Real, least_mass: bool) -> tuple[Complex, Complex]:
     """Where the first stage of N statements ends and where the last, guesses likewise (N, K) kg m."""
-    found = _solve(statement, share, least_mass, _DOUBLE, _in_discs if plain_discs(statement).all() else None)
+    found = _guess(statement, share, least_mass)
     return found.smallest, found.lightest
 
 
-def plain_discs(statement: Statement) -> np.ndarray:
-    """Programs that :mod:`optimizer.program.kernel.discs` takes (N,) bool: one row, no ceilings, sectors or budgets."""
-    norms, limits = statement.norms, statement.limits
-    shape = statement.floor.shape[-1] == 1 and 0 < norms.constant.shape[-1] < 3 and not statement.ceilings.names
-    if not shape or norms.scatter or any(norms.scalar) or limits.alike is not None or limits.radius.shape[-1] == 0:
-        return np.zeros(statement.floor.shape[:-1], bool)
-    return limits.free.all(axis=-1) & (np.add.reduce(limits.max_mass, axis=-1) <= limits.max_total_mass)
+def _guess(statement: Statement, share: Real, least_mass: bool) -> "_Solved":
+    if not suits_discs(statement).all():
+        return _solve(statement, share, least_mass, _DOUBLE)
+    found = _solve(statement, share, least_mass, _DOUBLE, _in_discs)
+    # prices are above 0 where a stage has ended
+    last = found.mass_proof if least_mass else found.proof
+    left = np.flatnonzero(np.minimum(found.proof.row, last.row)[:, 0] <= 0.0)
+    if left.size:
+        found.put(left, _solve(statement.chosen(left), share[left], least_mass, _DOUBLE))
+    return found
 
 
 def _in_any_limits(statement: Statement, share: Real, demand: Real, least_mass: bool, at_least: Real) -> BothStages:
@@ -204,6 +208,12 @@ class _Solved:
     def chosen(self, programs: np.ndarray) -> "_Solved":
         return mapped(self, lambda array: array[programs])
 
+    def put(self, programs: np.ndarray, others: "_Solved") -> None:
+        """Others in place of some."""
+        self.smallest[programs], self.lightest[programs] = others.smallest, others.lightest
+        self.proof.put(programs, others.proof)
+        self.mass_proof.put(programs, others.mass_proof)
+
     def pulled(self, statement: Statement, inside: Complex) -> "_Solved":
         points = pulled(statement, self.smallest, inside), pulled(statement, self.lightest, inside)
         return _Solved(*points, self.proof, self.mass_proof)
@@ -237,8 +247,7 @@ def _solve(
         (tolerances.sharpness * share / unit).clip(tolerances.finest, tolerances.coarsest),
         tolerances.mass,
     )
-    points = reach * limits.centre * (v[:, :, 1] + 1j * limits.half_angle_sin * v[:, :, 2])
-    points = statement.flat.into(points)
+    points = statement.flat.into(reach * v)
     # in units of what is minimised (the first is any), per unit of objective or response
     value, terms = np.array([np.ones_like(share), mass_unit]), norms.constant.shape[-1]
     vectors, worth = cone[..., 0] + 1j * cone[..., 1], (value / unit)[..., None]
@@ -259,7 +268,7 @@ def _by_interior_point(statement: Statement, reach: Real, unit: Real, margin: fl
     # the compiler is loaded when it is first needed
     from optimizer.program.kernel.interior_point import solve
 
-    return solve(_programs(statement, reach, unit, margin), *stages)
+    return _in_frame(statement, *solve(_programs(statement, reach, unit, margin), *stages))
 
 
 def _in(precision: Precision) -> Method:
@@ -268,17 +277,33 @@ def _in(precision: Precision) -> Method:
     def method(statement: Statement, reach: Real, unit: Real, margin: float, *stages: Any) -> tuple[Any, ...]:
         with np.errstate(all="ignore"):
             found = solve_in(precision)(_programs(statement, reach, unit, margin), *stages)
-        return tuple(np.asarray(values, dtype=float) for values in found)
+        return _in_frame(statement, *(np.asarray(values, dtype=float) for values in found))
 
     return method
 
 
-def _in_discs(statement: Statement, reach: Real, unit: Real, margin: float, *stages: Any) -> tuple[Any, ...]:
-    from optimizer.program.kernel.discs import Discs, solve
+def _in_frame(statement: Statement, v: Real, *rest: Any) -> tuple[Any, ...]:
+    """Unbalances along and across the sectors (2, N, 3, K), after the sizes, as vectors."""
+    limits = statement.limits
+    return limits.centre * (v[:, :, 1] + 1j * limits.half_angle_sin * v[:, :, 2]), *rest
 
-    norms, radius = statement.norms, statement.limits.radius
-    influence = norms.influence / unit[:, None, None] * reach[:, None, :]
-    return solve(Discs(_parts(norms.constant / unit[:, None]), plain(influence), plain(reach / radius)), *stages)
+
+def _in_discs(statement: Statement, reach: Real, unit: Real, margin: float, *stages: Any) -> tuple[Any, ...]:
+    from optimizer.program.kernel.discs import solve
+
+    least_mass, share, tolerance, mass_tolerance = stages
+
+    found, places = [], []
+    for which, budgeted, programs in discs_of(statement, reach, unit, margin):
+        v, p, price, mass_unit = solve(programs, budgeted, least_mass, share[which], tolerance[which], mass_tolerance)
+        found.append((v.view(complex)[..., 0], p, price, mass_unit[None]))
+        places.append(which)
+    if len(found) == 1:
+        (v, p, price, mass_unit) = found[0]
+    else:
+        order = np.argsort(np.concatenate(places))
+        v, p, price, mass_unit = (np.concatenate(each, axis=1)[:, order] for each in zip(*found, strict=True))
+    return v, p, price, mass_unit[0]
 
 
 def _programs(statement: Statement, reach: Real, unit: Real, margin: float) -> "Programs":
@@ -299,9 +324,9 @@ def _programs(statement: Statement, reach: Real, unit: Real, margin: float) -> "
         row=statement.row.astype(np.int64),
         floor=(statement.floor - highest[:, None]) / unit[:, None],
         cap=cap - np.clip(cap, 0.0, margin),
-        constant=_parts(constant),
+        constant=parts(constant),
         influence=influence * reach[:, None, :],
-        centre=_parts(limits.centre),
+        centre=parts(limits.centre),
         sine=limits.half_angle_sin,
         cosine=limits.half_angle_cos,
         sector=np.where(limits.free, 0.0, 1.0),
@@ -309,7 +334,3 @@ def _programs(statement: Statement, reach: Real, unit: Real, margin: float) -> "
         budget=mass / np.where(over, budget, np.inf),
     )
     return Programs(*(plain(values) for values in programs))
-
-
-def _parts(vectors: Complex) -> Real:
-    return plain(vectors).view(float).reshape(*vectors.shape, 2)

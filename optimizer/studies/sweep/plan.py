@@ -6,7 +6,6 @@ from dataclasses import dataclass
 import pyarrow as pa
 
 from optimizer.errors import MissingInput
-from optimizer.formulation.formulate import objective_ceilings
 from optimizer.outputs.registry import missing_inputs
 from optimizer.outputs.requirements import missing
 from optimizer.studies.sweep.table import result_schema
@@ -22,7 +21,7 @@ from schemas.sweep.request import SweepRequest
 
 #: seconds of work in a chunk: long against the cost of handing it out, short against the patience of a client
 _CHUNK_S = 1.0
-#: seconds a design takes for each web, for its certified optimum: of any limits, and of largest masses alone
+#: seconds a design takes for each web, for its certified optimum: of the largest of peaks, and of their sum
 _PROGRAM_S, _DISC_S = 1.5e-5, 1.5e-6
 #: and for each row at each angle of the turn, in the outputs
 _SAMPLE_S = 2.5e-7
@@ -177,13 +176,6 @@ def _seconds_per_design(request: SweepRequest) -> float:
     elif request.separate:
         seconds += _ALONE_S
     elif isinstance(request.base, OptimizeRequest):
-        seconds += (_DISC_S if _plain_discs(request.base) else _PROGRAM_S) * max(len(request.base.machine.webs), 1)
+        per_web = _DISC_S if request.base.objective.combine == "sum" else _PROGRAM_S
+        seconds += per_web * max(len(request.base.machine.webs), 1)
     return seconds
-
-
-def _plain_discs(request: OptimizeRequest) -> bool:
-    """Whether programs are those that :func:`optimizer.program.methods.compiled.plain_discs` tells, unless an axis
-    limits them further."""
-    machine, objective = request.machine, request.objective
-    free = machine.max_total_mass_kg is None and all(web.sector is None for web in machine.webs)
-    return free and objective.combine == "sum" and not objective_ceilings(objective)

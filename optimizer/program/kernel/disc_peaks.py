@@ -1,0 +1,445 @@
+"""The peaks' part of a step of the interior point for discs, compiled: :mod:`optimizer.program.kernel.discs`.
+
+Every vector is a_j = c_j + f_j U_b, with U_b what the webs add to the force or to the moment. Of a term of the
+objective the size s_j is free, and that of the multiplier, l_j, is the price of the objective. Of what is below a
+ceiling the size is that of the ceiling, and l_j is free. Of either the free one is eliminated: with (o, o') = (l, y) of
+a term and (s, a) of a ceiling,
+
+    (o l - o' y') da + (o s - o' a') dy = o r - o' r_0                    for every vector
+
+where da_j = f_j (G_b + sum_i N_bb(i) f_i dy_i) is what the webs do. In the second stage the price of the objective is a
+further unknown, in the first that of a budget.
+
+A number of a vector stands at ``j PEAK + NAME + t`` of ``peak``, one of the matrix at ``(i n + j) LANES + t``.
+"""
+
+from optimizer.program.kernel.compiling import fused, fused_inlined
+from optimizer.program.kernel.disc_webs import (
+    AIM,
+    BOTH,
+    BUDGET,
+    CHANGE,
+    D_BUDGET,
+    D_PRICE,
+    DU,
+    DUAL,
+    DW,
+    GAP,
+    GIVE,
+    KEEP,
+    LANES,
+    LEFT,
+    MASS,
+    MOST,
+    OWN_MASS,
+    PRICE,
+    PRIMAL,
+    R_LEFT,
+    RISE,
+    TOLL,
+    TOLL_MASS,
+    G,
+    N,
+    U,
+    clear,
+    crossing,
+    determinant,
+)
+
+(
+    CX, CY, F, OVER,  # constant, multiple of force or moment, what the size is over the ceiling
+    YX, YY, S, L,  # multiplier, size, size of the multiplier
+    AX, AY,  # vector
+    KA, KB, KC, KD,  # f (o l - o' y')
+    J0, JX, JY,  # right sides
+    DYX, DYY, DS, DL, DAX, DAY,  # the step
+    PEAK,  # numbers of a vector
+) = range(0, 24 * LANES, LANES)  # fmt: skip
+#: numbers of a vector and of a block of 2 x 2
+PAIR, BLOCK = 2 * LANES, 4 * LANES
+
+
+@fused
+def _add_multiple(one, pair, total):  # type: ignore[no-untyped-def]
+    for t in range(LANES):
+        total[t] += one[t + F] * one[t + pair]
+        total[t + LANES] += one[t + F] * one[t + pair + LANES]
+
+
+@fused
+def look_at_peaks(least_mass, budgeted, terms, basis, peak, own):  # type: ignore[no-untyped-def]
+    """Where the peaks stand, what they add to the gap, and the right sides of a step to products of 0."""
+    for t in range(LANES):
+        own[t + LEFT] = own[t + MOST]
+    for j in range(basis.size):
+        one = peak[j]
+        _look_at_vector(one, own[U + PAIR * basis[j] : N])
+        for t in range(LANES):
+            own[t + GAP] -= one[t + J0]
+        if j < terms:
+            for t in range(LANES):
+                own[t + LEFT] -= one[t + S]
+    if least_mass:
+        for t in range(LANES):
+            own[t + R_LEFT] = -own[t + LEFT] * own[t + PRICE]
+            own[t + GAP] -= own[t + R_LEFT]
+    elif budgeted:
+        for t in range(LANES):
+            own[t + LEFT] = 1.0 - own[t + MASS]
+            own[t + R_LEFT] = -own[t + LEFT] * own[t + BUDGET]
+            own[t + GAP] -= own[t + R_LEFT]
+
+
+@fused
+def _look_at_vector(one, of_webs):  # type: ignore[no-untyped-def]
+    for t in range(LANES):
+        s, size, yx, yy, f = one[t + S], one[t + L], one[t + YX], one[t + YY], one[t + F]
+        ax, ay = one[t + CX] + f * of_webs[t], one[t + CY] + f * of_webs[t + LANES]
+        one[t + AX], one[t + AY], one[t + J0] = ax, ay, -(s * size + ax * yx + ay * yy)
+        one[t + JX], one[t + JY] = -(s * yx + size * ax), -(s * yy + size * ay)
+
+
+@fused
+def eliminate(least_mass, budgeted, terms, basis, peak, own, matrix):  # type: ignore[no-untyped-def]
+    """The equations of all y and of the price, as L and U in place, the blocks on the diagonal inverted.
+
+    Block (j, Q) holds the column of the price, and below it the row, for vector j.
+    """
+    vectors = basis.size
+    bordered, corner = least_mass or budgeted, matrix[vectors, vectors]
+    for j in range(vectors):
+        if j < terms:
+            _couple(peak[j], L, YX)
+        else:
+            _couple(peak[j], S, AX)
+        for i in range(vectors):
+            of = N + BLOCK * (basis[j] + basis[i])
+            _add_webs(peak[j], peak[i], own[of : of + BLOCK], matrix[j, i])
+        if j < terms:
+            _add_own(peak[j], L, YX, matrix[j, j])
+        else:
+            _add_own(peak[j], S, AX, matrix[j, j])
+    if least_mass:
+        clear(own, DW, DU)
+        for j in range(terms):
+            _add_multiple(peak[j], YX, own[DW + PAIR * basis[j] : DU])
+        for j in range(vectors):
+            of = N + BLOCK * basis[j]
+            _border(peak[j], own[DW:DU], own[of : of + 2 * BLOCK], 1.0 if j < terms else 0.0, matrix[j, vectors])
+        for t in range(LANES):
+            corner[t] = own[t + MOST]
+    elif budgeted:
+        for j in range(vectors):
+            to, give = TOLL + PAIR * basis[j], GIVE + PAIR * basis[j]
+            prices = own[BUDGET:D_BUDGET]
+            _border_of_budget(peak[j], own[to : to + PAIR], own[give : give + PAIR], prices, matrix[j, vectors])
+        for t in range(LANES):
+            corner[t] = own[t + LEFT] - own[t + BUDGET] * own[t + TOLL_MASS]
+    for i in range(vectors):
+        pivot, border = matrix[i, i], matrix[i, vectors]
+        _invert(pivot)
+        for j in range(i + 1, vectors):
+            below = matrix[j, i]
+            _times(below, pivot)
+            for k in range(i + 1, vectors):
+                _take_block(below, matrix[i, k], matrix[j, k])
+        if bordered:
+            _close(pivot, border, corner)
+            for j in range(i + 1, vectors):
+                _take_border(matrix[j, i], matrix[i, j], border, matrix[j, vectors])
+    if bordered:
+        for t in range(LANES):
+            corner[t] = 1.0 / corner[t]
+
+
+@fused
+def _couple(one, size, vector):  # type: ignore[no-untyped-def]
+    for t in range(LANES):
+        o, ox, oy, f, yx, yy = (
+            one[t + size],
+            one[t + vector],
+            one[t + vector + LANES],
+            one[t + F],
+            one[t + YX],
+            one[t + YY],
+        )
+        along = o * one[t + L]
+        one[t + KA], one[t + KB] = f * (along - ox * yx), -f * ox * yy
+        one[t + KC], one[t + KD] = -f * oy * yx, f * (along - oy * yy)
+
+
+@fused
+def _add_webs(one, other, webs, block):  # type: ignore[no-untyped-def]
+    for t in range(LANES):
+        f = other[t + F]
+        ka, kb, kc, kd = f * one[t + KA], f * one[t + KB], f * one[t + KC], f * one[t + KD]
+        a, b, c, d = webs[t], webs[t + LANES], webs[t + 2 * LANES], webs[t + 3 * LANES]
+        block[t], block[t + LANES] = ka * a + kb * c, ka * b + kb * d
+        block[t + 2 * LANES], block[t + 3 * LANES] = kc * a + kd * c, kc * b + kd * d
+
+
+@fused
+def _add_own(one, size, vector, block):  # type: ignore[no-untyped-def]
+    for t in range(LANES):
+        ox, oy, ax, ay = one[t + vector], one[t + vector + LANES], one[t + AX], one[t + AY]
+        along = one[t + size] * one[t + S]
+        block[t] += along - ox * ax
+        block[t + LANES] -= ox * ay
+        block[t + 2 * LANES] -= oy * ax
+        block[t + 3 * LANES] += along - oy * ay
+
+
+@fused
+def _border(one, price, webs, term, border):  # type: ignore[no-untyped-def]
+    for t in range(LANES):
+        f, size, s, ax, ay = one[t + F], term * one[t + L], term * one[t + S], one[t + AX], one[t + AY]
+        border[t], border[t + LANES] = size * ax - s * one[t + YX], size * ay - s * one[t + YY]
+        yx, yy, zx, zy = price[t], price[t + LANES], price[t + 2 * LANES], price[t + 3 * LANES]
+        a, b, c, d = webs[t], webs[t + LANES], webs[t + 2 * LANES], webs[t + 3 * LANES]
+        e, g, h, i = webs[t + 4 * LANES], webs[t + 5 * LANES], webs[t + 6 * LANES], webs[t + 7 * LANES]
+        border[t + 2 * LANES] = term * ax + f * (yx * a + yy * c + zx * e + zy * h)
+        border[t + 3 * LANES] = term * ay + f * (yx * b + yy * d + zx * g + zy * i)
+
+
+@fused
+def _border_of_budget(one, toll, give, price, border):  # type: ignore[no-untyped-def]
+    for t in range(LANES):
+        border[t] = one[t + KA] * toll[t] + one[t + KB] * toll[t + LANES]
+        border[t + LANES] = one[t + KC] * toll[t] + one[t + KD] * toll[t + LANES]
+        f = one[t + F] * price[t]
+        border[t + 2 * LANES], border[t + 3 * LANES] = -f * give[t], -f * give[t + LANES]
+
+
+@fused
+def _invert(m):  # type: ignore[no-untyped-def]
+    for t in range(LANES):
+        a, b, c, d = m[t], m[t + LANES], m[t + 2 * LANES], m[t + 3 * LANES]
+        per = 1.0 / (a * d - b * c)
+        m[t], m[t + LANES], m[t + 2 * LANES], m[t + 3 * LANES] = d * per, -b * per, -c * per, a * per
+
+
+@fused
+def _times(m, n):  # type: ignore[no-untyped-def]
+    for t in range(LANES):
+        a, b, c, d = m[t], m[t + LANES], m[t + 2 * LANES], m[t + 3 * LANES]
+        e, f, g, h = n[t], n[t + LANES], n[t + 2 * LANES], n[t + 3 * LANES]
+        m[t], m[t + LANES] = a * e + b * g, a * f + b * h
+        m[t + 2 * LANES], m[t + 3 * LANES] = c * e + d * g, c * f + d * h
+
+
+@fused
+def _close(pivot, border, corner):  # type: ignore[no-untyped-def]
+    for t in range(LANES):
+        a, b = border[t + 2 * LANES], border[t + 3 * LANES]
+        x = a * pivot[t] + b * pivot[t + 2 * LANES]
+        y = a * pivot[t + LANES] + b * pivot[t + 3 * LANES]
+        border[t + 2 * LANES], border[t + 3 * LANES] = x, y
+        corner[t] -= x * border[t] + y * border[t + LANES]
+
+
+@fused
+def _take_border(below, right, border, total):  # type: ignore[no-untyped-def]
+    for t in range(LANES):
+        x, y, a, b = border[t], border[t + LANES], border[t + 2 * LANES], border[t + 3 * LANES]
+        total[t] -= below[t] * x + below[t + LANES] * y
+        total[t + LANES] -= below[t + 2 * LANES] * x + below[t + 3 * LANES] * y
+        total[t + 2 * LANES] -= a * right[t] + b * right[t + 2 * LANES]
+        total[t + 3 * LANES] -= a * right[t + LANES] + b * right[t + 3 * LANES]
+
+
+@fused
+def _take_block(m, n, total):  # type: ignore[no-untyped-def]
+    for t in range(LANES):
+        a, b, c, d = m[t], m[t + LANES], m[t + 2 * LANES], m[t + 3 * LANES]
+        e, f, g, h = n[t], n[t + LANES], n[t + 2 * LANES], n[t + 3 * LANES]
+        total[t] -= a * e + b * g
+        total[t + LANES] -= a * f + b * h
+        total[t + 2 * LANES] -= c * e + d * g
+        total[t + 3 * LANES] -= c * f + d * h
+
+
+@fused
+def _take_column(m, column, total):  # type: ignore[no-untyped-def]
+    for t in range(LANES):
+        x, y = column[t], column[t + LANES]
+        total[t] -= m[t] * x + m[t + LANES] * y
+        total[t + LANES] -= m[t + 2 * LANES] * x + m[t + 3 * LANES] * y
+
+
+@fused
+def _take_product(border, vector, total):  # type: ignore[no-untyped-def]
+    for t in range(LANES):
+        total[t] -= border[t + 2 * LANES] * vector[t] + border[t + 3 * LANES] * vector[t + LANES]
+
+
+@fused
+def solve_peaks(least_mass, budgeted, terms, basis, peak, own, matrix, step):  # type: ignore[no-untyped-def]
+    """Steps of all y and of the prices, and of the multipliers of force and moment."""
+    vectors = basis.size
+    bordered, corner, price = least_mass or budgeted, matrix[vectors, vectors], step[vectors]
+    for t in range(LANES):
+        price[t] = own[t + R_LEFT]
+    for j in range(vectors):
+        one, of = peak[j], G + PAIR * basis[j]
+        if j < terms:
+            _right_side(one, own[of : of + PAIR], step[j], price)
+        else:
+            for t in range(LANES):
+                one[DS + t] = -own[t + KEEP] * one[OVER + t]
+            _right_side_below(one, own[of : of + PAIR], step[j])
+    if budgeted:
+        for t in range(LANES):
+            price[t] = own[t + R_LEFT] + own[t + BUDGET] * own[t + OWN_MASS]
+    for j in range(vectors):
+        for i in range(j):
+            _take_column(matrix[j, i], step[i], step[j])
+        if bordered:
+            _take_product(matrix[j, vectors], step[j], price)
+    if bordered:
+        for t in range(LANES):
+            price[t] *= corner[t]
+    for n in range(vectors):
+        i = vectors - 1 - n
+        for j in range(i + 1, vectors):
+            _take_column(matrix[i, j], step[j], step[i])
+        if bordered:
+            _take_multiple(price, matrix[i, vectors], step[i])
+        _turn(matrix[i, i], step[i])
+    clear(own, DW, DU)
+    for j in range(vectors):
+        _keep_step(step[j], peak[j], own[DW + PAIR * basis[j] : DU])
+    for t in range(LANES):
+        own[t + D_PRICE], own[t + D_BUDGET] = (price[t] if least_mass else 0.0), (price[t] if budgeted else 0.0)
+
+
+@fused
+def _right_side(one, webs, right, price):  # type: ignore[no-untyped-def]
+    for t in range(LANES):
+        r0, size, gx, gy = one[t + J0], one[t + L], webs[t], webs[t + LANES]
+        right[t] = size * one[t + JX] - one[t + YX] * r0 - one[t + KA] * gx - one[t + KB] * gy
+        right[t + LANES] = size * one[t + JY] - one[t + YY] * r0 - one[t + KC] * gx - one[t + KD] * gy
+        price[t] += r0 - one[t + F] * (one[t + YX] * gx + one[t + YY] * gy)
+
+
+@fused
+def _right_side_below(one, webs, right):  # type: ignore[no-untyped-def]
+    for t in range(LANES):
+        ds, s, gx, gy = one[t + DS], one[t + S], webs[t], webs[t + LANES]
+        r0, rx, ry = one[t + J0] - one[t + L] * ds, one[t + JX] - one[t + YX] * ds, one[t + JY] - one[t + YY] * ds
+        right[t] = s * rx - one[t + AX] * r0 - one[t + KA] * gx - one[t + KB] * gy
+        right[t + LANES] = s * ry - one[t + AY] * r0 - one[t + KC] * gx - one[t + KD] * gy
+
+
+@fused
+def _take_multiple(share, column, total):  # type: ignore[no-untyped-def]
+    for t in range(LANES):
+        total[t] -= column[t] * share[t]
+        total[t + LANES] -= column[t + LANES] * share[t]
+
+
+@fused
+def _turn(m, vector):  # type: ignore[no-untyped-def]
+    for t in range(LANES):
+        x, y = vector[t], vector[t + LANES]
+        vector[t] = m[t] * x + m[t + LANES] * y
+        vector[t + LANES] = m[t + 2 * LANES] * x + m[t + 3 * LANES] * y
+
+
+@fused
+def _keep_step(step, one, total):  # type: ignore[no-untyped-def]
+    for t in range(LANES):
+        f, x, y = one[t + F], step[t], step[t + LANES]
+        one[t + DYX], one[t + DYY] = x, y
+        total[t] += f * x
+        total[t + LANES] += f * y
+
+
+@fused_inlined
+def _slower(one, own, t):  # type: ignore[no-untyped-def]
+    """No longer steps than those to the boundary of a cone."""
+    c, d = determinant(one[t + S], one[t + AX], one[t + AY]), determinant(one[t + L], one[t + YX], one[t + YY])
+    per = 1.0 / (c * d)
+    primal = d * per * crossing(c, one[t + S], one[t + AX], one[t + AY], one[t + DS], one[t + DAX], one[t + DAY])
+    dual = c * per * crossing(d, one[t + L], one[t + YX], one[t + YY], one[t + DL], one[t + DYX], one[t + DYY])
+    own[t + PRIMAL] = primal if primal > own[t + PRIMAL] else own[t + PRIMAL]
+    own[t + DUAL] = dual if dual > own[t + DUAL] else own[t + DUAL]
+
+
+@fused
+def _step_term(one, webs, own):  # type: ignore[no-untyped-def]
+    for t in range(LANES):
+        dax, day = one[t + F] * webs[t], one[t + F] * webs[t + LANES]
+        along = one[t + AX] * one[t + DYX] + one[t + AY] * one[t + DYY] + one[t + YX] * dax + one[t + YY] * day
+        ds = (one[t + J0] - along - one[t + S] * own[t + D_PRICE]) / one[t + L]
+        one[t + DS], one[t + DL], one[t + DAX], one[t + DAY] = ds, own[t + D_PRICE], dax, day
+        own[t + RISE] += ds
+        _slower(one, own, t)
+
+
+@fused
+def _step_ceiling(one, webs, own):  # type: ignore[no-untyped-def]
+    for t in range(LANES):
+        dax, day = one[t + F] * webs[t], one[t + F] * webs[t + LANES]
+        along = one[t + AX] * one[t + DYX] + one[t + AY] * one[t + DYY] + one[t + YX] * dax + one[t + YY] * day
+        one[t + DL] = (one[t + J0] - along - one[t + L] * one[t + DS]) / one[t + S]
+        one[t + DAX], one[t + DAY] = dax, day
+        _slower(one, own, t)
+
+
+@fused
+def step_peaks(least_mass, budgeted, terms, basis, peak, own):  # type: ignore[no-untyped-def]
+    """The step of the peaks, from that of the webs, and how long it may be for slacks and multipliers together."""
+    for j in range(basis.size):
+        one, of = peak[j], DU + PAIR * basis[j]
+        if j < terms:
+            _step_term(one, own[of : of + PAIR], own)
+        else:
+            _step_ceiling(one, own[of : of + PAIR], own)
+    for t in range(LANES):
+        primal, dual = own[t + PRIMAL], own[t + DUAL]
+        if least_mass:
+            shrinks, falls = own[t + RISE] / own[t + LEFT], -own[t + D_PRICE] / own[t + PRICE]
+            primal, dual = shrinks if shrinks > primal else primal, falls if falls > dual else dual
+        elif budgeted:
+            shrinks, falls = own[t + CHANGE] / own[t + LEFT], -own[t + D_BUDGET] / own[t + BUDGET]
+            primal, dual = shrinks if shrinks > primal else primal, falls if falls > dual else dual
+        own[t + PRIMAL], own[t + DUAL] = 1.0 / primal, 1.0 / dual
+
+
+@fused
+def correct_peaks(least_mass, budgeted, peak, own):  # type: ignore[no-untyped-def]
+    """Right sides of a step to products ``AIM`` that allows for what the products miss in the direction found last."""
+    for j in range(peak.shape[0]):
+        one = peak[j]
+        for t in range(LANES):
+            both, dl, dyx, dyy = own[t + BOTH], one[t + DL], one[t + DYX], one[t + DYY]
+            ds, dax, day = both * one[t + DS], both * one[t + DAX], both * one[t + DAY]
+            one[t + J0] += own[t + AIM] - ds * dl - dax * dyx - day * dyy
+            one[t + JX] -= ds * dyx + dl * dax
+            one[t + JY] -= ds * dyy + dl * day
+    if least_mass:
+        for t in range(LANES):
+            own[t + R_LEFT] += own[t + AIM] + own[t + BOTH] * own[t + RISE] * own[t + D_PRICE]
+    elif budgeted:
+        for t in range(LANES):
+            own[t + R_LEFT] += own[t + AIM] + own[t + BOTH] * own[t + CHANGE] * own[t + D_BUDGET]
+
+
+@fused
+def move_peaks(terms, peak, own):  # type: ignore[no-untyped-def]
+    """Slacks by ``PRIMAL``, multipliers by ``DUAL``."""
+    for j in range(peak.shape[0]):
+        one = peak[j]
+        for t in range(LANES):
+            primal, dual = own[t + PRIMAL], own[t + DUAL]
+            one[t + S] += primal * one[t + DS]
+            one[t + L] += dual * one[t + DL]
+            one[t + YX] += dual * one[t + DYX]
+            one[t + YY] += dual * one[t + DYY]
+        if j >= terms:
+            # a full step takes all of it away, to the last bit
+            for t in range(LANES):
+                one[t + OVER] *= 1.0 - own[t + PRIMAL] * own[t + KEEP]
+    for t in range(LANES):
+        own[t + PRICE] += own[t + DUAL] * own[t + D_PRICE]
+        own[t + BUDGET] += own[t + DUAL] * own[t + D_BUDGET]

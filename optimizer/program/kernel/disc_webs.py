@@ -1,0 +1,389 @@
+"""The webs' part of a step of the interior point for discs, compiled: :mod:`optimizer.program.kernel.discs`.
+
+Slack S and multiplier Z of every cone are joined by their product S o Z = (<S, Z>, s0 z + z0 s) of Jordan, as they are:
+no scaling, no roots. Linearised, it gives for a web, with v its unbalance, x its size, p its multiplier and z the size
+of that, q = 1 - x and zq = z - price x cost,
+
+    x dz + <v, dp> + z dx + <p, dv> = r_0,   x dp + v dz + z dv + p dx = r,   q dz - zq dx = r_q + q cost dprice
+
+which is solved for (dx, dz, dv) by one division: the determinant A zq + D q, A = x z - <v, p>, D = z^2 - |p|^2, has no
+terms of opposite sign. So z dv = y - S dp, S = x + u m' of 2 x 2, with u = (zq v + q p) / (A zq + D q), m = x p - z v.
+Where x is not asked for it stays 1: q = 0, zq = 1.
+
+At the edges of a sector, with normals n_e, slacks e = <n_e, v> and multipliers g, p = -sum_j h_j w_j - sum_e g n_e. So
+dp = dp_0 + E dv, with E = sum_e (g / e) n_e n_e', and
+
+    dv = (z + S E)^-1 (y - S dp_0),   (z + S E)^-1 = (z + adj(E) adj(S)) / (z^2 + z tr(S E) + det(S) det(E))
+
+where again nothing is subtracted that could cancel: det(S) = x z (zq (x^2 - |v|^2) + q A) / (A zq + D q), and of
+n_e' adj(E) only the other edge is left.
+
+A number of a web stands at ``k WEB + NAME + t`` of ``web``, t the lane; one of its edges at ``k EDGE + NAME + t`` of
+``edge``, which is None where no web has a sector; one of a program at ``NAME + t`` of ``own``. All offsets are known to
+the compiler, which thus sees that nothing overlaps and turns every loop over the lanes into vector instructions. There
+are as many lanes however few programs are solved, so that what becomes of a program does not depend on their number.
+"""
+
+import numpy as np
+
+from optimizer.program.kernel.compiling import fused, fused_inlined
+
+#: programs side by side: what a step needs of eight webs stays in the nearest cache
+LANES = 16
+
+(
+    H1, H2, COST,  # influence on force and moment, mass at full reach
+    VX, VY, X, Z, PX, PY,  # where the web stands
+    PER_DET, PER,  # 1 / (A zq + D q), 1 / z or, with edges, 1 over their determinant
+    R0, RX, RY, RQ,  # right sides: z r_0 - <p, r>, r, r_q
+    DVX, DVY, DX, DZ, DPX, DPY,  # the step
+    WEB,  # numbers of a web
+) = range(0, 22 * LANES, LANES)  # fmt: skip
+
+(
+    N1X, N1Y, N2X, N2Y, PRESENT,  # normals of the edges; 1 where there are any, else 0
+    E1, E2, G1, G2,  # slacks and multipliers
+    PER1, PER2, PER_SIZES,  # 1 / e and 1 / (z q + x zq)
+    RS, Q1, Q2,  # right sides: r_0, and those of the edges over e
+    DE1, DE2, DG1, DG2,  # the step
+    EDGE,  # numbers of the edges of a web
+) = range(0, 20 * LANES, LANES)  # fmt: skip
+
+(
+    U,  # what the webs add to force and moment, two numbers each
+    N,  # sum_k h_i T h_j of (1, 1), (1, 2) and (2, 2), four numbers each
+    G,  # sum_k h_j g_k, the steps of the webs where no multiplier of force, moment or budget changes
+    DW, DU,  # the step
+    TOLL, GIVE,  # what the price of the budget adds to the step of both, and they to that of the mass in it
+    TOLL_MASS, OWN_MASS,  # what that price adds to that of the mass, and the webs by themselves
+    BUDGET, D_BUDGET,  # price of the budget
+    PRICE, D_PRICE,  # price of the objective
+    MOST, LEFT,  # second stage: largest sum of the sizes, and what is left up to it; else what is left of the budget
+    R_LEFT,
+    GAP, MASS, CHANGE,  # sum of the products, mass, and what the step adds to the mass
+    RISE,  # what the step adds to the sizes
+    PRIMAL, DUAL,  # 1 over the longest steps, then the steps
+    AIM,  # product of slack and multiplier that the step aims at
+    KEEP,  # share of what is over the ceilings that the step takes away
+    BOTH,  # 1 where the step allows for the second order, else 0
+    OWN,  # numbers of a program
+) = (LANES * row for row in (0, 4, 16, 20, 24, 28, 32, *range(36, 55)))  # fmt: skip
+
+
+@fused_inlined
+def _larger(first, second):  # type: ignore[no-untyped-def]
+    return first if first > second else second
+
+
+@fused_inlined
+def determinant(s0, s1, s2):  # type: ignore[no-untyped-def]
+    return s0 * s0 - s1 * s1 - s2 * s2
+
+
+@fused_inlined
+def crossing(det, s0, s1, s2, d0, d1, d2):  # type: ignore[no-untyped-def]
+    """det S over the longest step with S + step D in the cone |(s1, s2)| <= s0, for S inside; at most 0: any step.
+
+    It is det S times the larger eigenvalue of -D, seen from S. Both are real but for rounding.
+    """
+    b = s0 * d0 - s1 * d1 - s2 * d2
+    disc = b * b - (d0 * d0 - d1 * d1 - d2 * d2) * det
+    return np.sqrt(disc if disc > 0.0 else 0.0) - b
+
+
+@fused
+def clear(values, begin, end):  # type: ignore[no-untyped-def]
+    for i in range(begin, end):
+        values[i] = 0.0
+
+
+@fused
+def look_at_webs(sized, webs, web, edge, own):  # type: ignore[no-untyped-def]
+    """Where the webs stand: what the matrix is made of, their gap, and the right sides of a step to products of 0."""
+    clear(own, U, DW)
+    clear(own, GAP, CHANGE)
+    for k in range(webs):
+        for t in range(LANES):
+            at = k * WEB + t
+            h1, h2, cost = web[at + H1], web[at + H2], web[at + COST]
+            vx, vy, x, z, px, py = web[at + VX], web[at + VY], web[at + X], web[at + Z], web[at + PX], web[at + PY]
+            if edge is not None:
+                on = k * EDGE + t
+                n1x, n1y, n2x, n2y = edge[on + N1X], edge[on + N1Y], edge[on + N2X], edge[on + N2Y]
+                e1, e2, g1, g2 = edge[on + E1], edge[on + E2], edge[on + G1], edge[on + G2]
+                dpx, dpy = g1 * n1x + g2 * n2x, g1 * n1y + g2 * n2y
+            q = 1.0 - x if sized else 0.0
+            zq = z - own[t + BUDGET] * cost if sized else 1.0
+            vp = vx * px + vy * py
+            a, d = x * z - vp, z * z - px * px - py * py
+            det = a * zq + d * q
+            mx, my = x * px - z * vx, x * py - z * vy
+            rx, ry, r0, rq = -(x * px + z * vx), -(x * py + z * vy), -x * d, -q * zq
+            if edge is None:
+                both = 1.0 / (det * z)
+                per_det, per = both * z, both * det
+                ux, uy = (vx * zq + px * q) * per_det, (vy * zq + py * q) * per_det
+                txx, txy, tyx, tyy = per * (x + ux * mx), per * ux * my, per * uy * mx, per * (x + uy * my)
+                dz, dx = (zq * r0 + d * rq) * per_det, (q * r0 - a * rq) * per_det
+                gx, gy = (rx - vx * dz - px * dx) * per, (ry - vy * dz - py * dx) * per
+            else:
+                e12 = e1 * e2
+                sizes = z * q + x * zq
+                both = 1.0 / (det * e12 * sizes)
+                per_det, per_12 = both * e12 * sizes, both * det * sizes
+                edge[on + PER_SIZES], edge[on + RS] = both * det * e12, -(x * z + vp)
+                ux, uy = (vx * zq + px * q) * per_det, (vy * zq + py * q) * per_det
+                per1, per2 = per_12 * e2, per_12 * e1
+                k1, k2 = g1 * per1, g2 * per2
+                exx, eyy = k1 * n1x * n1x + k2 * n2x * n2x, k1 * n1y * n1y + k2 * n2y * n2y
+                exy = k1 * n1x * n1y + k2 * n2x * n2y
+                cross = n1x * n2y - n1y * n2x
+                det_s = x * z * (zq * (x * x - vx * vx - vy * vy) + q * a) * per_det
+                trace = x * (exx + eyy) + mx * (exx * ux + exy * uy) + my * (exy * ux + eyy * uy)
+                per = 1.0 / (z * z + z * trace + det_s * k1 * k2 * cross * cross)
+                txx, tyy = per * (z * (x + ux * mx) + det_s * eyy), per * (z * (x + uy * my) + det_s * exx)
+                txy, tyx = per * (z * ux * my - det_s * exy), per * (z * uy * mx - det_s * exy)
+                r = r0 + mx * dpx + my * dpy
+                dz, dx = (zq * r + d * rq) * per_det, (q * r - a * rq) * per_det
+                yx, yy = rx - x * dpx - vx * dz - px * dx, ry - x * dpy - vy * dz - py * dx
+                turn = yx * uy - yy * ux
+                sx, sy = x * yx + turn * my, x * yy - turn * mx
+                gx, gy = per * (z * yx + eyy * sx - exy * sy), per * (z * yy + exx * sy - exy * sx)
+                present = edge[on + PRESENT]
+                own[t + GAP] += present * (e1 * g1 + e2 * g2)
+                edge[on + PER1], edge[on + PER2] = per1, per2
+                edge[on + Q1], edge[on + Q2] = -g1 * present, -g2 * present
+            h11, h12, h22 = h1 * h1, h1 * h2, h2 * h2
+            own[t + N] += h11 * txx
+            own[t + N + LANES] += h11 * txy
+            own[t + N + 2 * LANES] += h11 * tyx
+            own[t + N + 3 * LANES] += h11 * tyy
+            own[t + N + 4 * LANES] += h12 * txx
+            own[t + N + 5 * LANES] += h12 * txy
+            own[t + N + 6 * LANES] += h12 * tyx
+            own[t + N + 7 * LANES] += h12 * tyy
+            own[t + N + 8 * LANES] += h22 * txx
+            own[t + N + 9 * LANES] += h22 * txy
+            own[t + N + 10 * LANES] += h22 * tyx
+            own[t + N + 11 * LANES] += h22 * tyy
+            own[t + G] += h1 * gx
+            own[t + G + LANES] += h1 * gy
+            own[t + G + 2 * LANES] += h2 * gx
+            own[t + G + 3 * LANES] += h2 * gy
+            own[t + U] += h1 * vx
+            own[t + U + LANES] += h1 * vy
+            own[t + U + 2 * LANES] += h2 * vx
+            own[t + U + 3 * LANES] += h2 * vy
+            own[t + GAP] += x * z + vp + q * zq
+            own[t + MASS] += cost * x
+            web[at + PER_DET], web[at + PER] = per_det, per
+            web[at + R0], web[at + RX], web[at + RY], web[at + RQ] = r0, rx, ry, rq
+
+
+@fused
+def share_budget(webs, web, edge, own):  # type: ignore[no-untyped-def]
+    """What the price of a budget and the webs do to each other: ``TOLL``, ``GIVE``, ``TOLL_MASS`` and ``OWN_MASS``."""
+    clear(own, TOLL, BUDGET)
+    for k in range(webs):
+        for t in range(LANES):
+            at = k * WEB + t
+            h1, h2, cost = web[at + H1], web[at + H2], web[at + COST]
+            vx, vy, x, z, px, py = web[at + VX], web[at + VY], web[at + X], web[at + Z], web[at + PX], web[at + PY]
+            per_det, per, q = web[at + PER_DET], web[at + PER], 1.0 - x
+            vp = vx * px + vy * py
+            a, d, ahead = x * z - vp, z * z - px * px - py * py, cost * q * per_det
+            mx, my = x * px - z * vx, x * py - z * vy
+            zq, r0, rx, ry, rq = z - own[t + BUDGET] * cost, web[at + R0], web[at + RX], web[at + RY], web[at + RQ]
+            # steps of v and of x by the price; of x by p
+            bx, by, forth = -(vx * d - px * a), -(vy * d - py * a), -a * ahead
+            if edge is None:
+                bx, by, cx, cy = per * bx, per * by, mx, my
+                own[t + TOLL_MASS] += cost * forth
+                own[t + OWN_MASS] += cost * (q * r0 - a * rq) * per_det
+            else:
+                on = k * EDGE + t
+                n1x, n1y, n2x, n2y = edge[on + N1X], edge[on + N1Y], edge[on + N2X], edge[on + N2Y]
+                k1, k2 = edge[on + G1] * edge[on + PER1], edge[on + G2] * edge[on + PER2]
+                exx, eyy = k1 * n1x * n1x + k2 * n2x * n2x, k1 * n1y * n1y + k2 * n2y * n2y
+                exy = k1 * n1x * n1y + k2 * n2x * n2y
+                across = vx * py - vy * px
+                sx, sy = x * bx - across * my, x * by + across * mx
+                bx, by = per * (z * bx + eyy * sx - exy * sy), per * (z * by + exx * sy - exy * sx)
+                cx, cy = z * per * (z * mx + x * (eyy * mx - exy * my)), z * per * (z * my + x * (exx * my - exy * mx))
+                # and of p by v
+                ex, ey = exx * bx + exy * by, exy * bx + eyy * by
+                own[t + TOLL_MASS] += cost * (forth + q * per_det * (mx * ex + my * ey) * ahead)
+                dx, _, _, _, _, _, _, _ = _step_at_edges(
+                    x, z, vx, vy, px, py, q, zq, a, d, per_det, edge[on + PER_SIZES], per,
+                    r0, rx, ry, rq, edge[on + RS], 0.0, 0.0,
+                    n1x, n1y, n2x, n2y, k1, k2, edge[on + Q1], edge[on + Q2],
+                )  # fmt: skip
+                own[t + OWN_MASS] += cost * dx
+            bx, by, cx, cy = bx * ahead, by * ahead, -cx * ahead, -cy * ahead
+            own[t + TOLL] += h1 * bx
+            own[t + TOLL + LANES] += h1 * by
+            own[t + TOLL + 2 * LANES] += h2 * bx
+            own[t + TOLL + 3 * LANES] += h2 * by
+            own[t + GIVE] += h1 * cx
+            own[t + GIVE + LANES] += h1 * cy
+            own[t + GIVE + 2 * LANES] += h2 * cx
+            own[t + GIVE + 3 * LANES] += h2 * cy
+
+
+@fused_inlined
+def _step_of_web(x, z, vx, vy, px, py, q, zq, a, d, per_det, per, r0, rx, ry, rq, dpx, dpy):  # type: ignore[no-untyped-def]
+    """Steps (dx, dz, dvx, dvy) of a web without edges."""
+    r = r0 + (x * px - z * vx) * dpx + (x * py - z * vy) * dpy
+    dz, dx = (zq * r + d * rq) * per_det, (q * r - a * rq) * per_det
+    return dx, dz, (rx - x * dpx - vx * dz - px * dx) * per, (ry - x * dpy - vy * dz - py * dx) * per
+
+
+@fused_inlined
+def _step_at_edges(  # type: ignore[no-untyped-def]
+    x, z, vx, vy, px, py, q, zq, a, d, per_det, per_sizes, per, r0, rx, ry, rq, rs, dpx, dpy,
+    n1x, n1y, n2x, n2y, k1, k2, q1, q2,
+):  # fmt: skip
+    """Steps (dx, dz, dvx, dvy, de1, de2, dpx, dpy) of a web with edges."""
+    mx, my = x * px - z * vx, x * py - z * vy
+    ux, uy = (vx * zq + px * q) * per_det, (vy * zq + py * q) * per_det
+    bare_x, bare_y = dpx - n1x * q1 - n2x * q2, dpy - n1y * q1 - n2y * q2
+    r = r0 + mx * bare_x + my * bare_y
+    dz, dx = (zq * r + d * rq) * per_det, (q * r - a * rq) * per_det
+    yx, yy = rx - x * bare_x - vx * dz - px * dx, ry - x * bare_y - vy * dz - py * dx
+    turn = yx * uy - yy * ux
+    sx, sy = x * yx + turn * my, x * yy - turn * mx
+    first, second = k1 * (n1x * sy - n1y * sx), k2 * (n2x * sy - n2y * sx)
+    dvx = per * (z * yx - n1y * first - n2y * second)
+    dvy = per * (z * yy + n1x * first + n2x * second)
+    cross = n1x * n2y - n1y * n2x
+    de1 = per * (z * (n1x * yx + n1y * yy) - cross * second)
+    de2 = per * (z * (n2x * yx + n2y * yy) + cross * first)
+    dpx, dpy = bare_x + n1x * k1 * de1 + n2x * k2 * de2, bare_y + n1y * k1 * de1 + n2y * k2 * de2
+    # sizes from vectors: a web between its limits is off along itself by far more than rounding, and so is its size
+    r = rs - vx * dpx - vy * dpy - px * dvx - py * dvy
+    return (q * r - x * rq) * per_sizes, (zq * r + z * rq) * per_sizes, dvx, dvy, de1, de2, dpx, dpy
+
+
+@fused
+def step_webs(sized, webs, web, edge, own):  # type: ignore[no-untyped-def]
+    """The step of the webs, from that of the multipliers of force, moment and budget, and how long it may be."""
+    clear(own, DU, TOLL)
+    clear(own, CHANGE, AIM)
+    for k in range(webs):
+        for t in range(LANES):
+            at = k * WEB + t
+            h1, h2, cost = web[at + H1], web[at + H2], web[at + COST]
+            vx, vy, x, z, px, py = web[at + VX], web[at + VY], web[at + X], web[at + Z], web[at + PX], web[at + PY]
+            q = 1.0 - x if sized else 0.0
+            zq = z - own[t + BUDGET] * cost if sized else 1.0
+            a, d = x * z - (vx * px + vy * py), z * z - px * px - py * py
+            rx, ry, r0, per_det, per = web[at + RX], web[at + RY], web[at + R0], web[at + PER_DET], web[at + PER]
+            rq = web[at + RQ] + q * cost * own[t + D_BUDGET]
+            dpx = -(h1 * own[t + DW] + h2 * own[t + DW + 2 * LANES])
+            dpy = -(h1 * own[t + DW + LANES] + h2 * own[t + DW + 3 * LANES])
+            if edge is None:
+                dx, dz, dvx, dvy = _step_of_web(
+                    x, z, vx, vy, px, py, q, zq, a, d, per_det, per, r0, rx, ry, rq, dpx, dpy
+                )
+            else:
+                on = k * EDGE + t
+                n1x, n1y, n2x, n2y = edge[on + N1X], edge[on + N1Y], edge[on + N2X], edge[on + N2Y]
+                g1, g2, per1, per2 = edge[on + G1], edge[on + G2], edge[on + PER1], edge[on + PER2]
+                q1, q2, k1, k2 = edge[on + Q1], edge[on + Q2], g1 * per1, g2 * per2
+                dx, dz, dvx, dvy, de1, de2, dpx, dpy = _step_at_edges(
+                    x, z, vx, vy, px, py, q, zq, a, d, per_det, edge[on + PER_SIZES], per,
+                    r0, rx, ry, rq, edge[on + RS], dpx, dpy,
+                    n1x, n1y, n2x, n2y, k1, k2, q1, q2,
+                )  # fmt: skip
+                dg1, dg2 = q1 - k1 * de1, q2 - k2 * de2
+                per = 1.0 / (g1 * g2)
+                own[t + PRIMAL] = _larger(own[t + PRIMAL], _larger(-de1 * per1, -de2 * per2))
+                own[t + DUAL] = _larger(own[t + DUAL], _larger(-dg1 * g2, -dg2 * g1) * per)
+                edge[on + DE1], edge[on + DE2], edge[on + DG1], edge[on + DG2] = de1, de2, dg1, dg2
+            dx = dx if sized else 0.0
+            own[t + DU] += h1 * dvx
+            own[t + DU + LANES] += h1 * dvy
+            own[t + DU + 2 * LANES] += h2 * dvx
+            own[t + DU + 3 * LANES] += h2 * dvy
+            own[t + CHANGE] += cost * dx
+            # one division for all: they cost most here
+            c = determinant(x, vx, vy)
+            cd = c * d
+            if sized:
+                qz = q * zq
+                per = 1.0 / (cd * qz)
+                per_cd, per_qz = per * qz, per * cd
+                free_x, free_z = dx * zq * per_qz, (own[t + D_BUDGET] * cost - dz) * q * per_qz
+            else:
+                per_cd, free_x, free_z = 1.0 / cd, 0.0, 0.0
+            primal = _larger(crossing(c, x, vx, vy, dx, dvx, dvy) * d * per_cd, free_x)
+            dual = _larger(crossing(d, z, px, py, dz, dpx, dpy) * c * per_cd, free_z)
+            own[t + PRIMAL], own[t + DUAL] = _larger(own[t + PRIMAL], primal), _larger(own[t + DUAL], dual)
+            web[at + DPX], web[at + DPY], web[at + DZ] = dpx, dpy, dz
+            web[at + DX], web[at + DVX], web[at + DVY] = dx, dvx, dvy
+
+
+@fused
+def correct_webs(sized, webs, web, edge, own):  # type: ignore[no-untyped-def]
+    """Right sides of a step to products ``AIM`` that allows for what the products miss in the direction found last."""
+    clear(own, G, DW)
+    for t in range(LANES):
+        own[t + OWN_MASS] = 0.0
+    for k in range(webs):
+        for t in range(LANES):
+            at = k * WEB + t
+            h1, h2, cost, aim = web[at + H1], web[at + H2], web[at + COST], own[t + AIM]
+            vx, vy, x, z, px, py = web[at + VX], web[at + VY], web[at + X], web[at + Z], web[at + PX], web[at + PY]
+            dpx, dpy, dz, both = web[at + DPX], web[at + DPY], web[at + DZ], own[t + BOTH]
+            dvx, dvy, dx = both * web[at + DVX], both * web[at + DVY], both * web[at + DX]
+            more_x, more_y = -(dx * dpx + dz * dvx), -(dx * dpy + dz * dvy)
+            q = 1.0 - x if sized else 0.0
+            zq = z - own[t + BUDGET] * cost if sized else 1.0
+            a, d = x * z - (vx * px + vy * py), z * z - px * px - py * py
+            r0 = web[at + R0] + z * (aim - dx * dz - dvx * dpx - dvy * dpy) - px * more_x - py * more_y
+            rx, ry = web[at + RX] + more_x, web[at + RY] + more_y
+            rq = web[at + RQ] + aim + dx * (dz - own[t + D_BUDGET] * cost) if sized else 0.0
+            per_det, per = web[at + PER_DET], web[at + PER]
+            if edge is None:
+                dx, dz, gx, gy = _step_of_web(x, z, vx, vy, px, py, q, zq, a, d, per_det, per, r0, rx, ry, rq, 0.0, 0.0)
+            else:
+                on = k * EDGE + t
+                n1x, n1y, n2x, n2y = edge[on + N1X], edge[on + N1Y], edge[on + N2X], edge[on + N2Y]
+                g1, g2, per1, per2 = edge[on + G1], edge[on + G2], edge[on + PER1], edge[on + PER2]
+                present = edge[on + PRESENT]
+                edge[on + RS] += aim - dx * dz - dvx * dpx - dvy * dpy
+                q1 = ((aim - both * edge[on + DE1] * edge[on + DG1]) * per1 - g1) * present
+                q2 = ((aim - both * edge[on + DE2] * edge[on + DG2]) * per2 - g2) * present
+                edge[on + Q1], edge[on + Q2] = q1, q2
+                dx, dz, gx, gy, _, _, _, _ = _step_at_edges(
+                    x, z, vx, vy, px, py, q, zq, a, d, per_det, edge[on + PER_SIZES], per,
+                    r0, rx, ry, rq, edge[on + RS], 0.0, 0.0,
+                    n1x, n1y, n2x, n2y, g1 * per1, g2 * per2, q1, q2,
+                )  # fmt: skip
+            own[t + G] += h1 * gx
+            own[t + G + LANES] += h1 * gy
+            own[t + G + 2 * LANES] += h2 * gx
+            own[t + G + 3 * LANES] += h2 * gy
+            own[t + OWN_MASS] += cost * dx
+            web[at + R0], web[at + RX], web[at + RY], web[at + RQ] = r0, rx, ry, rq
+
+
+@fused
+def move_webs(webs, web, edge, own):  # type: ignore[no-untyped-def]
+    """Slacks by ``PRIMAL``, multipliers by ``DUAL``."""
+    for k in range(webs):
+        for t in range(LANES):
+            at, primal, dual = k * WEB + t, own[t + PRIMAL], own[t + DUAL]
+            web[at + VX] += primal * web[at + DVX]
+            web[at + VY] += primal * web[at + DVY]
+            web[at + X] += primal * web[at + DX]
+            web[at + Z] += dual * web[at + DZ]
+            # moved with the others, not summed anew: sums of large multipliers may all but cancel
+            web[at + PX] += dual * web[at + DPX]
+            web[at + PY] += dual * web[at + DPY]
+            if edge is not None:
+                on = k * EDGE + t
+                edge[on + E1] += primal * edge[on + DE1]
+                edge[on + E2] += primal * edge[on + DE2]
+                edge[on + G1] += dual * edge[on + DG1]
+                edge[on + G2] += dual * edge[on + DG2]

@@ -1,0 +1,117 @@
+"""Programs for the interior point for discs (:mod:`optimizer.program.kernel.discs`): which, and in its form."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from optimizer.numerics.arrays import Real, parts, plain
+from optimizer.program.statement import Statement
+
+if TYPE_CHECKING:
+    from optimizer.program.kernel.disc_starts import Discs
+
+#: vectors at most: what a step has in common grows with the cube
+_VECTORS = 6
+#: sine of the half-angle below which sectors need coordinates of their own, as the method for any limits has them
+_THINNEST = 1e-3
+#: of the largest influence, by which those of a vector may miss a multiple of force or moment: their rounding
+_SAME = 1e-14
+
+
+def suits_discs(statement: Statement) -> np.ndarray:
+    """Whether the interior point for discs takes each of N programs (N,) bool.
+
+    They have one row, of vectors that are multiples of two, as force and moment are, and what is below ceilings too.
+    """
+    norms, ceilings, limits = statement.norms, statement.ceilings.norms, statement.limits
+    terms, webs = norms.constant.shape[-1], limits.radius.shape[-1]
+    simple = not any(part.scatter or any(part.scalar) or np.iscomplexobj(part.influence) for part in (norms, ceilings))
+    vectors = terms + ceilings.constant.shape[-1]
+    if not (statement.floor.shape[-1] == 1 and simple and 0 < terms <= vectors <= _VECTORS and webs > 0):
+        return np.zeros(statement.floor.shape[:-1], bool)
+    basis = _basis(statement)
+    if basis is None or limits.alike is not None:
+        return np.zeros(statement.floor.shape[:-1], bool)
+    wide = np.logical_and.reduce(limits.free | (limits.half_angle_sin >= _THINNEST), axis=-1)
+    return np.asarray(wide if vectors < 3 else wide & _multiples(np.real(statement.every_influence), basis)[2])
+
+
+def discs_of(statement: Statement, reach: Real, unit: Real, margin: float) -> list[tuple[np.ndarray, bool, "Discs"]]:
+    """N programs in parts of one form each: which they are, whether they have a budget, and in units of their own.
+
+    Parameters are those of a method of :mod:`optimizer.program.methods.compiled`.
+    """
+    from optimizer.program.kernel.disc_starts import Discs
+
+    limits, norms, ceilings = statement.limits, statement.norms, statement.ceilings
+    cap = ceilings.cap / ceilings.size
+    mass, budget = reach / limits.radius, limits.max_total_mass[:, None]
+    budgeted, sectors = np.add.reduce(mass, axis=-1) > budget[:, 0], ~limits.free.all(axis=-1)
+    basis = _basis(statement)
+    assert basis is not None
+    if basis.size < 3:
+        multiple, two = np.ones((len(mass), basis.size)), np.zeros((len(mass), 2, mass.shape[-1]))
+        two[:, : basis.size] = statement.every_influence
+    else:
+        multiple, two, _ = _multiples(np.real(statement.every_influence), basis)
+    scale = np.concatenate([np.broadcast_to(unit[:, None], norms.constant.shape), ceilings.size], axis=-1)
+    # whether a web has a sector, and both normals, which are the centre turned by the rest to a right angle
+    across = 1j * limits.half_angle_cos * limits.centre
+    inwards = [np.where(limits.free, 0.0, limits.half_angle_sin * limits.centre + side) for side in (across, -across)]
+    normals = [part for normal in inwards for part in (normal.real, normal.imag)]
+    every = (
+        multiple / scale,
+        parts(statement.every_constant / scale),
+        two * reach[:, None, :],
+        mass,
+        mass / np.where(budgeted[:, None], budget, np.inf),
+        cap - np.clip(cap, 0.0, margin),
+        np.stack([*normals, np.where(limits.free, 0.0, 1.0)], axis=1),
+    )
+    found = []
+    for part in np.unique(2 * sectors + budgeted).tolist():
+        which = np.flatnonzero(2 * sectors + budgeted == part)
+        arrays = [plain(values[which]) for values in every]
+        if part < 2:
+            arrays[-1] = arrays[-1][..., :0].copy()
+        found.append((which, part % 2 == 1, Discs(basis, *arrays)))
+    return found
+
+
+def _basis(statement: Statement) -> np.ndarray | None:
+    """Which of two responses a vector is a multiple of (J + I,), None where there are more than two."""
+    responses = [term.response for term in statement.names.terms] + list(statement.ceilings.names)
+    vectors = statement.every_constant.shape[-1]
+    if vectors < 3:
+        return np.arange(vectors)
+    if len(responses) != vectors:
+        # names of more than is asked for
+        return None
+    two = list(dict.fromkeys(responses))
+    return np.array([two.index(name) for name in responses]) if len(two) < 3 else None
+
+
+def _multiples(influence: Real, basis: np.ndarray) -> tuple[Real, Real, np.ndarray]:
+    """Vectors as multiples of the largest of their response.
+
+    Parameters
+    ----------
+    influence : (N, Q, K).
+
+    Returns
+    -------
+    Multiples (N, Q), influences of both responses (N, 2, K), and whether the vectors are such multiples (N,) bool.
+    """
+    number, vectors, webs = influence.shape
+    multiple, two, holds = np.ones((number, vectors)), np.zeros((number, 2, webs)), np.ones(number, bool)
+    size = np.maximum.reduce(np.abs(influence), axis=-1)
+    for b in np.unique(basis).tolist():
+        (own,) = (basis == b).nonzero()
+        largest = own[np.argmax(size[:, own], axis=-1)]
+        two[:, b] = influence[np.arange(number), largest]
+        square = np.add.reduce(two[:, b] ** 2, axis=-1)
+        along = np.add.reduce(influence[:, own] * two[:, None, b], axis=-1)
+        multiple[:, own] = along / np.where(square > 0, square, 1.0)[:, None]
+        off = np.abs(influence[:, own] - multiple[:, own, None] * two[:, None, b])
+        holds &= (np.maximum.reduce(off, axis=-1) <= _SAME * size[:, own]).all(axis=-1)
+    return multiple, two, holds
