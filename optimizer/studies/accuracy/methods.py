@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cache, partial
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from optimizer.program.methods.compiled import BothStages, both_stages
 from optimizer.program.methods.optima import optima
 from optimizer.program.multipliers import objective_multipliers
 from optimizer.program.reference.assembled import NoPoint
-from optimizer.program.reference.modelling import CompiledPrograms
+from optimizer.program.reference.modelling import ConeProgram
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
 from optimizer.studies.accuracy.rivals import matrices
@@ -171,13 +171,13 @@ def _rest(batch: Statement) -> Real:
 
 
 def _cone_program(tolerance: float) -> Run:
-    programs = CompiledPrograms()
+    # compiled in the first run, for every shape
+    program = cache(ConeProgram)
 
     def run(task: Task, position: float, time_limit_s: float) -> MethodResult | str:
         statement = task.statement
         data, scaling = matrices.scaled(statement, tolerance)
-        with programs.lend(data.shape) as program:
-            solution = program.solve(data, tolerance)
+        solution = program(data.shape).solve(data, tolerance)
         if solution is None:
             return "the solver has no point to offer"
         unbalance = statement.limits.into(scaling.unbalance(statement, solution))
