@@ -11,7 +11,6 @@ from optimizer.outputs.registry import fields, prepare
 from optimizer.outputs.requirements import effects_of_objective, missing
 from optimizer.program.reference.solver import Solver
 from optimizer.solve.alternatives import BEST, alternatives
-from optimizer.solve.process_solver import own_solver
 from optimizer.solve.solution import Solution
 from optimizer.solve.solve import solve
 from optimizer.solve.turn_residual import with_turn
@@ -54,7 +53,7 @@ def optimize(
     # of cases every one is a machine of its own, simulated for itself
     scene = prepare(request, names, () if task.scenarios else effects_of_objective(task.objective))
     solving, began = time.perf_counter(), time.thread_time()
-    solver = solver or own_solver()
+    solver = solver or Solver()
     first = variant(task, time_limit_s=BEST * task.time_limit_s) if request.alternatives else task
     best = solve(first, scene, solver)
     cheaper: tuple[Alternative, ...] = ()

@@ -11,8 +11,8 @@ import pytest
 from optimizer.program.kernel import discs, interior_point
 from optimizer.program.kernel.finer_numbers import PRECISIONS
 from optimizer.program.methods import compiled
-from optimizer.program.reference import solver as solve
-from optimizer.program.reference.modelling import ConeProgram
+from optimizer.program.reference import solver
+from optimizer.program.reference.assembled import NoPoint
 from tests.optimize.asking import OMEGA_SQUARED, answer, single
 from tests.optimize.machines import machine, random_machine, throw, web
 from tests.verification.checking import optimized
@@ -101,10 +101,10 @@ def broken(monkeypatch: pytest.MonkeyPatch, change: Callable[[dict[str, Any]], d
 
 def test_a_solver_that_fails_is_never_silent(monkeypatch: pytest.MonkeyPatch) -> None:
     body = single([(90.0, 20.0)])
-    monkeypatch.setattr(ConeProgram, "solve", lambda *_: None)
+    monkeypatch.setattr(solver, "solved", lambda *_, **__: NoPoint("broken"))
     broken(monkeypatch, lambda found: {name: np.full_like(np.asarray(a, float), np.nan) for name, a in found.items()})
     # the closed form would answer without any solver
-    monkeypatch.setattr(solve, "cancelling", lambda statement, **_: np.zeros(statement.limits.radius.shape, complex))
+    monkeypatch.setattr(solver, "cancelling", lambda statement, **_: np.zeros(statement.limits.radius.shape, complex))
     found = answer(body)
     assert found.status == "inaccurate"
     assert found.total_mass_kg == 0.0
@@ -113,13 +113,17 @@ def test_a_solver_that_fails_is_never_silent(monkeypatch: pytest.MonkeyPatch) ->
 
 
 def test_a_solver_that_lies_is_not_believed(monkeypatch: pytest.MonkeyPatch) -> None:
-    honest = ConeProgram.solve
+    honest = solver.solved
 
-    def lying(self: ConeProgram, *arguments: Any) -> Any:
-        found = honest(self, *arguments)
-        return None if found is None else found._replace(x=0.3 * found.x, row=-found.row, term=5j * found.term)
+    def lying(*arguments: Any, **more: Any) -> Any:
+        found = honest(*arguments, **more)
+        if isinstance(found, NoPoint):
+            return found
+        of_solver = found.solution
+        changes = {"x": 0.3 * of_solver.x, "row": -of_solver.row, "term": 5j * of_solver.term}
+        return found._replace(solution=of_solver._replace(**changes))
 
-    monkeypatch.setattr(ConeProgram, "solve", lying)
+    monkeypatch.setattr(solver, "solved", lying)
     broken(
         monkeypatch, lambda found: {"v": 0.3 * found["v"], "cone": 5.0 * found["cone"][..., ::-1], "row": -found["row"]}
     )

@@ -4,11 +4,15 @@ import cvxpy as cp
 import numpy as np
 import pytest
 
-from optimizer.program.reference.modelling import CompiledPrograms, ConeProgram
+from optimizer.program.reference.assembled import Assembled, GroupLimit, solved
+from optimizer.program.reference.modelling import ConeProgram
 from optimizer.program.reference.solver import Solver
-from optimizer.program.scaled_program import Shape
+from optimizer.program.scaled_program import ScaledSolution, Shape, Stage
+from optimizer.program.scaling import Scaling, scale
+from optimizer.program.statement import Statement
 from tests.program.cases import random_statement
 
+STAGES: tuple[Stage, Stage] = ("objective", "mass")
 SHAPE = Shape("objective", webs=2, rows=(0, 0), groups=(0,), ceilings=0, sectors=False, budget=False)
 
 
@@ -28,30 +32,37 @@ def test_every_shape_compiles(stage, sectors, budget, ceilings, rows, groups) ->
     assert ConeProgram(shape).shape == shape
 
 
-def test_idle_programs_are_lent_again_and_busy_ones_are_not() -> None:
-    programs = CompiledPrograms()
-    with programs.lend(SHAPE) as first, programs.lend(SHAPE) as second:
-        assert first is not second
-    with programs.lend(SHAPE) as again:
-        assert again in (first, second)
+@pytest.mark.parametrize("combine", ["sum", "max"])
+@pytest.mark.parametrize("sectors", [False, True])
+@pytest.mark.parametrize("budget", [False, True])
+@pytest.mark.parametrize("ceilings", [False, True])
+def test_matrices_are_the_same_program(combine: str, sectors: bool, budget: bool, ceilings: bool) -> None:
+    """Independent: the model in cvxpy, in both stages; the least mass under a level in the second."""
+    statement = random_statement(3, combine, (1.0, 1.0), sectors, budget, ceilings, webs=4)
+    largest = float(np.max(statement.limits.reach))
+    data, scaling = scale(statement, "objective", largest, 1e-9)
+    target = 1.1 * _objective(statement, ConeProgram(data.shape).solve(data, 1e-10), scaling)
+    for stage in STAGES:
+        data, scaling = scale(statement, stage, largest, 1e-9, target)
+        model = ConeProgram(data.shape).solve(data, 1e-10)
+        whole = GroupLimit(np.ones(1, bool), float(data.target[0]))
+        matrices = solved(data, 1e-10, np.inf, targets=(whole,) if stage == "mass" else ())
+        assert isinstance(matrices, Assembled)
+        if stage == "objective":
+            one, other = (_objective(statement, found, scaling) for found in (model, matrices.solution))
+        else:
+            one, other = (_mass(statement, found, scaling) for found in (model, matrices.solution))
+        assert one == pytest.approx(other, rel=1e-6)
 
 
-def test_the_least_used_shapes_are_forgotten() -> None:
-    programs = CompiledPrograms(capacity=1)
-    with programs.lend(SHAPE) as first:
-        pass
-    with programs.lend(SHAPE._replace(webs=3)):
-        pass
-    with programs.lend(SHAPE) as again:
-        assert again is not first
+def _objective(statement: Statement, found: ScaledSolution | None, scaling: Scaling) -> float:
+    assert found is not None
+    return float(statement.objective(scaling.unbalance(statement, found)))
 
 
-def test_a_program_that_failed_is_not_lent_again() -> None:
-    programs = CompiledPrograms()
-    with pytest.raises(ZeroDivisionError), programs.lend(SHAPE) as broken:
-        raise ZeroDivisionError
-    with programs.lend(SHAPE) as other:
-        assert other is not broken
+def _mass(statement: Statement, found: ScaledSolution | None, scaling: Scaling) -> float:
+    assert found is not None
+    return float(statement.mass(scaling.unbalance(statement, found)))
 
 
 def test_threads_that_share_a_solver_get_the_answers_of_one() -> None:

@@ -1,4 +1,4 @@
-"""The cone program as matrices, handed to clarabel without a modelling layer: for shapes that no two programs share.
+"""The cone program as matrices, handed to clarabel without a modelling layer.
 
     minimise    cost @ v
     subject to  constant + matrix @ v >= 0            rows

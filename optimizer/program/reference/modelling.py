@@ -1,4 +1,4 @@
-"""The cone program, once and readably, in cvxpy; compiled once for every shape.
+"""The cone program, once and readably, in cvxpy: what the tests and the accuracy ladder hold the others against.
 
 In scaled variables a web's unbalance is u_k = U_k e^{j c_k} (x_k + j s_k y_k): U_k its reach, c_k the
 middle of its sector and s_k the sine of its half-angle, so that x, y are of order one however thin
@@ -15,10 +15,6 @@ the sector or small the limit (docs/mathematics.md section 4).
                 budget @ fraction <= 1            total mass
 """
 
-import threading
-from collections import OrderedDict
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -132,31 +128,3 @@ def _vector_duals(solution: Any, cone: Any, count: int) -> Complex:
         return np.zeros(0, complex)
     _, real, imaginary = np.reshape(solution.dual_vars[cone.id], (count, 3)).T
     return -(real + 1j * imaginary)
-
-
-class CompiledPrograms:
-    """Compiled programs by shape, lent to one thread at a time; the least used are forgotten.
-
-    cvxpy problems are neither thread-safe nor picklable: every process compiles its own, and two
-    threads that need the same shape at once get two programs.
-    """
-
-    def __init__(self, capacity: int = 64) -> None:
-        self._capacity = capacity
-        self._idle: OrderedDict[Shape, list[ConeProgram]] = OrderedDict()
-        self._lock = threading.Lock()
-
-    @contextmanager
-    def lend(self, shape: Shape) -> Iterator[ConeProgram]:
-        """A program of this shape, compiled now if none is idle."""
-        with self._lock:
-            idle = self._idle.get(shape)
-            program = idle.pop() if idle else None
-        program = program or ConeProgram(shape)
-        yield program
-        # not after an error: what a failed solve leaves behind is not lent again
-        with self._lock:
-            self._idle.setdefault(shape, []).append(program)
-            self._idle.move_to_end(shape)
-            while len(self._idle) > self._capacity:
-                self._idle.popitem(last=False)

@@ -15,8 +15,8 @@ from optimizer.program.multipliers import (
     resting_multipliers,
     supporting_multipliers,
 )
-from optimizer.program.reference.modelling import CompiledPrograms
-from optimizer.program.scaled_program import ScaledData, ScaledSolution
+from optimizer.program.reference.assembled import GroupLimit, NoPoint, solved
+from optimizer.program.scaled_program import ScaledData
 from optimizer.program.scaling import Scaling, cancelling, natural_reach, scale
 from optimizer.program.solution import CONE_PROGRAM, NEGLIGIBLE, ConeSolution, evaluated
 from optimizer.program.statement import Statement
@@ -51,10 +51,7 @@ _TARGET_MARGIN = 1e-7
 
 
 class Solver:
-    """Solves statements with compiled programs of its own."""
-
-    def __init__(self, programs: CompiledPrograms | None = None) -> None:
-        self._programs = programs or CompiledPrograms()
+    """Solves statements by clarabel, in as many attempts as it takes."""
 
     def smallest_objective(
         self,
@@ -88,10 +85,10 @@ class Solver:
         for attempt in _ATTEMPTS:
             clip = attempt.clip(natural, largest)
             data, scaling = scale(statement, "objective", clip, attempt.ceiling_margin)
-            best, solved = self._attempt(statement, best, data, scaling, attempt.tolerance, _better_objective)
-            if solved is not None:
+            best, point = self._attempt(statement, best, data, scaling, attempt.tolerance, _better_objective)
+            if point is not None:
                 began = time.perf_counter()
-                best = proven(statement, best, objective_multipliers(statement, *solved))
+                best = proven(statement, best, objective_multipliers(statement, *point))
                 best = replace(best, certify_s=best.certify_s + time.perf_counter() - began)
             if stop(best) or (best.below_ceilings and best.gap <= enough):
                 break
@@ -134,12 +131,10 @@ class Solver:
             inner = max(target - attempt.target_margin * share, 0.5 * (target + first.lower_bound))
             clip = min(max(attempt.clip(natural, largest), needed), largest)
             data, scaling = scale(statement, "mass", clip, attempt.ceiling_margin, inner, first.mass)
-            best, solved = self._attempt(
-                statement, best, data, scaling, attempt.tolerance, admit, blend=(first, target)
-            )
-            if solved is not None:
+            best, point = self._attempt(statement, best, data, scaling, attempt.tolerance, admit, blend=(first, target))
+            if point is not None:
                 began = time.perf_counter()
-                for multiplier in mass_multipliers(statement, *solved):
+                for multiplier in mass_multipliers(statement, *point):
                     bound = float(mass_lower_bound(statement, multiplier, np.asarray(counted)))
                     best = best.weighed(bound, multiplier, counted)
                 best = replace(best, certify_s=best.certify_s + time.perf_counter() - began)
@@ -160,17 +155,18 @@ class Solver:
         blend: tuple[ConeSolution, float] | None = None,
     ) -> tuple[ConeSolution, tuple[Complex, Multipliers] | None]:
         """One solve: the better of the best so far and the new point, and what a bound can be made of."""
-        with self._programs.lend(data.shape) as program:
-            found: ScaledSolution | None = program.solve(data, tolerance)
-        best = replace(best, method=CONE_PROGRAM)
-        if found is None:
+        best, targets = replace(best, method=CONE_PROGRAM), []
+        if data.shape.stage == "mass":
+            targets = [GroupLimit(np.ones(data.shape.groups[-1] + 1, bool), float(data.target[0]))]
+        found = solved(data, tolerance, np.inf, targets=targets)
+        if isinstance(found, NoPoint):
             return best, None
-        u = statement.limits.into(scaling.unbalance(statement, found))
+        u = statement.limits.into(scaling.unbalance(statement, found.solution))
         for point in _tidied(u):
             new = evaluated(statement, point if blend is None else _blended(statement, point, *blend))
             if better(best, new):
                 best = replace(best, unbalance=new.unbalance, objective=new.objective, mass=new.mass, excess=new.excess)
-        return best, (u, scaling.multipliers(statement, found))
+        return best, (u, scaling.multipliers(statement, found.solution))
 
 
 def _better_objective(old: ConeSolution, new: ConeSolution) -> bool:

@@ -273,7 +273,7 @@ def _counts(machine: Machine, mass: Real) -> bool:
     )
 
 
-class _Figures(NamedTuple):
+class _ChoiceFigures(NamedTuple):
     """What the answer tells of counterweights, by its names."""
 
     time_ms: float
@@ -286,14 +286,14 @@ class _Figures(NamedTuple):
     sizes: int
 
 
-_NOTHING: Mapping[str, None] = dict.fromkeys(_Figures._fields)
+_NOTHING: Mapping[str, None] = dict.fromkeys(_ChoiceFigures._fields)
 
 
-def _figures(rung: Rung, bound: float, rest: float, fixed_kg: float) -> _Figures | None:
+def _figures(rung: Rung, bound: float, rest: float, fixed_kg: float) -> _ChoiceFigures | None:
     made, time_ms = rung.made, median_ms(rung.times_s)
     if made is None or time_ms is None:
         return None
-    return _Figures(
+    return _ChoiceFigures(
         time_ms,
         made.objective,
         made.bound,
@@ -305,7 +305,7 @@ def _figures(rung: Rung, bound: float, rest: float, fixed_kg: float) -> _Figures
     )
 
 
-def _row(rung: Rung, figures: _Figures | None, on_frontier: bool) -> ChoiceRow:
+def _row(rung: Rung, figures: _ChoiceFigures | None, on_frontier: bool) -> ChoiceRow:
     return ChoiceRow(
         method=rung.method,
         setting=rung.setting,

@@ -55,7 +55,7 @@ Torque = Callable[[Real], Real]
 
 
 @dataclass(frozen=True)
-class Way:
+class TorqueMethod:
     """One way to the figures of the turn."""
 
     method: Literal["panels", "search", "samples"]
@@ -77,11 +77,11 @@ def effects_ladder(machine: Machine, layout: Layout, repeats: int) -> tuple[Effe
     exact, cut_off = (partial(torque, machine, layout, each) for each in (Fidelity(), Fidelity(kinematics="order_2")))
     breaks = _breaks(machine, layout, has_gas)
     ways = [
-        Way("panels", "exact kinematics", lambda: _by_panels(exact, breaks, turns)),
-        Way("panels", "kinematics of order 2", lambda: _by_panels(cut_off, breaks, turns)),
-        Way("search", "exact kinematics", lambda: _by_search(exact, breaks, turns)),
-        Way("search", "kinematics of order 2", lambda: _by_search(cut_off, breaks, turns)),
-        *(Way("samples", f"{step:g} deg", partial(_by_samples, exact, step, turns)) for step in STEPS_DEG),
+        TorqueMethod("panels", "exact kinematics", lambda: _by_panels(exact, breaks, turns)),
+        TorqueMethod("panels", "kinematics of order 2", lambda: _by_panels(cut_off, breaks, turns)),
+        TorqueMethod("search", "exact kinematics", lambda: _by_search(exact, breaks, turns)),
+        TorqueMethod("search", "kinematics of order 2", lambda: _by_search(cut_off, breaks, turns)),
+        *(TorqueMethod("samples", f"{step:g} deg", partial(_by_samples, exact, step, turns)) for step in STEPS_DEG),
     ]
     reference = {**_by_panels(exact, breaks, turns), **_by_search(exact, breaks, turns)}
     estimate = _own_estimate(exact, breaks, turns)

@@ -14,7 +14,7 @@ from typing import TypeVar
 import numpy as np
 
 from optimizer.program.ceilings import CEILING_TOLERANCE
-from optimizer.studies.accuracy.methods import Method, MethodResult, Run, Task
+from optimizer.studies.accuracy.methods import LadderProgram, Method, MethodResult, Run
 
 Answer = TypeVar("Answer")
 
@@ -71,12 +71,12 @@ class Clock:
         return self.end_s - time.perf_counter()
 
 
-def survey(task: Task, methods: Iterable[Method], clock: Clock) -> list[Trial]:
+def survey(task: LadderProgram, methods: Iterable[Method], clock: Clock) -> list[Trial]:
     """Every method once at each position of its grid."""
     return [_tried(task, method, clock) for method in methods]
 
 
-def time_rounds(task: Task, trials: Sequence[Trial], repeats: int, clock: Clock) -> None:
+def time_rounds(task: LadderProgram, trials: Sequence[Trial], repeats: int, clock: Clock) -> None:
     """Rounds in which every method that has an answer runs once."""
     for _ in range(repeats):
         for trial in trials:
@@ -90,7 +90,7 @@ def time_rounds(task: Task, trials: Sequence[Trial], repeats: int, clock: Clock)
                 trial.times_s.append(elapsed)
 
 
-def _tried(task: Task, method: Method, clock: Clock) -> Trial:
+def _tried(task: LadderProgram, method: Method, clock: Clock) -> Trial:
     trial = Trial(method, method.prepare())
     entries = method.entries(task)
     if entries > MAX_ENTRIES:
@@ -111,7 +111,7 @@ def _tried(task: Task, method: Method, clock: Clock) -> Trial:
     return trial
 
 
-def _judge(task: Task, position: float, weights: MethodResult) -> Judged:
+def _judge(task: LadderProgram, position: float, weights: MethodResult) -> Judged:
     statement = task.statement
     return Judged(
         position,

@@ -24,7 +24,7 @@ from optimizer.program.statement import Statement
 from optimizer.studies.accuracy.choices import at_rest, choices_ladder
 from optimizer.studies.accuracy.effects import effects_ladder
 from optimizer.studies.accuracy.ladder import LADDER_S, Clock, Trial, frontier, median_ms, survey, time_rounds
-from optimizer.studies.accuracy.methods import POSITIONS, Task, methods
+from optimizer.studies.accuracy.methods import POSITIONS, LadderProgram, methods
 from optimizer.studies.accuracy.peaks import peaks_ladder
 from optimizer.studies.accuracy.rivals.sampled import OverTheTurn, WeightedResponse
 from schemas.base.mappings import or_mapping
@@ -82,7 +82,7 @@ def _of_any_mass(request: AccuracyRequest, scene: Prepared, solver: Solver) -> d
     whole = within_reach(cone_program(request.machine, request.objective, scene.responses, scene.omega_squared), solver)
     usable = whole.limits.reach > 0
     statement = whole.only(usable)
-    task = Task(statement, _turn(request, scene).only(usable))
+    task = LadderProgram(statement, _turn(request, scene).only(usable))
 
     status: Status = "measured"
     reference: Reference | None = None
@@ -118,7 +118,7 @@ def _turn(request: AccuracyRequest, scene: Prepared) -> OverTheTurn:
     )
 
 
-def _run(task: Task, repeats: int) -> list[Trial]:
+def _run(task: LadderProgram, repeats: int) -> list[Trial]:
     clock = Clock.of(LADDER_S)
     trials = survey(task, methods(), clock)
     time_rounds(task, trials, repeats, clock)
@@ -141,7 +141,7 @@ def _proven(statement: Statement, best: ConeSolution, bounds: list[float], objec
 
 
 def _judged(
-    task: Task, trials: list[Trial], best: ConeSolution, rest: float, square: float
+    task: LadderProgram, trials: list[Trial], best: ConeSolution, rest: float, square: float
 ) -> tuple[Reference | None, tuple[AccuracyRow, ...]]:
     kept = [one for trial in trials for one in trial.judged if one.excess <= CEILING_TOLERANCE]
     objective = min([best.objective, *(one.objective for one in kept)])
@@ -166,7 +166,7 @@ def _judged(
     return reference, tuple(_row(*each) for each in zip(trials, figures, fastest, strict=True))
 
 
-class _Figures(NamedTuple):
+class _MethodFigures(NamedTuple):
     """What the answer tells of a method, by its names."""
 
     time_ms: float | None
@@ -177,15 +177,15 @@ class _Figures(NamedTuple):
     excess: float | None
 
 
-_NOTHING: Mapping[str, None] = dict.fromkeys(_Figures._fields)
+_NOTHING: Mapping[str, None] = dict.fromkeys(_MethodFigures._fields)
 
 
-def _figures(trial: Trial, bound: float, rest: float, has_ceilings: bool) -> _Figures | None:
+def _figures(trial: Trial, bound: float, rest: float, has_ceilings: bool) -> _MethodFigures | None:
     if trial.skipped is not None:
         return None
     gaps = [(one.objective - one.bound) / rest for one in trial.judged]
     claims = [(one.claimed - one.objective) / rest for one in trial.judged if one.claimed is not None]
-    return _Figures(
+    return _MethodFigures(
         median_ms(trial.times_s, trial.method.programs),
         (trial.worst.objective - bound) / rest,
         (trial.judged[0].objective - bound) / rest,
@@ -195,7 +195,7 @@ def _figures(trial: Trial, bound: float, rest: float, has_ceilings: bool) -> _Fi
     )
 
 
-def _row(trial: Trial, figures: _Figures | None, on_frontier: bool) -> AccuracyRow:
+def _row(trial: Trial, figures: _MethodFigures | None, on_frontier: bool) -> AccuracyRow:
     method, answered = trial.method, trial.skipped is None
     return AccuracyRow(
         method=method.name,

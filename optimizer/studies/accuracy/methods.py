@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cache, partial
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from optimizer.program.methods.compiled import BothStages, both_stages
 from optimizer.program.methods.optima import optima
 from optimizer.program.multipliers import objective_multipliers
 from optimizer.program.reference.assembled import NoPoint
-from optimizer.program.reference.modelling import CompiledPrograms
+from optimizer.program.reference.modelling import ConeProgram
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
 from optimizer.studies.accuracy.rivals import matrices
@@ -32,7 +32,7 @@ _FIXED = POSITIONS[:1]
 
 
 @dataclass(frozen=True)
-class Task:
+class LadderProgram:
     """The program to solve; all its webs can carry something."""
 
     statement: Statement
@@ -49,7 +49,7 @@ class MethodResult:
 
 
 #: one run for a position of the grid and a limit of time in seconds; or why there is no answer
-Run = Callable[[Task, float, float], MethodResult | str]
+Run = Callable[[LadderProgram, float, float], MethodResult | str]
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,7 @@ class Method:
     setting: str
     prepare: Callable[[], Run]
     positions: tuple[float, ...] = _FIXED
-    entries: Callable[[Task], int] = lambda task: 0
+    entries: Callable[[LadderProgram], int] = lambda task: 0
     programs: int = 1
 
 
@@ -109,7 +109,7 @@ def methods() -> Iterator[Method]:
 def _service(relative_gap: float) -> Run:
     solver = Solver()
 
-    def run(task: Task, position: float, time_limit_s: float) -> MethodResult | str:
+    def run(task: LadderProgram, position: float, time_limit_s: float) -> MethodResult | str:
         outcome = optima(task.statement.alone(), relative_gap, False, solver).single()
         if outcome.conflict is not None:
             return "no counterweights keep the ceilings"
@@ -120,7 +120,7 @@ def _service(relative_gap: float) -> Run:
 
 
 def _interior_point(relative_gap: float, precision: Precision | None) -> Run:
-    def run(task: Task, position: float, time_limit_s: float) -> MethodResult | str:
+    def run(task: LadderProgram, position: float, time_limit_s: float) -> MethodResult | str:
         webs = task.statement.limits.radius.size
         if precision is not None and webs > precision.most_webs:
             return f"too large: {webs} webs, at most {precision.most_webs} are tried"
@@ -134,7 +134,7 @@ def _interior_point(relative_gap: float, precision: Precision | None) -> Run:
 def _batch(relative_gap: float) -> Run:
     batch: Statement | None = None
 
-    def run(task: Task, position: float, time_limit_s: float) -> MethodResult | str:
+    def run(task: LadderProgram, position: float, time_limit_s: float) -> MethodResult | str:
         nonlocal batch
         # put together in the first run; the rounds time what solves it
         batch = batch or _lighter(task.statement, np.linspace(1.0, 0.9, BATCH))
@@ -171,13 +171,13 @@ def _rest(batch: Statement) -> Real:
 
 
 def _cone_program(tolerance: float) -> Run:
-    programs = CompiledPrograms()
+    # compiled in the first run, for every shape
+    program = cache(ConeProgram)
 
-    def run(task: Task, position: float, time_limit_s: float) -> MethodResult | str:
+    def run(task: LadderProgram, position: float, time_limit_s: float) -> MethodResult | str:
         statement = task.statement
         data, scaling = matrices.scaled(statement, tolerance)
-        with programs.lend(data.shape) as program:
-            solution = program.solve(data, tolerance)
+        solution = program(data.shape).solve(data, tolerance)
         if solution is None:
             return "the solver has no point to offer"
         unbalance = statement.limits.into(scaling.unbalance(statement, solution))
@@ -198,7 +198,7 @@ def _polygonal(sides: int) -> Run:
     return lambda task, position, limit: _proving(task, polygonal(task.statement, sides, position, limit))
 
 
-def _proving(task: Task, point: matrices.RivalPoint | NoPoint) -> MethodResult | str:
+def _proving(task: LadderProgram, point: matrices.RivalPoint | NoPoint) -> MethodResult | str:
     if isinstance(point, NoPoint):
         return point.reason
 
@@ -209,17 +209,17 @@ def _proving(task: Task, point: matrices.RivalPoint | NoPoint) -> MethodResult |
     return MethodResult(point.unbalance, point.claimed, prove)
 
 
-def _sampled_entries(angles: int, task: Task) -> int:
+def _sampled_entries(angles: int, task: LadderProgram) -> int:
     webs = task.statement.limits.radius.size
     return (len(task.turn.peaks) + len(task.turn.ceilings)) * angles // 2 * (4 * webs + 1)
 
 
-def _batch_entries(task: Task) -> int:
+def _batch_entries(task: LadderProgram) -> int:
     norms, ceilings = task.statement.norms.constant.size, len(task.statement.ceilings.names)
     return BATCH * (norms + ceilings) * int(task.statement.limits.radius.size)
 
 
-def _polygon_entries(sides: int, task: Task) -> int:
+def _polygon_entries(sides: int, task: LadderProgram) -> int:
     norms, ceilings = task.statement.norms.constant.size, len(task.statement.ceilings.names)
     webs = int(np.size(task.statement.limits.radius))
     return sides * ((norms + ceilings) * (2 * webs + 1) + 3 * webs)

@@ -47,7 +47,7 @@ class Peak(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Way:
+class PeakMethod:
     """One way to a peak."""
 
     quantity: Quantity
@@ -106,7 +106,7 @@ def _curves(machine: ReciprocatingMachine, layout: Layout) -> Mapping[Quantity, 
     return made
 
 
-def _ways(quantity: Quantity, whole: WholeTurn, curves: Curves, offset: complex) -> Iterator[Way]:
+def _ways(quantity: Quantity, whole: WholeTurn, curves: Curves, offset: complex) -> Iterator[PeakMethod]:
     """All ways to a peak; grids that are too fine for the machine are left out."""
 
     def fresh() -> TurnCurves:
@@ -121,16 +121,16 @@ def _ways(quantity: Quantity, whole: WholeTurn, curves: Curves, offset: complex)
 
     for tolerance in TOLERANCES:
         peak = partial(_bracketed, fresh, offset, tolerance)
-        yield Way(quantity, "bracket", f"tolerance {tolerance:.0e}", None, peak)
+        yield PeakMethod(quantity, "bracket", f"tolerance {tolerance:.0e}", None, peak)
     for count in PLACES:
         if affordable(pieces * count):
             peak = partial(_in_pieces, fresh, offset, count)
-            yield Way(quantity, "pieces", f"{count} in a piece", pieces * count, peak)
+            yield PeakMethod(quantity, "pieces", f"{count} in a piece", pieces * count, peak)
     for step in STEPS_DEG:
         angles = whole.turns * round(360.0 / step)
         if affordable(angles):
             peak = partial(_sampled, fresh, offset, angles)
-            yield Way(quantity, "samples", f"{step:g} deg", angles, peak)
+            yield PeakMethod(quantity, "samples", f"{step:g} deg", angles, peak)
 
 
 def _bracketed(fresh: Callable[[], TurnCurves], offset: complex, tolerance: float) -> Peak:

@@ -18,10 +18,11 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import fixed_masses
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.memoization import cached_property
 from optimizer.program.reference.solver import Solver
 from optimizer.solve.solution import Infeasible, Solution
 from optimizer.solve.solve import solve
-from optimizer.studies.pareto.measures import measures
+from optimizer.studies.pareto.measures import Measures, measures
 from schemas.base.variation import with_fields
 from schemas.front.trade import Traded
 from schemas.request.objective import Objective
@@ -55,12 +56,20 @@ class ChoiceSearch:
         self.task, self.names, self.scene, self.solver = task, names, scene, solver
         self.gap, self.seconds = task.relative_gap, task.time_limit_s
         self.until = thread_time() + self.seconds
-        self.traded = measures(task, names, scene)
         self.square = np.array([1.0 if name == "mass" else scene.omega_squared for name in names])
         self.fixed = float(np.sum(fixed_masses(task.machine)))
         self.is_mass = np.array([name == "mass" for name in names])
         self.nothing = np.zeros(len(task.machine.webs), complex)
-        self.at_rest = self.values(self.nothing)
+
+    @cached_property
+    def traded(self) -> Measures:
+        """What is traded."""
+        return measures(self.task, self.names, self.scene)
+
+    @cached_property
+    def at_rest(self) -> Real:
+        """What there is without counterweights (D,)."""
+        return self.values(self.nothing)
 
     @property
     def left_s(self) -> float:

@@ -18,7 +18,6 @@ from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import ConeSolution
 from optimizer.program.verdict import Claim, mass_resolution, verdict
 from optimizer.solve.prices import touched_limits
-from optimizer.solve.process_solver import own_solver
 from optimizer.solve.proof import implied_max_mass, named, physical
 from optimizer.solve.solution import Infeasible, finite_or_null
 from optimizer.solve.solve import solve
@@ -54,7 +53,7 @@ def pareto(request: ParetoRequest, solver: Solver | None = None) -> ParetoAnswer
 
     Every figure is evaluated by the mechanics from the returned masses and angles.
     """
-    solver = solver or own_solver()
+    solver = solver or Solver()
     start = time.perf_counter()
     if request.responses is not None:
         needed(request, request.responses, request.machine)

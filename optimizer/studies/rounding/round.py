@@ -18,7 +18,6 @@ from optimizer.outputs.requirements import effects_of_objective
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.reference.solver import Solver
-from optimizer.solve.process_solver import own_solver
 from optimizer.solve.uncertain_program import Robust
 from optimizer.studies.rounding.neighbours import Sides, nearest, sides
 from schemas.answer.answers import Certificate, OptimizeAnswer
@@ -53,7 +52,7 @@ def round_weights(request: RoundRequest) -> RoundAnswer:
         where webs have no crank to count angles from, or no step in their sector.
     """
     try:
-        return _rounding(request, own_solver())
+        return _rounding(request, Solver())
     except NotComputable as error:
         inside = [FieldProblem(("request", *path), message) for path, message in error.problems]
         raise type(error)(inside) from None

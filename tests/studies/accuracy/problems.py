@@ -9,7 +9,7 @@ import numpy as np
 from optimizer.program.limits import Limits
 from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.responses.response import Phasors, Response
-from optimizer.studies.accuracy.methods import Task
+from optimizer.studies.accuracy.methods import LadderProgram
 from optimizer.studies.accuracy.rivals.sampled import OverTheTurn, WeightedResponse
 from schemas.request.accuracy import AccuracyRequest
 from service.documents.examples import load
@@ -29,10 +29,10 @@ def free_limits(reach: Sequence[float]) -> Limits:
     )
 
 
-def single(co: complex, counter: complex, reach: float) -> Task:
+def single(co: complex, counter: complex, reach: float) -> LadderProgram:
     """One force, one web: the smallest peak is max(|co| - reach, 0) + |counter|."""
     response = Response("force", "N", Phasors(np.asarray(co), np.asarray(counter)), np.ones(1))
-    return Task(
+    return LadderProgram(
         statement(combined([weighted_peak(response, 1.0)], "sum"), [], free_limits([reach])),
         OverTheTurn((WeightedResponse(response, 1.0),), "sum", ()),
     )
@@ -40,14 +40,14 @@ def single(co: complex, counter: complex, reach: float) -> Task:
 
 def random_task(
     seed: int, combine: str, weights: tuple[float, float], sectors: bool, budget: bool, ceilings: bool
-) -> Task:
+) -> LadderProgram:
     """Two responses with random phasors; the ceilings, if any, are met by some point."""
     rng = np.random.default_rng(seed)
     webs = int(rng.integers(1, 7))
     limits, responses = random_limits(rng, webs, sectors, budget), random_responses(rng, webs)
     inside = random_point(rng, limits)
     allowed = [(one, 1.05 * float(one.to(inside).peak)) for one in responses] if ceilings else []
-    return Task(
+    return LadderProgram(
         statement(combined([weighted_peak(one, 1.0, *weights) for one in responses], combine), allowed, limits),
         OverTheTurn(
             tuple(WeightedResponse(one, 1.0, *weights) for one in responses),

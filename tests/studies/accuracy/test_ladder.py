@@ -15,7 +15,7 @@ from optimizer.program.solution import ConeSolution
 from optimizer.studies.accuracy import ladder, measure
 from optimizer.studies.accuracy.ladder import Clock, frontier, survey, time_rounds
 from optimizer.studies.accuracy.measure import _judged, accuracy
-from optimizer.studies.accuracy.methods import GAPS, POSITIONS, Method, MethodResult, Run, Task, methods
+from optimizer.studies.accuracy.methods import GAPS, POSITIONS, LadderProgram, Method, MethodResult, Run, methods
 from schemas.request.accuracy import AccuracyAnswer, AccuracyRequest
 from schemas.request.requests import OptimizeRequest
 from tests.studies.accuracy.problems import body, random_task, request, single
@@ -96,7 +96,7 @@ def test_rounds_take_turns_and_run_at_the_position_of_the_largest_error() -> Non
     task, calls = single(2.0, 1.0, 0.5), list[tuple[str, float]]()
 
     def method(name: str) -> Method:
-        def run(_: Task, position: float, __: float) -> MethodResult:
+        def run(_: LadderProgram, position: float, __: float) -> MethodResult:
             calls.append((name, position))
             # the further from the optimum the larger the position
             return MethodResult(np.array([-0.5 + 0.4 * position + 0j]), None, lambda: -np.inf)
@@ -118,7 +118,7 @@ def test_times_are_for_one_of_the_programs_of_a_run() -> None:
     """Analytic: a run of 50 ms for ten programs takes 5 ms for each."""
     task = single(2.0, 1.0, 0.5)
 
-    def run(_: Task, position: float, __: float) -> MethodResult:
+    def run(_: LadderProgram, position: float, __: float) -> MethodResult:
         time.sleep(0.05)
         return MethodResult(np.array([-0.5 + 0j]), None, lambda: 2.5)
 
@@ -138,7 +138,7 @@ def test_times_are_for_one_of_the_programs_of_a_run() -> None:
 def test_broken_ceilings_are_worse_than_any_objective() -> None:
     task = random_task(4, "sum", (1.0, 1.0), False, False, True)
 
-    def run(_: Task, position: float, __: float) -> MethodResult:
+    def run(_: LadderProgram, position: float, __: float) -> MethodResult:
         # far beyond the ceilings at one position only
         factor = 1e3 if position == 0.25 else 0.0
         return MethodResult(np.full(task.statement.limits.radius.size, factor + 0j), None, lambda: -np.inf)

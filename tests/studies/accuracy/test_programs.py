@@ -20,9 +20,9 @@ from optimizer.studies.accuracy.methods import (
     POSITIONS,
     SIDES,
     TOLERANCES,
+    LadderProgram,
     Method,
     MethodResult,
-    Task,
     _lighter,
     methods,
 )
@@ -35,13 +35,13 @@ from tests.studies.accuracy.problems import free_limits, random_task, single
 SOLVER = Solver()
 
 
-def reference(task: Task) -> ConeSolution:
+def reference(task: LadderProgram) -> ConeSolution:
     found = optimum(task.statement, 1e-9, False)
     assert isinstance(found, ConeSolution)
     return found
 
 
-def rest(task: Task) -> float:
+def rest(task: LadderProgram) -> float:
     return float(task.statement.objective(np.zeros(task.statement.limits.radius.shape, complex)))
 
 
@@ -160,7 +160,7 @@ def test_no_bound_of_any_method_is_above_what_another_reached(case: int) -> None
     assert answered >= 8
 
 
-def good(task: Task, outcome: MethodResult, bound: float) -> bool:
+def good(task: LadderProgram, outcome: MethodResult, bound: float) -> bool:
     """Whether a point is no better than the bound, or breaks a ceiling."""
     reached = float(task.statement.objective(outcome.unbalance))
     excess = float(np.max(task.statement.ceilings.excess(outcome.unbalance), initial=-np.inf))
@@ -234,5 +234,7 @@ def test_finer_numbers_are_not_tried_on_many_webs() -> None:
         if method.name == "interior_point_interpreted":
             limits = free_limits([1.0] * 65)
             force = Response("force", "N", Phasors(np.asarray(1.0 + 0j), np.asarray(0j)), np.ones(65))
-            task = Task(statement(combined([weighted_peak(force, 1.0)], "sum"), [], limits), OverTheTurn((), "sum", ()))
+            task = LadderProgram(
+                statement(combined([weighted_peak(force, 1.0)], "sum"), [], limits), OverTheTurn((), "sum", ())
+            )
             assert "too large: 65 webs" in str(method.prepare()(task, 0.0, 5.0))
