@@ -87,7 +87,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def result(folder: Path) -> subprocess.CompletedProcess[str]:
-    """Of a run of seven tests in one file, of which one fails, and of four in another, of which two end their process."""
+    """Of a run of seven tests in one file, one of which fails, and of four in another, two of which end processes."""
     return pytest_run(folder, "-n", "2", "-v", "--durations=0", "-vv", f"--junitxml={folder / 'report.xml'}")
 
 
