@@ -8,6 +8,7 @@ does `fresh`, for tests of the start itself.
 import atexit
 import json
 import os
+import select
 import socket
 import subprocess
 import sys
@@ -18,11 +19,12 @@ from inspect import signature
 from pathlib import Path
 from typing import Any
 
-from tests.mould import LARGEST, PR_SET_CHILD_SUBREAPER, prctl
+from tests.mould import LARGEST
 
 ROOT = Path(__file__).parents[1]
 #: read when a process starts or a library is imported, not when a command runs
 _AT_THE_START = ("LD_PRELOAD", "PYTHONPATH", "PYTHONHASHSEED", "PYTHONWARNINGS", "NUMBA_DISABLE_JIT")
+_GONE = "the process that commands are forked from has ended"
 #: on a machine that is busy
 _WITHIN_S = 300.0
 #: as Popen names them for its fork
@@ -56,6 +58,8 @@ class Command(subprocess.Popen):  # type: ignore[type-arg]
         unlike = any(chosen.get(name) != before.get(name) for name in _AT_THE_START)
         self._order = {"arguments": [module, *arguments], "environment": chosen, "folder": str(cwd or root)}
         self._fresh, self._root = fresh or unlike, root
+        #: where it is told how the command has ended, which is a child of what it was forked from
+        self._ends: int | None = None
         super().__init__([sys.executable, "-m", module, *arguments], env=chosen, cwd=cwd or root, **files)
 
     # all else, pipes before it and waiting after it, is as for what is started from nothing
@@ -68,9 +72,24 @@ class Command(subprocess.Popen):  # type: ignore[type-arg]
         pipes = [values[name] for name in _PIPES]
         ends = [values[name] for name in ("p2cread", "c2pwrite", "errwrite")]
         streams = [own if end == -1 else end for own, end in enumerate(ends)]
-        self.pid = _mould(self._root).fork(json.dumps(self._order), streams)
+        self.pid, self._ends = _mould(self._root).fork(json.dumps(self._order), streams)
         self._child_created = True
         self._close_pipe_fds(*pipes)  # type: ignore[attr-defined]
+
+    def _internal_poll(self, *given: Any, **named: Any) -> int | None:
+        named["_waitpid"] = lambda _, options: self._try_wait(options)
+        return super()._internal_poll(*given, **named)  # type: ignore[misc]
+
+    def _try_wait(self, options: int) -> tuple[int, int]:
+        if self._ends is None:
+            return super()._try_wait(options)  # type: ignore[misc]
+        if options & os.WNOHANG and not select.select([self._ends], [], [], 0)[0]:
+            return 0, 0
+        status = os.read(self._ends, 100)
+        assert status, _GONE
+        os.close(self._ends)
+        self._ends = None
+        return self.pid, int(status)
 
 
 def run(module: str, *arguments: str, **more: Any) -> "subprocess.CompletedProcess[str]":
@@ -86,40 +105,58 @@ def run(module: str, *arguments: str, **more: Any) -> "subprocess.CompletedProce
 
 
 class _Mould:
-    """The process that is forked from, started when the first command is."""
+    """The process that is forked from, started with the first command, or for processes that will share it."""
 
     def __init__(self, root: Path) -> None:
         self._lock = threading.Lock()
-        self._asks, asked = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-        with asked:
+        needed, self._needs = os.pipe()
+        with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as listener:
+            # a free name, and no file
+            listener.bind("")
+            listener.listen()
+            self._address = listener.getsockname()
+            files = listener.fileno(), needed
             self._process = subprocess.Popen(
-                [sys.executable, "-m", "tests.mould", str(asked.fileno())],
+                [sys.executable, "-m", "tests.mould", *map(str, files)],
                 cwd=root,
                 env=_environment(root),
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL,
-                pass_fds=[asked.fileno()],
+                pass_fds=files,
             )
-        assert self._asks.recv(100) == b"loaded", "the process that commands are forked from has ended"
+        os.close(needed)
+        #: connection of a process
+        self._asks: tuple[int, socket.socket] | None = None
         atexit.register(self._end)
 
-    def fork(self, order: str, streams: list[int]) -> int:
-        """The process of a command, a child of this one."""
+    def fork(self, order: str, streams: list[int]) -> tuple[int, int]:
+        """The process of a command, and where it is told how it has ended."""
         assert len(order) < LARGEST
         with self._lock:
-            # what forks it ends at once, and this process takes its place; otherwise orphans are not ours
-            prctl(PR_SET_CHILD_SUBREAPER, 1)
-            try:
-                socket.send_fds(self._asks, [order.encode()], streams)
-                pid = self._asks.recv(100)
-            finally:
-                prctl(PR_SET_CHILD_SUBREAPER, 0)
-        assert pid, "the process that commands are forked from has ended"
-        return int(pid)
+            asks = self._connection()
+            socket.send_fds(asks, [order.encode()], streams)
+            pid, files, _, _ = socket.recv_fds(asks, 100, 1)
+        assert pid, _GONE
+        return int(pid), files[0]
+
+    def _connection(self) -> socket.socket:
+        own = os.getpid()
+        if self._asks is None or self._asks[0] != own:
+            connection = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+            connection.connect(self._address)
+            self._asks = own, connection
+        return self._asks[1]
 
     def _end(self) -> None:
-        self._asks.close()
+        if self._asks is not None:
+            self._asks[1].close()
+        os.close(self._needs)
         self._process.wait()
+
+
+def share_mould() -> None:
+    """Start it for all processes that are forked from this one."""
+    _mould(ROOT)
 
 
 @cache

@@ -79,9 +79,10 @@ class Distribution:
         for place, name in enumerate(names):
             self._units[_unit(name)].append(place)
 
-    def __len__(self) -> int:
-        """Number of units that are left."""
-        return len(self._units)
+    @property
+    def waits(self) -> bool:
+        """Whether any of the units that are left mostly waits."""
+        return any(map(waits, self._units))
 
     def take(self, waiting: bool) -> deque[int]:
         """Places of the tests of the next unit, of one that waits or of one that computes if it may choose; or none."""

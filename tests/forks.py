@@ -23,14 +23,13 @@ from typing import Any, NoReturn
 import pytest
 from _pytest.capture import CaptureManager
 
+from tests.commands import share_mould
 from tests.distribution import Distribution
-from tests.mould import prctl
+from tests.mould import PR_SET_PDEATHSIG, prctl
 
 _FORK = multiprocessing.get_context("fork")
 #: what only the process does that prints and counts
 _OF_THE_FIRST = ("terminalreporter", "lfplugin", "nfplugin", "stepwiseplugin")
-#: of linux/prctl.h
-PR_SET_PDEATHSIG = 1
 #: at the end of a run that is broken off, for a process to end [s]
 _END_S = 10.0
 
@@ -105,6 +104,8 @@ class Run:
         assert len(threads) == 1, "of several threads a fork has one, and the locks of all"
 
     def run(self, processes: int) -> None:
+        if self._distribution.waits:
+            share_mould()
         try:
             for number in range(processes):
                 self._start(waiting=number % 2 == 0, unit=deque())

@@ -1,8 +1,9 @@
 """The process that tests fork commands from: it has loaded what they load, so each begins at its first line.
 
-To load it takes longer than most tests last. What is forked reads its settings, opens its files and ends as any other;
-its fork server is forked beforehand, as it would load the same once more. Run by tests/commands.py, with the number of
-the socket that it is asked on.
+To load it takes longer than most tests last, so the processes of a run share it: it tells each how its commands end.
+What is forked reads its settings, opens its files and ends as any other; its fork server is forked beforehand, as it
+would load the same once more. Run by tests/commands.py, with the numbers of the socket that it is asked on, and of a
+pipe that is open as long as it is needed.
 """
 
 import atexit
@@ -12,10 +13,12 @@ import importlib
 import json
 import os
 import runpy
+import selectors
 import signal
 import socket
 import sys
 import threading
+from contextlib import suppress
 from multiprocessing import forkserver
 
 #: by the service and by its commands, beside what its workers load
@@ -41,7 +44,7 @@ _LOADED = (
 #: what may be asked for at a time [bytes]
 LARGEST = 1 << 17
 #: of linux/prctl.h
-PR_SET_NAME, PR_SET_CHILD_SUBREAPER = 15, 36
+PR_SET_PDEATHSIG, PR_SET_NAME = 1, 15
 #: name of the process that workers are forked from, as its command line is that of the mould
 FORK_SERVER = "fork server"
 
@@ -79,29 +82,86 @@ def load() -> None:
     gc.freeze()
 
 
-def wait(asked: socket.socket) -> str | None:
-    """Fork a command for each that is asked for; in the command, the module that it runs; None when nobody asks."""
-    while True:
+class Mould:
+    """Forks a command for each that is asked for, and tells who asked how it has ended.
+
+    Parameters
+    ----------
+    listener : on which processes connect that ask.
+    needed : a pipe that ends when it is needed no longer.
+    """
+
+    def __init__(self, listener: socket.socket, needed: int) -> None:
+        self._listener, self._needed = listener, needed
+        self._selector = selectors.DefaultSelector()
+        #: of each command that runs, where its end is told
+        self._ends: dict[int, int] = {}
+        self._woken, self._wakes = os.pipe()
+        os.set_blocking(self._wakes, False)
+        signal.set_wakeup_fd(self._wakes)
+        signal.signal(signal.SIGCHLD, lambda *_: None)
+        for file in (listener, needed, self._woken):
+            self._selector.register(file, selectors.EVENT_READ)
+
+    def wait(self) -> str | None:
+        """In a command, the module that it runs; None when this is needed no longer."""
+        while True:
+            for key, _ in self._selector.select():
+                if key.fileobj == self._needed:
+                    return None
+                if key.fileobj == self._woken:
+                    os.read(self._woken, 1000)
+                    self._bury()
+                elif key.fileobj == self._listener:
+                    self._selector.register(self._listener.accept()[0], selectors.EVENT_READ)
+                elif (module := self._fork(key.fileobj)) is not None:  # type: ignore[arg-type]
+                    return module
+
+    def _fork(self, asked: socket.socket) -> str | None:
         text, files, _, _ = socket.recv_fds(asked, LARGEST, 3)
         if not text:
+            self._selector.unregister(asked)
+            asked.close()
             return None
-        pid, says = os.pipe()
-        between = os.fork()
-        if between == 0:
-            command = os.fork()
-            if command == 0:
-                asked.close()
-                os.close(pid)
-                os.close(says)
-                return become(json.loads(text), files)
-            os.write(says, str(command).encode())
-            os._exit(0)
-        for file in (says, *files):
+        hears, tells = os.pipe()
+        pid = os.fork()
+        if pid == 0:
+            os.close(hears)
+            os.close(tells)
+            self._leave()
+            return become(json.loads(text), files)
+        self._ends[pid] = tells
+        # who asked may have ended
+        with suppress(OSError):
+            socket.send_fds(asked, [str(pid).encode()], [hears])
+        for file in (hears, *files):
             os.close(file)
-        # once the one between has ended, who asked is the parent of the command
-        os.waitpid(between, 0)
-        asked.send(os.read(pid, 100))
-        os.close(pid)
+        return None
+
+    def _leave(self) -> None:
+        """What is not a command's."""
+        signal.set_wakeup_fd(-1)
+        signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+        for key in [*self._selector.get_map().values()]:
+            # whose object would close it once more, by then another's
+            if isinstance(key.fileobj, socket.socket):
+                key.fileobj.close()
+            else:
+                os.close(key.fd)
+        self._selector.close()
+        for file in (self._wakes, *self._ends.values()):
+            os.close(file)
+
+    def _bury(self) -> None:
+        """Tell of the commands that have ended."""
+        while self._ends:
+            pid, status = os.waitpid(-1, os.WNOHANG)
+            if pid == 0:
+                break
+            tells = self._ends.pop(pid)
+            with suppress(BrokenPipeError):
+                os.write(tells, str(status).encode())
+            os.close(tells)
 
 
 def become(command: dict[str, object], files: list[int]) -> str:
@@ -157,9 +217,7 @@ def leave(code: int) -> None:
 if __name__ == "__main__":
     # the name of the module is in the way of whoever unpickles what `__main__` has
     load()
-    with socket.socket(fileno=int(sys.argv[1])) as asked:
-        asked.send(b"loaded")
-        module = wait(asked)
+    module = Mould(socket.socket(fileno=int(sys.argv[1])), int(sys.argv[2])).wait()
     if module is not None:
         try:
             runpy.run_module(module, run_name="__main__", alter_sys=True)

@@ -4,6 +4,8 @@ import json
 import os
 import signal
 import subprocess
+from multiprocessing import Pipe, get_context
+from multiprocessing.connection import Connection
 from pathlib import Path
 
 import psutil
@@ -36,10 +38,26 @@ def test_settings_are_its_own() -> None:
 @pytest.mark.parametrize("ending", [signal.SIGTERM, signal.SIGKILL])
 def test_signals_end_it(ending: signal.Signals) -> None:
     with Command("json.tool", **PIPES) as command:
-        assert [child.pid for child in psutil.Process().children() if child.pid == command.pid] == [command.pid]
         assert command.poll() is None
         command.send_signal(ending)
         assert command.wait(180) == -ending
+
+
+def test_processes_that_are_forked_share_what_commands_are_forked_from() -> None:
+    def says(connection: Connection) -> None:
+        with Command("json.tool", **PIPES) as command:
+            parent = psutil.Process(command.pid).ppid()
+            command.communicate("[", timeout=180)
+        connection.send((parent, command.returncode))
+
+    ours, theirs = Pipe()
+    says(theirs)
+    process = get_context("fork").Process(target=says, args=(theirs,))
+    process.start()
+    process.join(180)
+    first, second = ours.recv(), ours.recv()
+    assert first == second
+    assert "tests.mould" in " ".join(psutil.Process(first[0]).cmdline())
 
 
 def test_what_is_told_to_an_interpreter_starts_one() -> None:

@@ -18,6 +18,7 @@ from verify_numbers import (
     real,
 )
 
+_ROOM = real(NOTHING)
 #: kind of claim, where it stands, the room that is left (None: not covered), and what it is a share of
 Claim = Tuple[str, Place, Optional[Number], Number]
 Claims = Generator[Claim, None, Any]
@@ -34,8 +35,10 @@ def near(claim: str, place: Place, figure: Number, size: Optional[Number] = None
     """A figure lies where it has to; of a size, if not its own."""
     if not place:
         return claim, place, None, ONE
-    off = min(place.number() - figure, figure - place.number(), key=lambda difference: difference.high)
-    return claim, place, off + real(NOTHING), abs(figure) if size is None else size
+    off = place.number() - figure
+    if -off.low < off.high:
+        off = -off
+    return claim, place, off + _ROOM, abs(figure) if size is None else size
 
 
 def same(claim: str, place: Place, value: Any) -> Claim:

@@ -36,7 +36,7 @@ class Number:
         return Number(-self.high, -self.low, (-self.y[1], -self.y[0]))
 
     def __sub__(self, other: Number) -> Number:
-        return self + -other
+        return Number(self.low - other.high, self.high - other.low, (self.y[0] - other.y[1], self.y[1] - other.y[0]))
 
     def __mul__(self, other: Number) -> Number:
         x, y = (self.low, self.high), (other.low, other.high)
@@ -53,8 +53,11 @@ class Number:
         return self * Number((1 << 2 * BITS) // other.high, -(-(1 << 2 * BITS) // other.low))
 
     def __abs__(self) -> Number:
-        (a, b), (c, d) = ((max(x, -y, 0), max(-x, y)) for x, y in ((self.low, self.high), self.y))
-        return Number(a, b) if d == 0 else Number(isqrt(a * a + c * c), isqrt(b * b + d * d) + 1)
+        a, b = _distance(self.low, self.high)
+        if self.y == (0, 0):
+            return Number(a, b)
+        c, d = _distance(*self.y)
+        return Number(isqrt(a * a + c * c), isqrt(b * b + d * d) + 1)
 
     def conjugate(self) -> Number:
         return Number(self.low, self.high, (-self.y[1], -self.y[0]))
@@ -82,6 +85,11 @@ def _double(number: int, bits: int) -> float:
         return sys.float_info.max if number > 0 else -sys.float_info.max
 
 
+def _distance(low: int, high: int) -> tuple[int, int]:
+    """From 0."""
+    return (low, high) if low >= 0 else (-high, -low) if high <= 0 else (0, max(-low, high))
+
+
 def _product(a: tuple[int, int], b: tuple[int, int]) -> tuple[int, int]:
     (low, high), (least, most) = a, b
     if low < 0 < high or least < 0 < most:
@@ -98,7 +106,9 @@ def real(number: float | Fraction) -> Number:
     if isinstance(number, float) and isnan(number):
         raise OverflowError
     top, bottom = number.as_integer_ratio()
-    return Number((top << BITS) // bottom, -((-top << BITS) // bottom))
+    low = (top << BITS) // bottom
+    # doubles are whole multiples
+    return Number(low, low if isinstance(number, float) else -((-top << BITS) // bottom))
 
 
 def total(numbers: Iterable[Number]) -> Number:
@@ -210,7 +220,8 @@ class Place:
         return self.value is not None
 
     def __truediv__(self, name: str) -> Place:
-        return Place(self.read((dict,), "an object", {}).get(name), *self.path, name)
+        fields = self.value if isinstance(self.value, dict) else self.read((dict,), "an object", {})
+        return Place(fields.get(name), *self.path, name)
 
     def __iter__(self) -> Iterator[Place]:
         return (Place(one, *self.path, k) for k, one in enumerate(self.read((list,), "a list", [])))

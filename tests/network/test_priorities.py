@@ -72,6 +72,8 @@ def test_who_asks_without_end_gives_way_to_who_asks_now_and_then(pool: Pool, mon
 
 def test_a_thread_that_is_behind_others_reads_no_task() -> None:
     """It would wake late for one that is not, as everything else comes before it."""
+    if os.getpriority(os.PRIO_PROCESS, 0) == 19:
+        pytest.skip("the tests run behind all others, and no thread can be behind them")
     ours, theirs = socket.socketpair()
     with ours, theirs, theirs.makefile("rb") as stream, ThreadPoolExecutor(1) as thread:
         ours.sendall(task(tasks.quick).serialize(Priority.FIRST))
