@@ -27,8 +27,8 @@ FILE = Path(__file__).with_name("recorded.json.xz")
 _MORE: dict[str, tuple[str, ...]] = {
     "twin": ("cheaper choices", "few pieces", "few sizes", "holes", "part numbers", "few counterweights", "own masses",
              "all fixed", "overspeed and bolts", "least mass false", "tolerances of 0", "no rods", "parts",
-             "offset row", "no counterweights", "largest mass of 0", "thin sector", "webs in the reference plane", "unbalances",
-             "reference plane", "force ceiling of 0", "balance shaft forwards"),
+             "offset row", "no counterweights", "largest mass of 0", "thin sector", "webs in the reference plane",
+             "unbalances", "reference plane", "force ceiling of 0", "balance shaft forwards"),
     "scroll": ("budget", "tolerances of masses and angles", "fixed", "balance quality"),
 }  # fmt: skip
 #: kinds of the table whose lines others run too
@@ -83,9 +83,8 @@ def variant(number: int, request: Any, answer: Any) -> tuple[Any, Any]:
             return [other(each) for each in value]
         if not isinstance(value, float) or random.random() > _OTHERS:
             return value
-        return random.choice(
-            [0.0, 1.0, -value, value * (1.0 + 1e-13), value * (1.0 + 1e-7), 0.999 * value, 3.0 * value]
-        )
+        near = (value * (1.0 + share) for share in (1e-13, 1e-7, -1e-3, 2.0))
+        return random.choice([*near, 0.0, 1.0, -value, None])
 
     return (request, other(answer)) if number < _VARIANTS - 1 else (other(request), answer)
 
