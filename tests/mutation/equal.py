@@ -44,11 +44,20 @@ _PROGRAM: dict[str, str] = {
     "cuts/samples.py maxima: np.argmax(around, axis=-1) - 1 -> np.argmax(around, axis=-1) + 1": _STEERS,
     "cuts/samples.py supports: abs(circle.radius - before) > _STEADY * circle.radius"
     " -> abs(circle.radius - before) >= _STEADY * circle.radius": _ALIKE,
+    "cuts/stage.py run: -np.inf -> +np.inf": "a width takes all that is not finite alike",
+    "cuts/stage.py _wanted: self.levels.counted - self.levels.most + self.margin"
+    " -> self.levels.counted - self.levels.most - self.margin": _STEERS,
     "cuts/stage.py _step: over > 0 -> over >= 0": _ALIKE,
     "cuts/stage.py run: 0.0 -> 0.001": _STEERS,
     "methods/cascade.py _under_ceilings: nearest.objective <= -AMPLE -> nearest.objective < -AMPLE": _ALIKE,
     "methods/compiled.py _programs: np.add.reduce(mass, axis=-1, keepdims=True)"
     " -> np.add.reduce(mass, axis=+1, keepdims=True)": "it has two axes",
+    "methods/compiled.py _programs: np.maximum.reduce(statement.floor, axis=-1)"
+    " -> np.maximum.reduce(statement.floor, axis=+1)": "it has two axes",
+    "methods/compiled.py _in_any_limits: excess_at(statement.chosen(left), nearest) < 0"
+    " -> excess_at(statement.chosen(left), nearest) < 1": _STEERS,
+    "methods/feasibility_phase.py at_rest: rest.gap + float(allowance) <= target.share"
+    " -> rest.gap + float(allowance) < target.share": _ALIKE,
     "methods/compiled.py _solve: reachable > 0 -> reachable > 1": _STEERS,
     "methods/compiled.py _solve: unit > 0 -> unit > 1": _STEERS,
     "methods/implied_bounds.py _in_sectors: np.min(along[outside], initial=1.0)"
@@ -81,6 +90,10 @@ _VERIFY: dict[str, str] = {
     "verify_program.py lightest: sizes[row].low > 0 -> sizes[row].low > 1": "it counts the smallest steps of numbers",
     "verify_pressed.py _sizes: each > 1e-14 -> each >= 1e-14": "no size is 1e-14 to the bit, which is of no account",
     "verify_values.py response: max -> min": "up to there a peak is of no interest: without it every peak is enclosed",
+    "verify_prices.py worst_by_angle: off > 0 -> off >= 0": "what is off by nothing is within the angle, which is asked"
+    " before",
+    "verify_weights.py counterweight: mass.high <= 0 -> mass.high <= 1": "it counts the smallest steps of numbers, of"
+    " which the smallest double is many",
     "verify_weights.py counterweights: total_mass * machine.wide -> total_mass / machine.wide": "it is 1 with its"
     " rounding to both sides",
 }

@@ -1,10 +1,17 @@
 """What may stand for an optimum in which some webs are empty: analytic."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from optimizer.program.methods.empty_webs import Optimum, _unit
+from optimizer.program.methods import empty_webs
+from optimizer.program.methods.empty_webs import Optimum, _unit, leave_empty
+from optimizer.program.methods.optima import optima
 from optimizer.program.points import Points
+from optimizer.program.solution import CEILING_ROUNDING
+from optimizer.program.verdict import MASS_GAP
+from tests.program.cases import SOLVER
 from tests.program.test_settled import in_planes
 
 
@@ -33,3 +40,26 @@ def test_a_point_is_no_worse_than_the_optimum_but_for_the_rounding_of_its_object
 def test_webs_that_are_not_alike_are_emptied_one_by_one() -> None:
     program = in_planes([-1.0, 1.0, 0.3]).alone()
     assert [_unit(program, web).tolist() for web in range(3)] == np.eye(3, dtype=bool).tolist()
+
+
+@pytest.mark.parametrize("least_mass", [True, False])
+def test_without_dust_a_point_is_as_heavy_as_may_be_claimed(least_mass: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Analytic: nine tenths of the gap that a mass may have; the objective no further than its own target."""
+    program = in_planes([-1.0, 1.0, 0.3]).alone()
+    found = optima(program, 1e-6, True, SOLVER)
+    dusty = np.array([[-2.0, -2.5, 1e-9]]) + 0j
+    found = replace(found, unbalance=dusty, objective=program.objective(dusty), mass=program.mass(dusty))
+    found.mass_lower_bound[:], found.mass_target[:], found.lower_bound[:] = 4.6, 9.0, 1.0
+    asked = []
+
+    def keep(_: object, old: Points, optimum: Optimum, *rest: object) -> Points:
+        asked.append(optimum)
+        return old
+
+    monkeypatch.setattr(empty_webs, "_emptied", keep)
+    leave_empty(program, found, np.array([0.5]), least_mass)
+    (optimum,) = asked
+    assert optimum.mass == pytest.approx([4.6 / (1.0 - 0.9 * MASS_GAP) if least_mass else np.inf], rel=1e-14)
+    assert optimum.excess == [CEILING_ROUNDING]
+    assert optimum.objective == pytest.approx(max(1.0 + empty_webs.TARGET * 0.5, float(program.objective(dusty)[0])))
+    assert (optimum.mass_bound is None) != least_mass

@@ -8,10 +8,13 @@ import pytest
 
 from optimizer.program.certificate import objective_lower_bound
 from optimizer.program.cuts.cut import Pool, Scatter
+from optimizer.program.cuts.dominance import Group
 from optimizer.program.cuts.proof import proofs, resting_proof, times, units
 from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.cuts.stage import Levels, Point, Search, _step
 from optimizer.program.multipliers import resting_multipliers
+from optimizer.program.rows import Row, weighted_peak
+from optimizer.responses.response import Phasors, Response
 from tests.program.cases import random_point
 from tests.program.turning import bearings, force_and_moment, largest, quantities, wide
 
@@ -228,3 +231,14 @@ def test_multipliers_of_several_goals_prove_what_is_below_both(seed: int) -> Non
     ]
     assert bounds
     assert max(bounds) <= lowest * (1.0 + 1e-9)
+
+
+@pytest.mark.parametrize(("most", "yardstick"), [(0.1, 0.02), (1e3, 1.0)])
+def test_what_is_nothing_at_rest_is_measured_by_what_may_be_fitted(most: float, yardstick: float) -> None:
+    """Analytic: 0.2 m times the largest mass, or the unbalance that brings the other response to nothing."""
+    still = Response("still", "N", Phasors(np.asarray(0j), np.asarray(0j)), np.ones(1))
+    limited = Response("limited", "N", Phasors(np.asarray(1.0 + 0j), np.asarray(0j)), np.ones(1))
+    goal = Goal("all", (Group(rows=(Row("still", (weighted_peak(still, 1.0),)),)),))
+    program = Problem((), (goal,), ((limited, 0.5),), (), wide(1))
+    assert program.yardsticks_within(wide(1, most)) == pytest.approx([yardstick], rel=1e-12)
+    assert program.yardsticks == pytest.approx([1.0], rel=1e-12)
