@@ -198,8 +198,11 @@ class Program:
         beta = (proof / "budget").number(0.0, least=0) if machine.left is not None else ZERO
         pulled = list(zip(self.webs, machine.together([-one for one in pulls.slopes]), pulls.spread))
         if beta is not ZERO and not any(web.plate for web in self.webs):
-            gains = (web.radius * (support(pull, web.sector) - wide) - cost for web, pull, wide in pulled)
-            beta = worth_of_budget(beta, gains)
+            gains = [
+                (web.radius * (support(pull, web.sector) - wide) - cost, self.first.exact.reach(web, implied))
+                for web, pull, wide in pulled
+            ]
+            beta = worth_of_budget(beta, gains, machine.left)
         for web, pull, wide in pulled:
             if web.plate is not None:
                 pull = support(pull, web.sector) - wide

@@ -272,13 +272,25 @@ def budget(
     """A price of the budget at which most is proven, where ``price`` is printed."""
     if any(web.plate for web in machine.webs):
         return spent(machine, pulls, share, cost, implied)
-    return worth_of_budget(price, (web.radius * pulls[web.name] * share - cost for web in machine.webs))
+    assert machine.left is not None
+    limits = [min(filter(None, (web.limit, machine.left)), key=lambda number: number.high) for web in machine.webs]
+    gains = [web.radius * pulls[web.name] * share - cost for web in machine.webs]
+    return worth_of_budget(price, list(zip(gains, limits)), machine.left)
 
 
-def worth_of_budget(price: Number, gains: Iterable[Number]) -> Number:
-    """A price of the budget no higher than any kilogram gains: any price proves something, and more is wasted."""
-    most = max((gain.high for gain in gains), default=0)
-    return price if most >= price.low else Number(max(most, 0), max(most, 0))
+def worth_of_budget(price: Number, gains: Sequence[Tuple[Number, Optional[Number]]], left: Number) -> Number:
+    """A price of the budget: any proves something, that of the next kilogram that is left out more.
+
+    ``gains``: what a kilogram gains on every web, and how many it may carry.
+    """
+    below = max((gain.high for gain, _ in gains if gain.high < price.low), default=0)
+    lower = Number(max(below, 0), max(below, 0))
+
+    def cost(at: Number) -> int:
+        full = total((gain - at) * (carries or left) for gain, carries in gains if gain.high > at.high)
+        return (at * left + full).high
+
+    return min(price, lower, key=cost)
 
 
 def spent(machine: Machine, pulls: dict[str, Number], share: Number, cost: Number, implied: Place) -> Number:
