@@ -53,7 +53,9 @@ def best_by_hand(asked: Body, cranks: dict[str, float]) -> float:
     options, of_web = [], {web["name"]: web for web in asked["request"]["machine"]["webs"]}
     groups = {name: g["webs"] for g in asked["request"]["machine"].get("web_groups", []) for name in g["webs"]}
     for one in free.counterweights:
-        most = of_web[one.web].get("max_mass_kg", np.inf)
+        least, most = (
+            of_web[one.web].get(name, other) for name, other in (("min_fitted_mass_kg", 0.0), ("max_mass_kg", np.inf))
+        )
         if one.fixed or one.mass_kg == 0.0:
             options.append([(0.0, 0.0)])
             continue
@@ -67,7 +69,7 @@ def best_by_hand(asked: Body, cranks: dict[str, float]) -> float:
                 for mass, angle in found
                 if abs((angle - sector["centre_deg"] + 180) % 360 - 180) <= sector["half_angle_deg"] + 1e-9
             ]
-        options.append([(0.0, 0.0), *((mass, angle) for mass, angle in found if 0 < mass <= most)])
+        options.append([(0.0, 0.0), *((mass, angle) for mass, angle in found if mass > 0 and least <= mass <= most)])
     names, best = [one.web for one in free.counterweights], np.inf
     for some in product(*options):
         placed = dict(zip(names, some, strict=True))
