@@ -1,8 +1,8 @@
 """Compile the kernels, once for an installation: ``python -m optimizer.compile_kernels``.
 
-Two processes take about as long: one what budgets are spent by, the interior points for any limits and for plain
-discs, what proves and settles, and what parts are matched by; the other what follows the turn and what sums of
-options are compared by. What both interior points have in common is inlined in each.
+Two processes take about as long: one what budgets are spent by, the interior points for any limits and for discs, and
+what proves and settles; the other what follows the turn, and what sums of options are compared and parts are matched
+by. What both interior points have in common is inlined in each.
 """
 
 import gc
@@ -72,9 +72,9 @@ def near_sums() -> None:
 def main() -> None:
     _say("compiling the kernels, once: half a minute on two cores")
     begun = time.perf_counter()
-    beside = get_context("spawn").Process(target=_alone, args=(follow_a_turn, moving_curves, near_sums))
+    beside = get_context("spawn").Process(target=_alone, args=(follow_a_turn, moving_curves, near_sums, match_parts))
     beside.start()
-    _alone(budgets, any_limits, plain_discs, proofs, match_parts)
+    _alone(budgets, any_limits, plain_discs, proofs)
     beside.join()
     if beside.exitcode:
         raise SystemExit("the second process failed; what it said stands above")

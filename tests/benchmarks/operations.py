@@ -74,7 +74,7 @@ def operations_per_program(calls: Sequence[tuple[Any, ...]]) -> tuple[float, flo
     ----------
     calls : arguments of :func:`optimizer.program.kernel.discs.solve`.
     """
-    space, iterations = interpreted(_numbers(), parts=(disc_webs, disc_peaks, disc_starts, discs)), 0
+    space, iterations = interpreted(_numbers(), Counted, parts=(disc_webs, disc_peaks, disc_starts, discs)), 0
     # one lane, so that the rounds of the loop are the iterations of a program
     for name, place in (vars(disc_webs) | vars(disc_peaks)).items():
         if type(place) is int:

@@ -34,7 +34,7 @@ def test_a_point_is_no_worse_than_the_optimum_but_for_the_rounding_of_its_object
     point: Points, admitted: bool
 ) -> None:
     optimum = Optimum(np.array([1.0]), np.array([2.0]), np.array([0.0]), None)
-    assert optimum.admits(point) == admitted
+    assert optimum.admits(point).tolist() == [admitted]
 
 
 def test_webs_that_are_not_alike_are_emptied_one_by_one() -> None:

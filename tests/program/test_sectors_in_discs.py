@@ -165,6 +165,16 @@ def test_thin_sectors_are_for_the_method_for_any_limits() -> None:
     assert taken.tolist() == [False, False, True, True]
 
 
+def test_any_optimum_is_left_to_the_lighter_of_both_methods() -> None:
+    """Regression: without the least mass this one's were up to three times as heavy in a search over fitted webs."""
+    nothing = (False, False, False)
+    for sectors, budget, ceilings in (nothing, (True, False, False), (False, True, False), (False, False, True)):
+        taken = (sectors, budget, ceilings) == nothing
+        problem = random_statement(3, "sum", (1.0, 1.0), sectors, budget, ceilings, webs=4).alone()
+        assert suits_discs(problem, least_mass=False).tolist() == [taken]
+        assert suits_discs(problem).all()
+
+
 def test_vectors_of_three_responses_are_for_the_method_for_any_limits() -> None:
     """Analytic: the third is a sum of the others, and no multiple of one."""
     problem = random_statement(3, "sum", (1.0, 1.0), False, False, True, webs=4)

@@ -10,7 +10,9 @@ a term and (s, a) of a ceiling,
 where da_j = f_j (G_b + sum_i N_bb(i) f_i dy_i) is what the webs do. In the second stage the price of the objective is a
 further unknown, in the first that of a budget.
 
-A number of a vector stands at ``j PEAK + NAME + t`` of ``peak``, one of the matrix at ``(i n + j) LANES + t``.
+A number of vector j stands at ``NAME + t`` of its row of ``peak``, lane t. The matrix is made of blocks of 2 x 2, entry
+by entry. Block (j, Q) holds the column of the price and its row. Every loop takes the rows and blocks that it needs as
+arrays of their own: the compiler would not see that places in one array, known only as it runs, do not overlap.
 """
 
 from optimizer.program.kernel.compiling import fused, fused_inlined
@@ -60,10 +62,10 @@ PAIR, BLOCK = 2 * LANES, 4 * LANES
 
 
 @fused
-def _add_multiple(one, pair, total):  # type: ignore[no-untyped-def]
+def _add_multiple(vector, pair, total):  # type: ignore[no-untyped-def]
     for t in range(LANES):
-        total[t] += one[t + F] * one[t + pair]
-        total[t + LANES] += one[t + F] * one[t + pair + LANES]
+        total[t] += vector[t + F] * vector[t + pair]
+        total[t + LANES] += vector[t + F] * vector[t + pair + LANES]
 
 
 @fused
@@ -72,13 +74,13 @@ def look_at_peaks(least_mass, budgeted, terms, basis, peak, own):  # type: ignor
     for t in range(LANES):
         own[t + LEFT] = own[t + MOST]
     for j in range(basis.size):
-        one = peak[j]
-        _look_at_vector(one, own[U + PAIR * basis[j] : N])
+        vector = peak[j]
+        _look_at_vector(vector, own[U + PAIR * basis[j] : N])
         for t in range(LANES):
-            own[t + GAP] -= one[t + J0]
+            own[t + GAP] -= vector[t + J0]
         if j < terms:
             for t in range(LANES):
-                own[t + LEFT] -= one[t + S]
+                own[t + LEFT] -= vector[t + S]
     if least_mass:
         for t in range(LANES):
             own[t + R_LEFT] = -own[t + LEFT] * own[t + PRICE]
@@ -91,12 +93,12 @@ def look_at_peaks(least_mass, budgeted, terms, basis, peak, own):  # type: ignor
 
 
 @fused
-def _look_at_vector(one, of_webs):  # type: ignore[no-untyped-def]
+def _look_at_vector(vector, of_webs):  # type: ignore[no-untyped-def]
     for t in range(LANES):
-        s, size, yx, yy, f = one[t + S], one[t + L], one[t + YX], one[t + YY], one[t + F]
-        ax, ay = one[t + CX] + f * of_webs[t], one[t + CY] + f * of_webs[t + LANES]
-        one[t + AX], one[t + AY], one[t + J0] = ax, ay, -(s * size + ax * yx + ay * yy)
-        one[t + JX], one[t + JY] = -(s * yx + size * ax), -(s * yy + size * ay)
+        s, size, yx, yy, f = vector[t + S], vector[t + L], vector[t + YX], vector[t + YY], vector[t + F]
+        ax, ay = vector[t + CX] + f * of_webs[t], vector[t + CY] + f * of_webs[t + LANES]
+        vector[t + AX], vector[t + AY], vector[t + J0] = ax, ay, -(s * size + ax * yx + ay * yy)
+        vector[t + JX], vector[t + JY] = -(s * yx + size * ax), -(s * yy + size * ay)
 
 
 @fused
@@ -153,36 +155,29 @@ def eliminate(least_mass, budgeted, terms, basis, peak, own, matrix):  # type: i
 
 
 @fused
-def _couple(one, size, vector):  # type: ignore[no-untyped-def]
+def _couple(vector, size, pair):  # type: ignore[no-untyped-def]
     for t in range(LANES):
-        o, ox, oy, f, yx, yy = (
-            one[t + size],
-            one[t + vector],
-            one[t + vector + LANES],
-            one[t + F],
-            one[t + YX],
-            one[t + YY],
-        )
-        along = o * one[t + L]
-        one[t + KA], one[t + KB] = f * (along - ox * yx), -f * ox * yy
-        one[t + KC], one[t + KD] = -f * oy * yx, f * (along - oy * yy)
+        ox, oy, f, yx, yy = vector[t + pair], vector[t + pair + LANES], vector[t + F], vector[t + YX], vector[t + YY]
+        along = vector[t + size] * vector[t + L]
+        vector[t + KA], vector[t + KB] = f * (along - ox * yx), -f * ox * yy
+        vector[t + KC], vector[t + KD] = -f * oy * yx, f * (along - oy * yy)
 
 
 @fused
-def _add_webs(one, other, webs, block):  # type: ignore[no-untyped-def]
+def _add_webs(vector, other, webs, block):  # type: ignore[no-untyped-def]
     for t in range(LANES):
         f = other[t + F]
-        ka, kb, kc, kd = f * one[t + KA], f * one[t + KB], f * one[t + KC], f * one[t + KD]
+        ka, kb, kc, kd = f * vector[t + KA], f * vector[t + KB], f * vector[t + KC], f * vector[t + KD]
         a, b, c, d = webs[t], webs[t + LANES], webs[t + 2 * LANES], webs[t + 3 * LANES]
         block[t], block[t + LANES] = ka * a + kb * c, ka * b + kb * d
         block[t + 2 * LANES], block[t + 3 * LANES] = kc * a + kd * c, kc * b + kd * d
 
 
 @fused
-def _add_own(one, size, vector, block):  # type: ignore[no-untyped-def]
+def _add_own(vector, size, pair, block):  # type: ignore[no-untyped-def]
     for t in range(LANES):
-        ox, oy, ax, ay = one[t + vector], one[t + vector + LANES], one[t + AX], one[t + AY]
-        along = one[t + size] * one[t + S]
+        ox, oy, ax, ay = vector[t + pair], vector[t + pair + LANES], vector[t + AX], vector[t + AY]
+        along = vector[t + size] * vector[t + S]
         block[t] += along - ox * ax
         block[t + LANES] -= ox * ay
         block[t + 2 * LANES] -= oy * ax
@@ -190,10 +185,10 @@ def _add_own(one, size, vector, block):  # type: ignore[no-untyped-def]
 
 
 @fused
-def _border(one, price, webs, term, border):  # type: ignore[no-untyped-def]
+def _border(vector, price, webs, term, border):  # type: ignore[no-untyped-def]
     for t in range(LANES):
-        f, size, s, ax, ay = one[t + F], term * one[t + L], term * one[t + S], one[t + AX], one[t + AY]
-        border[t], border[t + LANES] = size * ax - s * one[t + YX], size * ay - s * one[t + YY]
+        f, size, s, ax, ay = vector[t + F], term * vector[t + L], term * vector[t + S], vector[t + AX], vector[t + AY]
+        border[t], border[t + LANES] = size * ax - s * vector[t + YX], size * ay - s * vector[t + YY]
         yx, yy, zx, zy = price[t], price[t + LANES], price[t + 2 * LANES], price[t + 3 * LANES]
         a, b, c, d = webs[t], webs[t + LANES], webs[t + 2 * LANES], webs[t + 3 * LANES]
         e, g, h, i = webs[t + 4 * LANES], webs[t + 5 * LANES], webs[t + 6 * LANES], webs[t + 7 * LANES]
@@ -202,11 +197,11 @@ def _border(one, price, webs, term, border):  # type: ignore[no-untyped-def]
 
 
 @fused
-def _border_of_budget(one, toll, give, price, border):  # type: ignore[no-untyped-def]
+def _border_of_budget(vector, toll, give, price, border):  # type: ignore[no-untyped-def]
     for t in range(LANES):
-        border[t] = one[t + KA] * toll[t] + one[t + KB] * toll[t + LANES]
-        border[t + LANES] = one[t + KC] * toll[t] + one[t + KD] * toll[t + LANES]
-        f = one[t + F] * price[t]
+        border[t] = vector[t + KA] * toll[t] + vector[t + KB] * toll[t + LANES]
+        border[t + LANES] = vector[t + KC] * toll[t] + vector[t + KD] * toll[t + LANES]
+        f = vector[t + F] * price[t]
         border[t + 2 * LANES], border[t + 3 * LANES] = -f * give[t], -f * give[t + LANES]
 
 
@@ -280,13 +275,13 @@ def solve_peaks(least_mass, budgeted, terms, basis, peak, own, matrix, step):  #
     for t in range(LANES):
         price[t] = own[t + R_LEFT]
     for j in range(vectors):
-        one, of = peak[j], G + PAIR * basis[j]
+        vector, of = peak[j], G + PAIR * basis[j]
         if j < terms:
-            _right_side(one, own[of : of + PAIR], step[j], price)
+            _right_side(vector, own[of : of + PAIR], step[j], price)
         else:
             for t in range(LANES):
-                one[DS + t] = -own[t + KEEP] * one[OVER + t]
-            _right_side_below(one, own[of : of + PAIR], step[j])
+                vector[DS + t] = -own[t + KEEP] * vector[OVER + t]
+            _right_side_below(vector, own[of : of + PAIR], step[j])
     if budgeted:
         for t in range(LANES):
             price[t] = own[t + R_LEFT] + own[t + BUDGET] * own[t + OWN_MASS]
@@ -313,21 +308,25 @@ def solve_peaks(least_mass, budgeted, terms, basis, peak, own, matrix, step):  #
 
 
 @fused
-def _right_side(one, webs, right, price):  # type: ignore[no-untyped-def]
+def _right_side(vector, webs, right, price):  # type: ignore[no-untyped-def]
     for t in range(LANES):
-        r0, size, gx, gy = one[t + J0], one[t + L], webs[t], webs[t + LANES]
-        right[t] = size * one[t + JX] - one[t + YX] * r0 - one[t + KA] * gx - one[t + KB] * gy
-        right[t + LANES] = size * one[t + JY] - one[t + YY] * r0 - one[t + KC] * gx - one[t + KD] * gy
-        price[t] += r0 - one[t + F] * (one[t + YX] * gx + one[t + YY] * gy)
+        r0, size, gx, gy = vector[t + J0], vector[t + L], webs[t], webs[t + LANES]
+        right[t] = size * vector[t + JX] - vector[t + YX] * r0 - vector[t + KA] * gx - vector[t + KB] * gy
+        right[t + LANES] = size * vector[t + JY] - vector[t + YY] * r0 - vector[t + KC] * gx - vector[t + KD] * gy
+        price[t] += r0 - vector[t + F] * (vector[t + YX] * gx + vector[t + YY] * gy)
 
 
 @fused
-def _right_side_below(one, webs, right):  # type: ignore[no-untyped-def]
+def _right_side_below(vector, webs, right):  # type: ignore[no-untyped-def]
     for t in range(LANES):
-        ds, s, gx, gy = one[t + DS], one[t + S], webs[t], webs[t + LANES]
-        r0, rx, ry = one[t + J0] - one[t + L] * ds, one[t + JX] - one[t + YX] * ds, one[t + JY] - one[t + YY] * ds
-        right[t] = s * rx - one[t + AX] * r0 - one[t + KA] * gx - one[t + KB] * gy
-        right[t + LANES] = s * ry - one[t + AY] * r0 - one[t + KC] * gx - one[t + KD] * gy
+        ds, s, gx, gy = vector[t + DS], vector[t + S], webs[t], webs[t + LANES]
+        r0, rx, ry = (
+            vector[t + J0] - vector[t + L] * ds,
+            vector[t + JX] - vector[t + YX] * ds,
+            vector[t + JY] - vector[t + YY] * ds,
+        )
+        right[t] = s * rx - vector[t + AX] * r0 - vector[t + KA] * gx - vector[t + KB] * gy
+        right[t + LANES] = s * ry - vector[t + AY] * r0 - vector[t + KC] * gx - vector[t + KD] * gy
 
 
 @fused
@@ -346,55 +345,76 @@ def _turn(m, vector):  # type: ignore[no-untyped-def]
 
 
 @fused
-def _keep_step(step, one, total):  # type: ignore[no-untyped-def]
+def _keep_step(step, vector, total):  # type: ignore[no-untyped-def]
     for t in range(LANES):
-        f, x, y = one[t + F], step[t], step[t + LANES]
-        one[t + DYX], one[t + DYY] = x, y
+        f, x, y = vector[t + F], step[t], step[t + LANES]
+        vector[t + DYX], vector[t + DYY] = x, y
         total[t] += f * x
         total[t + LANES] += f * y
 
 
 @fused_inlined
-def _slower(one, own, t):  # type: ignore[no-untyped-def]
+def _slower(vector, own, t):  # type: ignore[no-untyped-def]
     """No longer steps than those to the boundary of a cone."""
-    c, d = determinant(one[t + S], one[t + AX], one[t + AY]), determinant(one[t + L], one[t + YX], one[t + YY])
+    c, d = (
+        determinant(vector[t + S], vector[t + AX], vector[t + AY]),
+        determinant(vector[t + L], vector[t + YX], vector[t + YY]),
+    )
     per = 1.0 / (c * d)
-    primal = d * per * crossing(c, one[t + S], one[t + AX], one[t + AY], one[t + DS], one[t + DAX], one[t + DAY])
-    dual = c * per * crossing(d, one[t + L], one[t + YX], one[t + YY], one[t + DL], one[t + DYX], one[t + DYY])
+    primal = (
+        d
+        * per
+        * crossing(c, vector[t + S], vector[t + AX], vector[t + AY], vector[t + DS], vector[t + DAX], vector[t + DAY])
+    )
+    dual = (
+        c
+        * per
+        * crossing(d, vector[t + L], vector[t + YX], vector[t + YY], vector[t + DL], vector[t + DYX], vector[t + DYY])
+    )
     own[t + PRIMAL] = primal if primal > own[t + PRIMAL] else own[t + PRIMAL]
     own[t + DUAL] = dual if dual > own[t + DUAL] else own[t + DUAL]
 
 
 @fused
-def _step_term(one, webs, own):  # type: ignore[no-untyped-def]
+def _step_term(vector, webs, own):  # type: ignore[no-untyped-def]
     for t in range(LANES):
-        dax, day = one[t + F] * webs[t], one[t + F] * webs[t + LANES]
-        along = one[t + AX] * one[t + DYX] + one[t + AY] * one[t + DYY] + one[t + YX] * dax + one[t + YY] * day
-        ds = (one[t + J0] - along - one[t + S] * own[t + D_PRICE]) / one[t + L]
-        one[t + DS], one[t + DL], one[t + DAX], one[t + DAY] = ds, own[t + D_PRICE], dax, day
+        dax, day = vector[t + F] * webs[t], vector[t + F] * webs[t + LANES]
+        along = (
+            vector[t + AX] * vector[t + DYX]
+            + vector[t + AY] * vector[t + DYY]
+            + vector[t + YX] * dax
+            + vector[t + YY] * day
+        )
+        ds = (vector[t + J0] - along - vector[t + S] * own[t + D_PRICE]) / vector[t + L]
+        vector[t + DS], vector[t + DL], vector[t + DAX], vector[t + DAY] = ds, own[t + D_PRICE], dax, day
         own[t + RISE] += ds
-        _slower(one, own, t)
+        _slower(vector, own, t)
 
 
 @fused
-def _step_ceiling(one, webs, own):  # type: ignore[no-untyped-def]
+def _step_ceiling(vector, webs, own):  # type: ignore[no-untyped-def]
     for t in range(LANES):
-        dax, day = one[t + F] * webs[t], one[t + F] * webs[t + LANES]
-        along = one[t + AX] * one[t + DYX] + one[t + AY] * one[t + DYY] + one[t + YX] * dax + one[t + YY] * day
-        one[t + DL] = (one[t + J0] - along - one[t + L] * one[t + DS]) / one[t + S]
-        one[t + DAX], one[t + DAY] = dax, day
-        _slower(one, own, t)
+        dax, day = vector[t + F] * webs[t], vector[t + F] * webs[t + LANES]
+        along = (
+            vector[t + AX] * vector[t + DYX]
+            + vector[t + AY] * vector[t + DYY]
+            + vector[t + YX] * dax
+            + vector[t + YY] * day
+        )
+        vector[t + DL] = (vector[t + J0] - along - vector[t + L] * vector[t + DS]) / vector[t + S]
+        vector[t + DAX], vector[t + DAY] = dax, day
+        _slower(vector, own, t)
 
 
 @fused
 def step_peaks(least_mass, budgeted, terms, basis, peak, own):  # type: ignore[no-untyped-def]
     """The step of the peaks, from that of the webs, and how long it may be for slacks and multipliers together."""
     for j in range(basis.size):
-        one, of = peak[j], DU + PAIR * basis[j]
+        vector, of = peak[j], DU + PAIR * basis[j]
         if j < terms:
-            _step_term(one, own[of : of + PAIR], own)
+            _step_term(vector, own[of : of + PAIR], own)
         else:
-            _step_ceiling(one, own[of : of + PAIR], own)
+            _step_ceiling(vector, own[of : of + PAIR], own)
     for t in range(LANES):
         primal, dual = own[t + PRIMAL], own[t + DUAL]
         if least_mass:
@@ -410,13 +430,13 @@ def step_peaks(least_mass, budgeted, terms, basis, peak, own):  # type: ignore[n
 def correct_peaks(least_mass, budgeted, peak, own):  # type: ignore[no-untyped-def]
     """Right sides of a step to products ``AIM`` that allows for what the products miss in the direction found last."""
     for j in range(peak.shape[0]):
-        one = peak[j]
+        vector = peak[j]
         for t in range(LANES):
-            both, dl, dyx, dyy = own[t + BOTH], one[t + DL], one[t + DYX], one[t + DYY]
-            ds, dax, day = both * one[t + DS], both * one[t + DAX], both * one[t + DAY]
-            one[t + J0] += own[t + AIM] - ds * dl - dax * dyx - day * dyy
-            one[t + JX] -= ds * dyx + dl * dax
-            one[t + JY] -= ds * dyy + dl * day
+            both, dl, dyx, dyy = own[t + BOTH], vector[t + DL], vector[t + DYX], vector[t + DYY]
+            ds, dax, day = both * vector[t + DS], both * vector[t + DAX], both * vector[t + DAY]
+            vector[t + J0] += own[t + AIM] - ds * dl - dax * dyx - day * dyy
+            vector[t + JX] -= ds * dyx + dl * dax
+            vector[t + JY] -= ds * dyy + dl * day
     if least_mass:
         for t in range(LANES):
             own[t + R_LEFT] += own[t + AIM] + own[t + BOTH] * own[t + RISE] * own[t + D_PRICE]
@@ -429,17 +449,17 @@ def correct_peaks(least_mass, budgeted, peak, own):  # type: ignore[no-untyped-d
 def move_peaks(terms, peak, own):  # type: ignore[no-untyped-def]
     """Slacks by ``PRIMAL``, multipliers by ``DUAL``."""
     for j in range(peak.shape[0]):
-        one = peak[j]
+        vector = peak[j]
         for t in range(LANES):
             primal, dual = own[t + PRIMAL], own[t + DUAL]
-            one[t + S] += primal * one[t + DS]
-            one[t + L] += dual * one[t + DL]
-            one[t + YX] += dual * one[t + DYX]
-            one[t + YY] += dual * one[t + DYY]
+            vector[t + S] += primal * vector[t + DS]
+            vector[t + L] += dual * vector[t + DL]
+            vector[t + YX] += dual * vector[t + DYX]
+            vector[t + YY] += dual * vector[t + DYY]
         if j >= terms:
             # a full step takes all of it away, to the last bit
             for t in range(LANES):
-                one[t + OVER] *= 1.0 - own[t + PRIMAL] * own[t + KEEP]
+                vector[t + OVER] *= 1.0 - own[t + PRIMAL] * own[t + KEEP]
     for t in range(LANES):
         own[t + PRICE] += own[t + DUAL] * own[t + D_PRICE]
         own[t + BUDGET] += own[t + DUAL] * own[t + D_BUDGET]

@@ -96,7 +96,7 @@ def both_stages(
         finer = _Tolerances(1e-7, finest, 100 * finest, precision.mass, 0.1 * CEILING_ROUNDING)
         solved = _solve(statement, share, least_mass, finer, _in(precision), at_least)
         return _judged(statement, share, demand, least_mass, solved)
-    (discs,), level = suits_discs(statement).nonzero(), at_least + np.zeros(share.shape)
+    (discs,), level = suits_discs(statement, least_mass).nonzero(), at_least + np.zeros(share.shape)
     if not discs.size:
         return _in_any_limits(statement, share, demand, least_mass, level)
     part, wanted = statement.chosen(discs) if discs.size < share.size else statement, (share[discs], demand[discs])
@@ -131,7 +131,7 @@ def ends(statement: Statement, share: Real, least_mass: bool) -> tuple[Complex, 
 
 
 def _guess(statement: Statement, share: Real, least_mass: bool) -> "_Solved":
-    if not suits_discs(statement).all():
+    if not suits_discs(statement, least_mass).all():
         return _solve(statement, share, least_mass, _DOUBLE)
     found = _solve(statement, share, least_mass, _DOUBLE, _in_discs)
     # prices are above 0 where a stage has ended

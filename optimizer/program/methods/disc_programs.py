@@ -18,10 +18,11 @@ _THINNEST = 1e-3
 _SAME = 1e-14
 
 
-def suits_discs(statement: Statement) -> np.ndarray:
+def suits_discs(statement: Statement, least_mass: bool = True) -> np.ndarray:
     """Whether the interior point for discs takes each of N programs (N,) bool.
 
     They have one row, of vectors that are multiples of two, as force and moment are, and what is below ceilings too.
+    Without the least mass any optimum is one: that of the method for any limits is lighter where there are limits.
     """
     norms, ceilings, limits = statement.norms, statement.ceilings.norms, statement.limits
     terms, webs = norms.constant.shape[-1], limits.radius.shape[-1]
@@ -32,6 +33,9 @@ def suits_discs(statement: Statement) -> np.ndarray:
     basis = _basis(statement)
     if basis is None or limits.alike is not None:
         return np.zeros(statement.floor.shape[:-1], bool)
+    if not least_mass:
+        plain_webs = np.logical_and.reduce(limits.free, axis=-1) & ~limits.budget_ends
+        return plain_webs & bool(terms < 3 and not statement.ceilings.names)
     wide = np.logical_and.reduce(limits.free | (limits.half_angle_sin >= _THINNEST), axis=-1)
     return np.asarray(wide if vectors < 3 else wide & _multiples(np.real(statement.every_influence), basis)[2])
 

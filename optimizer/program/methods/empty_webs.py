@@ -26,16 +26,21 @@ _ROUNDS = 4
 
 
 class Optimum(NamedTuple):
-    """What a point (1, K) has to keep to be an optimum by the proof of its program."""
+    """What points (N, K) have to keep to be optima by the proofs of their programs."""
 
-    objective: Real  # (1,)
-    mass: Real  # (1,) kg, inf where the mass does not count
-    excess: Real  # (1,) relative excess over the ceilings
-    mass_bound: Real | None  # (1,) kg
+    objective: Real  # (N,)
+    mass: Real  # (N,) kg, inf where the mass does not count
+    excess: Real  # (N,) relative excess over the ceilings
+    mass_bound: Real | None  # (N,) kg
 
-    def admits(self, points: Points) -> bool:
+    def admits(self, points: Points) -> np.ndarray:
+        """Whether each point is one (N,) bool."""
         close = points.objective <= self.objective + points.rounding
-        return bool(np.all(close & (points.mass <= self.mass) & (points.excess <= self.excess)))
+        return np.asarray(close & (points.mass <= self.mass) & (points.excess <= self.excess))
+
+    def chosen(self, programs: np.ndarray) -> "Optimum":
+        bound = None if self.mass_bound is None else self.mass_bound[programs]
+        return Optimum(self.objective[programs], self.mass[programs], self.excess[programs], bound)
 
 
 def leave_empty(statement: Statement, solutions: Solutions, share: Real, least_mass: bool) -> None:
@@ -48,53 +53,82 @@ def leave_empty(statement: Statement, solutions: Solutions, share: Real, least_m
     """
     if statement.limits.radius.shape[-1] < 2:
         return
-    for n in has_dust(statement.limits, solutions.unbalance).nonzero()[0].tolist():
-        some = slice(n, n + 1)
-        program = statement.chosen(np.array([n]))
-        old = points_at(program, solutions.unbalance[some])
-        close = solutions.lower_bound[some] + TARGET * share[some] - old.rounding
+    programs = np.flatnonzero(has_dust(statement.limits, solutions.unbalance))
+    if not programs.size:
+        return
+    some, part = statement.chosen(programs), share[programs]
+    old = points_at(some, solutions.unbalance[programs])
+    close = solutions.lower_bound[programs] + TARGET * part - old.rounding
+    bound = solutions.mass_lower_bound[programs]
+    optimum = Optimum(
         # no further than what is proven of the mass holds, which is no limit where that does not count
-        largest = np.maximum(np.minimum(close, solutions.mass_target[some]), old.objective)
-        optimum = Optimum(
-            largest,
-            np.maximum(old.mass, solutions.mass_lower_bound[some] / (1.0 - _HEAVIER))
-            if least_mass
-            else np.array([np.inf]),
-            np.maximum(old.excess, CEILING_ROUNDING),
-            solutions.mass_lower_bound[some] if least_mass else None,
-        )
-        new = _emptied(program, old, optimum, share[some], least_mass)
-        solutions.unbalance[n], solutions.objective[n] = new.unbalance[0], new.objective[0]
-        solutions.mass[n], solutions.excess[n] = new.mass[0], new.excess[0]
+        np.maximum(np.minimum(close, solutions.mass_target[programs]), old.objective),
+        np.maximum(old.mass, bound / (1.0 - _HEAVIER)) if least_mass else np.full(programs.size, np.inf),
+        np.maximum(old.excess, CEILING_ROUNDING),
+        bound if least_mass else None,
+    )
+    # most have dust on the same webs, all of which can be empty: so first all at once, together
+    empty = _dusty(some, old.unbalance)
+    patterns, which = np.unique(empty, axis=0, return_inverse=True)
+    for number, pattern in enumerate(patterns):
+        if not pattern.any():
+            # of alike webs some, but not all
+            continue
+        (own,) = (which.reshape(-1) == number).nonzero()
+        kept, wanted = some.chosen(own), optimum.chosen(own)
+        new, found = _without(kept, pattern, wanted, part[own], least_mass)
+        for k, n in enumerate(own.tolist()):
+            one = np.array([k])
+            best = _emptied(
+                kept.chosen(one), old.chosen(np.array([n])), new.chosen(one) if found[k] else None, pattern,
+                wanted.chosen(one), part[own[one]], least_mass,
+            )  # fmt: skip
+            at = programs[n]
+            solutions.unbalance[at], solutions.objective[at] = best.unbalance[0], best.objective[0]
+            solutions.mass[at], solutions.excess[at] = best.mass[0], best.excess[0]
 
 
-def _emptied(program: Statement, old: Points, optimum: Optimum, share: Real, least_mass: bool) -> Points:
-    """The same with as many webs empty as an optimum can be found without, all at once or one by one."""
-    best, empty = old, np.zeros(old.unbalance.shape[-1], bool)
-    for _ in range(_ROUNDS):
-        nothing = _dusty(program, best.unbalance)
+def _emptied(
+    program: Statement,
+    old: Points,
+    new: Points | None,
+    pattern: np.ndarray,
+    optimum: Optimum,
+    share: Real,
+    least_mass: bool,
+) -> Points:
+    """One point with as many webs empty as an optimum can be found without, all at once or one by one.
+
+    Parameters
+    ----------
+    new : the same without those of a pattern (K,), the dust; None where it is no optimum.
+    """
+    best, empty = old, np.zeros(pattern.size, bool)
+    for number in range(_ROUNDS):
+        nothing = pattern if number == 0 else _dusty(program, best.unbalance)[0]
         if not nothing.any():
             return best
-        found = _without(program, empty | nothing, optimum, share, least_mass)
-        if found is None:
+        if number:
+            point, found = _without(program, empty | nothing, optimum, share, least_mass)
+            new = point if found[0] else None
+        if new is None:
             break
-        best, empty = found, empty | nothing
+        best, empty = new, empty | nothing
     mass = np.abs(best.unbalance[0]) / program.limits.radius[0]
     for web in np.argsort(mass):
-        nothing = _dusty(program, best.unbalance)
+        nothing = _dusty(program, best.unbalance)[0]
         if nothing[web]:
             alone = nothing & _unit(program, int(web))
-            found = _without(program, empty | alone, optimum, share, least_mass)
-            if found is not None:
-                best, empty = found, empty | alone
+            point, found = _without(program, empty | alone, optimum, share, least_mass)
+            if found[0]:
+                best, empty = point, empty | alone
     return best
 
 
-def _dusty(program: Statement, u: Complex) -> np.ndarray:
-    """Webs (K,) that carry next to nothing, of alike ones all or none."""
-    nothing: np.ndarray = dust(np.abs(u) / program.limits.radius)[0]
-    alike = program.limits.alike
-    return nothing if alike is None else (alike.summed(1.0 * nothing) == alike.count)[alike.owner]
+def _dusty(programs: Statement, u: Complex) -> np.ndarray:
+    """Webs of N points that carry next to nothing (N, K) bool, of alike ones all or none."""
+    nothing, alike = dust(np.abs(u) / programs.limits.radius), programs.limits.alike
+    return nothing if alike is None else (alike.summed(1.0 * nothing) == alike.count)[..., alike.owner]
 
 
 def _unit(program: Statement, web: int) -> np.ndarray:
@@ -104,22 +138,28 @@ def _unit(program: Statement, web: int) -> np.ndarray:
     return np.asarray(owner == owner[web])
 
 
-def _without(program: Statement, empty: np.ndarray, optimum: Optimum, share: Real, least_mass: bool) -> Points | None:
-    """An optimum that needs none of these webs (K,) bool, None where none is found."""
-    part, left = program.only(~empty), _WITH_ROOM * share
+def _without(
+    programs: Statement, empty: np.ndarray, optimum: Optimum, share: Real, least_mass: bool
+) -> tuple[Points, np.ndarray]:
+    """Points of N programs without some webs (K,) bool, and whether they are optima (N,) bool."""
+    part, left = programs.only(~empty), _WITH_ROOM * share
+    best, found = points_at(programs, np.zeros((share.size, empty.size), complex)), np.zeros(share.size, bool)
     if not suits_kernel(part):
-        return None
+        return best, found
+    tried = np.arange(share.size)
     for _ in range(2):
-        smallest, lightest = (points_at(part, end) for end in ends(part, left, least_mass))
-        room = _WITH_ROOM * (optimum.objective - smallest.objective)
-        point = settled(part, lightest if least_mass else smallest, optimum.objective, optimum.mass_bound)
-        u = np.zeros(empty.shape, complex)
-        u[~empty] = point.unbalance[0]
-        found = points_at(program, u[None])
-        if optimum.admits(found):
-            return found
+        some, wanted = part.chosen(tried), optimum.chosen(tried)
+        smallest, lightest = (points_at(some, end) for end in ends(some, left, least_mass))
+        room = _WITH_ROOM * (wanted.objective - smallest.objective)
+        point = settled(some, lightest if least_mass else smallest, wanted.objective, wanted.mass_bound)
+        u = np.zeros((tried.size, empty.size), complex)
+        u[:, ~empty] = point.unbalance
+        new = points_at(programs.chosen(tried), u)
+        admitted = wanted.admits(new)
+        best, found[tried] = best.put(tried, new), admitted
         # the smallest objective without these webs is larger, and what is left for the mass is less
-        if not (least_mass and room > 0.0):
-            return None
-        left = room
-    return None
+        again = ~admitted & (room > 0.0) & least_mass
+        tried, left = tried[again], room[again]
+        if not tried.size:
+            break
+    return best, found
