@@ -30,6 +30,8 @@ from tests.mould import PR_SET_PDEATHSIG, prctl
 _FORK = multiprocessing.get_context("fork")
 #: what only the process does that prints and counts
 _OF_THE_FIRST = ("terminalreporter", "lfplugin", "nfplugin", "stepwiseplugin")
+#: between two looks at processes that say nothing [s]
+_LOOK_S = 1.0
 #: at the end of a run that is broken off, for a process to end [s]
 _END_S = 10.0
 
@@ -113,8 +115,11 @@ class Run:
             for worker in self._workers.values():
                 self._send(worker)
             while self._workers:
-                for ready in wait([*self._workers]):
-                    self._hear(self._workers[ready])  # type: ignore[index]
+                ready = wait([*self._workers], _LOOK_S)
+                for connection in ready:
+                    self._hear(self._workers[connection])  # type: ignore[index]
+                if not ready:
+                    self._look()
         finally:
             self._end()
 
@@ -153,6 +158,12 @@ class Run:
         made = [self._config.hook.pytest_report_from_serializable(config=self._config, data=data) for data in reports]
         self._report(worker.sent.popleft(), made)
         self._send(worker)
+
+    def _look(self) -> None:
+        """After processes that have ended, and whose connection is held open by what their tests have started."""
+        for worker in [*self._workers.values()]:
+            if not worker.process.is_alive() and not worker.connection.poll():
+                self._bury(worker)
 
     def _bury(self, worker: Worker) -> None:
         """Of a process that has ended; where it had a test, that has failed, and another process has the rest."""

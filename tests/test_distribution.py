@@ -54,5 +54,10 @@ def test_what_is_named_is_there(name: str) -> None:
     assert (TESTS / name).exists()
 
 
+def test_whether_any_waits_is_known_before() -> None:
+    assert Distribution([*names("program/test_cone.py", 2), *names("jobs/test_store.py", 1)]).waits
+    assert not Distribution(names("program/test_cone.py", 2)).waits
+
+
 def test_both_kinds_are_there() -> None:
     assert {waits(name) for name in LONG} == {True, False}

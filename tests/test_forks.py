@@ -2,8 +2,10 @@
 
 import os
 import re
+import signal
 import subprocess
 import sys
+import tempfile
 import time
 import xml.etree.ElementTree as ET
 from pathlib import Path
@@ -47,7 +49,7 @@ def test_warning(place):
     warnings.warn("beware of this", UserWarning)
 """,
     "test_second.py": """
-import os, signal
+import os, signal, time
 
 def test_before(place):
     pass
@@ -59,13 +61,22 @@ def test_after(place):
     pass
 
 def test_left(place):
+    # what it has forked has its connection, and stays
+    if (pid := os.fork()) == 0:
+        time.sleep(600)
+    with open(__file__ + ".left", "w") as left:
+        left.write(str(pid))
     os._exit(7)
 """,
 }
 
 
 def pytest_run(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(command(folder, *arguments), cwd=TESTS.parent, capture_output=True, text=True, timeout=300)
+    # no pipes, as processes that are left would hold them open
+    with tempfile.TemporaryFile("w+") as out:
+        ended = subprocess.run(command(folder, *arguments), cwd=TESTS.parent, stdout=out, stderr=out, timeout=300)
+        out.seek(0)
+        return subprocess.CompletedProcess(ended.args, ended.returncode, out.read())
 
 
 def command(folder: Path, *arguments: str) -> list[str]:
@@ -88,7 +99,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def result(folder: Path) -> subprocess.CompletedProcess[str]:
     """Of a run of seven tests in one file, one of which fails, and of four in another, two of which end processes."""
-    return pytest_run(folder, "-n", "2", "-v", "--durations=0", "-vv", f"--junitxml={folder / 'report.xml'}")
+    found = pytest_run(folder, "-n", "2", "-v", "--durations=0", "-vv", f"--junitxml={folder / 'report.xml'}")
+    os.kill(int((folder / "test_second.py.left").read_text()), signal.SIGKILL)
+    return found
 
 
 def test_all_is_reported_once(result: subprocess.CompletedProcess[str]) -> None:
@@ -149,7 +162,7 @@ def test_an_error_of_the_run_itself_is_told(tmp_path: Path) -> None:
     folder = written(tmp_path / "tests", {"conftest.py": hook, "test_a.py": "def test_a(): pass"})
     result = pytest_run(folder, "-n", "1")
     assert result.returncode != pytest.ExitCode.OK
-    assert "RuntimeError: no such plugin" in result.stdout + result.stderr
+    assert "RuntimeError: no such plugin" in result.stdout
 
 
 def test_a_process_with_threads_is_not_forked(tmp_path: Path) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import NamedTuple
 
-from tests.mutation.mutants import Mutant, statement
+from tests.mutation.mutants import Mutant, statement, statements
 
 #: tests that are chosen at most
 _CHOSEN = 400
@@ -44,7 +44,8 @@ def places(mutant: Mutant, file: Path, texts: Mapping[Path, str]) -> Lines:
     used: dict[str, frozenset[int]] = {}
     for path, text in texts.items():
         tree = ast.parse(text)
-        lines = [statement(tree, one.lineno)[0] for one in ast.walk(tree) if _name(one) in names]
+        every = statements(tree)
+        lines = [statement(every, one.lineno)[0] for one in ast.walk(tree) if _name(one) in names]
         used[str(path)] = frozenset().union(*lines)
     return {name: lines for name, lines in used.items() if lines} or {str(file): frozenset()}
 

@@ -68,10 +68,10 @@ def count(source: str) -> int:
 def names(source: str) -> set[str]:
     """What the mutants of a file are told by: of what they are, and ``of: fault``."""
     tree = ast.parse(source)
-    every = list(_faults(tree))
+    every, every_statement = list(_faults(tree)), statements(tree)
     found = set()
     for fault in every:
-        _, of = statement(tree, getattr(fault.node, "lineno", 0))
+        _, of = statement(every_statement, getattr(fault.node, "lineno", 0))
         old = getattr(fault.node, fault.field)
         found |= {of, f"{of}: {fault()}"}
         setattr(fault.node, fault.field, old)
@@ -83,16 +83,18 @@ def mutant(source: str, number: int) -> Mutant:
     tree = ast.parse(source)
     fault = next(islice(_faults(tree), number, None))
     line = getattr(fault.node, "lineno", 0)
-    lines, of = statement(tree, line)
+    lines, of = statement(statements(tree), line)
     return Mutant(line, fault(), ast.unparse(ast.fix_missing_locations(tree)), lines, of)
 
 
-def statement(tree: ast.Module, line: int) -> tuple[frozenset[int], str]:
+def statements(tree: ast.Module) -> list[ast.stmt]:
+    """All of a file, by where they begin."""
+    return sorted((one for one in ast.walk(tree) if isinstance(one, ast.stmt)), key=lambda one: one.lineno)
+
+
+def statement(every: list[ast.stmt], line: int) -> tuple[frozenset[int], str]:
     """Lines of the innermost statement around a line, of one with a body its head; and what it belongs to."""
-    around = sorted(
-        (one for one in ast.walk(tree) if isinstance(one, ast.stmt) and one.lineno <= line <= (one.end_lineno or 0)),
-        key=lambda one: one.lineno,
-    )
+    around = [one for one in every if one.lineno <= line <= (one.end_lineno or 0)]
     functions = [one.name for one in around if isinstance(one, ast.FunctionDef | ast.AsyncFunctionDef)]
     inner = around[-1]
     if not functions:
