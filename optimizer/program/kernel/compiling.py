@@ -1,5 +1,5 @@
 """How the kernels are compiled, as all inner loops are: :mod:`optimizer.numerics.compiling`."""
 
-from optimizer.numerics.compiling import in_place, inlined, inner, inner_with_arrays, kernel
+from optimizer.numerics.compiling import folded, in_place, inlined, inner, inner_with_arrays, kernel
 
-__all__ = ["in_place", "inlined", "inner", "inner_with_arrays", "kernel"]
+__all__ = ["folded", "in_place", "inlined", "inner", "inner_with_arrays", "kernel"]
