@@ -45,6 +45,8 @@ kernel = _cached()
 in_place = _cached(_nrt=False)
 #: what only kernels call, which makes no arrays and hands out none
 inner = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True, _nrt=False)
+#: what takes programs of many arrays: to hand them on takes longer than what is done with them
+folded = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True, _nrt=False, forceinline=True)
 #: what only kernels call, which makes arrays or hands them out
 inner_with_arrays = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)
 #: for what stands in the innermost loops

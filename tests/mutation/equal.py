@@ -68,7 +68,7 @@ _PROGRAM: dict[str, str] = {
     "methods/polish.py lightened: _ROOM_FOR_MASS * before.mass < worth_less * np.minimum(limits.max_mass,"
     " limits.max_total_mass) -> _ROOM_FOR_MASS * before.mass <= worth_less * np.minimum(limits.max_mass,"
     " limits.max_total_mass)": _STEERS,
-    "methods/rounding.py _RUNGS": _STEERS,
+    "methods/rounding.py RUNGS": _STEERS,
     "cuts/proof.py _MEAN: 64 * np.finfo(float).eps -> 65 * np.finfo(float).eps": _FINER,
     "reference/modelling.py _vector_duals: np.zeros(0, complex) -> np.zeros(1, complex)": "it is multiplied with the"
     " influences of none",

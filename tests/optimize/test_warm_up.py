@@ -8,11 +8,22 @@ from pathlib import Path
 import pytest
 
 from optimizer.choices.discrete.kernel import near_sums
-from optimizer.compile_kernels import any_limits, budgets, moving_curves
+from optimizer.compile_kernels import any_limits, budgets, moving_curves, proofs
 from optimizer.compile_kernels import near_sums as sums
 from optimizer.mechanics.kernel import crossings, curves, rows, search
 from optimizer.numerics.kernel import circle, knapsack, meeting
-from optimizer.program.kernel import bounds, cancelling, discs, interior_point, outlines, settling, symmetries, values
+from optimizer.program.kernel import (
+    bounds,
+    cancelling,
+    discs,
+    interior_point,
+    judging,
+    outlines,
+    regions,
+    settling,
+    symmetries,
+    values,
+)
 from optimizer.responses.kernel import motion
 from optimizer.responses.kernel import outlines as of_curves
 from optimizer.studies.matching.kernel import halves
@@ -45,6 +56,7 @@ def test_what_is_compiled_is_what_answers_need() -> None:
     follow_a_turn()
     moving_curves()
     plain_discs()
+    proofs()
     match_parts()
     sums()
     warm_up()
@@ -52,9 +64,11 @@ def test_what_is_compiled_is_what_answers_need() -> None:
     entries = {
         interior_point: ("run", "_aim"),
         discs: ("solve",),
-        bounds: ("bounds",),
+        bounds: ("bounds", "minorants"),
+        judging: ("judge",),
+        regions: ("bring",),
         values: ("values",),
-        settling: ("bring", "settle"),
+        settling: ("rebalance", "settle"),
         symmetries: ("means",),
         outlines: ("worst_scaled", "worst_turned"),
         cancelling: ("least_changes",),

@@ -6,7 +6,7 @@ Programs are :class:`optimizer.program.compiled_evaluation.Programs`, whose work
 import numpy as np
 
 from optimizer.numerics.kernel.knapsack import fill
-from optimizer.program.kernel.compiling import in_place, inner
+from optimizer.program.kernel.compiling import folded, in_place
 from optimizer.program.kernel.finer_sums import add_product
 from optimizer.program.kernel.regions import nearest, support
 
@@ -20,7 +20,7 @@ _DATA = 6
 _DEAR = 1e-10
 
 
-@inner
+@folded
 def admissible_rows(row, programs, n, lam):  # type: ignore[no-untyped-def]
     """Multipliers of rows (R,), no less than 0 and of one sum in every group, and that sum, the price.
 
@@ -50,7 +50,7 @@ def admissible_rows(row, programs, n, lam):  # type: ignore[no-untyped-def]
     return price
 
 
-@inner
+@folded
 def minorant(term, row, ceiling, programs, n, cap, normal):  # type: ignore[no-untyped-def]
     """The affine minorant of the Lagrangian of program n.
 
@@ -137,7 +137,7 @@ def minorant(term, row, ceiling, programs, n, cap, normal):  # type: ignore[no-u
     return price, finite, fixed, size, dear
 
 
-@inner
+@folded
 def _spread(programs, n, factor):  # type: ignore[no-untyped-def]
     """What a bound rises by, or less, for a kilogram metre on each web because counterweights scatter."""
     _, terms, webs = programs.influence.shape
@@ -159,7 +159,7 @@ def _spread(programs, n, factor):  # type: ignore[no-untyped-def]
         spread[k] *= 1.0 - _EPS * (_PER_PRODUCT + terms)
 
 
-@inner
+@folded
 def support_of(programs, n, k, dear):  # type: ignore[no-untyped-def]
     """What a kilogram metre on web k can lower the minorant by, or more; below 0 it only raises it."""
     slope = programs.vectors[2 if programs.region.leader.size else 1][k]
@@ -170,14 +170,14 @@ def support_of(programs, n, k, dear):  # type: ignore[no-untyped-def]
     return reach + programs.numbers[2, k] - programs.numbers[3, k]
 
 
-@inner
+@folded
 def rounding_of(size, programs):  # type: ignore[no-untyped-def]
     """Rounding of a sum over terms, rows and ceilings whose magnitudes sum to ``size``."""
     terms, own = programs.influence.shape[1], programs.owner.size
     return _EPS * (_PER_PRODUCT + own + 2 * (terms - own) + programs.floor.shape[1]) * size
 
 
-@inner
+@folded
 def bound(mass_cost, target, term, row, ceiling, programs, n, cap):  # type: ignore[no-untyped-def]
     """The bound of one proof of program n, parameters as of :func:`bounds`."""
     region, webs = programs.region, programs.influence.shape[2]

@@ -4,12 +4,12 @@
 import numpy as np
 
 from optimizer.program.kernel.bounds import bound
-from optimizer.program.kernel.compiling import in_place, inner
+from optimizer.program.kernel.compiling import folded, in_place
 from optimizer.program.kernel.settling import copy, settle_one
 from optimizer.program.kernel.values import value
 
 
-@inner
+@folded
 def largest_rows(programs, n, sizes, at_rest, row):  # type: ignore[no-untyped-def]
     """1 at the first of the largest rows of each group (R,), 0 elsewhere.
 
@@ -32,51 +32,60 @@ def largest_rows(programs, n, sizes, at_rest, row):  # type: ignore[no-untyped-d
             row[highest] = 1.0
 
 
-@inner
-def resting(programs, n, sizes, at_rest, term, row, ceiling):  # type: ignore[no-untyped-def]
-    """Multipliers that need no solver: they prove the floor, or rest where rest is optimal.
+@folded
+def candidate(which, programs, n, sizes, solver, term, row, ceiling):  # type: ignore[no-untyped-def]
+    """Multipliers, in place: the solver's, those that prove the floor, and those that prove that rest is optimal.
 
-    As :func:`optimizer.program.multipliers.resting_multipliers`, in place; sizes as of :func:`largest_rows`.
+    As :func:`optimizer.program.multipliers.resting_multipliers`; the last two need no solver.
+
+    Parameters
+    ----------
+    which : 0, 1 or 2.
+    sizes : (J,) of the constants of the terms.
+    solver : three arrays as the ones that are written to, (J,), (R,) and (I,).
     """
-    largest_rows(programs, n, sizes, at_rest, row)
+    if which == 0:
+        copy(solver[0], term)
+        copy(solver[1], row)
+        copy(solver[2], ceiling)
+        return
+    largest_rows(programs, n, sizes, which == 2, row)
     for j in range(term.size):
-        scale = row[programs.owner[j]] / (sizes[j] if sizes[j] > 0.0 else 1.0) if at_rest else 0.0
+        scale = row[programs.owner[j]] / (sizes[j] if sizes[j] > 0.0 else 1.0) if which == 2 else 0.0
         term[j] = complex(programs.constant[n, j].real * scale, programs.constant[n, j].imag * scale)
     for i in range(ceiling.size):
         ceiling[i] = 0.0
 
 
-@inner
+@folded
 def proof_of(programs, n, sizes, solver, term, row, ceiling):  # type: ignore[no-untyped-def]
     """The highest lower bound of the objective, and the multipliers that prove it, in place: the first of equal ones.
 
     Parameters
     ----------
-    solver : multipliers (J,), (R,), (I,) of the interior point.
+    sizes, solver : as of :func:`candidate`.
     """
-    lowest = bound(0.0, 0.0, solver[0], solver[1], solver[2], programs, n, programs.cap)
-    best, highest = 0, -np.inf if lowest != lowest else lowest
-    for which in range(1, 3):
-        resting(programs, n, sizes, which == 2, term, row, ceiling)
-        other = bound(0.0, 0.0, term, row, ceiling, programs, n, programs.cap)
-        if other > highest:
-            best, highest, lowest = which, other, other
-    if best == 1:
-        resting(programs, n, sizes, False, term, row, ceiling)
-    if best == 0:
-        copy(solver[0], term)
-        copy(solver[1], row)
-        copy(solver[2], ceiling)
-    return lowest
+    best, highest, first = 0, -np.inf, 0.0
+    for which in range(3):
+        candidate(which, programs, n, sizes, solver, term, row, ceiling)
+        lower = bound(0.0, 0.0, term, row, ceiling, programs, n, programs.cap)
+        if which == 0:
+            first = lower
+        if lower > highest:
+            best, highest = which, lower
+    if best < 2:
+        candidate(best, programs, n, sizes, solver, term, row, ceiling)
+    # where none proves anything that is what the solver's are said to
+    return highest if highest > -np.inf else first
 
 
-@inner
+@folded
 def larger(one, other):  # type: ignore[no-untyped-def]
     """The larger of two numbers; of what is none that."""
     return other if other > one or other != other else one
 
 
-@inner
+@folded
 def is_better(old, new, tolerance):  # type: ignore[no-untyped-def]
     """Whether another point has the smaller objective, or the smaller excess where one breaks a ceiling.
 
@@ -90,7 +99,7 @@ def is_better(old, new, tolerance):  # type: ignore[no-untyped-def]
     return new[2] <= tolerance or (not old[2] <= tolerance and new[2] < old[2])
 
 
-@inner
+@folded
 def step_towards(light, smallest, target):  # type: ignore[no-untyped-def]
     """How far the lightest is to be moved towards the smallest for the objective, which is convex, to meet a target.
 

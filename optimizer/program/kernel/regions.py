@@ -3,10 +3,10 @@
 A region is a :class:`optimizer.program.compiled_evaluation.Region` of N programs.
 """
 
-from optimizer.program.kernel.compiling import in_place, inner
+from optimizer.program.kernel.compiling import folded, in_place
 
 
-@inner
+@folded
 def nearest(u, region, n, mean, result):  # type: ignore[no-untyped-def]
     """The nearest unbalances that are alike (K,) to others:
     :meth:`optimizer.program.equal_castings.Alike.nearest`.
@@ -26,7 +26,7 @@ def nearest(u, region, n, mean, result):  # type: ignore[no-untyped-def]
         result[k] = region.turn[n, k] * (first.conjugate() if region.mirrored[k] else first)
 
 
-@inner
+@folded
 def support(pull, region, n, k):  # type: ignore[no-untyped-def]
     """Largest Re(conj(pull) v) over unit vectors v in sector k: :meth:`optimizer.program.limits.Limits.support`."""
     if not region.free[n, k]:
@@ -38,7 +38,7 @@ def support(pull, region, n, k):  # type: ignore[no-untyped-def]
     return abs(pull)
 
 
-@inner
+@folded
 def into(u, region, n, mean):  # type: ignore[no-untyped-def]
     """An unbalance (K,) within all limits, in place: :meth:`optimizer.program.limits.Limits.into`."""
     if region.leader.size:

@@ -4,19 +4,19 @@
 import numpy as np
 
 from optimizer.program.kernel.cancelling import change
-from optimizer.program.kernel.compiling import in_place, inner
+from optimizer.program.kernel.compiling import folded, in_place
 from optimizer.program.kernel.regions import into
 from optimizer.program.kernel.values import value
 
 
-@inner
+@folded
 def copy(numbers, place):  # type: ignore[no-untyped-def]
     """Numbers (n,) in their place."""
     for k in range(place.size):
         place[k] = numbers[k]
 
 
-@inner
+@folded
 def put(u, dust, touched, region, n, room, settled):  # type: ignore[no-untyped-def]
     """What is next to nothing, or to a limit, there (K,); whether anything was, and the room of the others (K,)."""
     most, moved = 0.0, False
@@ -43,7 +43,7 @@ def put(u, dust, touched, region, n, room, settled):  # type: ignore[no-untyped-
     return moved
 
 
-@inner
+@folded
 def make_up(influence, across, region, n, room, left, work, scaled, u):  # type: ignore[no-untyped-def]
     """Add to u (K,) the least change, relative to a room, that takes back what it changed; of alike webs alike.
 
@@ -87,7 +87,7 @@ def make_up(influence, across, region, n, room, left, work, scaled, u):  # type:
         u[k] += region.turn[n, k] * (each.conjugate() if region.mirrored[k] else each)
 
 
-@inner
+@folded
 def balance(u, influence, across, region, n, room, work, scaled, new):  # type: ignore[no-untyped-def]
     """Make up for what differs between u and new (K,), which is written to, and bring it within all limits.
 
@@ -124,7 +124,7 @@ def rebalance(u, near, influence, across, region, room, work, scaled, new, moved
             balance(u[n], influence[n], across[n], region, n, room[n], work, scaled, new[n])
 
 
-@inner
+@folded
 def settle_one(u, figures, target, heaviest, rounding, rungs, programs, n, work, scaled):  # type: ignore[no-untyped-def]
     """A point (K,) of program n, and what it comes to (4, N), in place, parameters as of :func:`settle`."""
     webs, influence, across, region = u.size, programs.influence[n], programs.across[n], programs.region

@@ -5,13 +5,13 @@ Programs are :class:`optimizer.program.compiled_evaluation.Programs`.
 
 import numpy as np
 
-from optimizer.program.kernel.compiling import in_place, inner
+from optimizer.program.kernel.compiling import folded, in_place
 
 #: of a sum, in units of the sum of the magnitudes of its terms
 ROUNDING = 4 * float(np.finfo(float).eps)
 
 
-@inner
+@folded
 def value(u, programs, n):  # type: ignore[no-untyped-def]
     """Objective, mass, largest relative excess over a ceiling, and rounding of the objective, of one point.
 
