@@ -330,7 +330,9 @@ def of_plate(web: Web, plate: Plate, pull: Number, price: Number, implied: Place
     if pull.high <= 0 or (web.limit is not None and web.limit.high <= 0):
         return ZERO
     limit = min(inf if web.limit is None else float(web.limit), implied.double(least=0) if implied else inf)
-    low, high = plate.worth(max(pull.middle().real, 0.0), max(price.middle().real, 0.0), limit)
+    smallest, cheapest = Number(pull.low, pull.low), Number(max(price.low, 0), max(price.low, 0))
+    low, _ = plate.worth(max(float(smallest), 0.0), max(float(price), 0.0), limit)
+    _, high = plate.worth(float(pull), float(cheapest), limit)
     return Number(real(low).low, real(high).high)
 
 

@@ -112,6 +112,8 @@ def test_a_yardstick_of_what_webs_are_implied_to_carry_is_named() -> None:
         ("axis ceilings", 55, 95, 1.0),
         # a price of the budget that is raised by its rounding
         ("balance shafts", 983, 89, 1.0),
+        # a plate of up to 66 t, at which what cancels leaves 2e-4 of 2e10 N, or 1e-2
+        ("plates", 4880, 96, 0.1),
     ],
 )
 def test_masses_that_are_off_are_judged_at_every_corner(mode: str, number: int, seed: int, share: float) -> None:
