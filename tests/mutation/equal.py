@@ -41,6 +41,7 @@ _PROGRAM: dict[str, str] = {
     "cuts/attempts.py WITHIN": _STEERS,
     "cuts/cut.py alike: max -> min": _ALIKE,
     "cuts/row_generation.py single_group: max -> min": _SPEED,
+    "cuts/rounding.py _STEPS: NEAR[0] -> NEAR[1]": _STEERS,
     "cuts/samples.py maxima: np.argmax(around, axis=-1) - 1 -> np.argmax(around, axis=-1) + 1": _STEERS,
     "cuts/samples.py supports: abs(circle.radius - before) > _STEADY * circle.radius"
     " -> abs(circle.radius - before) >= _STEADY * circle.radius": _ALIKE,
@@ -54,6 +55,7 @@ _PROGRAM: dict[str, str] = {
     " -> np.add.reduce(mass, axis=+1, keepdims=True)": "it has two axes",
     "methods/compiled.py _programs: np.maximum.reduce(statement.floor, axis=-1)"
     " -> np.maximum.reduce(statement.floor, axis=+1)": "it has two axes",
+    "methods/compiled.py _better: new.objective < old.objective -> new.objective <= old.objective": _STEERS,
     "methods/compiled.py _in_any_limits: excess_at(statement.chosen(left), nearest) < 0"
     " -> excess_at(statement.chosen(left), nearest) < 1": _STEERS,
     "methods/feasibility_phase.py at_rest: rest.gap + float(allowance) <= target.share"
