@@ -16,6 +16,11 @@ _MECHANICS: dict[str, str] = {
     "row_data.py _opened: np.where(closed, discharge, 1.0) -> np.where(closed, discharge, 1.011)": _OPEN,
     "row_data.py _opened: np.where(closed, suction, 1.0) -> np.where(closed, suction, 1.011)": _OPEN,
     "row_work.py beside_mean: own < 0.5 * TURN -> own <= 0.5 * TURN": _ALIKE,
+    "friction.py reciprocating_friction: np.abs(sine) < 1e-12 -> np.abs(sine) <= 1e-12": _ALIKE,
+    "layout.py _unbalances: angle + 180.0 -> angle - 180.0": "a whole turn",
+    "row_series.py _memo: self._functions_by_pressure.get(True) or self._functions_by_pressure.get(pressed)"
+    " -> self._functions_by_pressure.get(True) and self._functions_by_pressure.get(pressed)": _SPEED,
+    "whole_turn.py of_rows: self.rows.crank_radius.shape[-1] -> self.rows.crank_radius.shape[+1]": "it has two axes",
     "gas.py _above_start: np.minimum(exponent[..., None] * u, 1.0)"
     " -> np.minimum(exponent[..., None] * u, 1.011)": _LIMITED,
     "indicated.py _WIDEST_PANEL": _FINER,
