@@ -16,6 +16,11 @@ _MECHANICS: dict[str, str] = {
     "row_data.py _opened: np.where(closed, discharge, 1.0) -> np.where(closed, discharge, 1.011)": _OPEN,
     "row_data.py _opened: np.where(closed, suction, 1.0) -> np.where(closed, suction, 1.011)": _OPEN,
     "row_work.py beside_mean: own < 0.5 * TURN -> own <= 0.5 * TURN": _ALIKE,
+    "friction.py reciprocating_friction: np.abs(sine) < 1e-12 -> np.abs(sine) <= 1e-12": _ALIKE,
+    "layout.py _unbalances: angle + 180.0 -> angle - 180.0": "a whole turn",
+    "row_series.py _memo: self._functions_by_pressure.get(True) or self._functions_by_pressure.get(pressed)"
+    " -> self._functions_by_pressure.get(True) and self._functions_by_pressure.get(pressed)": _SPEED,
+    "whole_turn.py of_rows: self.rows.crank_radius.shape[-1] -> self.rows.crank_radius.shape[+1]": "it has two axes",
     "gas.py _above_start: np.minimum(exponent[..., None] * u, 1.0)"
     " -> np.minimum(exponent[..., None] * u, 1.011)": _LIMITED,
     "indicated.py _WIDEST_PANEL": _FINER,
@@ -41,6 +46,7 @@ _PROGRAM: dict[str, str] = {
     "cuts/attempts.py WITHIN": _STEERS,
     "cuts/cut.py alike: max -> min": _ALIKE,
     "cuts/row_generation.py single_group: max -> min": _SPEED,
+    "cuts/rounding.py _STEPS: NEAR[0] -> NEAR[1]": _STEERS,
     "cuts/samples.py maxima: np.argmax(around, axis=-1) - 1 -> np.argmax(around, axis=-1) + 1": _STEERS,
     "cuts/samples.py supports: abs(circle.radius - before) > _STEADY * circle.radius"
     " -> abs(circle.radius - before) >= _STEADY * circle.radius": _ALIKE,
@@ -54,6 +60,7 @@ _PROGRAM: dict[str, str] = {
     " -> np.add.reduce(mass, axis=+1, keepdims=True)": "it has two axes",
     "methods/compiled.py _programs: np.maximum.reduce(statement.floor, axis=-1)"
     " -> np.maximum.reduce(statement.floor, axis=+1)": "it has two axes",
+    "methods/compiled.py _better: new.objective < old.objective -> new.objective <= old.objective": _STEERS,
     "methods/compiled.py _in_any_limits: excess_at(statement.chosen(left), nearest) < 0"
     " -> excess_at(statement.chosen(left), nearest) < 1": _STEERS,
     "methods/feasibility_phase.py at_rest: rest.gap + float(allowance) <= target.share"
