@@ -2,6 +2,8 @@
 
 from typing import NamedTuple
 
+import numpy as np
+
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.statement import Statement
 
@@ -14,6 +16,15 @@ class Points(NamedTuple):
     mass: Real  # (N,) kg
     excess: Real  # (N,) largest relative excess over a ceiling, -inf without ceilings
     rounding: Real  # (N,) of the objective
+
+    def chosen(self, programs: np.ndarray) -> "Points":
+        """Those of some of the programs."""
+        return Points(*(values[programs] for values in self))
+
+    def put(self, programs: np.ndarray, others: "Points") -> None:
+        """Others for some of the programs, in place."""
+        for mine, other in zip(self, others, strict=True):
+            mine[programs] = other
 
 
 def points_at(statement: Statement, u: Complex) -> Points:

@@ -52,7 +52,7 @@ def test_without_dust_a_point_is_as_heavy_as_may_be_claimed(least_mass: bool, mo
     found.mass_lower_bound[:], found.mass_target[:], found.lower_bound[:] = 4.6, 9.0, 1.0
     asked = []
 
-    def keep(_: object, old: Points, optimum: Optimum, *rest: object) -> Points:
+    def keep(_: object, old: Points, new: object, empty: object, optimum: Optimum, *rest: object) -> Points:
         asked.append(optimum)
         return old
 

@@ -156,7 +156,8 @@ def _without(
         u[:, ~empty] = point.unbalance
         new = points_at(programs.chosen(tried), u)
         admitted = wanted.admits(new)
-        best, found[tried] = best.put(tried, new), admitted
+        best.put(tried, new)
+        found[tried] = admitted
         # the smallest objective without these webs is larger, and what is left for the mass is less
         again = ~admitted & (room > 0.0) & least_mass
         tried, left = tried[again], room[again]
