@@ -53,16 +53,14 @@ _PROGRAM: dict[str, str] = {
     "cuts/stage.py run: -np.inf -> +np.inf": "a width takes all that is not finite alike",
     "cuts/stage.py _wanted: self.levels.counted - self.levels.most + self.margin"
     " -> self.levels.counted - self.levels.most - self.margin": _STEERS,
-    "cuts/stage.py _step: over > 0 -> over >= 0": _ALIKE,
     "cuts/stage.py run: 0.0 -> 0.001": _STEERS,
     "methods/cascade.py _under_ceilings: nearest.objective <= -AMPLE -> nearest.objective < -AMPLE": _ALIKE,
     "methods/compiled.py _programs: np.add.reduce(mass, axis=-1, keepdims=True)"
     " -> np.add.reduce(mass, axis=+1, keepdims=True)": "it has two axes",
     "methods/compiled.py _programs: np.maximum.reduce(statement.floor, axis=-1)"
     " -> np.maximum.reduce(statement.floor, axis=+1)": "it has two axes",
-    "methods/compiled.py _better: new.objective < old.objective -> new.objective <= old.objective": _STEERS,
-    "methods/compiled.py _in_any_limits: excess_at(statement.chosen(left), nearest) < 0"
-    " -> excess_at(statement.chosen(left), nearest) < 1": _STEERS,
+    "methods/compiled.py _in_any_limits: points_at(statement.chosen(left), nearest).excess < 0"
+    " -> points_at(statement.chosen(left), nearest).excess < 1": _STEERS,
     "methods/feasibility_phase.py at_rest: rest.gap + float(allowance) <= target.share"
     " -> rest.gap + float(allowance) < target.share": _ALIKE,
     "methods/compiled.py _solve: reachable > 0 -> reachable > 1": _STEERS,

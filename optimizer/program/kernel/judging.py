@@ -5,7 +5,7 @@ import numpy as np
 
 from optimizer.program.kernel.bounds import bound
 from optimizer.program.kernel.compiling import folded, in_place
-from optimizer.program.kernel.settling import copy, settle_one
+from optimizer.program.kernel.settling import copy, settle_point
 from optimizer.program.kernel.values import value
 
 
@@ -80,9 +80,9 @@ def proof_of(programs, n, sizes, solver, term, row, ceiling):  # type: ignore[no
 
 
 @folded
-def larger(one, other):  # type: ignore[no-untyped-def]
+def larger(first, second):  # type: ignore[no-untyped-def]
     """The larger of two numbers; of what is none that."""
-    return other if other > one or other != other else one
+    return second if second > first or second != second else first
 
 
 @folded
@@ -205,5 +205,5 @@ def judge(  # type: ignore[no-untyped-def]
         else:
             target = lower + shares.enough * share[n]
         figures[0, n], figures[1, n], figures[2, n], figures[3, n] = chosen
-        settle_one(u, figures, target, heaviest, shares.rounding, rungs, programs, n, work, scaled)
+        settle_point(u, figures, target, heaviest, shares.rounding, rungs, programs, n, work, scaled)
         bounds[0, n], bounds[1, n], bounds[2, n], certified[n] = lower, mass_bound, counted, done

@@ -125,7 +125,7 @@ def rebalance(u, near, influence, across, region, room, work, scaled, new, moved
 
 
 @folded
-def settle_one(u, figures, target, heaviest, rounding, rungs, programs, n, work, scaled):  # type: ignore[no-untyped-def]
+def settle_point(u, figures, target, heaviest, rounding, rungs, programs, n, work, scaled):  # type: ignore[no-untyped-def]
     """A point (K,) of program n, and what it comes to (4, N), in place, parameters as of :func:`settle`."""
     webs, influence, across, region = u.size, programs.influence[n], programs.across[n], programs.region
     new, room, rung = work[4, :webs], programs.numbers[1, :webs], 0
@@ -158,4 +158,4 @@ def settle(u, figures, target, heaviest, rounding, rungs, programs, work, scaled
     work, scaled : (5, ...) and (2, ..., ...) complex as of :func:`make_up`, to be written to.
     """
     for n in range(target.size):
-        settle_one(u[n], figures, target[n], heaviest[n], rounding, rungs, programs, n, work, scaled)
+        settle_point(u[n], figures, target[n], heaviest[n], rounding, rungs, programs, n, work, scaled)
