@@ -165,7 +165,7 @@ def _pytest(arguments: list[str]) -> int:
     try:
         import pytest
 
-        options = ["-q", "-n", "0", "-m", "not nightly", "-p", "no:cacheprovider", "-W", "ignore"]
+        options = ["-q", "-m", "not nightly", "-p", "no:cacheprovider", "-W", "ignore"]
         return int(pytest.main([*options, *arguments]))
     except BaseException:
         return 99
