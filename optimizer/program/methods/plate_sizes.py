@@ -1,6 +1,7 @@
 """Plates that are cut: what they weigh, and openings that nearly agree put to one size."""
 
 from collections.abc import Iterator
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -14,6 +15,8 @@ from optimizer.program.statement import Statement
 NEARLY = 1e-4
 #: openings that differ by less are one size where that leaves an optimum, rad: 1e-3 degrees, and less
 _NEARNESS = (1.75e-5, 1e-7, 1e-9, 1e-11)
+#: shares by which what nearly agrees with a limit is there, the next where nothing makes up for equal sizes
+_TOUCHED = (NEARLY, 1e-9)
 #: openings that differ by less than this share are the same: what rounding leaves
 SAME_SIZE = 1e-12
 
@@ -32,8 +35,10 @@ def equal_sizes(whole: Statement, plates: Plates, cut: CutWeights) -> Iterator[C
     What nearly goes as far as it can goes so far, or else to the mean too. Other counterweights make up for it; the
     last is the cut as it is.
     """
-    size, limits, held = np.abs(cut.unbalance), whole.limits, at_limits(whole, cut)
-    for near in _NEARNESS:
+    size, limits = np.abs(cut.unbalance), whole.limits
+    # near a right angle a plate is all but full long before it is open: that counts as room where no other does
+    for near, touched in product(_NEARNESS, _TOUCHED):
+        held = at_limits(whole, cut, touched)
         near_full = np.where(cut.angle >= plates.most - near, plates.most, cut.angle)
         order = np.lexsort((near_full, plates.kinds))
         apart = (np.diff(near_full[order]) > near) | (np.diff(plates.kinds[order]) != 0)
@@ -65,10 +70,10 @@ def unlike(plates: Plates, angle: Real) -> bool:
     return bool(np.any(near & (apart > SAME_SIZE * angle)))
 
 
-def at_limits(whole: Statement, cut: CutWeights) -> np.ndarray:
-    """Webs (K,) that are all but full, or next to an edge of their sector."""
+def at_limits(whole: Statement, cut: CutWeights, near: float = NEARLY) -> np.ndarray:
+    """Webs (K,) that are all but full, by a share of what they may carry, or next to an edge of their sector."""
     limits = whole.limits
-    full = np.abs(cut.unbalance) >= limits.reach[0] * (1.0 - NEARLY)
+    full = np.abs(cut.unbalance) >= limits.reach[0] * (1.0 - near)
     v = cut.unbalance * np.conj(limits.centre[0])
     inwards = v.real * limits.half_angle_sin[0] - np.abs(v.imag) * limits.half_angle_cos[0]
     at_edge = ~limits.free[0] & (np.abs(v) > 0) & (inwards <= NEARLY * limits.half_angle_sin[0] * np.abs(v))
