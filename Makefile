@@ -24,7 +24,7 @@ test: .venv/development
 
 # not by the command of pytest, which every process that a test starts workers from would run anew
 tests: mono bytecode $(kernels)
-	$(bin)/python -m pytest --numprocesses 4 -m "not nightly"
+	$(bin)/python -m pytest --numprocesses 5 -m "not nightly"
 
 # what goes wrong first, within a minute: for between the changes, not in place of all tests
 quick: .venv/development $(kernels)

@@ -9,6 +9,7 @@ import os
 import pickle
 import socket
 import struct
+from collections.abc import Callable
 from contextlib import suppress
 from typing import Any, BinaryIO
 
@@ -86,10 +87,14 @@ class Listener:
 
     def end(self) -> None:
         """Hear no more; in whatever thread, while nobody waits."""
+        for over, close in list(_ENDING.values()):
+            if over.is_closed():
+                close()
         loop = self._loop
         if loop is None or loop.is_closed():
             self._close()
         else:
+            _ENDING[self] = (loop, self._close)
             # only there: else the next file of the same number would be taken for this one
             with suppress(RuntimeError):
                 loop.call_soon_threadsafe(self._close)
@@ -111,6 +116,7 @@ class Listener:
             self._waits.set_result(None)
 
     def _close(self) -> None:
+        _ENDING.pop(self, None)
         self._gone = True
         if self._loop is not None and not self._loop.is_closed():
             self._loop.remove_reader(self._from)
@@ -118,3 +124,7 @@ class Listener:
         self._from.close()
         if self._file is not None and not self._whole:
             self._file.close()
+
+
+#: those that their loop is to close, which may be over before: they are closed with the next one
+_ENDING: dict[Listener, tuple[asyncio.AbstractEventLoop, Callable[[], None]]] = {}

@@ -1,5 +1,6 @@
 """What a worker says arrives whole, in whatever pieces it comes, with the file that belongs to it."""
 
+import asyncio
 import os
 import socket
 from collections.abc import Iterator
@@ -144,3 +145,17 @@ def test_a_socket_is_closed_where_it_is_read(ends: tuple[socket.socket, socket.s
             assert await Listener(again).receive() == (2, None)
 
     anyio.run(ended_in_a_thread)
+
+
+def test_what_a_loop_did_not_come_to_close_is_closed_with_the_next_one() -> None:
+    """A loop may be over before it has done all that a thread asks of it."""
+    loop, (ours, theirs), (others, far) = asyncio.new_event_loop(), socket.socketpair(), socket.socketpair()
+    with theirs, far:
+        listener = Listener(ours)
+        say(theirs, "begun")
+        assert loop.run_until_complete(listener.receive()) == ("begun", None)
+        listener.end()
+        loop.close()
+        assert ours.fileno() != -1
+        Listener(others).end()
+        assert (ours.fileno(), others.fileno()) == (-1, -1)
