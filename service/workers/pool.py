@@ -290,6 +290,9 @@ class Pool:
     def _spare(self, worker: Worker) -> None:
         if len(self._idle) < self._most_workers and not self._closed:
             self._idle.append(worker)
+            if self._closed:
+                # closed meanwhile, by another thread that may not have seen this one
+                self.close()
         else:
             worker.end()
 

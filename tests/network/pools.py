@@ -1,5 +1,8 @@
 """A pool of workers, and what becomes of tasks that it is asked at once."""
 
+import gc
+import warnings
+
 import anyio
 
 from service.fairness.table import shares
@@ -31,3 +34,11 @@ def run(pool: Pool, *asked: object) -> list[Outcome | Exception]:
 
     anyio.run(everything)
     return found
+
+
+def close(pool: Pool) -> None:
+    """Close a pool whose callers were cancelled: what was being started for them may end with its memory alone."""
+    pool.close()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ResourceWarning)
+        gc.collect()

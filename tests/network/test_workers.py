@@ -16,7 +16,7 @@ from service.workers.pool import Pool, TooSlow, WorkerDied
 from service.workers.process import WorkersFailed
 from service.workers.worker import Answer, Crashed, NoRoom, OutOfMemory, Refused
 from tests.network import tasks
-from tests.network.pools import pool_of, run
+from tests.network.pools import close, pool_of, run
 from tests.network.tasks import task
 from tests.network.test_length import SAMPLED
 from tests.processes import fork_servers
@@ -64,7 +64,7 @@ def test_what_is_long_is_begun_anew_where_others_wait(monkeypatch: pytest.Monkey
     try:
         anyio.run(more_than_there_are_turns)
     finally:
-        pool.close()
+        close(pool)
 
 
 def test_no_number_of_long_ones_keeps_another_client_waiting(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -84,7 +84,7 @@ def test_no_number_of_long_ones_keeps_another_client_waiting(monkeypatch: pytest
     try:
         anyio.run(beside_six_clients)
     finally:
-        pool.close()
+        close(pool)
 
 
 def test_what_a_worker_finds_to_be_long_waits_for_the_long_ones(pool: Pool) -> None:
