@@ -112,14 +112,18 @@ class Pool:
     def open(self) -> None:
         """Load the optimiser and start every worker; this takes seconds. Without it they start when needed.
 
-        From then on a worker that ends is replaced before anybody needs it.
+        From then on a worker that ends is replaced before anybody needs it. A pool that is closed meanwhile needs none.
 
         Raises
         ------
         WorkersFailed
         """
         while len(self._idle) < self._most_workers and not self._closed:
-            self._idle.append(self._start())
+            try:
+                self._idle.append(self._start())
+            except WorkersFailed:
+                if not self._closed:
+                    raise
         self._least = self._most_workers
 
     def close(self) -> None:

@@ -312,6 +312,16 @@ def test_a_process_to_fork_from_that_has_stopped_is_given_up_and_replaced(
         assert time.monotonic() < deadline
 
 
+def test_a_pool_that_is_closed_while_it_opens_is_no_fault(pool: Pool, monkeypatch: pytest.MonkeyPatch) -> None:
+    def late(*_: object, **__: object) -> None:
+        pool.close()
+        raise WorkersFailed("The service ends.")
+
+    monkeypatch.setattr("service.workers.pool.forked", late)
+    pool.open()
+    assert pool.pids == ()
+
+
 def test_a_closed_pool_starts_nothing(pool: Pool) -> None:
     run(pool, task(tasks.quick))
     pool.close()
