@@ -59,10 +59,7 @@ def discs_of(statement: Statement, reach: Real, unit: Real, margin: float) -> li
     else:
         multiple, two, _ = _multiples(np.real(statement.every_influence), basis)
     scale = np.concatenate([np.broadcast_to(unit[:, None], norms.constant.shape), ceilings.size], axis=-1)
-    # whether a web has a sector, and both normals, which are the centre turned by the rest to a right angle
-    across = 1j * limits.half_angle_cos * limits.centre
-    inwards = [np.where(limits.free, 0.0, limits.half_angle_sin * limits.centre + side) for side in (across, -across)]
-    normals = [part for normal in inwards for part in (normal.real, normal.imag)]
+    frame = _frame(statement) if sectors.any() else np.zeros((len(mass), 5, 0))
     every = (
         multiple / scale,
         parts(statement.every_constant / scale),
@@ -70,16 +67,26 @@ def discs_of(statement: Statement, reach: Real, unit: Real, margin: float) -> li
         mass,
         mass / np.where(budgeted[:, None], budget, np.inf),
         cap - np.clip(cap, 0.0, margin),
-        np.stack([*normals, np.where(limits.free, 0.0, 1.0)], axis=1),
+        frame,
     )
     found = []
-    for part in np.unique(2 * sectors + budgeted).tolist():
-        which = np.flatnonzero(2 * sectors + budgeted == part)
-        arrays = [plain(values[which]) for values in every]
+    kinds = 2 * sectors + budgeted
+    for part in np.unique(kinds).tolist() if kinds.size > 1 else kinds.tolist():
+        which = np.flatnonzero(kinds == part)
+        arrays = [plain(values[which] if which.size < kinds.size else values) for values in every]
         if part < 2:
             arrays[-1] = arrays[-1][..., :0].copy()
         found.append((which, part % 2 == 1, Discs(basis, *arrays)))
     return found
+
+
+def _frame(statement: Statement) -> Real:
+    """Both normals of sectors, the centre turned by the rest to a right angle, and whether a web has one (N, 5, K)."""
+    limits = statement.limits
+    across = 1j * limits.half_angle_cos * limits.centre
+    inwards = [np.where(limits.free, 0.0, limits.half_angle_sin * limits.centre + side) for side in (across, -across)]
+    normals = [part for normal in inwards for part in (normal.real, normal.imag)]
+    return np.stack([*normals, np.where(limits.free, 0.0, 1.0)], axis=1)
 
 
 def _basis(statement: Statement) -> np.ndarray | None:
