@@ -49,6 +49,14 @@ def spread(array: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:
     return np.broadcast_to(array, shape)
 
 
+def merged(leading: tuple[int, ...], array: NDArray[Any], own: int) -> NDArray[Any]:
+    """An array with one axis in place of leading axes, which it has or is spread along, and its last ``own`` axes."""
+    last = array.shape[array.ndim - own :]
+    if array.shape != (*leading, *last):
+        array = spread(array, (*leading, *last))
+    return in_order(array).reshape(math.prod(leading), *last)
+
+
 def plain(array: NDArray[Any]) -> NDArray[Any]:
     """The same numbers in the usual order in memory, free to be written to.
 

@@ -5,33 +5,15 @@ An answer asks for a handful of numbers many times: a loop of simple operations 
 
 import math
 from dataclasses import dataclass
+from functools import partial
 from itertools import dropwhile
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, in_order, spread
+from optimizer.numerics.arrays import Complex, Real, in_order, merged, spread
 from optimizer.numerics.records import record
-
-if TYPE_CHECKING:
-    from optimizer.program.limits import Limits
-    from optimizer.program.statement import Statement
-
-
-class Region(NamedTuple):
-    """The limits of N programs in the usual order in memory."""
-
-    radius: Real  # (N, K)
-    max_mass: Real  # (N, K)
-    budget: Real  # (N,)
-    free: np.ndarray  # (N, K) bool
-    centre: Complex  # (N, K)
-    cosine: Real  # (N, K)
-    sine: Real  # (N, K)
-    turn: Complex  # (N, K) of webs that are alike; (N, 0) where none are, and so on
-    leader: np.ndarray  # (K,) first web of the unit of each web
-    mirrored: np.ndarray  # (K,) bool
-    members: Real  # (K,) webs of that unit
+from optimizer.program.limits import Limits, Region, within
 
 
 class Programs(NamedTuple):
@@ -53,10 +35,6 @@ class Programs(NamedTuple):
     numbers: Real  # (6, ...) work, as are the next
     vectors: Complex  # (4, ...)
     places: np.ndarray  # (2, K)
-
-
-#: leaders, images and numbers of webs where none are alike
-_NONE_ALIKE = (np.empty(0, np.int64), np.empty(0, bool), np.empty(0))
 
 
 class Minorants(NamedTuple):
@@ -156,7 +134,7 @@ class Flat:
 
     def into(self, u: Complex) -> Complex:
         """Unbalances (..., *leading, K) within all limits, close to those that are nearly so."""
-        return _into(u, self._of(u.shape[:-1]), self.programs.region)
+        return within(self.programs.region, self._of(u.shape[:-1]), u)
 
     def settle(self, u: Complex, points: Real, target: Real, heaviest: Real, rounding: float, rungs: Real) -> None:
         """Points (*leading, K) without dust and at the limits that they touch, and what they come to, in place.
@@ -233,39 +211,51 @@ class Flat:
         return leading
 
 
-def flat(statement: "Statement") -> Flat:
-    """Programs as loops take them."""
-    norms, ceilings, limits = statement.norms, statement.ceilings, statement.limits
-    constant, influence = statement.every_constant, statement.every_influence
-    leading = statement.floor.shape[:-1]
+def flat(
+    place: tuple[np.ndarray, np.ndarray],
+    scalar: np.ndarray,
+    scatter: tuple[float, float],
+    constant: Complex,
+    influence: Real | Complex,
+    floor: Real,
+    ceilings: tuple[Real, Real, Real],
+    limits: Limits,
+) -> Flat:
+    """Programs as loops take them.
+
+    Parameters
+    ----------
+    place : (J,) row of a term, (rows,) group of a row.
+    scalar : (J + I,) bool, of terms and of what is under ceilings, as are the next.
+    scatter : of the terms, and of what is under ceilings.
+    constant, influence : (..., J + I) and (..., J + I, K).
+    floor : (..., rows).
+    ceilings : (..., I) caps, caps up to which they count as kept, and sizes.
+    """
+    leading = floor.shape[:-1]
     others = constant.shape[:-1], influence.shape[:-2], limits.radius.shape[:-1]
     if others != (leading, leading, leading):
         leading = np.broadcast_shapes(leading, *others)
-    (terms, webs), rows = influence.shape[-2:], statement.floor.shape[-1]
-    of_programs, none = _OfPrograms(leading), np.empty((math.prod(leading), terms, 0))
+    (terms, webs), rows = influence.shape[-2:], floor.shape[-1]
+    of_programs, none = partial(merged, leading), np.empty((math.prod(leading), terms, 0))
     plain = influence.dtype == float
-    if any(norms.scalar) or any(ceilings.norms.scalar):
-        every = [each.scalar or (False,) * each.constant.shape[-1] for each in (norms, ceilings.norms)]
-        scalar = np.array([*every[0], *every[1]])
-    else:
-        scalar = np.zeros(terms, bool)
-    cap = of_programs(ceilings.cap, 1)
+    cap = of_programs(ceilings[0], 1)
     return Flat(
         leading,
         Programs(
-            owner=in_order(statement.row),
-            group=in_order(statement.group),
+            owner=in_order(place[0]),
+            group=in_order(place[1]),
             scalar=scalar,
-            scatter=np.array([norms.scatter, ceilings.norms.scatter]),
+            scatter=np.array(scatter),
             constant=of_programs(constant, 1),
             influence=of_programs(influence if plain else influence.real, 2),
             across=none if plain else of_programs(influence.imag, 2),
             magnitude=none if plain else of_programs(np.abs(influence), 2),
-            floor=of_programs(statement.floor, 1),
+            floor=of_programs(floor, 1),
             cap=cap,
-            counted=of_programs(ceilings.counted, 1) if ceilings.names else cap,
-            size=of_programs(ceilings.size, 1) if ceilings.names else cap,
-            region=region(limits, leading),
+            counted=of_programs(ceilings[1], 1) if cap.size else cap,
+            size=of_programs(ceilings[2], 1) if cap.size else cap,
+            region=limits.region(leading),
             numbers=np.empty((6, max(terms, webs, rows))),
             vectors=np.empty((4, max(terms, webs)), complex),
             places=np.empty((2, webs), np.int64),
@@ -273,46 +263,8 @@ def flat(statement: "Statement") -> Flat:
     )
 
 
-def region(limits: "Limits", leading: tuple[int, ...]) -> Region:
-    """Limits of programs of these axes as loops take them."""
-    of_programs, alike = _OfPrograms(leading), limits.alike
-    if alike is None:
-        own: tuple[np.ndarray, ...] = np.empty((math.prod(leading), 0), complex), *_NONE_ALIKE
-    else:
-        leader, mirrored = np.array(alike.leader, np.int64), np.array(alike.mirrored, bool)
-        own = of_programs(alike.turn, 1), leader, mirrored, alike.count[alike.owner].astype(float)
-    return Region(
-        of_programs(limits.radius, 1),
-        of_programs(limits.max_mass, 1),
-        of_programs(limits.max_total_mass, 0),
-        of_programs(limits.free, 1),
-        of_programs(limits.centre, 1),
-        of_programs(limits.half_angle_cos, 1),
-        of_programs(limits.half_angle_sin, 1),
-        *own,
-    )
-
-
-def into(limits: "Limits", u: Complex) -> Complex:
-    """Unbalances (..., K) within all limits, close to those that are nearly so."""
-    axes = limits.radius.shape[:-1]
-    leading = np.broadcast_shapes(axes, u.shape[:-1])
-    # limits that are the same for some of the points are told once for each
-    own = axes if leading[len(leading) - len(axes) :] == axes else leading
-    return _into(u, leading, region(limits, own))
-
-
-def _into(u: Complex, leading: tuple[int, ...], own: Region) -> Complex:
-    from optimizer.program.kernel.regions import bring
-
-    webs = u.shape[-1]
-    found = np.array(spread(u, (*leading, webs)), complex, order="C")
-    bring(found.reshape(math.prod(leading), webs), own, np.empty(webs, complex))
-    return found
-
-
 def near_limits(
-    limits: "Limits", influence: Real | Complex, u: Complex, dust: float, touched: float
+    limits: Limits, influence: Real | Complex, u: Complex, dust: float, touched: float
 ) -> tuple[Complex, np.ndarray]:
     """Points (N, K) with what is near enough to nothing, or to a limit, there, and whether anything was (N,) bool.
 
@@ -328,7 +280,7 @@ def near_limits(
     return new, moved
 
 
-def balanced(limits: "Limits", influence: Real | Complex, u: Complex, put: Complex, room: Real) -> Complex:
+def balanced(limits: Limits, influence: Real | Complex, u: Complex, put: Complex, room: Real) -> Complex:
     """What is put (N, K) in place of points, with others that make up for it, within all limits.
 
     Parameters
@@ -342,22 +294,21 @@ def balanced(limits: "Limits", influence: Real | Complex, u: Complex, put: Compl
 
 
 def _rebalance(
-    limits: "Limits", influence: Real | Complex, u: Complex, near: Real, room: Real, new: Complex
+    limits: Limits, influence: Real | Complex, u: Complex, near: Real, room: Real, new: Complex
 ) -> np.ndarray:
     """As :func:`optimizer.program.kernel.settling.rebalance`: which points are others (N,) bool."""
     from optimizer.program.kernel.settling import rebalance
 
     many, terms, webs = influence.shape
-    own, moved = region(limits, (many,)), np.empty(many, bool)
+    own, moved = limits.region((many,)), np.empty(many, bool)
     rebalance(in_order(u), near, *_parts(influence, (many,)), own, room, *_work(own, terms, webs), new, moved)
     return moved
 
 
 def _parts(influence: Real | Complex, leading: tuple[int, ...]) -> tuple[Real, Real]:
     """Real and imaginary parts (N, J, K), the latter (N, J, 0) where all are real."""
-    of_programs = _OfPrograms(leading)
-    across = of_programs(influence[..., :0] if influence.dtype == float else influence.imag, 2)
-    return of_programs(influence.real, 2), across
+    across = influence[..., :0] if influence.dtype == float else influence.imag
+    return merged(leading, influence.real, 2), merged(leading, across, 2)
 
 
 def _work(own: Region, terms: int, webs: int) -> tuple[Complex, Complex]:
@@ -375,17 +326,3 @@ def _rows(leading: tuple[int, ...], *parts: np.ndarray) -> tuple[np.ndarray, ...
     """Arrays (..., n) as (M, n), of what has these leading axes."""
     many = math.prod(leading)
     return tuple(in_order(spread(each, (*leading, each.shape[-1]))).reshape(many, each.shape[-1]) for each in parts)
-
-
-class _OfPrograms:
-    """Arrays of some leading axes, or of none, with one axis in their place."""
-
-    def __init__(self, leading: tuple[int, ...]) -> None:
-        self.leading, self.many = leading, math.prod(leading)
-
-    def __call__(self, array: np.ndarray, own: int) -> np.ndarray:
-        """An array with its last axes as they are."""
-        last = array.shape[array.ndim - own :]
-        if array.shape != (*self.leading, *last):
-            array = spread(array, (*self.leading, *last))
-        return in_order(array).reshape(self.many, *last)

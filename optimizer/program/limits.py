@@ -2,16 +2,37 @@
 
 import math
 from dataclasses import dataclass
+from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, plain, spread
+from optimizer.numerics.arrays import Complex, Real, merged, plain, spread
 from optimizer.numerics.records import record
-from optimizer.program.compiled_evaluation import into
 from optimizer.program.equal_castings import Alike
 
 #: fields with an entry for each web
 OF_WEBS = ("radius", "max_mass", "free", "centre", "half_angle_cos", "half_angle_sin")
+
+
+#: leaders, images and numbers of webs where none are alike
+_NONE_ALIKE = (np.empty(0, np.int64), np.empty(0, bool), np.empty(0))
+
+
+class Region(NamedTuple):
+    """The limits of N programs in the usual order in memory."""
+
+    radius: Real  # (N, K)
+    max_mass: Real  # (N, K)
+    budget: Real  # (N,)
+    free: np.ndarray  # (N, K) bool
+    centre: Complex  # (N, K)
+    cosine: Real  # (N, K)
+    sine: Real  # (N, K)
+    turn: Complex  # (N, K) of webs that are alike; (N, 0) where none are, and so on
+    leader: np.ndarray  # (K,) first web of the unit of each web
+    mirrored: np.ndarray  # (K,) bool
+    members: Real  # (K,) webs of that unit
 
 
 @record
@@ -75,7 +96,30 @@ class Limits:
 
     def into(self, u: Complex) -> Complex:
         """An unbalance within all limits, close to one that is nearly so, kg m (..., K)."""
-        return into(self, u)
+        axes = self.radius.shape[:-1]
+        leading = np.broadcast_shapes(axes, u.shape[:-1])
+        # limits that are the same for some of the points are told once for each
+        own = axes if leading[len(leading) - len(axes) :] == axes else leading
+        return within(self.region(own), leading, u)
+
+    def region(self, leading: tuple[int, ...]) -> Region:
+        """The same of programs of these axes, for compiled loops."""
+        of_programs, alike = partial(merged, leading), self.alike
+        if alike is None:
+            own: tuple[np.ndarray, ...] = np.empty((math.prod(leading), 0), complex), *_NONE_ALIKE
+        else:
+            leader, mirrored = np.array(alike.leader, np.int64), np.array(alike.mirrored, bool)
+            own = of_programs(alike.turn, 1), leader, mirrored, alike.count[alike.owner].astype(float)
+        return Region(
+            of_programs(self.radius, 1),
+            of_programs(self.max_mass, 1),
+            of_programs(self.max_total_mass, 0),
+            of_programs(self.free, 1),
+            of_programs(self.centre, 1),
+            of_programs(self.half_angle_cos, 1),
+            of_programs(self.half_angle_sin, 1),
+            *own,
+        )
 
     def support(self, g: Complex) -> Real:
         """Largest Re(conj(g_k) v) over unit vectors v in sector k (docs/mathematics.md section 5), (..., K).
@@ -111,3 +155,14 @@ class Limits:
         """Of alike webs the sum, of others as it is (..., U)."""
         summed: Real = of_webs if self.alike is None else self.alike.summed(of_webs)
         return summed
+
+
+def within(region: Region, leading: tuple[int, ...], u: Complex) -> Complex:
+    """Unbalances, of these leading axes, within all limits, close to those that are nearly so."""
+    # the compiler is loaded when it is first needed
+    from optimizer.program.kernel.regions import bring
+
+    webs = u.shape[-1]
+    found = np.array(spread(u, (*leading, webs)), complex, order="C")
+    bring(found.reshape(math.prod(leading), webs), region, np.empty(webs, complex))
+    return found

@@ -87,7 +87,21 @@ class Statement:
     @cached_property
     def flat(self) -> Flat:
         """The same for compiled loops."""
-        return flat(self)
+        norms, limited = self.norms, self.ceilings
+        scalar = np.zeros(self.every_constant.shape[-1], bool)
+        if any(norms.scalar) or any(limited.norms.scalar):
+            every = [part.scalar or (False,) * part.constant.shape[-1] for part in (norms, limited.norms)]
+            scalar = np.array([*every[0], *every[1]])
+        return flat(
+            (self.row, self.group),
+            scalar,
+            (norms.scatter, limited.norms.scatter),
+            self.every_constant,
+            self.every_influence,
+            self.floor,
+            (limited.cap, limited.counted if limited.names else limited.cap, limited.size),
+            self.limits,
+        )
 
     def objective(self, u: Complex) -> Real:
         """P(u), exact (..., )."""
