@@ -1,8 +1,8 @@
 """Compile the kernels, once for an installation: ``python -m optimizer.compile_kernels``.
 
-Two processes take about as long: one what budgets are spent by, the interior points for any limits and for discs, and
-what proves and settles; the other what follows the turn, and what sums of options are compared and parts are matched
-by. What both interior points have in common is inlined in each.
+Three processes do so beside one another: one what follows the turn, and what sums of options are compared by; one the
+interior point for any limits, what budgets are spent by and what parts are matched by; and one the interior point for
+discs, and what proves and settles.
 """
 
 import gc
@@ -72,12 +72,15 @@ def near_sums() -> None:
 def main() -> None:
     _say("compiling the kernels, once: half a minute on two cores")
     begun = time.perf_counter()
-    beside = get_context("spawn").Process(target=_alone, args=(follow_a_turn, moving_curves, near_sums, match_parts))
-    beside.start()
-    _alone(budgets, any_limits, plain_discs, proofs)
-    beside.join()
-    if beside.exitcode:
-        raise SystemExit("the second process failed; what it said stands above")
+    # the longest first, and three at a time: where there are two cores, both are busy until the end
+    parts = (follow_a_turn, moving_curves, near_sums), (any_limits, budgets, match_parts), (plain_discs, proofs)
+    processes = [get_context("spawn").Process(target=_alone, args=some) for some in parts]
+    for process in processes:
+        process.start()
+    for process in processes:
+        process.join()
+    if any(process.exitcode for process in processes):
+        raise SystemExit("one of the processes failed; what it said stands above")
     _say(f"compiled in {time.perf_counter() - begun:.0f} s")
 
 
