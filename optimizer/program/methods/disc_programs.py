@@ -48,7 +48,11 @@ def discs_of(statement: Statement, reach: Real, unit: Real, margin: float) -> li
     from optimizer.program.kernel.disc_starts import Discs
 
     limits, norms, ceilings = statement.limits, statement.norms, statement.ceilings
-    cap = ceilings.cap / ceilings.size
+    scale, cap = unit[:, None], ceilings.cap
+    if ceilings.names:
+        scale = np.concatenate([np.broadcast_to(scale, norms.constant.shape), ceilings.size], axis=-1)
+        cap = cap / ceilings.size
+        cap = cap - np.clip(cap, 0.0, margin)
     mass, budget = reach / limits.radius, limits.max_total_mass[:, None]
     budgeted, sectors = np.add.reduce(mass, axis=-1) > budget[:, 0], ~limits.free.all(axis=-1)
     basis = _basis(statement)
@@ -58,15 +62,14 @@ def discs_of(statement: Statement, reach: Real, unit: Real, margin: float) -> li
         two[:, : basis.size] = statement.every_influence
     else:
         multiple, two, _ = _multiples(np.real(statement.every_influence), basis)
-    scale = np.concatenate([np.broadcast_to(unit[:, None], norms.constant.shape), ceilings.size], axis=-1)
     frame = _frame(statement) if sectors.any() else np.zeros((len(mass), 5, 0))
     every = (
         multiple / scale,
         parts(statement.every_constant / scale),
         two * reach[:, None, :],
         mass,
-        mass / np.where(budgeted[:, None], budget, np.inf),
-        cap - np.clip(cap, 0.0, margin),
+        mass / np.where(budgeted[:, None], budget, np.inf) if budgeted.any() else np.zeros(mass.shape),
+        cap,
         frame,
     )
     found = []
