@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from optimizer.program.kernel import disc_peaks, disc_starts, disc_webs, discs
+from optimizer.program.kernel import disc_matrix, disc_peaks, disc_starts, disc_webs, discs
 from optimizer.program.kernel.finer_numbers import interpreted
 
 Operate = Callable[[Any, Any], Any]
@@ -74,7 +74,8 @@ def operations_per_program(calls: Sequence[tuple[Any, ...]]) -> tuple[float, flo
     ----------
     calls : arguments of :func:`optimizer.program.kernel.discs.solve`.
     """
-    space, iterations = interpreted(_numbers(), Counted, parts=(disc_webs, disc_peaks, disc_starts, discs)), 0
+    parts = (disc_webs, disc_peaks, disc_matrix, disc_starts, discs)
+    space, iterations = interpreted(_numbers(), Counted, parts=parts), 0
     # one lane, so that the rounds of the loop are the iterations of a program
     for name, place in (vars(disc_webs) | vars(disc_peaks)).items():
         if type(place) is int:

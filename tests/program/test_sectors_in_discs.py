@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optimizer.program.kernel import disc_peaks, disc_starts, disc_webs, discs
+from optimizer.program.kernel import disc_matrix, disc_peaks, disc_starts, disc_webs, discs
 from optimizer.program.kernel.finer_numbers import interpreted
 from optimizer.program.limits import Limits
 from optimizer.program.methods import compiled
@@ -217,7 +217,7 @@ def test_no_name_stands_for_two_places() -> None:
 
 def _steps(problem: Statement) -> Iterator[tuple[dict[str, Any], dict[str, Any], dict[str, Any], tuple[bool, bool]]]:
     """The numbers of webs, edges and program at each step of the first program, interpreted in one lane."""
-    space = interpreted(np, parts=(disc_webs, disc_peaks, disc_starts, discs))  # type: ignore[arg-type]
+    space = interpreted(np, parts=(disc_webs, disc_peaks, disc_matrix, disc_starts, discs))  # type: ignore[arg-type]
     for part in (disc_webs, disc_peaks):
         for name in _names(part):
             space[name] = getattr(part, name) // disc_webs.LANES
