@@ -115,17 +115,18 @@ def _slower(vector, own, t):  # type: ignore[no-untyped-def]
     own[t + DUAL] = dual if dual > own[t + DUAL] else own[t + DUAL]
 
 
+@fused_inlined
+def _along(vector, t, dax, day):  # type: ignore[no-untyped-def]
+    """What a step does to the product of a vector with its multiplier."""
+    of_multiplier = vector[t + AX] * vector[t + DYX] + vector[t + AY] * vector[t + DYY]
+    return of_multiplier + vector[t + YX] * dax + vector[t + YY] * day
+
+
 @fused
 def _step_term(vector, webs, own):  # type: ignore[no-untyped-def]
     for t in range(LANES):
         dax, day = vector[t + F] * webs[t], vector[t + F] * webs[t + LANES]
-        along = (
-            vector[t + AX] * vector[t + DYX]
-            + vector[t + AY] * vector[t + DYY]
-            + vector[t + YX] * dax
-            + vector[t + YY] * day
-        )
-        ds = (vector[t + J0] - along - vector[t + S] * own[t + D_PRICE]) / vector[t + L]
+        ds = (vector[t + J0] - _along(vector, t, dax, day) - vector[t + S] * own[t + D_PRICE]) / vector[t + L]
         vector[t + DS], vector[t + DL], vector[t + DAX], vector[t + DAY] = ds, own[t + D_PRICE], dax, day
         own[t + RISE] += ds
         _slower(vector, own, t)
@@ -135,13 +136,7 @@ def _step_term(vector, webs, own):  # type: ignore[no-untyped-def]
 def _step_ceiling(vector, webs, own):  # type: ignore[no-untyped-def]
     for t in range(LANES):
         dax, day = vector[t + F] * webs[t], vector[t + F] * webs[t + LANES]
-        along = (
-            vector[t + AX] * vector[t + DYX]
-            + vector[t + AY] * vector[t + DYY]
-            + vector[t + YX] * dax
-            + vector[t + YY] * day
-        )
-        vector[t + DL] = (vector[t + J0] - along - vector[t + L] * vector[t + DS]) / vector[t + S]
+        vector[t + DL] = (vector[t + J0] - _along(vector, t, dax, day) - vector[t + L] * vector[t + DS]) / vector[t + S]
         vector[t + DAX], vector[t + DAY] = dax, day
         _slower(vector, own, t)
 
