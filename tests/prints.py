@@ -1,7 +1,10 @@
 """A few numbers of whatever a function returns, in which every digit of it takes part."""
 
-from collections.abc import Iterator
-from dataclasses import fields, is_dataclass
+import json
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, fields, is_dataclass
+from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -22,6 +25,31 @@ def print_of(found: Any) -> list[Any]:
 def alike(found: list[Any], recorded: list[Any]) -> bool:
     """Whether results are the same to rounding."""
     return len(found) == len(recorded) and all(map(_same, found, recorded))
+
+
+@dataclass(frozen=True)
+class Record:
+    """What functions came to, by name, in a file."""
+
+    file: Path
+    cases: dict[str, Callable[[], Any]]
+
+    @cached_property
+    def prints(self) -> dict[str, list[Any]]:
+        """As they were."""
+        found: dict[str, list[Any]] = json.loads(self.file.read_text())
+        return found
+
+    def changes(self, name: str) -> list[Any]:
+        """What a function comes to that is not as it was, beside that."""
+        found, before = print_of(self.cases[name]()), self.prints[name]
+        differ = [pair for pair in zip(found, before, strict=False) if not alike([pair[0]], [pair[1]])]
+        return differ or ([] if len(found) == len(before) else [(len(found), len(before))])
+
+    def write(self) -> None:
+        """Write the file, a line for each case."""
+        lines = [f"{json.dumps(name)}: {json.dumps(print_of(case()))}" for name, case in self.cases.items()]
+        self.file.write_text("{\n" + ",\n".join(lines) + "\n}\n")
 
 
 def _told(found: Any) -> Iterator[Any]:
@@ -49,7 +77,7 @@ def _of_array(values: Any) -> list[Any]:
 
 
 def _same(one: Any, other: Any) -> bool:
-    if not isinstance(other, list):
+    if not (isinstance(one, list) and isinstance(other, list)):
         return bool(one == other)
     close = CLOSE * other[-1]
     return one[:2] == other[:2] and all(abs(a - b) <= close for a, b in zip(one[2:], other[2:], strict=True))

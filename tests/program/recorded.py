@@ -3,10 +3,9 @@
 Nothing of it is a search: what a solver finds is judged elsewhere, whichever way it found it.
 """
 
-import json
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from functools import cache, partial
+from functools import partial
 from itertools import chain
 from pathlib import Path
 from typing import Any
@@ -36,7 +35,7 @@ from optimizer.program.multipliers import (
 from optimizer.program.points import points_at
 from optimizer.program.rows import statement, total_mass
 from optimizer.program.statement import Statement
-from tests.prints import print_of
+from tests.prints import Record
 from tests.program.cases import random_point, stacked
 from tests.program.test_alike import GROUPS, alike
 from tests.program.test_leading_axes import FUNCTIONS, KINDS, WEBS, _multipliers, _program
@@ -46,7 +45,6 @@ from tests.program.test_scalars import quantity
 from tests.program.test_stages import _several
 from tests.program.turning import bearings
 
-_FILE = Path(__file__).with_name("recorded.json")
 _SEEDS = range(6)
 _EPS = float(np.finfo(float).eps)
 
@@ -299,18 +297,8 @@ def cases() -> dict[str, Callable[[], Any]]:
     return found | {"pieces": _pieces, "mass": _weighed}
 
 
-@cache
-def records() -> dict[str, list[Any]]:
-    """Prints of the cases as they were."""
-    found: dict[str, list[Any]] = json.loads(_FILE.read_text())
-    return found
-
-
-def main() -> None:
-    """Writes the file, a line for each case."""
-    lines = [f"{json.dumps(name)}: {json.dumps(print_of(case()))}" for name, case in cases().items()]
-    _FILE.write_text("{\n" + ",\n".join(lines) + "\n}\n")
+RECORD = Record(Path(__file__).with_name("recorded.json"), cases())
 
 
 if __name__ == "__main__":
-    main()
+    RECORD.write()

@@ -1,8 +1,8 @@
 """What the steps of the vectors have in common, compiled: a matrix of blocks of 2 x 2, for two vectors each, with the
 column and the row of a price. It is eliminated once, and solved for the predictor and the corrector.
 
-Blocks stand entry by entry, block (j, Q) with the column of the price and below it the row. Names, and what stands where,
-as in :mod:`optimizer.program.kernel.disc_peaks`.
+Blocks stand entry by entry, block (j, Q) with the column of the price and below it the row. Names, and what stands
+where, are as in :mod:`optimizer.program.kernel.disc_peaks`.
 """
 
 from optimizer.program.kernel.compiling import fused

@@ -4,9 +4,10 @@ Every web is a disc, |v_k| <= 1, of which two straight edges leave a sector. The
 each a constant and a multiple of force or moment; so are those below ceilings. With w_b the multipliers of force and
 moment, that of web k is p_k = -sum_b h_bk w_b - sum_e g_e n_e, and its size z_k above |p_k| is free; vectors follow the
 webs. So no residuals are left but the products, and what is over the ceilings. What the webs of a program have in
-common in a step is two unknowns of each vector, and the price of the objective or of a budget. What the webs do stands
-in :mod:`optimizer.program.kernel.disc_webs`, what the vectors do in :mod:`optimizer.program.kernel.disc_peaks`, and what
-is solved for them in :mod:`optimizer.program.kernel.disc_matrix`. Slacks and multipliers each go as far as they may.
+common in a step is two unknowns of each vector, and the price of the objective or of a budget. What the webs do
+stands in :mod:`optimizer.program.kernel.disc_webs`, what the vectors do in :mod:`optimizer.program.kernel.disc_peaks`,
+and what is solved for them in :mod:`optimizer.program.kernel.disc_matrix`. Slacks and multipliers each go as far as
+they may.
 
 It has one answer to all trouble, which is none: what does not reach its gap in a few steps is left at 0, which proves
 nothing, and is for :mod:`optimizer.program.kernel.interior_point`. Notation as there.
