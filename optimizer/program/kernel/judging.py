@@ -176,10 +176,9 @@ def judge(  # type: ignore[no-untyped-def]
                 chosen = light_figures
                 copy(light, u)
             # moved towards the smallest just so far that the objective, which is convex, meets the target
-            over = light_figures[0] - target + smallest_figures[3]
-            fall = light_figures[0] - smallest_figures[0]
-            if over > 0.0 and fall > over:
-                step, nearer = over / fall, work[4, :webs]
+            step = step_towards(light_figures, smallest_figures, target)
+            if step > 0.0:
+                nearer = work[4, :webs]
                 for k in range(webs):
                     nearer[k] = light[k] + complex(
                         step * (best[k].real - light[k].real), step * (best[k].imag - light[k].imag)
