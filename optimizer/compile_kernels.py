@@ -1,8 +1,9 @@
 """Compile the kernels, once for an installation: ``python -m optimizer.compile_kernels``.
 
-Three processes do so beside one another: one what follows the turn, and what sums of options are compared by; one the
-interior point for any limits, what budgets are spent by and what parts are matched by; and one the interior point for
-discs, and what proves and settles.
+What budgets are spent by is compiled first, and with it what the compiler needs for any kernel. Three processes have
+that in common and do the rest beside one another: one what follows the turn, and what sums of options are compared by;
+one the interior point for any limits, and what parts are matched by; and one the interior point for discs, and what
+proves and settles.
 """
 
 import gc
@@ -72,9 +73,13 @@ def near_sums() -> None:
 def main() -> None:
     _say("compiling the kernels, once: half a minute on two cores")
     begun = time.perf_counter()
+    # the compiler makes millions of objects and lets few go: looking for those is a sixth of its time
+    gc.disable()
+    link_first()
+    budgets()
     # the longest first, and three at a time: where there are two cores, both are busy until the end
-    parts = (follow_a_turn, moving_curves, near_sums), (any_limits, budgets, match_parts), (plain_discs, proofs)
-    processes = [get_context("spawn").Process(target=_alone, args=some) for some in parts]
+    parts = (follow_a_turn, moving_curves, near_sums), (any_limits, match_parts), (plain_discs, proofs)
+    processes = [get_context("fork").Process(target=_in_turn, args=some) for some in parts]
     for process in processes:
         process.start()
     for process in processes:
@@ -84,11 +89,8 @@ def main() -> None:
     _say(f"compiled in {time.perf_counter() - begun:.0f} s")
 
 
-def _alone(*parts: Callable[[], object]) -> None:
+def _in_turn(*parts: Callable[[], object]) -> None:
     """In a process that ends thereafter."""
-    # the compiler makes millions of objects and lets few go: looking for those is a sixth of its time
-    gc.disable()
-    link_first()
     for left, part in zip(range(len(parts) - 1, -1, -1), parts, strict=True):
         begun = time.perf_counter()
         part()
