@@ -8,29 +8,35 @@ bin=$1/bin
 list=$2
 here=$(dirname "$0")
 
-# an environment need not have a pip of its own where there is one beside it
-pip="${PYTHON:-python3} -m pip --python $bin/python"
-[ ! -x "$bin/pip" ] || pip="$bin/pip"
-if ! $pip --version > /dev/null 2>&1; then
-    "$bin/python" -m ensurepip > /dev/null
-    pip="$bin/pip3"
-fi
-pip="$pip --disable-pip-version-check"
+# sets what calls pip, and tells uv of the mirror that pip is told of, which uv does not read
+locate_pip() {
+    # an environment need not have a pip of its own where there is one beside it
+    pip="${PYTHON:-python3} -m pip --python $bin/python"
+    [ ! -x "$bin/pip" ] || pip="$bin/pip"
+    if ! settings=$($pip config list 2> /dev/null); then
+        "$bin/python" -m ensurepip > /dev/null
+        pip="$bin/pip3"
+        settings=$($pip config list)
+    fi
+    pip="$pip --disable-pip-version-check"
+    mirror=${PIP_INDEX_URL:-$(echo "$settings" | sed -n "s/^global.index-url='\(.*\)'$/\1/p")}
+    [ -z "$mirror" ] || export UV_DEFAULT_INDEX="${UV_DEFAULT_INDEX:-$mirror}"
+}
+
+by_uv() { "$bin/uv" pip install --python "$bin/python" --no-progress "$@"; }
 
 if [ "$list" = --editable ]; then
+    # built from what is there: no mirror is asked for it, and pip would take half a second to start
     set -- --quiet --no-deps --no-build-isolation --editable "$3"
+    if [ -x "$bin/uv" ] && by_uv "$@"; then exit; fi
+    locate_pip
 else
     # the lists are whole, and leave out what cvxpy would bring along and nothing asks for
     set -- --no-deps --require-hashes --requirement "$list"
-fi
-
-# uv does not read what pip is told of mirrors
-mirror=${PIP_INDEX_URL:-$($pip config get global.index-url 2> /dev/null || true)}
-[ -z "$mirror" ] || export UV_DEFAULT_INDEX="${UV_DEFAULT_INDEX:-$mirror}"
-
-if { [ -x "$bin/uv" ] || $pip --quiet install --no-deps --require-hashes --requirement "$here/uv.txt"; } \
-    && "$bin/uv" pip install --python "$bin/python" --no-progress "$@"; then
-    exit
+    locate_pip
+    if { [ -x "$bin/uv" ] || $pip --quiet install --no-deps --require-hashes --requirement "$here/uv.txt"; } && by_uv "$@"; then
+        exit
+    fi
 fi
 echo "without uv: pip installs, which takes half a minute longer"
 $pip install "$@"

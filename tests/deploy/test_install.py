@@ -56,7 +56,25 @@ def test_uv_that_is_there_installs_by_hash(tmp_path: Path) -> None:
 
 def test_a_checkout_is_installed_where_it_lies(tmp_path: Path) -> None:
     calls, _ = _calls(tmp_path, ("uv",), "", "--editable", ".")
-    assert calls[-1].endswith("--quiet --no-deps --no-build-isolation --editable .")
+    (call,) = calls  # pip is not even asked for its mirror
+    assert call.endswith("--quiet --no-deps --no-build-isolation --editable .")
+
+
+def test_uv_is_told_of_the_mirror_of_pip(tmp_path: Path) -> None:
+    programs = tmp_path / "env" / "bin"
+    programs.mkdir(parents=True)
+    for name, script in (
+        ("pip", "echo \"global.cert='/x'\nglobal.index-url='https://pip.of/mirror'\""),
+        ("uv", 'echo "$UV_DEFAULT_INDEX"'),
+    ):
+        (programs / name).write_text(f"#!/bin/sh\n{script}\n")
+        (programs / name).chmod(0o755)
+    known = {name: value for name, value in os.environ.items() if name not in ("PIP_INDEX_URL", "UV_DEFAULT_INDEX")}
+    command = [ROOT / "deploy/install.sh", tmp_path / "env", "list.txt"]
+    assert (
+        subprocess.run(command, env=known, capture_output=True, text=True, check=True).stdout
+        == "https://pip.of/mirror\n"
+    )
 
 
 @pytest.mark.parametrize("what", [("list.txt",), ("--editable", ".")])
