@@ -9,7 +9,6 @@ from optimizer.formulation.task import Task
 from optimizer.numerics.arrays import variant
 from optimizer.outputs.registry import fields, prepare
 from optimizer.outputs.requirements import effects_of_objective, missing
-from optimizer.program.reference.solver import Solver
 from optimizer.solve.alternatives import BEST, alternatives
 from optimizer.solve.solution import Solution
 from optimizer.solve.solve import solve
@@ -27,9 +26,7 @@ _OF_THE_SHAFT, _ROLL = "main_bearings", "roll"
 
 
 @or_mapping(OptimizeRequest)
-def optimize(
-    request: OptimizeRequest, solver: Solver | None = None, outputs: Sequence[str] | None = None
-) -> OptimizeAnswer:
+def optimize(request: OptimizeRequest, outputs: Sequence[str] | None = None) -> OptimizeAnswer:
     """Counterweights that minimise what the objective weighs, with a certificate.
 
     Every figure is evaluated by the mechanics from the returned masses and angles.
@@ -53,13 +50,12 @@ def optimize(
     # of cases every one is a machine of its own, simulated for itself
     scene = prepare(request, names, () if task.scenarios else effects_of_objective(task.objective))
     solving, began = time.perf_counter(), time.thread_time()
-    solver = solver or Solver()
     first = variant(task, time_limit_s=BEST * task.time_limit_s) if request.alternatives else task
-    best = solve(first, scene, solver)
+    best = solve(first, scene)
     cheaper: tuple[Alternative, ...] = ()
     if request.alternatives and isinstance(best, Solution):
         left_s = task.time_limit_s - (time.thread_time() - began)
-        cheaper = alternatives(task, request.alternatives, scene, best.unbalance, solver, left_s)
+        cheaper = alternatives(task, request.alternatives, scene, best.unbalance, left_s)
     reporting = time.perf_counter()
     there, on_crank, told, u, report_s = best.cut or scene, None, best.answer, None, 0.0
     if isinstance(best, Solution):

@@ -7,10 +7,9 @@ from optimizer.choices.minimum_masses import MinimumMasses
 from optimizer.formulation.task import Task
 from optimizer.mechanics.layout import stacked
 from optimizer.program.limits import Limits
-from optimizer.program.reference.solver import Solver
 
 
-def feasible_set(task: Task, limits: Limits, solver: Solver) -> FeasibleSet:
+def feasible_set(task: Task, limits: Limits) -> FeasibleSet:
     """What counterweights are chosen from: a catalogue, or any mass at any angle that is 0 or no less than a least one.
 
     Parameters
@@ -26,4 +25,4 @@ def feasible_set(task: Task, limits: Limits, solver: Solver) -> FeasibleSet:
     if task.choice == "discrete":
         return Catalogue(stock(machine), limits.radius)
     least = stacked([web.min_fitted_mass_kg or 0.0 for web in machine.webs])
-    return MinimumMasses(machine, least, limits, task.objective.least_mass, solver)
+    return MinimumMasses(machine, least, limits, task.objective.least_mass)

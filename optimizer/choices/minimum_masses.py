@@ -10,7 +10,6 @@ from optimizer.formulation.counterweights import masses_and_angles, unbalance
 from optimizer.numerics.arrays import Real
 from optimizer.program.limits import Limits
 from optimizer.program.methods.semicontinuous_bounds import within_semicontinuous_reach
-from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.program.statement import Statement
 from schemas.machine.machine import Machine
@@ -27,7 +26,6 @@ class MinimumMasses:
     least: Real  # (K,) kg, 0 where there is none
     limits: Limits
     lightest: bool  # of all that are optima, but for their share, the lightest is wanted
-    solver: Solver
 
     solved = True
 
@@ -48,7 +46,7 @@ class MinimumMasses:
         share = OPTIMUM_SHARE * size if self.lightest else 0.0
         asked = SearchGoal(subproblem.relative_gap * size, size, share, subproblem.time_limit_s)
         least = self.least * statement.limits.radius
-        u, result = search(statement, least, relaxed, subproblem.at_least, asked, self.solver, known, subproblem.below)
+        u, result = search(statement, least, relaxed, subproblem.at_least, asked, known, subproblem.below)
         mass, angle = masses_and_angles(self.machine, u, statement.limits)
         mass = np.where(np.abs(mass - self.least) <= _ROUNDING * self.least, self.least, mass)
         return Choice(mass, angle, unbalance(mass, angle, self.limits.radius), result)

@@ -11,7 +11,6 @@ from optimizer.program.cuts.stage import Point
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import Optima, optima
 from optimizer.program.methods.symmetry import symmetric
-from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
 
 
@@ -19,7 +18,6 @@ def optimum(
     program: Problem,
     relative_gap: float,
     least_mass: bool,
-    solver: Solver,
     time_limit_s: float = TIME_LIMIT_S,
 ) -> CertifiedOptimum | Conflict:
     """Certified optimum of one problem: its goals one after the other, then the least mass.
@@ -34,9 +32,9 @@ def optimum(
     if stated is None or (program.plates is not None and (least_mass or program.limits.max_total_mass < np.inf)):
         # the mass of plates is known by its tangents
         return over_turn(program, relative_gap, least_mass, time_limit_s)
-    statement = within_reach(stated, solver)
+    statement = within_reach(stated)
     whole = statement.alone()
-    found = optima(whole, relative_gap, least_mass, solver)
+    found = optima(whole, relative_gap, least_mass)
     u = symmetric(whole, found.unbalance) if program.symmetric else found.unbalance
     return solution(program, statement, found, u[0], least_mass)
 

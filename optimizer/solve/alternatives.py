@@ -21,7 +21,6 @@ from optimizer.mechanics.fixed_weights import beside
 from optimizer.numerics.arrays import Complex
 from optimizer.program.cuts.optimum import over_turn
 from optimizer.program.limits import Limits
-from optimizer.program.reference.solver import Solver
 from optimizer.solve.caps import cost
 from optimizer.solve.costs import COMPARED, Costs
 from optimizer.solve.uncertain_program import MOST_ROUNDS, Robust
@@ -36,7 +35,7 @@ _SPARE = 0.9
 
 
 def alternatives(
-    task: Task, allowances: Sequence[float], scene: Prepared, u: Complex, solver: Solver, left_s: float
+    task: Task, allowances: Sequence[float], scene: Prepared, u: Complex, left_s: float
 ) -> tuple[Alternative, ...]:
     """What is cheaper than the best choice within each allowance, without what a smaller allowance gives already.
 
@@ -48,14 +47,14 @@ def alternatives(
     """
 
     def choices(limits: Limits) -> FeasibleSet:
-        return feasible_set(task, limits, solver)
+        return feasible_set(task, limits)
 
     wanted = task.of_any_mass
     robust = Robust(task, scene, wanted._replace(time_limit_s=_SPARE * max(left_s, 0.0)))
     known = [u]
     for _ in range(MOST_ROUNDS):
         robust.learnt(u)
-        found = list(_cheaper(allowances, robust, choices, solver, known))
+        found = list(_cheaper(allowances, robust, choices, known))
         # of masses that scatter, what makes one of these worse than is known so far
         worse = [robust.learnt(one.choice.unbalance) for one in found]
         if not any(worse):
@@ -78,7 +77,6 @@ def _cheaper(
     every: Sequence[float],
     robust: Robust,
     choices: Callable[[Limits], FeasibleSet],
-    solver: Solver,
     incumbents: Sequence[Complex],
 ) -> Iterator[_Cheap]:
     """What is cheaper than the best choice, by what is known of masses that scatter.
@@ -92,7 +90,7 @@ def _cheaper(
     # the best choice keeps the ceilings
     first = over_turn(program, robust.wanted.relative_gap, False, robust.left_s).certain()
     size = float(program.units[-1])
-    costs, seconds = Costs(program, first, (), choices, solver, size=size), robust.left_s
+    costs, seconds = Costs(program, first, (), choices, size=size), robust.left_s
     # to the last digit, as it is answered
     offered = [Choice(*masses_and_angles(robust.task.machine, u, program.limits), u, COMPARED) for u in incumbents]
     for start in offered:

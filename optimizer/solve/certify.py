@@ -14,7 +14,6 @@ from optimizer.numerics.arrays import Complex, Real, Reals
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import Optima, optima
 from optimizer.program.methods.symmetry import symmetric
-from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import INFEASIBLE, Claim, Verdict, claim, verdict
 from optimizer.responses.response import Response
@@ -43,7 +42,6 @@ def certified(
     responses: Sequence[Response],
     omega_squared: Real,
     wanted: Demand,
-    solver: Solver,
 ) -> Certified:
     """Counterweights that minimise the objective, or those closest to ceilings that are out of reach.
 
@@ -52,8 +50,8 @@ def certified(
     machine, goal : of columns (N,) or of numbers; the designs have one shape of program.
     omega_squared : (N,) rad^2/s^2.
     """
-    program = within_reach(cone_program(machine, goal, responses, omega_squared), solver)
-    found = optima(program, wanted.relative_gap, wanted.least_mass, solver)
+    program = within_reach(cone_program(machine, goal, responses, omega_squared))
+    found = optima(program, wanted.relative_gap, wanted.least_mass)
     if goal.symmetric:
         found = replace(found, unbalance=symmetric(program, found.unbalance))
     mass, angle, u, best, claimed, judged = judgement(machine, wanted, program, found)

@@ -25,7 +25,6 @@ from optimizer.program.cuts.optimum import CertifiedOptimum, Conflict, GoalLevel
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.limits import Limits
 from optimizer.program.optimum import optimum
-from optimizer.program.reference.solver import Solver
 from optimizer.solve.answer_fields import Candidate, solution_of
 from optimizer.solve.caps import NO_CAPS, Caps, cost
 from optimizer.solve.costs import Costs
@@ -45,7 +44,7 @@ _CLOSE = 1e-10
 _ROUNDING = 1e-12
 
 
-def best_choice(task: Task, scene: Prepared, solver: Solver, in_full: bool = True) -> Solution | Infeasible:
+def best_choice(task: Task, scene: Prepared, in_full: bool = True) -> Solution | Infeasible:
     """Of what can be chosen the best, over the turn and in the worst of all scenarios.
 
     Parameters
@@ -60,17 +59,17 @@ def best_choice(task: Task, scene: Prepared, solver: Solver, in_full: bool = Tru
         if a machine lacks what the objective needs.
     """
     if task.choice == "semicontinuous":
-        free = best_of_any_mass(task, scene, solver, in_full)
+        free = best_of_any_mass(task, scene, in_full)
         if isinstance(free, Infeasible) or _heavy_enough(task, free.mass):
             return free
     any_mass = task.of_any_mass
     robust = Robust(task, scene, any_mass)
     for _ in range(MOST_ROUNDS):
         goals = robust.goals()
-        first = _of_any_mass(goals.program, any_mass.relative_gap, robust, solver)
+        first = _of_any_mass(goals.program, any_mass.relative_gap, robust)
         if isinstance(first, Conflict):
-            return out_of_reach(task, scene, goals, first, solver)
-        course = _in_order(task, robust, goals, first, solver)
+            return out_of_reach(task, scene, goals, first)
+        course = _in_order(task, robust, goals, first)
         stages, picked = course.stages, course.incumbent
         if picked is None or not robust.learnt(picked.unbalance) or robust.left_s == 0.0:
             break
@@ -83,14 +82,14 @@ def best_choice(task: Task, scene: Prepared, solver: Solver, in_full: bool = Tru
     if not outcome.feasible and outcome.lower_bound == np.inf:
         shown = chosen(task.machine, task.objective, picked.mass, picked.angle)
         status, reason = search_status(outcome, "infeasible", "", True)
-        none = unreachable(task, scene, goals, shown, best.limits, None, solver)
+        none = unreachable(task, scene, goals, shown, best.limits, None)
         return replace(none, status=status, reason=reason, method=outcome.method, nodes=_nodes(stages))
     judged = task.demand._replace(least_mass=False)
     if len(stages) < len(goals.program.goals):
         # nothing is proven of what goals come to in their order
-        goals, of_any = robust.solved(solver)
+        goals, of_any = robust.solved()
         if isinstance(of_any, Conflict):
-            return out_of_reach(task, scene, goals, of_any, solver)
+            return out_of_reach(task, scene, goals, of_any)
         nothing = SearchProof(outcome, outcome.nodes, outcome.rounds, None, True)
         return solution_of(task, scene, goals, Candidate(picked.mass, picked.angle, of_any), judged, nothing, in_full)
     proof = SearchProof(
@@ -103,7 +102,7 @@ def best_choice(task: Task, scene: Prepared, solver: Solver, in_full: bool = Tru
     )
     answer = solution_of(task, scene, goals, Candidate(picked.mass, picked.angle, best), judged, proof, in_full)
     if task.robust:
-        answer = with_worst_case(robust, answer, *_nominal_choice(task, scene, robust.left_s, solver))
+        answer = with_worst_case(robust, answer, *_nominal_choice(task, scene, robust.left_s))
     return answer
 
 
@@ -116,14 +115,14 @@ class _GoalChoice(NamedTuple):
     contradicted: bool  # the choice comes to less than any is proven to
 
 
-def _of_any_mass(program: Problem, gap: float, robust: Robust, solver: Solver) -> CertifiedOptimum | Conflict:
+def _of_any_mass(program: Problem, gap: float, robust: Robust) -> CertifiedOptimum | Conflict:
     """The first goal by itself."""
-    return optimum(program.changed(goals=program.goals[:1]), gap, False, solver, robust.left_s)
+    return optimum(program.changed(goals=program.goals[:1]), gap, False, robust.left_s)
 
 
-def _in_order(task: Task, robust: Robust, goals: Goals, best: CertifiedOptimum, solver: Solver) -> "_GoalOrder":
+def _in_order(task: Task, robust: Robust, goals: Goals, best: CertifiedOptimum) -> "_GoalOrder":
     """The goals one after the other, each with the most that those before it may come to."""
-    course = _GoalOrder(task, robust, goals.program, best, solver)
+    course = _GoalOrder(task, robust, goals.program, best)
     order = list(task.objective.priorities)
     if order and order[-1].goal == "mass" and goals.program.goals[-1].allowance == 0.0:
         # of equal choices the lightest is taken anyhow
@@ -148,7 +147,6 @@ class _GoalOrder:
     robust: Robust
     program: Problem
     first: CertifiedOptimum  # of any masses, the first goal that is no cost by itself
-    solver: Solver
     stages: list[_GoalChoice] = field(default_factory=list)
     levels: list[GoalReached] = field(default_factory=list)
     caps: Caps = NO_CAPS
@@ -201,7 +199,7 @@ class _GoalOrder:
         """Make a cost small."""
         n = max(len(self.stages) - 1, 0)
         best, size = self.stages[n].best if self.stages else self.first, float(self.program.units[n])
-        costs = Costs(self._so_far(n + 1), best, self._reached[:-1], self._choices, self.solver, self.caps, size)
+        costs = Costs(self._so_far(n + 1), best, self._reached[:-1], self._choices, self.caps, size)
         if self.incumbent is not None:
             costs.offer(self.incumbent)
         level = self._reached[-1].most if self._reached else np.inf
@@ -229,7 +227,7 @@ class _GoalOrder:
         return self.program.changed(goals=self.program.goals[:count], limits=limits)
 
     def _choices(self, limits: Limits) -> FeasibleSet:
-        return feasible_set(self.task, limits, self.solver)
+        return feasible_set(self.task, limits)
 
 
 def _limits(
@@ -270,10 +268,10 @@ def _heavy_enough(task: Task, mass: Real) -> bool:
     return bool(np.all((mass == 0) | (mass >= least)))
 
 
-def _nominal_choice(task: Task, scene: Prepared, left_s: float, solver: Solver) -> tuple[Complex | None, bool]:
+def _nominal_choice(task: Task, scene: Prepared, left_s: float) -> tuple[Complex | None, bool]:
     """The best choice for the machine as it is given, if it is found; whether the limit of time left it open."""
     if left_s == 0.0:
         return None, True
-    of_machine = best_choice(task.nominal(left_s), scene, solver, in_full=False)
+    of_machine = best_choice(task.nominal(left_s), scene, in_full=False)
     late = of_machine.status == "inaccurate"
     return of_machine.unbalance if isinstance(of_machine, Solution) and not late else None, late

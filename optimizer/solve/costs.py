@@ -28,7 +28,6 @@ from optimizer.program.cuts.dominance import Group
 from optimizer.program.cuts.optimum import CertifiedOptimum, Conflict, GoalLevel, next_goal, over_turn
 from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.limits import Limits
-from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import total_mass
 from optimizer.program.statement import Statement
 from optimizer.solve.caps import NO_CAPS, Caps, cost
@@ -79,7 +78,6 @@ class Costs:
     best: CertifiedOptimum
     reached: Sequence[GoalLevel]
     choices: Callable[[Limits], FeasibleSet]  # within limits that hold the best of them
-    solver: Solver
     caps: Caps = NO_CAPS
     size: float = 1.0  # what gaps of the last goal are relative to
     offers: list[tuple[float, Choice]] = field(default_factory=list)  # with what they come to of the last goal
@@ -214,7 +212,7 @@ class Costs:
         """What any masses on so few webs come to at least, of one goal of the first order, and their optima."""
         if number not in self.few:
             limits = self.caps.within(self.best.limits)
-            self.few[number] = few_webs(self.program, limits, number, self.solver)
+            self.few[number] = few_webs(self.program, limits, number)
         return self.few[number]
 
     def _on_few_webs(self, few: FewWebs, statement: Statement, choices: Catalogue, level: float, clock: Clock) -> float:

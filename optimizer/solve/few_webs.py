@@ -17,7 +17,6 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.limits import Limits
 from optimizer.program.methods.optima import optima
-from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
 
 #: gap of an optimum
@@ -48,7 +47,7 @@ class FewWebs(NamedTuple):
 UNKNOWN = FewWebs(np.zeros(0), np.zeros((0, 0), complex), np.zeros((0, 0), bool))
 
 
-def few_webs(program: Problem, limits: Limits, number: int, solver: Solver) -> FewWebs:
+def few_webs(program: Problem, limits: Limits, number: int) -> FewWebs:
     """The optima on every set of so many webs; unknown where those are many, and of more than one goal."""
     statement, webs = program.finite, limits.radius.size
     if statement is None or limits.alike is not None or math.comb(webs, number) > _SUBSETS:
@@ -58,7 +57,7 @@ def few_webs(program: Problem, limits: Limits, number: int, solver: Solver) -> F
         subsets[n, list(some)] = True
     programs = replace(statement, limits=limits).alone().chosen(np.zeros(len(subsets), int))
     programs = replace(programs, limits=replace(programs.limits, max_mass=subsets * limits.max_mass))
-    found = optima(programs, _GAP, False, solver)
+    found = optima(programs, _GAP, False)
     lower_bound = np.where(found.unreachable, np.inf, found.lower_bound)
     best = np.argsort(np.where(found.unreachable, np.inf, found.objective), kind="stable")
     return FewWebs(lower_bound[best], found.unbalance[best], subsets[best])

@@ -18,7 +18,6 @@ from optimizer.program.cuts.optimum import METHOD, CertifiedOptimum, Conflict
 from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.limits import Limits
 from optimizer.program.optimum import optimum
-from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import Row, weighted_peak
 from optimizer.program.verdict import INFEASIBLE
 from optimizer.solve.cut_plates import cut_plates, implied_masses
@@ -121,11 +120,11 @@ def report(
     )
 
 
-def out_of_reach(task: Task, scene: Prepared, goals: Goals, failure: Conflict, solver: Solver) -> Infeasible:
+def out_of_reach(task: Task, scene: Prepared, goals: Goals, failure: Conflict) -> Infeasible:
     """Which ceilings conflict, what each peak comes to by itself, and the best compromise."""
     cut, there, within, mass, angle = cut_plates(task, scene, goals, failure.closest.unbalance, failure.limits)
     infeasible = unreachable(
-        task, there, goals, chosen(cut.machine, cut.objective, mass, angle), failure.limits, failure, solver
+        task, there, goals, chosen(cut.machine, cut.objective, mass, angle), failure.limits, failure
     )
     return infeasible if within.program.plates is None else replace(infeasible, cut=there)
 
@@ -137,7 +136,6 @@ def unreachable(
     shown: Fitted,
     within: Limits,
     failure: Conflict | None,
-    solver: Solver,
 ) -> Infeasible:
     """The same of what is shown as closest, with the proof by multipliers where there is one."""
     square = scene.omega_squared
@@ -150,7 +148,7 @@ def unreachable(
     for name in limited:
         of_name = {limit.quantity: limit for limit in goals.limited if alone.quantities[limit.quantity].name == name}
         groups[name] = Group(weighed=tuple(Weighed(q, limit.omega_squared / square) for q, limit in of_name.items()))
-    least = {name: _least(alone, group, solver) for name, group in groups.items()}
+    least = {name: _least(alone, group) for name, group in groups.items()}
     peaks = {
         name: Smallest(goal.value * square, goal.lower_bound * square, multipliers_of(goal.proof, square, goals.speeds))
         for name, (goal,) in ((name, smallest.goals) for name, smallest in least.items())
@@ -171,7 +169,7 @@ def unreachable(
     if failure is not None:
         scales, proof = goals.program.excess_scales(failure.proof.cuts), failure.proof
         conflict = named_excess(proof.with_pieces, proof.multipliers, scales, goals.speeds)
-        scenarios = _scenarios(goals.program, failure, solver)
+        scenarios = _scenarios(goals.program, failure)
     implied = _implied(task.space.machine, within, {name: peak.limits for name, peak in least.items()})
     infeasibility = report(scene, shown, (*exact, *both), together, peaks, implied, conflict, scenarios)
     spent = (0.0 if failure is None else failure.certify_s) + sum(peak.certify_s for peak in least.values())
@@ -200,7 +198,7 @@ def _alone(task: Task, goals: Goals, omega_squared: float) -> dict[str, tuple[Ro
     return {name: tuple(rows_of) for name, rows_of in rows.items()}
 
 
-def _scenarios(program: Problem, failure: Conflict, solver: Solver) -> tuple[str, ...]:
+def _scenarios(program: Problem, failure: Conflict) -> tuple[str, ...]:
     """Scenarios whose ceilings are out of reach by themselves, or those whose ceilings conflict with one another."""
     statement, row = failure.proof.statement, np.maximum(failure.proof.multipliers.row, 0.0)
     leant = row[statement.row] > _TAKES_PART * np.sum(row)
@@ -208,14 +206,14 @@ def _scenarios(program: Problem, failure: Conflict, solver: Solver) -> tuple[str
     names = tuple(dict.fromkeys(term.scenario for term, counts in terms if counts and term.scenario is not None))
     if len(names) < 2:
         return names
-    return tuple(name for name in names if isinstance(_under(program, name, solver), Conflict)) or names
+    return tuple(name for name in names if isinstance(_under(program, name), Conflict)) or names
 
 
-def _under(program: Problem, scenario: str, solver: Solver) -> CertifiedOptimum | Conflict:
+def _under(program: Problem, scenario: str) -> CertifiedOptimum | Conflict:
     """The program under the ceilings of one scenario alone, as far as whether they can be kept."""
     ceilings = tuple(ceiling for ceiling in program.ceilings if ceiling[0].scenario == scenario)
     limited = tuple(each for each in program.limited if program.quantities[each[0]].scenario == scenario)
-    return optimum(program.changed(goals=program.goals[-1:], ceilings=ceilings, limited=limited), 1.0, False, solver)
+    return optimum(program.changed(goals=program.goals[-1:], ceilings=ceilings, limited=limited), 1.0, False)
 
 
 def _at_fault(failure: Conflict) -> list[str]:
@@ -235,7 +233,7 @@ def _under_ceilings(task: Task, goals: Goals) -> list[str]:
     return list(dict.fromkeys((*(fields.response for fields, _ in ceilings), *limited)))[:_MOST_AT_FAULT]
 
 
-def _least(program: Problem, group: Group, solver: Solver) -> CertifiedOptimum:
+def _least(program: Problem, group: Group) -> CertifiedOptimum:
     """The smallest value of one group."""
     # without ceilings nothing is out of reach
-    return optimum(program.changed(goals=(Goal("alone", (group,)),)), _ALONE, False, solver).certain()
+    return optimum(program.changed(goals=(Goal("alone", (group,)),)), _ALONE, False).certain()

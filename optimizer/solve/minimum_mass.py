@@ -14,7 +14,6 @@ from optimizer.program.cuts.dominance import Group
 from optimizer.program.cuts.optimum import Conflict
 from optimizer.program.cuts.semi_infinite import Goal
 from optimizer.program.optimum import optimum
-from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import total_mass
 from optimizer.program.verdict import CONTRADICTED
 from optimizer.solve.cutting_plane_rounds import in_rounds
@@ -49,7 +48,7 @@ def none_of(machine: Machine, status: str, reason: str, nodes: int, method: str)
     return BestSet(nothing, nothing, np.nan, np.nan, np.nan, status, reason, nodes, method)
 
 
-def minimum_mass(task: Task, scene: Prepared, solver: Solver) -> BestSet:
+def minimum_mass(task: Task, scene: Prepared) -> BestSet:
     """The lightest set that can be chosen and keeps the ceilings, of the first order or over the turn.
 
     Raises
@@ -60,11 +59,11 @@ def minimum_mass(task: Task, scene: Prepared, solver: Solver) -> BestSet:
     gap, robust = task.relative_gap, Robust(task, scene, task.demand)
     program = robust.goals().program
     weighed = program.changed(goals=(Goal("mass", (Group((total_mass(program.limits),)),)),))
-    best = optimum(weighed, _SHARP, False, solver, robust.left_s)
+    best = optimum(weighed, _SHARP, False, robust.left_s)
     if isinstance(best, Conflict):
         return none_of(task.machine, "infeasible", ended(None), 0, best.method)
     size = max(best.point.mass, best.proof.bound) or 1.0
-    choices = feasible_set(task, best.limits, solver)
+    choices = feasible_set(task, best.limits)
     choice, result = in_rounds(weighed, best, choices, gap, size, lambda: robust.left_s)
     reason = ample_reason(ended(result), result, best.proof.bound)
     return _of_choice(task.machine, choice, result, gap, reason)

@@ -30,7 +30,6 @@ from optimizer.program.methods.rounding import dust
 from optimizer.program.methods.symmetry import symmetric
 from optimizer.program.optimum import solution
 from optimizer.program.plate_pieces import Pieces, Webs, closer_nodes, first_nodes, pieces, tangents
-from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import MASS_GAP, Verdict, mass_resolution, yardstick
@@ -54,7 +53,7 @@ _ROOM_TO_BE_ALIKE = (0.999, 0.99, 0.9)
 
 
 def cut_optimum(
-    machine: Machine, cut: Plates, program: Problem, statement: Statement, wanted: Demand, solver: Solver
+    machine: Machine, cut: Plates, program: Problem, statement: Statement, wanted: Demand
 ) -> CertifiedOptimum | Conflict:
     """Certified unbalances that are cut from plates, of a problem that is a cone program without a budget.
 
@@ -66,8 +65,8 @@ def cut_optimum(
     """
     end = thread_time() + wanted.time_limit_s
     stated, every = statement.alone(), np.ones(len(machine.webs), bool)
-    whole = within_reach(stated, solver)
-    task = _CutSearch(machine, wanted, program.symmetric, whole, cut, solver, wanted.relative_gap, every)
+    whole = within_reach(stated)
+    task = _CutSearch(machine, wanted, program.symmetric, whole, cut, wanted.relative_gap, every)
     outcome = task.optimum(end)
     if whole is not stated:
         statement = replace(statement, limits=mapped(whole.limits, lambda array: array[0]))
@@ -106,7 +105,6 @@ class _CutSearch:
     symmetric: bool  # whether what is alike is to be alike
     whole: Statement  # (1,), whose limits are how far the plates reach
     plates: Plates
-    solver: Solver
     relative_gap: float  # that is asked of webs in place of plates
     left: np.ndarray  # (K,) bool, webs that may carry something
 
@@ -196,7 +194,7 @@ class _CutSearch:
 
     def _optimum(self, webs: Webs) -> tuple[Pieces, Optima]:
         laid = pieces(self.whole, self.plates, webs, self.left)
-        return laid, optima(laid.program, self.relative_gap, self.wanted.least_mass, self.solver)
+        return laid, optima(laid.program, self.relative_gap, self.wanted.least_mass)
 
     def without_dust(self, outcome: _Round, nodes: Real) -> _Round:
         """The same with webs left empty that carry next to nothing, where what is proven of all holds for it."""

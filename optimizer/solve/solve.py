@@ -2,13 +2,12 @@
 
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
-from optimizer.program.reference.solver import Solver
 from optimizer.solve.choice import best_choice
 from optimizer.solve.solution import Infeasible, Solution
 from optimizer.solve.worst_case import best_of_any_mass
 
 
-def solve(task: Task, scene: Prepared, solver: Solver, in_full: bool = True) -> Solution | Infeasible:
+def solve(task: Task, scene: Prepared, in_full: bool = True) -> Solution | Infeasible:
     """The best counterweights, in the worst of all cases where there are several.
 
     Parameters
@@ -22,4 +21,4 @@ def solve(task: Task, scene: Prepared, solver: Solver, in_full: bool = True) -> 
     MissingInput
         if a machine lacks what the objective needs.
     """
-    return (best_of_any_mass if task.choice is None else best_choice)(task, scene, solver, in_full)
+    return (best_of_any_mass if task.choice is None else best_choice)(task, scene, in_full)

@@ -30,7 +30,6 @@ from optimizer.program.cuts.cut import EXACT, Scatter
 from optimizer.program.cuts.optimum import CertifiedOptimum, Conflict
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.optimum import cone_program, optimum
-from optimizer.program.reference.solver import Solver
 from optimizer.responses.response import Phasors, Response
 from optimizer.solve.plates import cut_optimum
 from optimizer.solve.whole_turn import whole_turn_of
@@ -195,12 +194,12 @@ class Robust:
                 additions.append(corners[np.argmax(size)])
         yield from additions
 
-    def solved(self, solver: Solver) -> tuple[Goals, CertifiedOptimum | Conflict]:
+    def solved(self) -> tuple[Goals, CertifiedOptimum | Conflict]:
         """The program with all changes of masses that matter, and its proof."""
         gap, least = self.wanted.relative_gap, self.wanted.least_mass
         for _ in range(MOST_ROUNDS):
             asked = self.goals()
-            found = self._cut(asked.program, solver) or optimum(asked.program, gap, least, solver, self.left_s)
+            found = self._cut(asked.program) or optimum(asked.program, gap, least, self.left_s)
             if isinstance(found, Conflict) or not self.learnt(found.point.unbalance):
                 return asked, found
             if found.timed_out:
@@ -208,7 +207,7 @@ class Robust:
         # judged by all that is known: the gap tells what is left open
         return self.goals(), found
 
-    def _cut(self, program: Problem, solver: Solver) -> CertifiedOptimum | Conflict | None:
+    def _cut(self, program: Problem) -> CertifiedOptimum | Conflict | None:
         """The optimum of a cone program of plates; None of other problems.
 
         A budget holds of what is cut and not of its tangents, by which it is found here.
@@ -217,7 +216,7 @@ class Robust:
         statement = None if cut is None or budget else cone_program(program, self.wanted.least_mass)
         if cut is None or statement is None:
             return None
-        return cut_optimum(self.space.machine, cut, program, statement, self.wanted, solver)
+        return cut_optimum(self.space.machine, cut, program, statement, self.wanted)
 
 
 def _scenarios(task: Task, nominal: Prepared, share: float) -> Iterator[MachineOfCase]:

@@ -18,7 +18,6 @@ from optimizer.program.cuts.brackets import Brackets
 from optimizer.program.cuts.cut import Quantity
 from optimizer.program.cuts.optimum import CertifiedOptimum, Conflict
 from optimizer.program.optimum import optimum
-from optimizer.program.reference.solver import Solver
 from optimizer.responses.curve import TurnResponse
 from optimizer.solve.answer_fields import bound_beside, fitted
 from optimizer.solve.cut_plates import cut_plates, implied_masses
@@ -35,7 +34,7 @@ _NO_PROOF: Mapping[str, object] = {}
 _NO_PRICE = " The time limit ended before the nominal optimum of price_of_robustness was found."
 
 
-def best_of_any_mass(task: Task, scene: Prepared, solver: Solver, in_full: bool = True) -> Solution | Infeasible:
+def best_of_any_mass(task: Task, scene: Prepared, in_full: bool = True) -> Solution | Infeasible:
     """Counterweights of any mass that are optimal, in the worst of all cases where there are several.
 
     Parameters
@@ -48,17 +47,17 @@ def best_of_any_mass(task: Task, scene: Prepared, solver: Solver, in_full: bool 
         if a machine lacks what the objective needs.
     """
     robust = Robust(task, scene, task.demand)
-    asked, found = robust.solved(solver)
+    asked, found = robust.solved()
     if isinstance(found, Conflict):
-        return out_of_reach(task, scene, asked, found, solver)
+        return out_of_reach(task, scene, asked, found)
     told = fitted(task, scene, asked, found, robust.wanted, in_full)
-    return _beside_nominal(robust, asked, told, solver) if task.robust else told
+    return _beside_nominal(robust, asked, told) if task.robust else told
 
 
-def _beside_nominal(robust: Robust, goals: Goals, solution: Solution, solver: Solver) -> Solution:
+def _beside_nominal(robust: Robust, goals: Goals, solution: Solution) -> Solution:
     """The same with the worst case, and what it costs beside the optimum of the machine as it is given."""
     task, scene = robust.task, robust.scene
-    best, late = _nominal_optimum(robust, solver)
+    best, late = _nominal_optimum(robust)
     if best is None:
         return with_worst_case(robust, solution, None, late)
     implied = implied_masses(task.space.machine, best.limits)
@@ -174,13 +173,13 @@ def _bearing_responses(machine: MachineOfCase, fidelity: Fidelity) -> Iterator[T
     yield from bearing_responses(machine.space.machine, fidelity, machine.turn, machine.scene.laden)
 
 
-def _nominal_optimum(robust: Robust, solver: Solver) -> tuple[CertifiedOptimum | None, bool]:
+def _nominal_optimum(robust: Robust) -> tuple[CertifiedOptimum | None, bool]:
     """The best counterweights of the machine as it is given, if any keep its ceilings; whether the limit of time,
     of which the search has what is left, leaves that open."""
     nominal, wanted, left = _nominal(robust), robust.wanted, robust.left_s
     if left == 0.0:
         return None, True
-    found = optimum(nominal.program, wanted.relative_gap, wanted.least_mass, solver, left)
+    found = optimum(nominal.program, wanted.relative_gap, wanted.least_mass, left)
     if isinstance(found, Conflict) or found.timed_out:
         return None, isinstance(found, CertifiedOptimum)
     # what is neither kept nor proven to be out of reach is no optimum

@@ -20,7 +20,6 @@ from rich.table import Table
 from optimizer.formulation.task import Task
 from optimizer.optimize import optimize
 from optimizer.outputs.registry import prepare
-from optimizer.program.reference.solver import Solver
 from optimizer.solve.worst_case import best_of_any_mass
 from schemas.request.requests import OptimizeRequest
 from tests.benchmarks.outputs import sixteen_rows
@@ -97,7 +96,7 @@ def times(machine: dict[str, Any], least_mass: bool, repeats: int) -> Times:
         whole.append((time.process_time() - began) * 1e3)
         scene = prepare(request, ("residual", "main_bearings"))
         began = time.process_time()
-        best_of_any_mass(Task.of(request), scene, Solver())
+        best_of_any_mass(Task.of(request), scene)
         solving.append((time.process_time() - began) * 1e3)
     proof = answer.certificate
     assert proof is not None

@@ -14,12 +14,11 @@ from optimizer.choices.semicontinuous import inside, search, tree
 from optimizer.choices.semicontinuous.places import root
 from optimizer.program.cuts.row_generation import FEW
 from optimizer.program.methods.optima import optima
-from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
 from optimizer.solve import statuses
 from tests.choices.sets import options_of
 from tests.pairs.asking import ask
-from tests.program.cases import SOLVER, random_statement
+from tests.program.cases import random_statement
 
 _LONG = 1e9
 #: s, for what takes a tenth of it on a machine that is left alone
@@ -110,8 +109,8 @@ def test_points_are_moved_to_tangents_until_the_time_is_over(
     """Programs are solved by eights, a second each."""
     problem, _ = problem_of(20)
     least = 0.9 * problem.limits.reach
-    relaxed = optima(problem.alone(), 1e-6, False, SOLVER).unbalance[0]
-    incumbent = inside.BestPoint(problem, root(least, problem.limits), 1e-9, Solver())
+    relaxed = optima(problem.alone(), 1e-6, False).unbalance[0]
+    incumbent = inside.BestPoint(problem, root(least, problem.limits), 1e-9)
     seconds, count, solve = Seconds(), 0, inside.solved
 
     def slowly(programs: Any, *rest: Any) -> Any:
@@ -132,7 +131,7 @@ def test_a_tree_of_leasts_bounds_as_many_nodes_as_it_has_time_for(
     limit_s: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     problem, _ = problem_of(8)
-    incumbent = inside.BestPoint(problem, root(0.9 * problem.limits.reach, problem.limits), 1e-9, Solver())
+    incumbent = inside.BestPoint(problem, root(0.9 * problem.limits.reach, problem.limits), 1e-9)
     seconds, bounded = Seconds(), tree._bounded
 
     def slowly(incumbent: Any, statement: Any, places: Any, inherited: Any, *rest: Any) -> Any:
@@ -149,11 +148,11 @@ def test_a_tree_that_rounding_leaves_open_does_not_say_that_time_was_over(monkey
     """Bounds of single points are as close as they are solved; below that nothing is left to divide."""
     problem, _ = problem_of(4)
     least = 0.9 * problem.limits.reach
-    relaxed = optima(problem.alone(), 1e-6, False, SOLVER).unbalance[0]
+    relaxed = optima(problem.alone(), 1e-6, False).unbalance[0]
     at_rest = float(problem.at_rest)
     asked = search.SearchGoal(1e-9 * at_rest, 0.0, at_rest, _LONG)
     monkeypatch.setattr(tree, "_bounded", lambda *_: (0.0, []))
-    _, found = search.search(problem, least, relaxed, 0.0, asked, Solver())
+    _, found = search.search(problem, least, relaxed, 0.0, asked)
     assert (found.ended, found.nodes) == ("rounding", 1)
     assert statuses.ended(found).startswith("The search has divided all that can be chosen")
 

@@ -17,7 +17,7 @@ from optimizer.program.statement import Statement
 from optimizer.program.verdict import yardstick
 from optimizer.responses.response import Phasors, Response
 from tests.choices.sets import every_set, options_of
-from tests.program.cases import COMBINATIONS, SOLVER, random_statement
+from tests.program.cases import COMBINATIONS, random_statement
 
 _LONG = 3600.0
 
@@ -25,7 +25,7 @@ _LONG = 3600.0
 def found_of(
     problem: Statement, options: Options, relative_gap: float = 1e-12, time_limit_s: float = _LONG
 ) -> tuple[np.ndarray, SearchResult]:
-    relaxed = optima(problem.alone(), 1e-6, False, SOLVER)
+    relaxed = optima(problem.alone(), 1e-6, False)
     size = float(yardstick(problem.alone())[0])
     return search.search(
         problem, options, relaxed.unbalance[0], float(relaxed.lower_bound[0]), relative_gap, size, time_limit_s
@@ -177,7 +177,7 @@ def test_a_search_that_is_out_of_time_says_so() -> None:
     assert found.feasible
     assert not found.proven
     value = float(problem.objective(options.of(options.unbalance, chosen)))
-    assert optima(problem.alone(), 1e-6, False, SOLVER).lower_bound[0] <= found.lower_bound + 1e-12 * size
+    assert optima(problem.alone(), 1e-6, False).lower_bound[0] <= found.lower_bound + 1e-12 * size
     assert found.lower_bound <= value
 
 
@@ -203,7 +203,7 @@ def test_the_continuous_optimum_is_never_beaten() -> None:
         options = options_of(problem, [float(np.max(problem.limits.max_mass)) * share for share in (0.2, 0.6)], [0.0])
         chosen, _ = found_of(problem, options)
         value = float(problem.objective(options.of(options.unbalance, chosen)))
-        assert value >= optima(problem.alone(), 1e-6, False, SOLVER).lower_bound[0] * (1.0 - 1e-12)
+        assert value >= optima(problem.alone(), 1e-6, False).lower_bound[0] * (1.0 - 1e-12)
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,6 @@ from optimizer.outputs.registry import prepare
 from optimizer.outputs.requirements import effects_of_objective
 from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.methods.optima import optima
-from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import Row
 from optimizer.program.verdict import MASS_GAP
 from optimizer.solve.whole_turn import whole_turn_of
@@ -86,10 +85,10 @@ def is_needed_at(request: ParetoRequest, front: ParetoFront, point: ParetoPoint,
     program = whole.within(most, whole.cap).along(here, unit)
     # t is nothing at the point
     target = _SHARPEST - whole.parameter(0.0, here, unit)
-    found = optima(program.alone(), _SHARPEST, False, Solver()).single()
+    found = optima(program.alone(), _SHARPEST, False).single()
     if found.conflict is not None or found.lower_bound > target:
         return True
-    found = optima(program.alone(), target - found.lower_bound + _SHARPEST, True, Solver()).single()
+    found = optima(program.alone(), target - found.lower_bound + _SHARPEST, True).single()
     assert found.conflict is None
     return found.mass_target >= target and found.mass_lower_bound > point.total_mass_kg / (1.0 - MASS_GAP)
 

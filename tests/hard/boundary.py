@@ -21,7 +21,6 @@ from optimizer.formulation.goals import cone_program
 from optimizer.formulation.limits import limits
 from optimizer.optimize import optimize
 from optimizer.outputs.registry import prepare
-from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.solution import CEILING_TOLERANCE, ConeSolution
 from optimizer.program.verdict import yardstick
@@ -38,7 +37,6 @@ PLACES = ("reachable", "at rest", "unlimited", "floor")
 FIELDS = {"force": "force_ceiling_N", "moment": "moment_ceiling_Nm"}
 #: what two answers of the same optimum may differ by: the asked gap, relative to the yardstick
 _GAP = 1.01e-6
-_SOLVER = Solver()
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,6 @@ from optimizer.mechanics.inertia import reciprocating
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic
 from optimizer.outputs.registry import prepare
-from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.solution import ConeSolution
 from optimizer.program.statement import Statement
@@ -33,7 +32,6 @@ from schemas.request.objective import Objective
 from schemas.request.requests import OptimizeRequest
 from tests.program.cases import optimum
 
-SOLVER = Solver()
 #: plane of a bearing about which a couple shall be small as well, m; its weight [1/(N m)]
 PLANE, WEIGHT = 0.7, 0.2
 MACHINE = {
@@ -202,7 +200,7 @@ def test_order_and_sense_say_how_a_response_turns(monkeypatch: pytest.MonkeyPatc
 def test_a_sweep_knows_the_response_as_well(monkeypatch: pytest.MonkeyPatch) -> None:
     request = _register(monkeypatch)
     scene, _, found = _solved(request)
-    columns, unbalance = optimal(request, 3, SOLVER)
+    columns, unbalance = optimal(request, 3)
     assert columns["status"].tolist() == ["optimal"] * 3
     np.testing.assert_allclose(columns["objective"], found.objective * scene.omega_squared, rtol=1e-12)
     np.testing.assert_allclose(unbalance, np.tile(found.unbalance, (3, 1)), rtol=1e-9, atol=1e-12)

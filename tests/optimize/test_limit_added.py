@@ -11,7 +11,6 @@ from optimizer.formulation.task import Task
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Real, mapped
 from optimizer.outputs.registry import prepare
-from optimizer.program.reference.solver import Solver
 from optimizer.program.sensitivity import shadow_prices
 from optimizer.solve.certify import Certified, certified
 from optimizer.solve.prices import Priced, of_limits
@@ -52,7 +51,6 @@ def _solved(request: OptimizeRequest) -> tuple[Certified, list[str], dict[str, P
         scene.responses,
         np.array([scene.omega_squared]),
         Task.of(request).demand,
-        Solver(),
     )
     touched = [name for name, limit in WEB_LIMITS.items() if limit.touched(machine, best.mass_kg, best.angle_deg)[0, 0]]
     prices = mapped(shadow_prices(best.program, best.unbalance, best.optima.multipliers), lambda array: array[0])
@@ -99,7 +97,7 @@ def test_rows_of_a_sweep_know_it_at_every_speed() -> None:
     assert limits(columns.machine, rpm.shape).max_mass[:, 0] == pytest.approx(
         np.minimum(20.0, LARGEST / (RADIUS * omega**2)), rel=1e-12
     )
-    found, _ = optimal(columns, rpm.size, Solver())
+    found, _ = optimal(columns, rpm.size)
     assert found["status"].tolist() == ["optimal"] * rpm.size
     left = np.maximum(CRANK * omega**2 - LARGEST, 0.0)
     assert found["objective"] == pytest.approx(left, abs=1.1e-6 * np.max(CRANK * omega**2))

@@ -17,7 +17,6 @@ import pytest
 from numpy.typing import NDArray
 
 from optimizer.optimize import optimize
-from optimizer.program.reference.solver import Solver
 from optimizer.studies.pareto.pareto import pareto
 from optimizer.studies.sweep.rows import rows
 from optimizer.studies.sweep.table import result_schema, result_table
@@ -284,7 +283,7 @@ def test_a_row_of_a_sweep_is_the_answer() -> None:
     body = asked(objective={"bearing_weight": 1})
     axis = {"path": "/machine/max_total_mass_kg", "values": [2.2, 2.8]}
     request = SweepRequest.model_validate({"base": body, "axes": [axis]})
-    table = result_table(rows(request, 0, request.total, Solver()), result_schema(request, b"{}")).to_pylist()
+    table = result_table(rows(request, 0, request.total), result_schema(request, b"{}")).to_pylist()
     for row in table:
         body["machine"]["max_total_mass_kg"] = row["/machine/max_total_mass_kg"]
         answer = optimize(OptimizeRequest.model_validate(body))

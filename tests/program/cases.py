@@ -11,13 +11,11 @@ from optimizer.mechanics.angles import direction
 from optimizer.numerics.arrays import Complex
 from optimizer.program.limits import Limits
 from optimizer.program.methods.optima import optima
-from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.solution import ConeSolution
 from optimizer.program.statement import Statement
 from optimizer.responses.response import Phasors, Response
 
-SOLVER = Solver()
 DIRECTION_WEIGHTS = ((1.0, 1.0), (1.0, 0.3), (0.0, 1.0))
 COMBINATIONS = tuple(
     product(("sum", "max"), DIRECTION_WEIGHTS, (False, True), (False, True), (False, True))
@@ -26,7 +24,7 @@ COMBINATIONS = tuple(
 
 def optimum(problem: Statement, relative_gap: float, least_mass: bool) -> ConeSolution:
     """Of one program, the only one of a batch."""
-    return optima(problem.alone(), relative_gap, least_mass, SOLVER).single()
+    return optima(problem.alone(), relative_gap, least_mass).single()
 
 
 def random_limits(rng: np.random.Generator, webs: int, sectors: bool, budget: bool) -> Limits:

@@ -7,7 +7,7 @@ import pytest
 
 from optimizer.program.methods.compiled import both_stages
 from optimizer.program.methods.optima import optima
-from optimizer.program.reference.solver import Solver
+from optimizer.program.reference.solver import smallest_objective
 from optimizer.program.solution import INTERIOR_POINT
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import yardstick
@@ -31,7 +31,7 @@ def budgeted(seed: int, share: float, sectors: bool, combine: str = "sum", webs:
 def test_a_small_budget_of_many_webs_needs_no_other_method(share: float, sectors: bool) -> None:
     """Regression: at 1e-3 to 1e-2 rounding ended the first stage early, and the cone program answered most."""
     problems = stacked([budgeted(seed, share, sectors) for seed in _SEEDS])
-    found = optima(problems, GAP, True, Solver())
+    found = optima(problems, GAP, True)
     assert set(found.method) == {INTERIOR_POINT}
     assert np.all(found.objective - found.lower_bound <= GAP * yardstick(problems))
     assert np.all(found.mass - found.mass_lower_bound <= 1e-5 * found.mass)
@@ -52,9 +52,9 @@ def test_the_first_stage_ends_far_below_what_optima_may_differ_by(combine: str) 
 @pytest.mark.parametrize("share", [1e-3, 1e-2])
 def test_objective_and_mass_agree_with_clarabel(share: float) -> None:
     """Independent: neither point is below the bound of the other."""
-    problem, solver = budgeted(7, share, True, webs=100), Solver()
+    problem = budgeted(7, share, True, webs=100)
     size = float(yardstick(problem))
-    found = optima(problem.alone(), GAP, True, solver).single()
-    other = solver.smallest_objective(problem, 1e-10 * size)
+    found = optima(problem.alone(), GAP, True).single()
+    other = smallest_objective(problem, 1e-10 * size)
     assert found.objective >= other.lower_bound - 1e-9 * size
     assert other.objective >= found.lower_bound - 1e-9 * size

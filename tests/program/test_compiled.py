@@ -15,7 +15,7 @@ from optimizer.program.kernel import discs, interior_point
 from optimizer.program.kernel.finer_numbers import EXTENDED, FIFTY_DIGITS, finest
 from optimizer.program.methods.compiled import BothStages, both_stages
 from optimizer.program.methods.optima import optima
-from optimizer.program.reference.solver import Solver
+from optimizer.program.reference.solver import smallest_objective
 from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM, INTERIOR_POINT, ConeSolution
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import yardstick
@@ -25,7 +25,6 @@ from tests.hard.cases import all_cases
 from tests.hard.cases.case import Case
 from tests.program.cases import COMBINATIONS, optimum, random_statement, stacked
 
-SOLVER = Solver()
 WEBS = 4
 _HARD = {case.name: case for case in all_cases()}
 _KNOWN = stored.read()
@@ -76,7 +75,7 @@ def test_points_and_bounds_agree_with_clarabel(seed: int, case: tuple) -> None:
     """Independent: neither point is below the other's bound, and both keep the limits."""
     problem = random_statement(seed, *case)
     found = run(problem)
-    other = SOLVER.smallest_objective(problem, 1e-10 * float(yardstick(problem)))
+    other = smallest_objective(problem, 1e-10 * float(yardstick(problem)))
     unit = float(yardstick(problem))
     # the other point may exceed a ceiling within its tolerance, and then be better than allowed
     assert found.lower_bound[0] <= other.objective + (1e-12 + 1e-8 * bool(problem.ceilings.names)) * unit
@@ -176,7 +175,7 @@ def test_what_is_not_certified_goes_to_the_whole_procedure() -> None:
     problems = [random_statement(seed, "sum", (1.0, 1.0), False, False, True, webs=WEBS) for seed in range(4)]
     ceilings = problems[2].ceilings
     problems[2] = replace(problems[2], ceilings=replace(ceilings, cap=-0.1 * ceilings.size))
-    found = optima(stacked(problems), 1e-6, True, SOLVER)
+    found = optima(stacked(problems), 1e-6, True)
     assert list(found.unreachable) == [False, False, True, False]
     assert INTERIOR_POINT in list(found.method[[0, 1, 3]])
     assert found.excess[2] > 0
@@ -205,7 +204,7 @@ def test_uncertified_rows_are_solved_by_the_cone_program(monkeypatch: pytest.Mon
     monkeypatch.setattr(entry, "both_stages", doubtful)
     monkeypatch.setattr(single, "both_stages", doubtful)
     problems = stacked([random_statement(seed, "sum", (1.0, 0.3), False, False, False, webs=WEBS) for seed in range(3)])
-    found = optima(problems, 1e-6, True, SOLVER)
+    found = optima(problems, 1e-6, True)
     assert list(found.method) == [INTERIOR_POINT, CONE_PROGRAM, INTERIOR_POINT]
     assert np.all(found.objective - found.lower_bound <= 1e-6 * yardstick(problems))
 
@@ -249,14 +248,14 @@ def _pair(seed: int = 3) -> Statement:
 
 def test_no_programs_at_all() -> None:
     nothing = _pair().chosen(np.zeros(0, int))
-    assert optima(nothing, 1e-6, True, SOLVER).method.shape == (0,)
+    assert optima(nothing, 1e-6, True).method.shape == (0,)
     assert run(nothing).certified.shape == (0,)
 
 
 def test_no_webs() -> None:
     """Analytic: the objective at rest."""
     problem = random_statement(3, "sum", (1.0, 1.0), False, False, False, webs=WEBS).only(np.zeros(WEBS, bool))
-    found = optima(stacked([problem] * 2), 1e-6, True, SOLVER)
+    found = optima(stacked([problem] * 2), 1e-6, True)
     rest = problem.objective(np.zeros(0, complex))
     assert found.objective == pytest.approx([rest, rest], rel=1e-15)
     assert np.all(found.objective - found.lower_bound <= 1e-13 * rest)
@@ -268,7 +267,7 @@ def test_limits_of_zero(limit: str) -> None:
     problem = _pair()
     limits = replace(problem.limits, **{limit: 0.0 * getattr(problem.limits, limit)})
     problem = replace(problem, limits=limits)
-    found = optima(problem, 1e-6, True, SOLVER)
+    found = optima(problem, 1e-6, True)
     rest = problem.objective(np.zeros((2, WEBS), complex))
     assert found.objective == pytest.approx(rest, rel=1e-15)
     assert np.all(found.objective - found.lower_bound <= 1e-12 * rest)

@@ -6,7 +6,7 @@ import pytest
 
 from optimizer.program.reference.assembled import Assembled, GroupLimit, solved
 from optimizer.program.reference.modelling import ConeProgram
-from optimizer.program.reference.solver import Solver
+from optimizer.program.reference.solver import smallest_objective
 from optimizer.program.scaled_program import ScaledSolution, Shape, Stage
 from optimizer.program.scaling import Scaling, scale
 from optimizer.program.statement import Statement
@@ -65,11 +65,10 @@ def _mass(statement: Statement, found: ScaledSolution | None, scaling: Scaling) 
     return float(statement.mass(scaling.unbalance(statement, found)))
 
 
-def test_threads_that_share_a_solver_get_the_answers_of_one() -> None:
-    solver = Solver()
+def test_threads_beside_one_another_get_the_answers_of_one() -> None:
     problems = [random_statement(seed, "sum", (1.0, 1.0), False, False, False, webs=4) for seed in range(24)]
-    alone = [solver.smallest_objective(problem, 1e-9) for problem in problems]
+    alone = [smallest_objective(problem, 1e-9) for problem in problems]
     with ThreadPoolExecutor(4) as threads:
-        together = list(threads.map(lambda problem: solver.smallest_objective(problem, 1e-9), problems))
+        together = list(threads.map(lambda problem: smallest_objective(problem, 1e-9), problems))
     for one, other in zip(alone, together, strict=True):
         assert np.array_equal(one.unbalance, other.unbalance)

@@ -11,7 +11,6 @@ from optimizer.program.methods.optima import optima
 from optimizer.program.points import Points
 from optimizer.program.solution import CEILING_ROUNDING
 from optimizer.program.verdict import MASS_GAP
-from tests.program.cases import SOLVER
 from tests.program.test_settled import in_planes
 
 
@@ -46,7 +45,7 @@ def test_webs_that_are_not_alike_are_emptied_one_by_one() -> None:
 def test_without_dust_a_point_is_as_heavy_as_may_be_claimed(least_mass: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     """Analytic: nine tenths of the gap that a mass may have; the objective no further than its own target."""
     program = in_planes([-1.0, 1.0, 0.3]).alone()
-    found = optima(program, 1e-6, True, SOLVER)
+    found = optima(program, 1e-6, True)
     dusty = np.array([[-2.0, -2.5, 1e-9]]) + 0j
     found = replace(found, unbalance=dusty, objective=program.objective(dusty), mass=program.mass(dusty))
     found.mass_lower_bound[:], found.mass_target[:], found.lower_bound[:] = 4.6, 9.0, 1.0

@@ -9,14 +9,11 @@ from hypothesis import strategies as st
 from optimizer.program.certificate import Multipliers, mass_lower_bound, objective_lower_bound
 from optimizer.program.methods.compiled import suits_kernel
 from optimizer.program.methods.optima import optima
-from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import Row, statement, weighted_peak
 from optimizer.program.solution import CONE_PROGRAM, ConeSolution
 from optimizer.program.statement import Statement
 from optimizer.responses.response import Phasors, Response
 from tests.program.cases import optimum, random_limits, random_point, stacked
-
-SOLVER = Solver()
 
 
 def _one_web(name: str, co: complex, counter: complex = 0, influence: complex = 1) -> Response:
@@ -116,7 +113,7 @@ def test_groups_and_complex_influences_are_certified(seed: int, ceiling: bool) -
 
 def test_many_programs_of_several_groups_are_each_solved_as_if_alone() -> None:
     problems = [_groups(seed) for seed in (0, 4, 8)]
-    found = optima(stacked(problems), 1e-6, True, SOLVER)
+    found = optima(stacked(problems), 1e-6, True)
     assert set(found.method) == {CONE_PROGRAM}
     for n, problem in enumerate(problems):
         alone = optimum(problem, 1e-6, True)

@@ -12,7 +12,7 @@ from optimizer.program.methods.cascade import _better_of
 from optimizer.program.methods.optima import optima
 from optimizer.program.solution import ConeSolution
 from tests.hard.bodies import drawn, tried
-from tests.program.cases import COMBINATIONS, SOLVER, random_statement
+from tests.program.cases import COMBINATIONS, random_statement
 
 _SHARE = 1.0
 
@@ -62,7 +62,7 @@ def test_of_two_optima_the_proof_counts_what_it_goes_with(first: ConeSolution, s
 def test_a_larger_target_is_proven_by_the_same_multipliers(case: tuple) -> None:
     """Independent: the bound of these multipliers at that target, evaluated in full."""
     program = random_statement(7, *case).alone()
-    found = optima(program, 1e-6, True, SOLVER)
+    found = optima(program, 1e-6, True)
     assert found.counting(program, found.objective) is found
     for more in (0.01, 0.3):
         objective = found.mass_target + more * program.at_rest

@@ -11,14 +11,11 @@ from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import objective_lower_bound
 from optimizer.program.limits import Limits
 from optimizer.program.methods.implied_bounds import within_reach
-from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.solution import ConeSolution
 from optimizer.program.statement import Statement
 from optimizer.responses.response import Phasors, Response
 from tests.program.cases import COMBINATIONS, optimum, random_statement
-
-SOLVER = Solver()
 
 
 def solve(problem: Statement, gap: float = 1e-6, least_mass: bool = True) -> ConeSolution:
@@ -207,7 +204,7 @@ def test_webs_so_unlike_that_only_the_weak_one_can_cancel() -> None:
     moment = Response(
         "moment", "N m", Phasors(np.asarray(constant), np.asarray(1.1e-7 + 0j)), np.array([-0.5, -7.83e-11])
     )
-    problem = within_reach(statement(combined([weighted_peak(moment, 1.0)], "sum"), [], limits), SOLVER)
+    problem = within_reach(statement(combined([weighted_peak(moment, 1.0)], "sum"), [], limits))
     found = solve(problem, 1e-7, least_mass=False)
     assert found.objective == pytest.approx(1.1e-7, rel=1e-6)
     assert found.gap <= 1e-7 * float(problem.at_rest)

@@ -28,7 +28,6 @@ from optimizer.program.scaling import natural_reach
 from optimizer.program.solution import evaluated
 from optimizer.program.statement import Names, Statement, Term
 from optimizer.responses.response import Phasors, Response
-from tests.program.cases import SOLVER
 
 #: of a web that is all but free: where a cone is held up by next to nothing
 STEEP = 89.999999
@@ -74,7 +73,7 @@ def test_a_web_that_is_all_but_free_has_a_proven_reach() -> None:
     """Analytic: |10 + u| is at most 20 kg m, twice that of rest, so that |u| is at most 30 kg m."""
     force = Response("force", "N", Phasors(10.0 + 0j, 0j), np.ones(1))
     program = statement(combined([weighted_peak(force, 1.0)], "sum"), [], limits(1, STEEP))
-    assert within_reach(program, SOLVER).limits.max_mass == pytest.approx([30.0 / 0.25], rel=1e-8)
+    assert within_reach(program).limits.max_mass == pytest.approx([30.0 / 0.25], rel=1e-8)
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -128,7 +127,7 @@ def test_a_response_that_is_small_and_limited_is_one(ceiling: float) -> None:
     force = Response("force", "N", Phasors(np.asarray(10.0 + 0j), np.asarray(0j)), np.ones(1))
     free = replace(limits(1, 90.0), free=np.ones(1, bool))
     program = statement(combined([weighted_peak(force, 1.0)], "sum"), [(force, ceiling)], free)
-    assert within_reach(program, SOLVER).limits.max_mass == pytest.approx([(10.0 + ceiling) / 0.25], rel=1e-6)
+    assert within_reach(program).limits.max_mass == pytest.approx([(10.0 + ceiling) / 0.25], rel=1e-6)
 
 
 def _two_terms(**changes: Any) -> tuple[Statement, float]:

@@ -16,7 +16,7 @@ from optimizer.program.methods import compiled
 from optimizer.program.methods.compiled import BothStages, both_stages
 from optimizer.program.methods.disc_programs import discs_of, suits_discs
 from optimizer.program.methods.optima import optima
-from optimizer.program.reference.solver import Solver
+from optimizer.program.reference.solver import smallest_objective
 from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import yardstick
@@ -25,7 +25,6 @@ from tests.program.cases import COMBINATIONS, random_statement, stacked
 
 #: sums alone: the largest of peaks is for the method for any limits
 SUMS = tuple(case for case in COMBINATIONS if case[0] == "sum")
-SOLVER = Solver()
 
 
 def share(problem: Statement) -> np.ndarray:
@@ -46,7 +45,7 @@ def test_both_methods_and_clarabel_find_the_same_optimum(seed: int, case: tuple)
     assert suits_discs(problem).all()
     part, unit = share(problem), float(yardstick(problem)[0])
     quick, other = in_discs(problem), compiled._in_any_limits(problem, part, part, True, np.zeros(1))
-    reference = SOLVER.smallest_objective(problem.chosen(0), 1e-10 * unit)
+    reference = smallest_objective(problem.chosen(0), 1e-10 * unit)
     room = (1e-12 + 2e-8 * bool(problem.ceilings.names)) * unit
     assert quick.lower_bound[0] <= reference.objective + room
     if quick.certified[0]:
@@ -121,7 +120,7 @@ def single(half_angle_deg: float, centre_deg: float, largest: float, budget: flo
 def test_one_web(half_angle: float, centre: float, largest: float, budget: float, objective: float) -> None:
     """Analytic: the nearest point of a sector."""
     problem = single(half_angle, centre, largest, budget).alone()
-    found = optima(problem, 1e-6, True, SOLVER)
+    found = optima(problem, 1e-6, True)
     assert found.objective[0] == pytest.approx(objective, abs=1.1e-6 * 20.0)
     assert found.lower_bound[0] <= objective + 1e-12
     # on an edge that leads 60 degrees off, half of it is along; it may stop short by sqrt(2 * 17.3 * 2e-5)
@@ -149,7 +148,7 @@ def test_a_ceiling_that_can_just_be_kept(room: float) -> None:
     problem = statement(
         combined([weighted_peak(force, 0.01), weighted_peak(moment, 1.0)], "sum"), [(force, 15.0 + room)], base.limits
     )
-    found = optima(problem.alone(), 1e-6, True, SOLVER)
+    found = optima(problem.alone(), 1e-6, True)
     assert not found.unreachable[0]
     assert found.excess[0] <= 1e-9
     # the web carries 5 - room, and at most what the ceiling leaves

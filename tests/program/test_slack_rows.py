@@ -13,7 +13,6 @@ from optimizer.mechanics.layout import layout
 from optimizer.program.certificate import mass_lower_bound, objective_lower_bound
 from optimizer.program.methods.compiled import both_stages
 from optimizer.program.methods.inactive_rows import settle_without_slack_rows
-from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import INTERIOR_POINT
 from optimizer.program.verdict import yardstick
 from optimizer.solve.certify import certified
@@ -55,7 +54,7 @@ def test_least_masses_of_even_layouts_are_proven_without_another_solver(most: fl
     shaft = layout(request.machine)
     square = np.broadcast_to(shaft.omega**2, (ORDERS,))
     asked = responses(shaft, rotating(shaft).plus(reciprocating(shaft, 1)), Objective())
-    best = certified(request.machine, request.objective, asked, square, Task.of(request).demand, Solver())
+    best = certified(request.machine, request.objective, asked, square, Task.of(request).demand)
     assert set(best.optima.method) == {INTERIOR_POINT}
     assert set(best.status) == {"optimal"}
     # the same program as both stages leave it: some of its masses are not proven

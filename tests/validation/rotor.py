@@ -13,7 +13,6 @@ from optimizer.mechanics.angles import direction
 from optimizer.numerics.arrays import Complex
 from optimizer.program.limits import Limits
 from optimizer.program.methods.optima import optima
-from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import Row, statement, weighted_peak
 from optimizer.program.solution import ConeSolution
 from optimizer.responses.response import Phasors, Response
@@ -59,7 +58,7 @@ def _found() -> ConeSolution:
     ]
     free, ones = np.ones(4, bool), np.ones(4)
     limits = Limits(ones, _MOST * ones, free, ones + 0j, 0.0 * ones, ones, np.asarray(np.inf))
-    found = optima(statement([rows], [], limits).alone(), 1e-7, False, Solver()).single()
+    found = optima(statement([rows], [], limits).alone(), 1e-7, False).single()
     assert isinstance(found, ConeSolution)
     return found
 

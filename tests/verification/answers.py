@@ -125,9 +125,8 @@ def _answer(body: Body) -> str:
         return match(MatchRequest.model_validate(body)).model_dump_json()
     if "base" in body:
         request = SweepRequest.model_validate(body)
-        from optimizer.program.reference.solver import Solver
 
-        table = result_table(rows(request, 0, request.total, Solver()), result_schema(request, b"{}"))
+        table = result_table(rows(request, 0, request.total), result_schema(request, b"{}"))
         return json.dumps(table.to_pylist())
     if "points" in body:
         return pareto(ParetoRequest.model_validate(body)).model_dump_json()

@@ -5,7 +5,6 @@ from typing import Any
 
 import pytest
 
-from optimizer.program.reference.solver import Solver
 from optimizer.studies.pareto.pareto import pareto
 from optimizer.studies.sweep.rows import rows
 from optimizer.studies.sweep.table import result_schema, result_table
@@ -47,7 +46,7 @@ SWEEPS: dict[str, dict[str, Any]] = {
 def swept(body: dict[str, Any]) -> list[dict[str, Any]]:
     """The rows as NDJSON has them."""
     request = SweepRequest.model_validate(body)
-    table = result_table(rows(request, 0, request.total, Solver()), result_schema(request, b"{}"))
+    table = result_table(rows(request, 0, request.total), result_schema(request, b"{}"))
     return [json.loads(json.dumps(row)) for row in table.to_pylist()]
 
 

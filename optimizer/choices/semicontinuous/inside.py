@@ -14,7 +14,6 @@ from optimizer.choices.semicontinuous.places import Places, wrapped
 from optimizer.choices.semicontinuous.solved import Relaxations, solved
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.limits import Limits
-from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
 
 #: share of its size that a web without room is given, which the kernel needs
@@ -32,15 +31,15 @@ _ROUNDING = 1e-12
 class BestPoint:
     """The best point so far; of equal ones the lightest."""
 
-    def __init__(self, statement: Statement, places: Places, resolution: float, solver: Solver) -> None:
+    def __init__(self, statement: Statement, places: Places, resolution: float) -> None:
         """``places`` is where anything may be; ``resolution``: objectives that differ by no more are equal."""
-        self.statement, self.places, self.resolution, self.solver = statement, places, resolution, solver
+        self.statement, self.places, self.resolution = statement, places, resolution
         self.least = np.inf  # smallest objective
         self.unbalance: Complex | None = None  # (K,) kg m
 
     def solved(self, programs: Statement, share: Real, gap: Real, least_mass: bool) -> Relaxations:
         """Optima of N programs in all or some of what is added to points (N, K)."""
-        return solved(programs, self.places.alike, share, gap, least_mass, self.solver)
+        return solved(programs, self.places.alike, share, gap, least_mass)
 
     def offer(self, u: Complex) -> Real:
         """Take the best of points (M, K) kg m, or stay; their objectives (M,), inf of what breaks a limit."""
@@ -108,7 +107,7 @@ def lightened(incumbent: BestPoint, u: Complex, share: float, clock: Clock) -> C
         base, room, program = _beyond(incumbent, u[None], np.abs(u[None]) > 0)
         found = base + np.where(room, incumbent.solved(program, each, np.zeros(1), True).unbalance, 0.0)
         # offered alone, as it is no better
-        alone = BestPoint(statement, incumbent.places, 0.0, incumbent.solver)
+        alone = BestPoint(statement, incumbent.places, 0.0)
         alone.offer(found)
         before, after = float(statement.mass(u)), float(statement.mass(found[0]))
         if alone.least > incumbent.least + share or after >= before:

@@ -14,7 +14,6 @@ from optimizer.choices.semicontinuous.places import Places, root
 from optimizer.choices.semicontinuous.tree import branch
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.ceilings import CEILING_TOLERANCE
-from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
 
 #: objectives nearer than this share of the yardstick are equal
@@ -36,7 +35,6 @@ def search(
     continuous: Complex,
     at_least: float,
     goal: SearchGoal,
-    solver: Solver,
     points: Sequence[Complex] = (),
     below: Statement | None = None,
 ) -> tuple[Complex, SearchResult]:
@@ -55,7 +53,7 @@ def search(
     clock, gap = Clock(goal.time_limit_s), goal.gap
 
     places = root(least, statement.limits)
-    incumbent = BestPoint(statement, places, _EQUAL * goal.yardstick, solver)
+    incumbent = BestPoint(statement, places, _EQUAL * goal.yardstick)
     # nothing on any web keeps every limit but ceilings
     incumbent.offer(np.zeros((1, least.size), complex))
     sharing(incumbent, continuous, clock)
@@ -63,7 +61,7 @@ def search(
         incumbent.offer(np.stack(points))
     first = incumbent.unbalance
     if first is None:
-        first, result = _within(statement, places, continuous, clock, solver, below or statement)
+        first, result = _within(statement, places, continuous, clock, below or statement)
         if not result.feasible:
             return first, result
         incumbent.offer(first[None])
@@ -81,11 +79,10 @@ def _within(
     places: Places,
     continuous: Complex,
     clock: Clock,
-    solver: Solver,
     below: Statement,
 ) -> tuple[Complex, SearchResult]:
     """The first counterweights (K,) kg m that keep the ceilings, or the proof that there are none."""
-    incumbent = BestPoint(statement.excess(), places, 0.0, solver)
+    incumbent = BestPoint(statement.excess(), places, 0.0)
 
     def feasible() -> bool:
         return incumbent.least <= CEILING_TOLERANCE

@@ -13,7 +13,6 @@ from optimizer.program.equal_unknowns import apart, united
 from optimizer.program.methods.cascade import cascade
 from optimizer.program.methods.compiled import both_stages, suits_kernel
 from optimizer.program.methods.single import Target, interior_point
-from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
 
 #: of an objective at rest: any closer takes a cone program many attempts, and bounds are made of multipliers anyway
@@ -28,9 +27,7 @@ class Relaxations(NamedTuple):
     nowhere: np.ndarray  # (N,) bool: proven that nothing keeps their ceilings
 
 
-def solved(
-    program: Statement, alike: Alike | None, share: Real, gap: Real, least_mass: bool, solver: Solver
-) -> Relaxations:
+def solved(program: Statement, alike: Alike | None, share: Real, gap: Real, least_mass: bool) -> Relaxations:
     """Optima of N programs whose webs are alike.
 
     Parameters
@@ -50,7 +47,7 @@ def solved(
         one = replace(one, limits=replace(one.limits, alike=alike))
         near = max(float(share[n]), _CLOSE * float(one.at_rest))
         asked = Target(near, max(float(gap[n]), near), least_mass)
-        answer = cascade(one, asked, solver, interior_point(one, asked))
+        answer = cascade(one, asked, interior_point(one, asked))
         points[n] = answer.unbalance
         if answer.conflict is None:
             multipliers.put(n, answer.multipliers)

@@ -28,7 +28,7 @@ from optimizer.program.methods.polish import lightened, polished
 from optimizer.program.methods.rounding import settled
 from optimizer.program.methods.single import StagePair, Target, enough, interior_point
 from optimizer.program.points import points_at
-from optimizer.program.reference.solver import Solver
+from optimizer.program.reference.solver import least_mass, smallest_objective
 from optimizer.program.solution import CEILING_ROUNDING, CLOSED_FORM, CONE_PROGRAM, ConeSolution, evaluated
 from optimizer.program.statement import Statement
 
@@ -38,7 +38,7 @@ _SHARPNESS = 1e-4
 _MASS_GAP = 1e-6
 
 
-def cascade(statement: Statement, target: Target, solver: Solver, quick: StagePair) -> ConeSolution:
+def cascade(statement: Statement, target: Target, quick: StagePair) -> ConeSolution:
     """Certified optimum of one program whose webs can all carry something.
 
     Parameters
@@ -51,7 +51,7 @@ def cascade(statement: Statement, target: Target, solver: Solver, quick: StagePa
     (if neither could be decided, on the very boundary, they are not); or the proof that they cannot be.
     """
     find = _under_ceilings if statement.ceilings.names else _by_all
-    found = find(statement, target, solver, quick)
+    found = find(statement, target, quick)
     if found.conflict is not None:
         return found
     if target.least_mass and found.mass_multipliers is None:
@@ -75,9 +75,9 @@ def _settled(statement: Statement, target: Target, solution: ConeSolution) -> Co
     return solution.moved_to(statement, points.unbalance[0])
 
 
-def _under_ceilings(statement: Statement, target: Target, solver: Solver, quick: StagePair) -> ConeSolution:
+def _under_ceilings(statement: Statement, target: Target, quick: StagePair) -> ConeSolution:
     """With ceilings: first whether they can be kept, and with how much room (docs/mathematics.md section 9)."""
-    nearest = smallest_excess(statement, solver)
+    nearest = smallest_excess(statement)
     if nearest.lower_bound > CEILING_ROUNDING:
         # that ceilings cannot be kept is a finding of the reference solver alone
         method = CONE_PROGRAM if nearest.unbalance.size else CLOSED_FORM
@@ -86,20 +86,19 @@ def _under_ceilings(statement: Statement, target: Target, solver: Solver, quick:
     if target.least_mass and (rest := at_rest(statement, target, quick.smallest)):
         return replace(rest, certify_s=rest.certify_s + nearest.certify_s)
     if nearest.objective <= -AMPLE:
-        found = _by_all(statement, target, solver, quick, nearest.unbalance, finer=False)
+        found = _by_all(statement, target, quick, nearest.unbalance, finer=False)
         if enough(found, target):
             return replace(found, certify_s=found.certify_s + nearest.certify_s)
     # what stands on the edge, or is too steep to be proven, takes up the tolerance of its ceilings
     higher = raised(statement)
     quick = interior_point(higher, target, inside=nearest.unbalance)
-    found = quick.lightest if quick.certified else _by_all(higher, target, solver, quick, nearest.unbalance)
+    found = quick.lightest if quick.certified else _by_all(higher, target, quick, nearest.unbalance)
     return proven_again(statement, replace(found, certify_s=found.certify_s + nearest.certify_s))
 
 
 def _by_all(
     statement: Statement,
     target: Target,
-    solver: Solver,
     quick: StagePair,
     inside: Complex | None = None,
     finer: bool = True,
@@ -114,11 +113,11 @@ def _by_all(
     quick = lightened(statement, target, polished(statement, target, quick, inside))
     if quick.certified:
         return quick.lightest
-    found = solver.smallest_objective(statement, _SHARPNESS * target.share, quick.smallest)
+    found = smallest_objective(statement, _SHARPNESS * target.share, quick.smallest)
     if statement.row.size == 1 and statement.limits.radius.size and found.gap > target.demand:
         found = _single_term(statement, found)
     if target.least_mass and found.below_ceilings:
-        found = solver.least_mass(statement, found, target.share, _MASS_GAP, quick.lightest)
+        found = least_mass(statement, found, target.share, _MASS_GAP, quick.lightest)
     precision = finest(statement.limits.radius.size) if finer and suits_kernel(statement) else None
     if precision is None or enough(found, target):
         return found

@@ -13,7 +13,7 @@ from optimizer.program.certificate import (
 )
 from optimizer.program.kernel.finer_numbers import EXTENDED
 from optimizer.program.methods.single import Target, interior_point
-from optimizer.program.reference.solver import Solver
+from optimizer.program.reference.solver import smallest_objective
 from optimizer.program.solution import CEILING_ROUNDING, ConeSolution
 from optimizer.program.statement import Statement
 
@@ -25,7 +25,7 @@ _RAISED = CEILING_TOLERANCE - CEILING_ROUNDING
 _PRINTED = 1e-13
 
 
-def smallest_excess(statement: Statement, solver: Solver) -> ConeSolution:
+def smallest_excess(statement: Statement) -> ConeSolution:
     """The smallest largest excess over the ceilings, as far as its sign and the room below them are told."""
     program = statement.excess()
     asked = Target(CEILING_TOLERANCE, CEILING_TOLERANCE, False)
@@ -35,7 +35,7 @@ def smallest_excess(statement: Statement, solver: Solver) -> ConeSolution:
         finer = interior_point(program, asked, EXTENDED).smallest
         better, other = (finer, found) if finer.objective < found.objective else (found, finer)
         found = better.bounded(other.lower_bound, other.multipliers)
-    return found if _tells(found) else solver.smallest_objective(program, _PRINTED, found, _tells)
+    return found if _tells(found) else smallest_objective(program, _PRINTED, found, _tells)
 
 
 def _tells(excess: ConeSolution) -> bool:

@@ -15,7 +15,7 @@ from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.equal_unknowns import united
 from optimizer.program.limits import Limits
 from optimizer.program.norms import scalars
-from optimizer.program.reference.solver import Solver
+from optimizer.program.reference.solver import smallest_objective
 from optimizer.program.scaling import natural_reach
 from optimizer.program.statement import Statement
 
@@ -48,7 +48,7 @@ def _beyond(limits: Limits, natural: Real) -> np.ndarray:
     return limits.most > _FAR * natural[..., None] / limits.radius
 
 
-def within_reach(statement: Statement, solver: Solver) -> Statement:
+def within_reach(statement: Statement) -> Statement:
     """Programs (...) with a finite, proven limit wherever there is none, or one far beyond any need."""
     far = np.asarray(far_limits(statement).any(axis=-1))
     if not np.count_nonzero(far):
@@ -56,17 +56,17 @@ def within_reach(statement: Statement, solver: Solver) -> Statement:
     most = statement.limits.max_mass.copy()
     for place in np.ndindex(far.shape):
         if far[place]:
-            most[place] = _within_reach(statement.chosen(place), solver).limits.max_mass
+            most[place] = _within_reach(statement.chosen(place)).limits.max_mass
     return replace(statement, limits=replace(statement.limits, max_mass=most))
 
 
-def _within_reach(statement: Statement, solver: Solver) -> Statement:
+def _within_reach(statement: Statement) -> Statement:
     """One program, its limits proven by what is known to be reached within the ceilings."""
     point = np.zeros(statement.limits.radius.shape, complex)
     if np.any(statement.ceilings.excess(point) > 0):
         excess = statement.excess()
         excess = bounded(excess, level_above(excess, point))
-        nearest = solver.smallest_objective(excess, 0.1 * CEILING_TOLERANCE)
+        nearest = smallest_objective(excess, 0.1 * CEILING_TOLERANCE)
         if nearest.lower_bound > 0:
             return replace(statement, limits=excess.limits)
         point = nearest.unbalance

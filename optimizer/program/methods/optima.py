@@ -18,7 +18,6 @@ from optimizer.program.methods.compiled import both_stages, suits_kernel
 from optimizer.program.methods.empty_webs import leave_empty
 from optimizer.program.methods.inactive_rows import settle_without_slack_rows
 from optimizer.program.methods.single import Target, interior_point, only
-from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import (
     CLOSED_FORM,
     CONE_PROGRAM,
@@ -72,7 +71,7 @@ class Optima(Solutions):
         )
 
 
-def optima(statement: Statement, relative_gap: float, least_mass: bool, solver: Solver) -> Optima:
+def optima(statement: Statement, relative_gap: float, least_mass: bool) -> Optima:
     """Certified optima of N statements of one shape, one leading axis (N,); each as if it were alone.
 
     Parameters
@@ -84,17 +83,17 @@ def optima(statement: Statement, relative_gap: float, least_mass: bool, solver: 
     alike = statement.limits.alike
     if alike is not None and alike.plain:
         # no proof says otherwise: the terms are the same, and so are the multipliers
-        found = optima(united(statement, alike), relative_gap, least_mass, solver)
+        found = optima(united(statement, alike), relative_gap, least_mass)
         return replace(found, unbalance=apart(found.unbalance, alike))
     carries = statement.limits.reach > 0
     if carries.all():
-        return _optima(statement, relative_gap, least_mass, solver)
+        return _optima(statement, relative_gap, least_mass)
     # webs that cannot carry anything are left out of their programs
     patterns, which = np.unique(carries, axis=0, return_inverse=True)
     parts, places = [], []
     for k, webs in enumerate(patterns):
         programs = np.flatnonzero(which.reshape(-1) == k)
-        part = _optima(statement.chosen(programs).only(webs), relative_gap, least_mass, solver)
+        part = _optima(statement.chosen(programs).only(webs), relative_gap, least_mass)
         everywhere = np.zeros((programs.size, webs.size), complex)
         everywhere[:, webs] = part.unbalance
         parts.append(replace(part, unbalance=everywhere))
@@ -102,7 +101,7 @@ def optima(statement: Statement, relative_gap: float, least_mass: bool, solver: 
     return joined(parts, np.argsort(np.concatenate(places)))
 
 
-def _optima(statement: Statement, relative_gap: float, least_mass: bool, solver: Solver) -> Optima:
+def _optima(statement: Statement, relative_gap: float, least_mass: bool) -> Optima:
     """Of programs whose webs can all carry something."""
     size = yardstick(statement)
     share, demand = min(OPTIMUM_SHARE, relative_gap) * size, relative_gap * size
@@ -113,7 +112,7 @@ def _optima(statement: Statement, relative_gap: float, least_mass: bool, solver:
     for n in range(size.size) if found is None else (~found.certified).nonzero()[0].tolist():
         program, asked = statement.chosen(n), Target(float(share[n]), float(demand[n]), least_mass)
         quick = interior_point(program, asked) if found is None else only(program, asked, found.chosen(np.array([n])))
-        _put(answer, n, cascade(program, asked, solver, quick))
+        _put(answer, n, cascade(program, asked, quick))
     leave_empty(statement, answer, share, least_mass)
     return answer
 

@@ -1,4 +1,4 @@
-"""Solve a program and prove it: the smallest objective, then the least mass among the optima."""
+"""Solve a program by clarabel, in as many attempts as it takes: smallest objective, least mass among the optima."""
 
 import time
 from collections.abc import Callable, Iterable
@@ -50,123 +50,118 @@ _MASS_ATTEMPTS = (_ATTEMPTS[1], _ATTEMPTS[0], *_ATTEMPTS[2:])
 _TARGET_MARGIN = 1e-7
 
 
-class Solver:
-    """Solves statements by clarabel, in as many attempts as it takes."""
+def smallest_objective(
+    statement: Statement,
+    enough: float,
+    start: ConeSolution | None = None,
+    stop: Callable[[ConeSolution], bool] = lambda best: False,
+) -> ConeSolution:
+    """The smallest objective, with its bound.
 
-    def smallest_objective(
-        self,
-        statement: Statement,
-        enough: float,
-        start: ConeSolution | None = None,
-        stop: Callable[[ConeSolution], bool] = lambda best: False,
-    ) -> ConeSolution:
-        """The smallest objective, with its bound.
+    Tries harder until the certified gap is at most ``enough``. If no point that keeps the
+    ceilings was found, the one with the smallest excess is returned, and says so.
 
-        Tries harder until the certified gap is at most ``enough``. If no point that keeps the
-        ceilings was found, the one with the smallest excess is returned, and says so.
-
-        Parameters
-        ----------
-        enough : gap that ends the search, in units of the objective.
-        start : what is known already.
-        stop : whether the best so far is all that has to be known.
-        """
-        best = evaluated(statement, np.zeros(statement.limits.radius.shape, complex))
-        best = proven(statement, best, resting_multipliers(statement))
-        cancelled = evaluated(statement, statement.limits.into(cancelling(statement, passes=3)))
-        if _better_objective(best, cancelled):
-            best = cancelled.bounded(best.lower_bound, best.multipliers)
-        if start is not None:
-            chosen, other = (start, best) if _better_objective(best, start) else (best, start)
-            best = chosen.bounded(other.lower_bound, other.multipliers)
-        if statement.limits.radius.size == 0 or (best.below_ceilings and best.gap <= enough):
-            return best
-        natural, largest = float(natural_reach(statement)), float(np.max(statement.limits.reach))
-        for attempt in _ATTEMPTS:
-            clip = attempt.clip(natural, largest)
-            data, scaling = scale(statement, "objective", clip, attempt.ceiling_margin)
-            best, point = self._attempt(statement, best, data, scaling, attempt.tolerance, _better_objective)
-            if point is not None:
-                began = time.perf_counter()
-                best = proven(statement, best, objective_multipliers(statement, *point))
-                best = replace(best, certify_s=best.certify_s + time.perf_counter() - began)
-            if stop(best) or (best.below_ceilings and best.gap <= enough):
-                break
+    Parameters
+    ----------
+    enough : gap that ends the search, in units of the objective.
+    start : what is known already.
+    stop : whether the best so far is all that has to be known.
+    """
+    best = evaluated(statement, np.zeros(statement.limits.radius.shape, complex))
+    best = proven(statement, best, resting_multipliers(statement))
+    cancelled = evaluated(statement, statement.limits.into(cancelling(statement, passes=3)))
+    if _better_objective(best, cancelled):
+        best = cancelled.bounded(best.lower_bound, best.multipliers)
+    if start is not None:
+        chosen, other = (start, best) if _better_objective(best, start) else (best, start)
+        best = chosen.bounded(other.lower_bound, other.multipliers)
+    if statement.limits.radius.size == 0 or (best.below_ceilings and best.gap <= enough):
         return best
+    natural, largest = float(natural_reach(statement)), float(np.max(statement.limits.reach))
+    for attempt in _ATTEMPTS:
+        clip = attempt.clip(natural, largest)
+        data, scaling = scale(statement, "objective", clip, attempt.ceiling_margin)
+        best, point = _attempt(statement, best, data, scaling, attempt.tolerance, _better_objective)
+        if point is not None:
+            began = time.perf_counter()
+            best = proven(statement, best, objective_multipliers(statement, *point))
+            best = replace(best, certify_s=best.certify_s + time.perf_counter() - began)
+        if stop(best) or (best.below_ceilings and best.gap <= enough):
+            break
+    return best
 
-    def least_mass(
-        self, statement: Statement, first: ConeSolution, share: float, enough: float, start: ConeSolution | None = None
-    ) -> ConeSolution:
-        """The least total mass among the optima, with its bound.
 
-        Parameters
-        ----------
-        first : a solution whose objective is the smallest.
-        share : how far above the smallest objective an optimum may be, in units of the objective.
-        enough : relative gap of the mass that ends the search, besides what the tolerance of the ceilings is worth.
-        start : what is known already; its bound counts all objectives up to the share above its own first stage.
-        """
-        rounding = float(statement.rounding(first.unbalance))
-        target = max(first.objective, first.lower_bound + (1.0 - _TARGET_MARGIN) * share - rounding)
-        nothing = first.moved_to(statement, np.zeros_like(first.unbalance))
-        if nothing.objective <= target and nothing.below_ceilings:
-            return nothing
-        # the smallest objective lies between first.lower_bound and first.objective: a bound for all
-        # that are within the share of it must allow for the larger; rounding of ceilings may turn them round
-        counted = max(first.objective, first.lower_bound) + share
-        best, natural = first, float(natural_reach(statement))
-        needed, largest = float(np.max(np.abs(first.unbalance))), float(np.max(statement.limits.reach))
+def least_mass(
+    statement: Statement, first: ConeSolution, share: float, enough: float, start: ConeSolution | None = None
+) -> ConeSolution:
+    """The least total mass among the optima, with its bound.
 
-        def admit(old: ConeSolution, new: ConeSolution) -> bool:
-            return new.below_ceilings and new.objective <= target and new.mass < old.mass
+    Parameters
+    ----------
+    first : a solution whose objective is the smallest.
+    share : how far above the smallest objective an optimum may be, in units of the objective.
+    enough : relative gap of the mass that ends the search, besides what the tolerance of the ceilings is worth.
+    start : what is known already; its bound counts all objectives up to the share above its own first stage.
+    """
+    rounding = float(statement.rounding(first.unbalance))
+    target = max(first.objective, first.lower_bound + (1.0 - _TARGET_MARGIN) * share - rounding)
+    nothing = first.moved_to(statement, np.zeros_like(first.unbalance))
+    if nothing.objective <= target and nothing.below_ceilings:
+        return nothing
+    # the smallest objective lies between first.lower_bound and first.objective: a bound for all
+    # that are within the share of it must allow for the larger; rounding of ceilings may turn them round
+    counted = max(first.objective, first.lower_bound) + share
+    best, natural = first, float(natural_reach(statement))
+    needed, largest = float(np.max(np.abs(first.unbalance))), float(np.max(statement.limits.reach))
 
-        if start is not None:
-            known = first.weighed(start.mass_lower_bound, start.mass_multipliers, start.mass_target)
-            best = known.moved_to(statement, start.unbalance) if admit(best, start) else known
-        for multiplier in supporting_multipliers(statement, best.unbalance):
-            best = best.weighed(
-                float(mass_lower_bound(statement, multiplier, np.asarray(counted))), multiplier, counted
-            )
-        for attempt in _MASS_ATTEMPTS:
-            inner = max(target - attempt.target_margin * share, 0.5 * (target + first.lower_bound))
-            clip = min(max(attempt.clip(natural, largest), needed), largest)
-            data, scaling = scale(statement, "mass", clip, attempt.ceiling_margin, inner, first.mass)
-            best, point = self._attempt(statement, best, data, scaling, attempt.tolerance, admit, blend=(first, target))
-            if point is not None:
-                began = time.perf_counter()
-                for multiplier in mass_multipliers(statement, *point):
-                    bound = float(mass_lower_bound(statement, multiplier, np.asarray(counted)))
-                    best = best.weighed(bound, multiplier, counted)
-                best = replace(best, certify_s=best.certify_s + time.perf_counter() - began)
-            proof = best.mass_multipliers
-            given_up = 0.0 if proof is None else float(tolerance_allowance(statement, proof))
-            if best.mass - best.mass_lower_bound - given_up <= enough * best.mass:
-                break
-        return best
+    def admit(old: ConeSolution, new: ConeSolution) -> bool:
+        return new.below_ceilings and new.objective <= target and new.mass < old.mass
 
-    def _attempt(
-        self,
-        statement: Statement,
-        best: ConeSolution,
-        data: ScaledData,
-        scaling: Scaling,
-        tolerance: float,
-        better: Callable[[ConeSolution, ConeSolution], bool],
-        blend: tuple[ConeSolution, float] | None = None,
-    ) -> tuple[ConeSolution, tuple[Complex, Multipliers] | None]:
-        """One solve: the better of the best so far and the new point, and what a bound can be made of."""
-        best, targets = replace(best, method=CONE_PROGRAM), []
-        if data.shape.stage == "mass":
-            targets = [GroupLimit(np.ones(data.shape.groups[-1] + 1, bool), float(data.target[0]))]
-        found = solved(data, tolerance, np.inf, targets=targets)
-        if isinstance(found, NoPoint):
-            return best, None
-        u = statement.limits.into(scaling.unbalance(statement, found.solution))
-        for point in _tidied(u):
-            new = evaluated(statement, point if blend is None else _blended(statement, point, *blend))
-            if better(best, new):
-                best = replace(best, unbalance=new.unbalance, objective=new.objective, mass=new.mass, excess=new.excess)
-        return best, (u, scaling.multipliers(statement, found.solution))
+    if start is not None:
+        known = first.weighed(start.mass_lower_bound, start.mass_multipliers, start.mass_target)
+        best = known.moved_to(statement, start.unbalance) if admit(best, start) else known
+    for multiplier in supporting_multipliers(statement, best.unbalance):
+        best = best.weighed(float(mass_lower_bound(statement, multiplier, np.asarray(counted))), multiplier, counted)
+    for attempt in _MASS_ATTEMPTS:
+        inner = max(target - attempt.target_margin * share, 0.5 * (target + first.lower_bound))
+        clip = min(max(attempt.clip(natural, largest), needed), largest)
+        data, scaling = scale(statement, "mass", clip, attempt.ceiling_margin, inner, first.mass)
+        best, point = _attempt(statement, best, data, scaling, attempt.tolerance, admit, blend=(first, target))
+        if point is not None:
+            began = time.perf_counter()
+            for multiplier in mass_multipliers(statement, *point):
+                bound = float(mass_lower_bound(statement, multiplier, np.asarray(counted)))
+                best = best.weighed(bound, multiplier, counted)
+            best = replace(best, certify_s=best.certify_s + time.perf_counter() - began)
+        proof = best.mass_multipliers
+        given_up = 0.0 if proof is None else float(tolerance_allowance(statement, proof))
+        if best.mass - best.mass_lower_bound - given_up <= enough * best.mass:
+            break
+    return best
+
+
+def _attempt(
+    statement: Statement,
+    best: ConeSolution,
+    data: ScaledData,
+    scaling: Scaling,
+    tolerance: float,
+    better: Callable[[ConeSolution, ConeSolution], bool],
+    blend: tuple[ConeSolution, float] | None = None,
+) -> tuple[ConeSolution, tuple[Complex, Multipliers] | None]:
+    """One solve: the better of the best so far and the new point, and what a bound can be made of."""
+    best, targets = replace(best, method=CONE_PROGRAM), []
+    if data.shape.stage == "mass":
+        targets = [GroupLimit(np.ones(data.shape.groups[-1] + 1, bool), float(data.target[0]))]
+    found = solved(data, tolerance, np.inf, targets=targets)
+    if isinstance(found, NoPoint):
+        return best, None
+    u = statement.limits.into(scaling.unbalance(statement, found.solution))
+    for point in _tidied(u):
+        new = evaluated(statement, point if blend is None else _blended(statement, point, *blend))
+        if better(best, new):
+            best = replace(best, unbalance=new.unbalance, objective=new.objective, mass=new.mass, excess=new.excess)
+    return best, (u, scaling.multipliers(statement, found.solution))
 
 
 def _better_objective(old: ConeSolution, new: ConeSolution) -> bool:

@@ -25,7 +25,6 @@ from optimizer.mechanics.shapes import closed, plates
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.memoization import cached_property
 from optimizer.program.ceilings import CEILING_TOLERANCE
-from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
 from optimizer.solve.solution import Infeasible
 from optimizer.solve.solve import solve
@@ -101,7 +100,7 @@ def at_rest(request: AccuracyRequest, scene: Prepared) -> Statement:
     return cone_program(closed(request.machine), request.objective, scene.responses, square).chosen(0)
 
 
-def choices_ladder(request: AccuracyRequest, scene: Prepared, solver: Solver) -> Ladder:
+def choices_ladder(request: AccuracyRequest, scene: Prepared) -> Ladder:
     """Every way once, then in rounds those that are quick.
 
     Raises
@@ -109,7 +108,7 @@ def choices_ladder(request: AccuracyRequest, scene: Prepared, solver: Solver) ->
     OutOfRange
         where the options of a web cannot be told, or webs of a group are unlike.
     """
-    ways = _Ways(request, scene, solver)
+    ways = _Ways(request, scene)
     ways.warm_up()
     end, rungs = time.thread_time() + LADDER_S, list(ways.rungs())
     enough = dict[Aim, str]()
@@ -152,7 +151,6 @@ class _Ways:
 
     request: AccuracyRequest
     scene: Prepared
-    solver: Solver
 
     @cached_property
     def program(self) -> Statement:
@@ -194,7 +192,7 @@ class _Ways:
         return run
 
     def _optimum(self, task: Task) -> Made | Nothing:
-        found = solve(task, self.scene, self.solver, in_full=False)
+        found = solve(task, self.scene, in_full=False)
         if isinstance(found, Infeasible):
             return Nothing(_UNREACHABLE if found.status == "infeasible" else found.reason)
         mass, proof = found.mass, found.certificate
@@ -202,7 +200,7 @@ class _Ways:
 
     def _rounded(self) -> Made | Nothing:
         """The optimum of any masses, of a group the mean, each on what is nearest of its web."""
-        machine, free = self.request.machine, solve(self.free, self.scene, self.solver, in_full=False)
+        machine, free = self.request.machine, solve(self.free, self.scene, in_full=False)
         if isinstance(free, Infeasible):
             return Nothing(free.reason)
         mass, angle = _nearest(machine, free.unbalance)

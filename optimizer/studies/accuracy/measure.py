@@ -18,7 +18,6 @@ from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import ceiling_allowance
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import optima
-from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import ConeSolution
 from optimizer.program.statement import Statement
 from optimizer.studies.accuracy.choices import at_rest, choices_ladder
@@ -53,7 +52,7 @@ def accuracy(request: AccuracyRequest) -> AccuracyAnswer:
     start = time.perf_counter()
     # outputs play no part: what they would miss must not refuse the ladder
     scene = prepare(request, ("residual",))
-    measured = (_as_made if request.as_made else _of_any_mass)(request, scene, Solver())
+    measured = (_as_made if request.as_made else _of_any_mass)(request, scene)
     return AccuracyAnswer(
         **measured,
         repeats=request.repeats,
@@ -65,21 +64,21 @@ def accuracy(request: AccuracyRequest) -> AccuracyAnswer:
     )
 
 
-def _as_made(request: AccuracyRequest, scene: Prepared, solver: Solver) -> dict[str, object]:
+def _as_made(request: AccuracyRequest, scene: Prepared) -> dict[str, object]:
     """Fields of the answer where counterweights are as a workshop makes them."""
     closed = at_rest(request, scene)
     usable = closed.limits.reach > 0
     fields: dict[str, object] = {"size": _size(request, closed.only(usable)), "ladder": ()}
     if float(closed.at_rest) == 0.0 or not np.any(usable):
         return fields | {"status": "nothing_to_choose", "reference": None}
-    result = choices_ladder(request, scene, solver)
+    result = choices_ladder(request, scene)
     status = "infeasible" if result.unreachable else "measured" if result.reference else "contradicted"
     return fields | {"status": status, "reference": result.reference, "choices_ladder": result.rows}
 
 
-def _of_any_mass(request: AccuracyRequest, scene: Prepared, solver: Solver) -> dict[str, object]:
+def _of_any_mass(request: AccuracyRequest, scene: Prepared) -> dict[str, object]:
     """Fields of the answer where counterweights have any mass at any angle."""
-    whole = within_reach(cone_program(request.machine, request.objective, scene.responses, scene.omega_squared), solver)
+    whole = within_reach(cone_program(request.machine, request.objective, scene.responses, scene.omega_squared))
     usable = whole.limits.reach > 0
     statement = whole.only(usable)
     task = LadderProgram(statement, _turn(request, scene).only(usable))
@@ -88,7 +87,7 @@ def _of_any_mass(request: AccuracyRequest, scene: Prepared, solver: Solver) -> d
     reference: Reference | None = None
     rows: tuple[AccuracyRow, ...] = ()
     rest = float(statement.objective(np.zeros(statement.limits.radius.shape, complex)))
-    best = optima(statement.alone(), _SHARPEST, False, solver).single()
+    best = optima(statement.alone(), _SHARPEST, False).single()
     if best.conflict is not None:
         status = "infeasible"
     elif rest == 0.0 or not np.any(usable):

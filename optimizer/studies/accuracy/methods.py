@@ -14,7 +14,6 @@ from optimizer.program.methods.optima import optima
 from optimizer.program.multipliers import objective_multipliers
 from optimizer.program.reference.assembled import NoPoint
 from optimizer.program.reference.modelling import ConeProgram
-from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
 from optimizer.studies.accuracy.rivals import matrices
 from optimizer.studies.accuracy.rivals.polygonal import polygonal
@@ -107,10 +106,9 @@ def methods() -> Iterator[Method]:
 
 
 def _service(relative_gap: float) -> Run:
-    solver = Solver()
 
     def run(task: LadderProgram, position: float, time_limit_s: float) -> MethodResult | str:
-        outcome = optima(task.statement.alone(), relative_gap, False, solver).single()
+        outcome = optima(task.statement.alone(), relative_gap, False).single()
         if outcome.conflict is not None:
             return "no counterweights keep the ceilings"
         bound = outcome.lower_bound

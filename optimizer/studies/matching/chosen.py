@@ -23,7 +23,6 @@ from optimizer.numerics.memoization import cached_property
 from optimizer.outputs.registry import prepare
 from optimizer.program.certificate import Multipliers, normalised, objective_lower_bound
 from optimizer.program.methods.optima import optima
-from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
 from optimizer.solve.solution import Solution
 from optimizer.solve.solve import solve
@@ -57,7 +56,6 @@ class Chosen:
 
     request: MatchRequest
     problem: Problem
-    solver: Solver
     near: float  # what may be left open, over omega squared
     until: float  # of this thread's own time, when no more are searched
 
@@ -76,7 +74,7 @@ class Chosen:
         """
         row_mass = self.problem.row_masses(mass)
         program = self._programs(row_mass)
-        found = optima(program, _GAP, False, self.solver)
+        found = optima(program, _GAP, False)
         below = self._minorants(program, found.multipliers, mass)
         if not self.as_made:
             return Solved(found.objective, found.lower_bound, below, [None] * len(mass))
@@ -120,7 +118,7 @@ class Chosen:
         task = Task(machine, self.request.objective, self._posed.fidelity, float(gap), left)
         scene = prepare(self._posed, self._posed.outputs, machine=machine)
         # without ceilings nothing is infeasible
-        solution = solve(task, scene, self.solver, in_full=False).certain()
+        solution = solve(task, scene, in_full=False).certain()
         proof = solution.certificate
         bound = -np.inf if proof.lower_bound is None else proof.lower_bound / scene.omega_squared
         return proof.objective / scene.omega_squared, bound, solution

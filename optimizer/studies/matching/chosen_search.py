@@ -6,7 +6,6 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.numerics.arrays import Real
-from optimizer.program.reference.solver import Solver
 from optimizer.solve.solution import Solution
 from optimizer.studies.matching.bound import best_plane
 from optimizer.studies.matching.chosen import Chosen
@@ -89,7 +88,7 @@ class _Search:
 def with_chosen(request: MatchRequest, problem: Problem, near: float) -> WithChosen:
     """The best assignment with the counterweights that are best for it: planes below what they reach, one by one."""
     until = time.thread_time() + request.accuracy.time_limit_s
-    search = _Search(problem, Chosen(request, problem, Solver(), near, until))
+    search = _Search(problem, Chosen(request, problem, near, until))
     result = _best(search, near)
     return WithChosen(result, search.best.fitted, search.listed.fitted)
 

@@ -19,7 +19,6 @@ from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import fixed_masses
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.memoization import cached_property
-from optimizer.program.reference.solver import Solver
 from optimizer.solve.solution import Infeasible, Solution
 from optimizer.solve.solve import solve
 from optimizer.studies.pareto.measures import Measures, measures
@@ -52,8 +51,8 @@ class ChoiceSearch:
     task : weighs all that is traded, under one limit of the total mass.
     """
 
-    def __init__(self, task: Task, names: tuple[Traded, ...], scene: Prepared, solver: Solver) -> None:
-        self.task, self.names, self.scene, self.solver = task, names, scene, solver
+    def __init__(self, task: Task, names: tuple[Traded, ...], scene: Prepared) -> None:
+        self.task, self.names, self.scene = task, names, scene
         self.gap, self.seconds = task.relative_gap, task.time_limit_s
         self.until = thread_time() + self.seconds
         self.square = np.array([1.0 if name == "mass" else scene.omega_squared for name in names])
@@ -123,7 +122,7 @@ class ChoiceSearch:
         goal = self._weighing(weights, ceilings)
         limit = min(max(seconds, _LEAST_TIME), self.seconds)
         task = Task(machine, goal, self.task.fidelity, min(max(gap, _LEAST_GAP), 1.0), limit)
-        best = solve(task, replace(self.scene, machine=machine, objective=goal), self.solver, in_full=False)
+        best = solve(task, replace(self.scene, machine=machine, objective=goal), in_full=False)
         if isinstance(best, Infeasible):
             return best
         values = np.where(self.is_mass, best.shown.total_mass_kg, self.values(best.unbalance))

@@ -15,7 +15,6 @@ import numpy as np
 
 from optimizer.formulation.simulation import Prepared
 from optimizer.numerics.arrays import Real
-from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.solve.prices import touched_limits
 from optimizer.solve.solution import Infeasible
@@ -53,7 +52,7 @@ class _Box(NamedTuple):
         return np.array([self.right.values[0] - self.left.values[0], self.left.values[1] - self.right.values[1]])
 
 
-def chosen_front(request: ParetoRequest, machine: Machine, scene: Prepared, solver: Solver) -> ParetoFront:
+def chosen_front(request: ParetoRequest, machine: Machine, scene: Prepared) -> ParetoFront:
     """The front of what can be chosen; all its searches together end at the time asked.
 
     Parameters
@@ -62,7 +61,7 @@ def chosen_front(request: ParetoRequest, machine: Machine, scene: Prepared, solv
     """
     task = needed(request, PAIR, machine)
     scene = replace(scene, machine=machine, objective=task.objective)
-    return _Boxes(task, PAIR, scene, solver).front(request.points)
+    return _Boxes(task, PAIR, scene).front(request.points)
 
 
 class _Boxes(ChoiceSearch):

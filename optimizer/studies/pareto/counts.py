@@ -12,7 +12,6 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
 from optimizer.mechanics.layout import stacked
 from optimizer.outputs.requirements import missing
-from optimizer.program.reference.solver import Solver
 from optimizer.solve.minimum_mass import BestSet, minimum_mass, none_of
 from optimizer.solve.solution import Infeasible
 from optimizer.solve.solve import solve
@@ -23,9 +22,7 @@ from schemas.machine.catalogue import Catalogue
 from schemas.machine.machine import Machine
 
 
-def count_front(
-    request: ParetoRequest, trade: CountTrade, machine: Machine, scene: Prepared, solver: Solver
-) -> CountFront:
+def count_front(request: ParetoRequest, trade: CountTrade, machine: Machine, scene: Prepared) -> CountFront:
     """The front under one limit of the total mass; all its searches together end at the time asked."""
     whole = replace(Task.of(request), machine=machine)
     half, scene = 0.5 * whole.time_limit_s, replace(scene, machine=machine)
@@ -35,7 +32,7 @@ def count_front(
 
     def point(number: int | None, seconds: float) -> CountPoint:
         within = machine if number is None else at_most(machine, trade.of, number)
-        return _point(replace(whole, machine=within, time_limit_s=max(seconds, 1e-3)), scene, trade, number, solver)
+        return _point(replace(whole, machine=within, time_limit_s=max(seconds, 1e-3)), scene, trade, number)
 
     # what is limited by no number says how many are of any use; it may take half of the time, and the others the other
     points = [point(None, half)]
@@ -72,8 +69,8 @@ def _most(machine: Machine, of: Counted) -> int:
     return int(np.max(options.part, initial=-1)) + 1
 
 
-def _point(task: Task, scene: Prepared, trade: CountTrade, number: int | None, solver: Solver) -> CountPoint:
-    best = (_smallest if trade.least == "objective" else minimum_mass)(task, scene, solver)
+def _point(task: Task, scene: Prepared, trade: CountTrade, number: int | None) -> CountPoint:
+    best = (_smallest if trade.least == "objective" else minimum_mass)(task, scene)
     result = best.status != "infeasible"
     machine = task.machine
     u = unbalance(best.mass_kg, best.angle_deg, stacked([web.radius_m for web in machine.webs]))
@@ -107,9 +104,9 @@ def _chosen(machine: Machine) -> np.ndarray:
     return np.array([web.fixed is None for web in machine.webs], dtype=bool)
 
 
-def _smallest(task: Task, scene: Prepared, solver: Solver) -> BestSet:
+def _smallest(task: Task, scene: Prepared) -> BestSet:
     """The smallest objective, as a single answer has it."""
-    best = solve(task, scene, solver, in_full=False)
+    best = solve(task, scene, in_full=False)
     if isinstance(best, Infeasible):
         return none_of(task.machine, best.status, best.reason, best.nodes, best.method)
     proof, fitted = best.certificate, best.shown.counterweights

@@ -16,7 +16,6 @@ from optimizer.program.certificate import Multipliers, ceiling_allowance, normal
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import Optima, optima
 from optimizer.program.methods.rounding import has_dust
-from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE, ConeSolution
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import MASS_GAP
@@ -74,7 +73,7 @@ class _Undecided(Exception):
     """Ceilings that were kept within their tolerance are out of reach by less than that."""
 
 
-def front(trade: Trade, count: int, relative_gap: float, least_mass: bool, solver: Solver) -> Front | ConeSolution:
+def front(trade: Trade, count: int, relative_gap: float, least_mass: bool) -> Front | ConeSolution:
     """The front of a trade.
 
     Parameters
@@ -87,7 +86,7 @@ def front(trade: Trade, count: int, relative_gap: float, least_mass: bool, solve
     -------
     Front, or a solution with the proof that the ceilings cannot be kept.
     """
-    smallest = _smallest(trade, solver)
+    smallest = _smallest(trade)
     if isinstance(smallest, ConeSolution):
         return smallest
     trade, alone = smallest
@@ -97,25 +96,25 @@ def front(trade: Trade, count: int, relative_gap: float, least_mass: bool, solve
     try:
         if not all(one.keeps_ceilings for one in alone):
             raise _Undecided
-        points = _between(trade, ideal, proofs, size, count, min(OPTIMUM_SHARE, relative_gap), least_mass, solver)
+        points = _between(trade, ideal, proofs, size, count, min(OPTIMUM_SHARE, relative_gap), least_mass)
     except _Undecided:
         points = (_closest(trade, alone, ideal, proofs, least_mass),)
         return Front(points, ideal, size, proofs, trade, undecided=True)
     return Front(points, ideal, size, proofs, trade)
 
 
-def _smallest(trade: Trade, solver: Solver) -> tuple[Trade, list[ConeSolution]] | ConeSolution:
+def _smallest(trade: Trade) -> tuple[Trade, list[ConeSolution]] | ConeSolution:
     """What makes each peak smallest, and the trade within the reach in which all of its front is proven.
 
     A corner of one line is held against the points of all, so they are all to be within the same limits: those in which
     each peak is smallest, and those in which everything lies that is no worse than twice what is found there.
     """
     if not trade.far:
-        return _alone(trade, solver)
-    force, moment = (within_reach(program, solver).limits.max_mass for program in trade.alone)
+        return _alone(trade)
+    force, moment = (within_reach(program).limits.max_mass for program in trade.alone)
     within = trade.within(np.maximum(force, moment), np.zeros(2))
     for _ in range(_REACHES):
-        result = _alone(within, solver)
+        result = _alone(within)
         if isinstance(result, ConeSolution):
             return result
         u = np.array([one.unbalance for one in result[1]])
@@ -126,10 +125,10 @@ def _smallest(trade: Trade, solver: Solver) -> tuple[Trade, list[ConeSolution]] 
     return result
 
 
-def _alone(trade: Trade, solver: Solver) -> tuple[Trade, list[ConeSolution]] | ConeSolution:
+def _alone(trade: Trade) -> tuple[Trade, list[ConeSolution]] | ConeSolution:
     results: list[ConeSolution] = []
     for program in trade.alone:
-        one = optima(program.alone(), _SHARPNESS, True, solver).single()
+        one = optima(program.alone(), _SHARPNESS, True).single()
         if one.conflict is not None:
             return one
         results.append(one)
@@ -165,16 +164,15 @@ def _between(
     count: int,
     share: float,
     least_mass: bool,
-    solver: Solver,
 ) -> tuple[FrontPoint, ...]:
     """The points of the front; a single one where both peaks are smallest together."""
     # half the asked gap for the programs, half for the distance of the point from the ideal
-    together = replace(_meet(trade, ideal, size, least_mass, 0.25 * share, solver), corner=ideal, proof=proofs[0])
+    together = replace(_meet(trade, ideal, size, least_mass, 0.25 * share), corner=ideal, proof=proofs[0])
     alike = np.all(trade.peaks(together.solution.unbalance) - ideal <= max(0.5 * share, _NARROW) * size)
-    ends = [] if alike else [_end(trade, first, ideal, proofs, size, share, solver) for first in (0, 1)]
+    ends = [] if alike else [_end(trade, first, ideal, proofs, size, share) for first in (0, 1)]
     if alike or np.any(np.abs(ends[1].peaks - ends[0].peaks) <= _NARROW * size):
         return (together,)
-    return _points(trade, (ends[0], ends[1]), size, count, share, least_mass, solver)
+    return _points(trade, (ends[0], ends[1]), size, count, share, least_mass)
 
 
 @dataclass(frozen=True)
@@ -201,15 +199,13 @@ def _size(trade: Trade, u: Complex) -> Real:
     return np.where(size > SMALLEST, size, 1.0)
 
 
-def _meet(trade: Trade, anchor: Real, unit: Real, least_mass: bool, share: float, solver: Solver) -> FrontPoint:
+def _meet(trade: Trade, anchor: Real, unit: Real, least_mass: bool, share: float) -> FrontPoint:
     """The point of the front on the line anchor + t unit."""
-    (point,) = _meets(trade, anchor[None], unit, least_mass, share, solver)
+    (point,) = _meets(trade, anchor[None], unit, least_mass, share)
     return point
 
 
-def _meets(
-    trade: Trade, anchors: Real, unit: Real, least_mass: bool, share: float, solver: Solver
-) -> tuple[FrontPoint, ...]:
+def _meets(trade: Trade, anchors: Real, unit: Real, least_mass: bool, share: float) -> tuple[FrontPoint, ...]:
     """The points of the front on the lines from anchors (N, 2).
 
     Parameters
@@ -218,16 +214,14 @@ def _meets(
     """
     first, *more = _ALLOWANCES if least_mass else _ALLOWANCES[:1]
     programs = trade.along(anchors, unit)
-    optimum = _reached(optima(programs, first * share, least_mass, solver))
+    optimum = _reached(optima(programs, first * share, least_mass))
     points = []
     for n, anchor in enumerate(anchors):
         program, best = programs.chosen(n), optimum.single(n)
         for part in more:
             if _mass_gap(best) <= MASS_GAP:
                 break
-            best = min(
-                best, _reached(optima(program.alone(), part * share, least_mass, solver)).single(), key=_mass_gap
-            )
+            best = min(best, _reached(optima(program.alone(), part * share, least_mass)).single(), key=_mass_gap)
         usable, _ = normalised(program, best.multipliers)
         of_mass = best.mass_multipliers if least_mass else None
         points.append(
@@ -266,7 +260,6 @@ def _end(
     proofs: tuple[Multipliers, Multipliers],
     size: Real,
     share: float,
-    solver: Solver,
 ) -> _End:
     """The end of the front where peak ``first`` is smallest.
 
@@ -281,7 +274,7 @@ def _end(
     # at the anchor it is the other peak alone that is too small
     peaks, corners = [], [(anchor, proofs[other])]
     for _ in range(_END_STEPS):
-        point = _meet(trade, anchor, unit, False, share, solver)
+        point = _meet(trade, anchor, unit, False, share)
         peaks.append(trade.peaks(point.solution.unbalance))
         if point.corner[first] > ideal[first]:
             corners.append((point.corner, point.proof))
@@ -302,27 +295,24 @@ def _points(
     count: int,
     share: float,
     least_mass: bool,
-    solver: Solver,
 ) -> tuple[FrontPoint, ...]:
     """The ends, and points between them that are evenly apart in the plane of shares of the range."""
     start, step = ends[0].peaks, ends[1].peaks - ends[0].peaks
     span = np.abs(step)
     # the answer may lie above the front by a share of its range, where that is less than the sizes
     share *= min(1.0, float(np.min(size / span)))
-    spread = _spread(trade, start, step, count, share, solver)
-    between = _meets(trade, start + spread[1:-1, None] * step, span, least_mass, share, solver)
-    first, last = (_at_end(trade, end, span, size, share, least_mass, solver) for end in ends)
+    spread = _spread(trade, start, step, count, share)
+    between = _meets(trade, start + spread[1:-1, None] * step, span, least_mass, share)
+    first, last = (_at_end(trade, end, span, size, share, least_mass) for end in ends)
     return (first, *between, last)
 
 
-def _at_end(
-    trade: Trade, end: _End, span: Real, size: Real, share: float, least_mass: bool, solver: Solver
-) -> FrontPoint:
+def _at_end(trade: Trade, end: _End, span: Real, size: Real, share: float, least_mass: bool) -> FrontPoint:
     """The point at an end, whose gap is of the sizes: where a share of the range leaves dust, one of these may not."""
     limits = trade.both.limits
 
     def nearest(unit: Real) -> FrontPoint:
-        result = _meet(trade, end.peaks, unit, least_mass, _END_SHARE * share, solver)
+        result = _meet(trade, end.peaks, unit, least_mass, _END_SHARE * share)
         return replace(result, corner=end.corner, proof=end.proof)
 
     point = nearest(span)
@@ -334,7 +324,7 @@ def _at_end(
     return other if close and not has_dust(limits, other.solution.unbalance) else point
 
 
-def _spread(trade: Trade, start: Real, step: Real, count: int, share: float, solver: Solver) -> Real:
+def _spread(trade: Trade, start: Real, step: Real, count: int, share: float) -> Real:
     """Shares of the chord (count,) whose points of the front are evenly apart."""
     # denser towards the ends, where a front may fall like a square root
     sounded = 0.5 * (1.0 - np.cos(np.linspace(0.0, np.pi, _SOUNDINGS + 1)))
@@ -342,7 +332,7 @@ def _spread(trade: Trade, start: Real, step: Real, count: int, share: float, sol
     depth = np.zeros(sounded.size)
     anchors = start + sounded[1:-1, None] * step
     lines = trade.along(anchors, np.abs(step))
-    u = _reached(optima(lines, max(share, _SOUNDED), False, solver)).unbalance
+    u = _reached(optima(lines, max(share, _SOUNDED), False)).unbalance
     depth[1:-1] = np.min((anchors - trade.peaks(u)) / np.abs(step), axis=-1)
     curve = np.array([sounded - depth, 1.0 - sounded - depth])
     length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(curve, axis=1)))])

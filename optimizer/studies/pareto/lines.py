@@ -15,7 +15,6 @@ from optimizer.mechanics.fixed_weights import beside, fixed_masses
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.certificate import ceiling_allowance
 from optimizer.program.cuts.optimum import METHOD, CertifiedOptimum, Conflict, over_turn
-from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.program.verdict import Claim, mass_resolution, verdict
 from optimizer.solve.solution import Infeasible, Solution, finite_or_null
@@ -36,8 +35,8 @@ class Lines:
     square, there : (D,) what figures are times and above in the units of the answer: the mass is above what is fixed.
     """
 
-    def __init__(self, task: Task, names: tuple[Traded, ...], scene: Prepared, solver: Solver) -> None:
-        self.task, self.scene, self.solver = task, scene, solver
+    def __init__(self, task: Task, names: tuple[Traded, ...], scene: Prepared) -> None:
+        self.task, self.scene = task, scene
         self.traded = measures(task, names, scene)
         self.square = np.array([1.0 if name == "mass" else scene.omega_squared for name in names])
         self.fixed = float(np.sum(fixed_masses(task.machine)))
@@ -54,7 +53,7 @@ class Lines:
             for which in range(len(traded.names)):
                 result = over_turn(traded.first(which, size, _END_SLACK), OPTIMUM_SHARE, False)
                 if isinstance(result, Conflict):
-                    return solve(self.task, self.scene, self.solver, in_full=False)
+                    return solve(self.task, self.scene, in_full=False)
                 ends.append(traded.values(result.point.unbalance))
                 gross = np.maximum(gross, traded.gross(result.point.unbalance))
                 smallest.append((result.goals[0].value, result.goals[0].proof.bound))

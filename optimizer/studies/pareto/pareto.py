@@ -14,7 +14,6 @@ from optimizer.numerics.arrays import Real
 from optimizer.outputs.first_order import first_order, floor
 from optimizer.outputs.registry import prepare
 from optimizer.program.methods.symmetry import symmetric
-from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import ConeSolution
 from optimizer.program.verdict import Claim, mass_resolution, verdict
 from optimizer.solve.prices import touched_limits
@@ -48,12 +47,11 @@ _WORST: tuple[Status, ...] = ("optimal", "inaccurate", "infeasible")
 
 
 @or_mapping(ParetoRequest)
-def pareto(request: ParetoRequest, solver: Solver | None = None) -> ParetoAnswer:
+def pareto(request: ParetoRequest) -> ParetoAnswer:
     """The certified fronts of peak force and peak moment, one for each budget of the total mass.
 
     Every figure is evaluated by the mechanics from the returned masses and angles.
     """
-    solver = solver or Solver()
     start = time.perf_counter()
     if request.responses is not None:
         needed(request, request.responses, request.machine)
@@ -61,17 +59,13 @@ def pareto(request: ParetoRequest, solver: Solver | None = None) -> ParetoAnswer
     solving = time.perf_counter()
     machines = _machines(request)
     plain = request.responses is None and request.counts is None
-    made = [_front(request, machine, scene, solver) for machine in machines if plain]
+    made = [_front(request, machine, scene) for machine in machines if plain]
     fronts = tuple(one.front for one in made)
     solved, certified = sum(one.solve_s for one in made), sum(one.certify_s for one in made)
     trading = time.perf_counter()
     names, counted = request.responses, request.counts
-    trades = (
-        () if names is None else tuple(traded_front(request, names, machine, scene, solver) for machine in machines)
-    )
-    counts = (
-        () if counted is None else tuple(count_front(request, counted, machine, scene, solver) for machine in machines)
-    )
+    trades = () if names is None else tuple(traded_front(request, names, machine, scene) for machine in machines)
+    counts = () if counted is None else tuple(count_front(request, counted, machine, scene) for machine in machines)
     end = time.perf_counter()
     solved += end - trading
     worst = [*(one.status for one in fronts), *(one.status for one in trades), *(count.status for count in counts)]
@@ -113,15 +107,15 @@ def _machines(request: ParetoRequest) -> tuple[Machine, ...]:
     )
 
 
-def _front(request: ParetoRequest, machine: Machine, scene: Prepared, solver: Solver) -> _Made:
+def _front(request: ParetoRequest, machine: Machine, scene: Prepared) -> _Made:
     start = time.perf_counter()
     if request.chosen:
-        return _Made(chosen_front(request, machine, scene, solver), time.perf_counter() - start, 0.0)
+        return _Made(chosen_front(request, machine, scene), time.perf_counter() - start, 0.0)
     traded = trade(machine, request.objective, scene.responses, scene.omega_squared)
-    result = front(traded, request.points, request.accuracy.relative_gap, request.objective.least_mass, solver)
+    result = front(traded, request.points, request.accuracy.relative_gap, request.objective.least_mass)
     solve_s = time.perf_counter() - start
     if isinstance(result, ConeSolution):
-        return _Made(_infeasible(request, machine, scene, solver), solve_s, result.certify_s)
+        return _Made(_infeasible(request, machine, scene), solve_s, result.certify_s)
     certify_s = sum(point.solution.certify_s for point in result.points)
     return _Made(_certified(request, machine, scene, result), solve_s, certify_s)
 
@@ -245,9 +239,9 @@ def _reason(request: ParetoRequest, curve: Front, shown: Sequence[ParetoPoint]) 
     return "resolution" if len(shown) < request.points else None
 
 
-def _infeasible(request: ParetoRequest, machine: Machine, scene: Prepared, solver: Solver) -> ParetoFront:
+def _infeasible(request: ParetoRequest, machine: Machine, scene: Prepared) -> ParetoFront:
     """Which ceilings conflict, and what can be reached, as the optimum of one objective tells it."""
-    none = solve(replace(Task.of(request), machine=machine), replace(scene, machine=machine), solver, in_full=False)
+    none = solve(replace(Task.of(request), machine=machine), replace(scene, machine=machine), in_full=False)
     return ParetoFront(
         max_total_mass_kg=machine.max_total_mass_kg,
         status="infeasible",

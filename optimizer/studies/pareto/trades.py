@@ -13,7 +13,6 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
 from optimizer.numerics.arrays import Real
 from optimizer.outputs.requirements import missing
-from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.solve.solution import Infeasible
 from optimizer.studies.pareto.chosen_trades import ChosenTrades
@@ -40,14 +39,12 @@ def needed(request: ParetoRequest, names: TradedNames, machine: Machine) -> Task
     return task
 
 
-def traded_front(
-    request: ParetoRequest, names: TradedNames, machine: Machine, scene: Prepared, solver: Solver
-) -> TradedFront:
+def traded_front(request: ParetoRequest, names: TradedNames, machine: Machine, scene: Prepared) -> TradedFront:
     """The front of some responses, for one limit of the total mass; searches of choices end at the time asked."""
     task = needed(request, names, machine)
     # what is traded counts, whatever the objective weighs
     scene = replace(scene, machine=machine, objective=task.objective)
-    search = (ChosenTrades if request.chosen else Lines)(task, names, scene, solver)
+    search = (ChosenTrades if request.chosen else Lines)(task, names, scene)
     ends = search.ends()
     if not isinstance(ends, TradeEnds):
         return TradedFront(

@@ -17,7 +17,6 @@ from optimizer.outputs.registry import prepare
 from optimizer.outputs.requirements import effects_of_objective
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.cuts.semi_infinite import Problem
-from optimizer.program.reference.solver import Solver
 from optimizer.solve.uncertain_program import Robust
 from optimizer.studies.rounding.neighbours import Sides, nearest, sides
 from schemas.answer.answers import Certificate, OptimizeAnswer
@@ -52,7 +51,7 @@ def round_weights(request: RoundRequest) -> RoundAnswer:
         where webs have no crank to count angles from, or no step in their sector.
     """
     try:
-        return _rounding(request, Solver())
+        return _rounding(request)
     except NotComputable as error:
         inside = [FieldProblem(("request", *path), message) for path, message in error.problems]
         raise type(error)(inside) from None
@@ -111,21 +110,21 @@ class _Judge:
         )
 
 
-def _rounding(request: RoundRequest, solver: Solver) -> RoundAnswer:
+def _rounding(request: RoundRequest) -> RoundAnswer:
     asked = request.request
-    free = optimize(asked, solver)
+    free = optimize(asked)
     if free.certificate is None:
         return _answer(free, None)
     optimum, judge = _Set.of(free), _Judge.of(asked)
     near = sides(asked.machine, *optimum, request.mass_step_kg, request.angle_step_deg)
-    answer = optimize(_among(asked, near), solver)
+    answer = optimize(_among(asked, near))
     if answer.certificate is None:
         return _answer(answer, None)
     plain, certificate = judge.weights(_Set(*nearest(near))), answer.certificate
     better = plain.limits_kept and plain.objective < certificate.objective
     if better and len(judge.program.goals) == 1:
         # the time ended the search before it came to what is nearest
-        only = optimize(_among(asked, [each.nearest for each in near]), solver)
+        only = optimize(_among(asked, [each.nearest for each in near]))
         if only.certificate is not None:
             answer = with_fields(only, _of_search(answer, certificate, only.certificate))
     return _answer(answer, _cost(request, judge, free, answer, plain))

@@ -6,7 +6,6 @@ from functools import lru_cache
 import numpy as np
 import pyarrow as pa
 
-from optimizer.program.reference.solver import Solver
 from optimizer.studies.sweep.plan import block_rows
 from optimizer.studies.sweep.rows import rows
 from optimizer.studies.sweep.table import result_schema, result_table
@@ -30,7 +29,7 @@ def run_chunk(request_json: bytes, start: int, stop: int) -> pa.Table:
     request, schema = _prepared(request_json)
     if not 0 <= start <= stop <= request.total:
         raise ValueError(f"the sweep has the designs 0 to {request.total}, not {start} to {stop}")
-    return result_table(rows(request, start, stop, Solver()), schema)
+    return result_table(rows(request, start, stop), schema)
 
 
 def blocks(request_json: bytes, start: int, stop: int) -> Iterator[tuple[int, int]]:

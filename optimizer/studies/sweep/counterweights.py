@@ -12,7 +12,6 @@ from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import layout as layout_of
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex
-from optimizer.program.reference.solver import Solver
 from optimizer.solve.certify import Certified, certified
 from optimizer.studies.sweep.proofs import multipliers_as_text
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
@@ -27,7 +26,7 @@ def shape_keys(request: OptimizeRequest, count: int) -> np.ndarray:
     return sum((np.broadcast_to(fact, (count,)) << k for k, fact in enumerate(facts)), np.zeros(count, dtype=np.int64))
 
 
-def optimal(request: OptimizeRequest, count: int, solver: Solver, multipliers: bool = False) -> tuple[Columns, Complex]:
+def optimal(request: OptimizeRequest, count: int, multipliers: bool = False) -> tuple[Columns, Complex]:
     """Columns of certified optima, and the unbalance of the counterweights (count, webs) kg m.
 
     Parameters
@@ -39,7 +38,7 @@ def optimal(request: OptimizeRequest, count: int, solver: Solver, multipliers: b
     baseline = rotating(layout).plus(reciprocating(layout, 1))
     square = np.broadcast_to(layout.omega**2, (count,))
     machine, objective, every = request.machine, request.objective, responses(layout, baseline, request.objective)
-    best = certified(machine, objective, every, square, Task.of(request).demand, solver)
+    best = certified(machine, objective, every, square, Task.of(request).demand)
     return columns_of(request, best, multipliers)
 
 

@@ -13,7 +13,6 @@ from optimizer.formulation.placement import on_webs
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.registry import columns, input_rules
 from optimizer.outputs.requirements import missing
-from optimizer.program.reference.solver import Solver
 from optimizer.studies.sweep.counterweights import fixed_columns, optimal, shape_keys
 from optimizer.studies.sweep.designs import axis_values
 from optimizer.studies.sweep.singles import single_optima
@@ -73,7 +72,7 @@ class Rows:
             )
 
 
-def rows(request: SweepRequest, start: int, stop: int, solver: Solver) -> dict[str, Any]:
+def rows(request: SweepRequest, start: int, stop: int) -> dict[str, Any]:
     """Every column of the designs start..stop-1, by name.
 
     A design that is no valid request is a row that says which field is wrong; it ends nothing. Nor does one that
@@ -90,7 +89,7 @@ def rows(request: SweepRequest, start: int, stop: int, solver: Solver) -> dict[s
     ranges = (rule for target, column in zip(request.targets, values, strict=True) for rule in target.rules(column))
     inside = _refuse(table, np.arange(stop - start), ranges)
     for designs in _same_nulls(values, inside):
-        _fill_or_fail(table, _fill(request, values, table, solver), designs)
+        _fill_or_fail(table, _fill(request, values, table), designs)
     table.tell_faults()
     return table.columns
 
@@ -132,13 +131,13 @@ class Group(Generic[Base]):
 AnyGroup = Group[OptimizeRequest] | Group[AnalyzeRequest]
 
 
-def _fill(request: SweepRequest, values: Sequence[Real], table: Rows, solver: Solver) -> Callable[[Designs], None]:
+def _fill(request: SweepRequest, values: Sequence[Real], table: Rows) -> Callable[[Designs], None]:
     """Fills rows of some designs that have the same fields null."""
     base = request.base
     if isinstance(base, AnalyzeRequest):
         return partial(_fill_analyzed, table, Group(request, base, values))
     fill = _fill_singles if request.separate else _fill_optima
-    return partial(fill, table, solver, Group(request, base, values))
+    return partial(fill, table, Group(request, base, values))
 
 
 def _fill_or_fail(table: Rows, fill: Callable[[Designs], None], designs: Designs) -> None:
@@ -171,7 +170,7 @@ def _over_the_turn(group: Group[OptimizeRequest], designs: Designs) -> dict[int,
     return {design: one for design, one in alone if one.objective.over_the_turn}
 
 
-def _fill_optima(table: Rows, solver: Solver, group: Group[OptimizeRequest], designs: Designs) -> None:
+def _fill_optima(table: Rows, group: Group[OptimizeRequest], designs: Designs) -> None:
     """Rows of designs of which those of the first order are many programs of one shape."""
     designs = _refuse(table, designs, all_rules(group.of(designs)))
     turning = _over_the_turn(group, designs)
@@ -186,14 +185,14 @@ def _fill_optima(table: Rows, solver: Solver, group: Group[OptimizeRequest], des
         return
     cut = np.isin(designs, list(turning))
     if np.any(cut):
-        found, unbalance = single_optima([turning[int(design)] for design in designs[cut]], solver, group.multipliers)
+        found, unbalance = single_optima([turning[int(design)] for design in designs[cut]], group.multipliers)
         table.put(designs[cut], found)
         _fill_outputs(table, group, designs[cut], unbalance)
     if not np.all(cut):
-        _fill_first_order(table, solver, group, designs[~cut])
+        _fill_first_order(table, group, designs[~cut])
 
 
-def _fill_singles(table: Rows, solver: Solver, group: Group[OptimizeRequest], designs: Designs) -> None:
+def _fill_singles(table: Rows, group: Group[OptimizeRequest], designs: Designs) -> None:
     """Rows of designs that are searched, cut from plates or alike: as single answers are."""
     unbalances: dict[int, Complex] = {}
     for design in designs.tolist():
@@ -206,7 +205,7 @@ def _fill_singles(table: Rows, solver: Solver, group: Group[OptimizeRequest], de
         if not _with_inputs(table, group, at, {design} if alone.objective.of_the_shaft else set()).size:
             continue
         try:
-            columns, unbalance = single_optima([alone], solver, group.multipliers)
+            columns, unbalance = single_optima([alone], group.multipliers)
         except OutOfRange as refusal:
             table.refuse(at, Rule(True, *refusal.problems[0]))
             continue
@@ -216,12 +215,12 @@ def _fill_singles(table: Rows, solver: Solver, group: Group[OptimizeRequest], de
         _fill_outputs(table, group, np.array(list(unbalances)), np.array(list(unbalances.values())))
 
 
-def _fill_first_order(table: Rows, solver: Solver, group: Group[OptimizeRequest], designs: Designs) -> None:
+def _fill_first_order(table: Rows, group: Group[OptimizeRequest], designs: Designs) -> None:
     """Rows of designs whose objective is about the first order, those of one shape of program together."""
     keys = shape_keys(group.of(designs), designs.size)
     for key in np.unique(keys):
         alike = designs[keys == key]
-        found, unbalance = optimal(group.of(alike), alike.size, solver, group.multipliers)
+        found, unbalance = optimal(group.of(alike), alike.size, group.multipliers)
         table.put(alike, found)
         _fill_outputs(table, group, alike, unbalance)
 

@@ -8,7 +8,6 @@ import numpy as np
 from optimizer.formulation.task import Task
 from optimizer.numerics.arrays import Complex
 from optimizer.outputs.registry import prepare
-from optimizer.program.reference.solver import Solver
 from optimizer.solve.solution import Infeasible, Solution
 from optimizer.solve.solve import solve
 from schemas.answer.answers import GoalReached
@@ -17,9 +16,7 @@ from schemas.request.requests import OptimizeRequest
 from schemas.sweep.columns import CERTIFICATE, MULTIPLIERS, goal_columns
 
 
-def single_optima(
-    requests: Sequence[OptimizeRequest], solver: Solver, multipliers: bool
-) -> tuple[dict[str, Any], Complex]:
+def single_optima(requests: Sequence[OptimizeRequest], multipliers: bool) -> tuple[dict[str, Any], Complex]:
     """Columns of certified optima, and the unbalance of the counterweights (count, webs) kg m; nan where none.
 
     Parameters
@@ -29,9 +26,7 @@ def single_optima(
     """
     alone = [prepare(request, ("residual",)) for request in requests]
     # a row has no column for prices and sensitivities
-    solutions = [
-        solve(Task.of(request), scene, solver, in_full=False) for request, scene in zip(requests, alone, strict=True)
-    ]
+    solutions = [solve(Task.of(request), scene, in_full=False) for request, scene in zip(requests, alone, strict=True)]
     rows = [_row(request, solution, multipliers) for request, solution in zip(requests, solutions, strict=True)]
     columns = {
         name: np.array([row[name] for row in rows], dtype=object if isinstance(first, str | None) else float)

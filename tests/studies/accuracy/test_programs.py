@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 from optimizer.program.certificate import objective_lower_bound
 from optimizer.program.kernel.finer_numbers import PRECISIONS
 from optimizer.program.reference.assembled import NoPoint
-from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.solution import ConeSolution
 from optimizer.responses.response import Phasors, Response
@@ -31,8 +30,6 @@ from optimizer.studies.accuracy.rivals.polygonal import polygonal
 from optimizer.studies.accuracy.rivals.sampled import OverTheTurn, half_turn, sampled
 from tests.program.cases import COMBINATIONS, optimum
 from tests.studies.accuracy.problems import free_limits, random_task, single
-
-SOLVER = Solver()
 
 
 def reference(task: LadderProgram) -> ConeSolution:

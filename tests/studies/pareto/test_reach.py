@@ -9,7 +9,6 @@ import pytest
 from optimizer.outputs.registry import prepare
 from optimizer.program.methods.implied_bounds import LARGEST
 from optimizer.program.methods.optima import Optima, optima
-from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
 from optimizer.studies.pareto.front import Front, front
 from optimizer.studies.pareto.trade import Trade, trade
@@ -42,12 +41,12 @@ def test_all_lines_of_a_front_are_within_the_same_limits(
     """Of a line with a nearer limit the corner is held against points of others that are beyond it (regression)."""
     limits: list[list[float]] = []
 
-    def recorded(statement: Statement, gap: float, least_mass: bool, solver: Solver) -> Optima:
+    def recorded(statement: Statement, gap: float, least_mass: bool) -> Optima:
         limits.append(statement.limits.max_mass[0].tolist())
-        return optima(statement, gap, least_mass, solver)
+        return optima(statement, gap, least_mass)
 
     monkeypatch.setattr(import_module(Front.__module__), "optima", recorded)
-    found = front(traded(without_limits(sector, radius)), POINTS, 1e-6, True, Solver())
+    found = front(traded(without_limits(sector, radius)), POINTS, 1e-6, True)
     assert isinstance(found, Front)
     # before the lines each peak is made smallest within what is known to hold that
     lines = limits[2:]

@@ -7,7 +7,6 @@ from typing import Any
 
 import pytest
 
-from optimizer.program.reference.solver import Solver
 from optimizer.studies.sweep import run_chunk
 from optimizer.studies.sweep.rows import rows
 from schemas.request.requests import OptimizeRequest
@@ -32,7 +31,7 @@ def swept(body: dict[str, Any], ceilings: list[float | None], limits: list[float
 
 def designs(body: dict[str, Any], request: SweepRequest) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
     """Each row with the request of its design, defaults filled in."""
-    table = rows(request, 0, request.total, Solver())
+    table = rows(request, 0, request.total)
     for k in range(request.total):
         row = {name: column[k] for name, column in table.items()}
         row = {name: None if isinstance(each, float) and math.isnan(each) else each for name, each in row.items()}
@@ -64,7 +63,7 @@ def test_every_row_carries_the_proof_of_its_bounds(seed: int, combine: str) -> N
 def test_rows_show_their_multipliers_only_if_asked() -> None:
     body = {"machine": random_machine(1), "objective": {"force_ceiling_N": 1e9}}
     plain, asked = swept(body, [1e9], [1.0]), swept(body, [1e9], [1.0], multipliers=True)
-    assert "multipliers" not in rows(plain, 0, 1, Solver())
+    assert "multipliers" not in rows(plain, 0, 1)
     assert [column.name for column in asked.chosen_columns] == [*(c.name for c in plain.chosen_columns), "multipliers"]
     chosen = swept(body, [1e9], [1.0], multipliers=True, columns=["force_peak_N"])
     assert [column.name for column in chosen.chosen_columns] == ["index", "status", "force_peak_N", "multipliers"]
@@ -72,7 +71,7 @@ def test_rows_show_their_multipliers_only_if_asked() -> None:
 
 def test_rows_that_are_no_valid_designs_have_no_multipliers() -> None:
     body = {"machine": random_machine(1), "objective": {"force_ceiling_N": 1e9}}
-    (text,) = rows(swept(body, [1e9], [-1.0], multipliers=True), 0, 1, Solver())["multipliers"]
+    (text,) = rows(swept(body, [1e9], [-1.0], multipliers=True), 0, 1)["multipliers"]
     assert text is None
 
 
