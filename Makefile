@@ -12,12 +12,13 @@ pip := $(bin)/pip --quiet --disable-pip-version-check
 
 install: $(kernels)
 
+# bytecode is kept here and for tests: a process that reads all packages from their source starts 0.7 s later
+run: export PYTHONDONTWRITEBYTECODE :=
 run: $(kernels)
 	$(bin)/counterweight serve
 
 # The code is checked while kernels are compiled, browsers downloaded and tests run: many tests wait for other processes
-# (tests/distribution.py), so two cores have room for five. Bytecode is kept: read from source, tests and modules cost
-# every process a third of its start
+# (tests/distribution.py), so two cores have room for five
 test: export PYTHONDONTWRITEBYTECODE :=
 test: .venv/development
 	$(MAKE) --no-print-directory --jobs 3 lint tests
