@@ -17,10 +17,10 @@ run: export PYTHONDONTWRITEBYTECODE :=
 run: $(kernels)
 	$(bin)/counterweight serve
 
-# The code is checked while kernels are compiled, browsers downloaded and tests run: many tests wait for other processes
-# (tests/distribution.py), so two cores have room for five
+# Kernels are compiled while what tests need is installed, and the code is checked while kernels are compiled, browsers
+# downloaded and tests run: many tests wait for other processes (tests/distribution.py), so two cores have room for five.
 test: export PYTHONDONTWRITEBYTECODE :=
-test: .venv/development
+test:
 	$(MAKE) --no-print-directory --jobs 3 lint tests
 
 # not by the command of pytest, which every process that a test starts workers from would run anew

@@ -66,7 +66,7 @@ class Loads:
         at = self._clock()
         load = self._loads.pop(owner, _Load(at, 0.0, 0, at))
         self._loads[owner] = _Load(load.since, load.now(at) + average, load.turns + turns, at)
-        # one comes at most, so they do not become many
-        for name in tuple(islice(self._loads, 2)):
-            if not self._loads[name].turns and self._loads[name].now(at) < _NOTHING:
+        # one comes at most, so they do not become many; one turn may be nothing where many are much
+        for name, other in tuple(islice(self._loads.items(), 2)):
+            if not other.turns and at - other.at >= _NEW_S and other.now(at) < _NOTHING:
                 del self._loads[name]
