@@ -1,4 +1,4 @@
-"""Analytic: a machine whose masses are all 2^-20 times as large is judged alike, for all forces are proportional.
+"""Analytic: a machine whose masses are all 2^-40 times as large is judged alike, for all forces are proportional.
 
 Numbers are scaled by a power of 2, so nothing is rounded in another way. What the checker compares with a number of its
 own, and not with a share of the forces, is seen by that.
@@ -12,7 +12,7 @@ import pytest
 
 from tests.verification.recorded import Line, judgement, records
 
-_LIGHTER = 2.0**-20
+_LIGHTER = 2.0**-40
 #: what is proportional to the masses; plates of one density are thinner
 _PROPORTIONAL = re.compile(
     r"_(kg|N|Nm|Pa|W|J)(_|$)|^(objective|lower_bound|continuous_lower_bound|gap|yardstick|thickness_m"
@@ -28,7 +28,7 @@ _NAMES = [name for name in records() if not any(part in name for part in _LEFT_O
 
 
 def lighter(value: Any, name: str = "") -> Any:
-    """The same, all masses 2^-20 times as large."""
+    """The same, all masses 2^-40 times as large."""
     if name in _QUOTIENTS:
         return _lighter_prices(value) if isinstance(value, list) else value
     if isinstance(value, dict):
