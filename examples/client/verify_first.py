@@ -194,7 +194,8 @@ def infeasible(request: Place, answer: Place, budget: Place, verdict: Place) -> 
         # strictly above 0: what is at most 0 proves nothing
         yield from proven("conflict", proofs / "conflict", statement, proofs / "conflict", implied, {}, lambda _: STEP)
     else:
-        yield "conflict", proofs / "conflict", None if names else -ONE, ONE
+        # that there are none without a proof is nothing that is covered
+        yield "conflict", verdict / "conflict", None if names else -ONE, ONE
     yield from smallest(plain, Place({}), verdict, proofs, implied)
     for name, unit in NAMES.items():
         lowest, attained = (verdict / f"smallest_{name}{part}_{unit}" for part in ("_lower_bound", ""))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from functools import partial
-from typing import Any, Dict, Iterator
+from typing import Any, Dict, Iterator, Sequence
 
 from verify_answer import MASS_GAP, before, touched
 from verify_cases import with_value
@@ -22,6 +22,10 @@ from verify_weights import counterweights, listed, usual_gap
 STATUSES = ("optimal", "inaccurate", "infeasible")
 STRAIGHT = 1e-4  # a front that lies nearer to the line between its ends has no knee
 UNSURE = 1e-9
+#: of a certificate what no row has, and what it has with its multipliers alone
+NO_COLUMN, WITH_MULTIPLIERS = "objective_without_counterweights", "mass_objective_limit"
+#: columns without which it is not told whether a row is optimal
+OF_STATUS = {"objective", "lower_bound", "yardstick"}
 
 
 def front(request: Place, answer: Place) -> Claims:
@@ -162,11 +166,18 @@ def sweep(request: Place, rows: Place) -> Iterator[Claim]:
             # all rows of a table have its columns
             yield "form", row, -ONE, ONE
         if (row / "status").text() in ("optimal", "inaccurate", "infeasible"):
-            body = (request / "base").value
-            for path in paths:
-                body = with_value(body, path.split("/")[1:], (row / path).value, request / "axes")
-            yield from covered(_row(Place(body, "request", "base"), row))
-            yield from (_on_axis(axis, row) for axis in request / "axes")
+            yield from covered(_design(request, paths, row))
+
+
+def _design(request: Place, paths: Sequence[str], row: Place) -> Claims:
+    """A row as the answer to the base with its values."""
+    body, chosen = (request / "base").value, bool(request / "columns")
+    for path in paths:
+        if chosen and path not in row.value:
+            raise NotCovered(row / path)
+        body = with_value(body, path.split("/")[1:], (row / path).value, request / "axes")
+    yield from covered(_row(Place(body, "request", "base"), row, chosen))
+    yield from (_on_axis(axis, row) for axis in request / "axes")
 
 
 def _on_axis(axis: Place, row: Place) -> Claim:
@@ -190,8 +201,11 @@ def _on_axis(axis: Place, row: Place) -> Claim:
     return "axis", said, ONE if held else -ONE, ONE
 
 
-def _row(request: Place, row: Place) -> Claims:
-    """A row in the form of the answer to one request; what it does not hold stays out."""
+def _row(request: Place, row: Place, chosen: bool) -> Claims:
+    """A row in the form of the answer to one request; what it does not hold stays out.
+
+    ``chosen``: whether it has some of its columns alone.
+    """
     try:
         proof = json.loads((row / "multipliers").text(default="{}"))
     except (ValueError, RecursionError):
@@ -202,8 +216,8 @@ def _row(request: Place, row: Place) -> Claims:
     for web in request / "machine" / "webs":
         name = (web / "name").text()
         weights.append({"web": name, **{of: (row / f"{of}.{name}").value for of in ("mass_kg", "angle_deg")}})
-        if status != "infeasible" and weights[-1]["mass_kg"] is None:
-            # a column that was not asked for
+        if status != "infeasible" and (web / "envelope" or weights[-1]["mass_kg"] is None):
+            # a column that was not asked for; and of what is cut from a plate no row tells the radius
             raise NotCovered(row / f"mass_kg.{name}")
     given = [field for field in CEILINGS.values() if request / "objective" / field]
     peaks = {name: {f"peak_{unit}": (row / f"{name}_peak_{unit}").value} for name, unit in NAMES.items()}
@@ -216,10 +230,26 @@ def _row(request: Place, row: Place) -> Claims:
         "certificate": proofs if status != "infeasible" else None,
         "infeasibility": {**proofs, "conflict": given} if status == "infeasible" else None,
     }
-    for claim, place, room, size in single(request, Place(found, *row.path), whole=False):
-        yield claim, Place(place.value, *_column(place.path, len(row.path), found)), room, size
+    yield from _by_columns(single(request, Place(found, *row.path), whole=False), row, found, chosen)
     if row / "multipliers":
         yield EVIDENCE, row / "multipliers", None, ONE
+
+
+def _by_columns(claims: Claims, row: Place, found: Any, chosen: bool) -> Claims:
+    """Claims by the columns that they are about: of one that there is not nothing is claimed."""
+    untold = chosen and not {*row.value} >= OF_STATUS
+    try:
+        for claim, place, room, size in claims:
+            room = None if claim == "status" and untold else room
+            path = _column(place.path, len(row.path), found)
+            there = path[-1] in row.value or (path[-1] == WITH_MULTIPLIERS and row / "multipliers")
+            if there or place or not (chosen or path[-1] in (NO_COLUMN, WITH_MULTIPLIERS)):
+                yield claim, Place(place.value, *path), room, size
+    except Unreadable as error:
+        path = _column(error.path, len(row.path), found)
+        if chosen and path[-1] not in row.value:
+            raise NotCovered(Place(None, *path)) from None
+        raise
 
 
 def _beside(row: Place) -> Iterator[Dict[str, Any]]:
@@ -240,6 +270,8 @@ def _column(path: Path, start: int, answer: Any) -> Path:
     if inner[:2] == ("residual", "responses") and len(inner) == 4:
         name = answer["residual"]["responses"][inner[2]]["response"]
         return (*row, f"{name}_peak_{ON_FRAME[name].unit}")
+    if inner[:2] == ("infeasibility", "conflict"):
+        return (*row, "status")
     if inner[:1] in (("certificate",), ("infeasibility",)):
         return (*row, *inner[1:2])
     return path

@@ -146,9 +146,10 @@ def unreachable(request: Place, answer: Place, budget: Place, verdict: Place) ->
         yield from smallest(machine, Place({}), verdict, proofs, implied)
         for name, unit in NAMES.items():
             lowest, attained = (verdict / f"smallest_{name}{part}_{unit}" for part in ("_lower_bound", ""))
-            yield from near_the_bound(
-                f"smallest_{name}", attained, lowest, machine, name, implied_alone(verdict, name, implied)
-            )
+            if lowest and attained:
+                yield from near_the_bound(
+                    f"smallest_{name}", attained, lowest, machine, name, implied_alone(verdict, name, implied)
+                )
 
 
 def _proven(

@@ -78,6 +78,8 @@ _PROGRAM: dict[str, str] = {
     "reference/modelling.py _vector_duals: np.zeros(0, complex) -> np.zeros(1, complex)": "it is multiplied with the"
     " influences of none",
     "reference/solver.py _MASS_ATTEMPTS: _ATTEMPTS[1] -> _ATTEMPTS[2]": _STEERS,
+    "reference/solver.py _ATTEMPTS: _SolverSetting(1e-11, 10.0, 2e-11, 1e-06)"
+    " -> _SolverSetting(0.0010000000101, 10.0, 2e-11, 1e-06)": _STEERS,
 }
 _FORMULATION: dict[str, str] = {
     "formulate.py shape_facts: np.asarray(across.x) == across.y -> np.asarray(across.x) != across.y": "designs are"
@@ -91,6 +93,10 @@ _FORMULATION: dict[str, str] = {
 }
 _VERIFY: dict[str, str] = {
     "verify_gas.py slopes: max -> min": "what encloses steeper slopes encloses these, in more pieces",
+    "verify_pistons.py steepness: (within + self.ahead) % TURN < pi -> (within + self.ahead) % TURN <= pi": "of the"
+    " middles of pieces, which end at dead centres",
+    "verify_program.py spent: web.plate.lever(0.0) -> web.plate.lever(0.001)": "an end of the prices that are halved,"
+    " less by a millionth",
     "verify_harmonics.py rod: wide ** 2 -> wide ** 3": "wide is not below 1: a larger bound calls for more samples",
     "verify_program.py lightest: sizes[row].low > 0 -> sizes[row].low > 1": "it counts the smallest steps of numbers",
     "verify_pressed.py _sizes: each > 1e-14 -> each >= 1e-14": "no size is 1e-14 to the bit, which is of no account",

@@ -1,5 +1,7 @@
 """Webs that are alike: the nearest point, what pulls at them, and the same program in fewer unknowns."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -7,6 +9,7 @@ from hypothesis import strategies as st
 
 from optimizer.mechanics.angles import direction
 from optimizer.numerics.arrays import Complex
+from optimizer.program import scaling
 from optimizer.program.ceilings import Ceilings
 from optimizer.program.compiled_evaluation import balanced
 from optimizer.program.equal_castings import Alike
@@ -135,3 +138,21 @@ def test_alike_webs_make_up_for_a_change_together(group: tuple[tuple[int, ...], 
     assert np.allclose(webs.nearest(found), found, rtol=0, atol=1e-12)
     assert np.allclose(found[1, webs.owner == 0], (u + moved)[1, webs.owner == 0], rtol=0, atol=1e-12)
     assert np.allclose(np.sum(influence * (found - u)[:, None, :], axis=-1), 0.0, rtol=0, atol=1e-9)
+
+
+@given(ANY, SEED)
+def test_unknowns_of_webs_that_are_alike_are_within_their_sectors(
+    group: tuple[tuple[int, ...], tuple[bool, ...]], seed: int
+) -> None:
+    """Analytic: the matrix makes of x and y of the first webs what the influence makes of R c (x + j y sin a)."""
+    webs, random = alike(*group, seed), np.random.default_rng(seed)
+    first, ones = webs.first, np.ones(WEBS)
+    centre = direction(np.linspace(0.0, 50.0, WEBS))
+    limits = Limits(ones, ones, np.zeros(WEBS, bool), centre, 0.8 * ones, 0.6 * ones, np.asarray(np.inf), webs)
+    influence, reach = random.normal(size=(2, WEBS)), random.uniform(0.5, 2.0, WEBS)
+    norms = Norms(np.zeros(2, complex), influence, scalar=(False, True))
+    x, y = random.normal(size=(2, first.size))
+    moved = influence @ webs.carried((reach * centre)[first] * (x + 0.6j * y))
+    matrix = scaling._matrix(norms, SimpleNamespace(limits=limits), reach)  # type: ignore[arg-type]
+    expected = [*moved.real, moved[0].imag, 0.0]
+    np.testing.assert_allclose(matrix @ np.concatenate([x, y]), expected, rtol=1e-12, atol=1e-12)

@@ -1,5 +1,7 @@
 """Samples of quantities over the turn: what they tell is true, and close to peaks and floors."""
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -12,6 +14,7 @@ from optimizer.program.cuts.cut import EXACT, Quantity, Scatter
 from optimizer.program.cuts.dominance import deciding, spare
 from optimizer.program.cuts.samples import Samples
 from optimizer.responses.curve import TurnResponse, floor, peaks
+from optimizer.responses.mass_scatter import peaks_astray
 from optimizer.solve.whole_turn import whole_turn_of
 from schemas.machine.reciprocating import ReciprocatingMachine
 from tests.benchmarks.whole_turn import six_with_gas
@@ -19,6 +22,7 @@ from tests.optimize.whole_turn import ALONE, asked
 from tests.program.test_scalars import quantity
 from tests.program.turning import bearings, largest, quantities
 from tests.responses.fourier import FourierCurves
+from tests.responses.test_scattered import _responses
 
 
 def bearings_with_gas() -> tuple[Quantity, ...]:
@@ -67,6 +71,25 @@ def test_the_highest_that_is_told_is_the_peak_but_for_little(gas: bool) -> None:
         assert np.all(told <= bracket.upper)
         np.testing.assert_allclose(told, bracket.lower, rtol=1e-9)
         np.testing.assert_allclose(samples.sizes(u, EXACT), bracket.lower, rtol=1e-2)
+
+
+def test_the_highest_with_masses_that_are_off_is_that_of_their_worst_signs() -> None:
+    """Independent: brackets over all masses; what is told is the curve with some of them."""
+    responses = _responses("vee", True, "simple_spans")[:2]
+    u = 0.02 * drawn(4, responses[0].influence.size)
+    worst = peaks_astray(responses, [0.3] * 2, u, np.full(2, 1e-6))
+    samples = Samples([Quantity(each, masses=0.3) for each in responses])
+    told = np.array([each[0].lower for each in samples.highest(u, EXACT, none(2))])
+    assert np.all(told <= worst.upper)
+    np.testing.assert_allclose(told, worst.lower, rtol=1e-4)
+    np.testing.assert_allclose(samples.sizes(u, EXACT), worst.lower, rtol=1e-2)
+    for each, ((first, *_), response) in enumerate(zip(samples.highest(u, EXACT, none(2)), responses, strict=True)):
+        assert first.cut.angle_deg is not None
+        there = np.deg2rad([first.cut.angle_deg])
+        parts = 0.3 * response.curves.parts.at(response.number, there)
+        signs = np.array(list(itertools.product((-1.0, 1.0), repeat=parts.shape[-1])))
+        apart = np.abs(response.at(there) + signs @ parts[0] - first.cut.constant)
+        assert np.min(apart) <= 1e-6 * told[each]
 
 
 @pytest.mark.parametrize("gas", [False, True])

@@ -1,10 +1,12 @@
 """What may stand for an optimum in which some webs are empty: analytic."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from optimizer.program.cuts import empty_webs as cuts
 from optimizer.program.methods import empty_webs
 from optimizer.program.methods.empty_webs import Optimum, _unit, leave_empty
 from optimizer.program.methods.optima import optima
@@ -62,3 +64,48 @@ def test_without_dust_a_point_is_as_heavy_as_may_be_claimed(least_mass: bool, mo
     assert optimum.excess == [CEILING_ROUNDING]
     assert optimum.objective == pytest.approx(max(1.0 + empty_webs.TARGET * 0.5, float(program.objective(dusty)[0])))
     assert (optimum.mass_bound is None) != least_mass
+
+
+class _Noted(cuts.EmptyWebs):
+    """Searches that find what they are told to, and note what was to be empty."""
+
+    def __init__(self, found: dict[tuple[int, ...], list[float]]) -> None:
+        object.__setattr__(self, "found", found)
+        object.__setattr__(self, "tried", [])
+        object.__setattr__(
+            self, "program", SimpleNamespace(limits=SimpleNamespace(radius=np.array([1.0, 1.0, 2.0, 1.0])))
+        )
+
+    def _without(self, empty: np.ndarray, point: cuts.Point) -> cuts.Point | None:
+        key = tuple(np.flatnonzero(empty).tolist())
+        self.tried.append(key)
+        return _at(self.found[key]) if key in self.found else None
+
+
+def _at(masses: list[float]) -> cuts.Point:
+    return cuts.Point(np.array(masses) * np.array([1.0, 1.0, 2.0, 1.0]) + 0j, None, 1.0)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("masses", "found", "tried", "left"),
+    [
+        ([1.0, 2.0, 0.0, 3.0], {}, [], [1.0, 2.0, 0.0, 3.0]),
+        # all of it at once, and what is only then next to nothing
+        ([1.0, 1e-9, 2e-9, 3.0], {(1, 2): [1.0, 0.0, 0.0, 3.0]}, [(1, 2)], [1.0, 0.0, 0.0, 3.0]),
+        (
+            [1.0, 1e-9, 2.0, 3.0],
+            {(1,): [1e-9, 0.0, 2.0, 3.0], (0, 1): [0.0, 0.0, 2.0, 3.0]},
+            [(1,), (0, 1)],
+            [0.0, 0.0, 2.0, 3.0],
+        ),
+        # else web by web, the lightest first
+        ([1.0, 2e-9, 1e-9, 3.0], {(2,): [1.0, 2e-9, 0.0, 3.0]}, [(1, 2), (2,), (1, 2)], [1.0, 2e-9, 0.0, 3.0]),
+        ([1.0, 2e-9, 1e-9, 3.0], {(1,): [1.0, 0.0, 1e-9, 3.0]}, [(1, 2), (2,), (1,)], [1.0, 0.0, 1e-9, 3.0]),
+    ],
+)
+def test_over_the_turn_webs_are_left_empty_together_or_one_by_one(
+    masses: list[float], found: dict[tuple[int, ...], list[float]], tried: list[tuple[int, ...]], left: list[float]
+) -> None:
+    search = _Noted(found)
+    assert search.leave(_at(masses)).unbalance.tolist() == _at(left).unbalance.tolist()
+    assert search.tried == tried

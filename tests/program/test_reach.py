@@ -20,7 +20,7 @@ from optimizer.program.methods.implied_bounds import (
     responses,
     within_reach,
 )
-from optimizer.program.methods.semicontinuous_bounds import _subset_mass
+from optimizer.program.methods.semicontinuous_bounds import _subset_mass, _subsets
 from optimizer.program.norms import Norms
 from optimizer.program.reference.solver import _blended
 from optimizer.program.rows import combined, statement, weighted_peak
@@ -254,3 +254,28 @@ def test_a_limited_response_is_no_larger_than_its_ceiling_and_its_tolerance() ->
     # of u1 alone the second term allows 8, this one (3 + 5 + 1) / 2
     np.testing.assert_allclose(rows, [[1.0, 1.0], [1.0, 0.0]])
     np.testing.assert_allclose(most, [29.0, 4.5], rtol=2e-9)
+
+
+@pytest.mark.parametrize(
+    ("rows", "scalar", "free", "sets"),
+    [
+        # two planes: webs alone, and pairs that are apart; of one plane webs alone
+        ([[1.0, 1.0, 1.0, 0.0], [0.5, 0.5, -1.0, 0.0]], (False, False), True, "0 1 2 02 12"),
+        ([[1.0, 1.0, 1.0, 0.0]], (False,), True, "0 1 2"),
+        # what is one number has no such planes, nor what a sector holds, nor three rows
+        ([[1.0, 1.0, 1.0, 0.0], [0.5, 0.5, -1.0, 0.0]], (False, True), True, "0 1 2 01 02 12 012"),
+        ([[1.0, 1.0, 1.0, 0.0]], (True,), True, "0 1 2 01 02 12 012"),
+        ([[1.0, 1.0, 1.0, 0.0]], (False,), False, "0 1 2 01 02 12 012"),
+        ([[1.0, 1.0, 1.0, 0.0]] * 3, (False,) * 3, True, "0 1 2 01 02 12 012"),
+        # so many that none is looked at
+        ([[1.0] * 5], (True,), True, ""),
+        ([[1.0] * 4], (True,), True, "0 1 2 3 01 02 03 12 13 23 012 013 023 123 0123"),
+    ],
+)
+def test_sets_of_webs_hold_one_that_changes_all_that_others_do(
+    rows: list[list[float]], scalar: tuple[bool, ...], free: bool, sets: str
+) -> None:
+    ones = np.ones(len(rows[0]))
+    limits = Limits(0.5 * ones, ones, np.full(ones.size, free), ones + 0j, 0.0 * ones, ones, np.asarray(np.inf))
+    found = [frozenset(each) for each in _subsets(np.array(rows), limits, np.array(scalar))]
+    assert sorted(map(sorted, found)) == sorted([int(web) for web in one] for one in sets.split())

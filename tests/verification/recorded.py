@@ -2,14 +2,16 @@
 
 The answers are of every kind, in ``recorded.json.xz``, each with all of its claims: where, the room that is left, and
 what that is a share of. A claim that becomes wider, narrower, or is no longer made, is seen by that. Where it is meant
-to, the command writes the claims anew. With ``--answers`` it asks for the answers anew as well, which is needed only
-where requests or answers have new fields that are to be looked at.
+to, the command writes the claims anew, and asks for what is not recorded yet. With ``--answers`` it asks for all
+answers anew, which is needed only where requests or answers have new fields that are to be looked at.
 """
 
 import argparse
 import json
 import lzma
+from collections.abc import Iterator, Sequence
 from functools import cache
+from itertools import islice
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -18,6 +20,7 @@ import pytest
 
 from service.verification import checker
 from tests.pairs.asking import body_of
+from tests.verification import combined
 from tests.verification.answers import answered, names, request_of
 from tests.verification.kinds import SINGLE
 
@@ -33,10 +36,12 @@ _MORE: dict[str, tuple[str, ...]] = {
 }  # fmt: skip
 #: kinds of the table whose lines others run too
 _ALIKE = ("indicated pressure", "bearings, specific", "continuous shaft")
-#: of such kinds so many others are made up
-_VARIANTS = 3
-#: share of the numbers that are others, and characters of an answer of which others are made up
-_OTHERS, _SHORT = 0.15, 12_000
+#: kinds of which nothing else is made up: each takes a tenth of a second or more
+_DEAR = ("gas", "dynamics", "four strokes", "priorities", "priorities, masses off")
+#: characters of an answer, above which so many others are made up
+_SHORT, _OF_LONG = 12_000, 3
+#: share of the numbers that are others
+_OTHERS = 0.15
 
 #: claim, where it stands, room (None where it is not covered), and size
 Line = list[Any]
@@ -69,30 +74,58 @@ def judgement(request: Any, answer: Any) -> dict[str, Any]:
     return {"claims": lines, "whole": {name: value for name, value in whole.items() if name != "claims"}}
 
 
-def variant(number: int, request: Any, answer: Any) -> tuple[Any, Any]:
-    """What somebody else might have sent: some numbers are a little or very different, or nothing at all.
-
-    The first are of other answers alone, the last of other requests.
-    """
-    random = Random(number)
-
-    def other(value: Any) -> Any:
-        if isinstance(value, dict):
-            return {name: other(each) for name, each in value.items()}
-        if isinstance(value, list):
-            return [other(each) for each in value]
-        if not isinstance(value, float) or random.random() > _OTHERS:
-            return value
-        near = (value * (1.0 + share) for share in (1e-13, 1e-7, -1e-3, 2.0))
-        return random.choice([*near, 0.0, 1.0, -value, None])
-
-    return (request, other(answer)) if number < _VARIANTS - 1 else (other(request), answer)
+def _with_other_numbers(value: Any, random: Random, numbers: Sequence[float | None]) -> Any:
+    """Some numbers are a little or very different, or one of some others."""
+    if isinstance(value, dict):
+        return {name: _with_other_numbers(each, random, numbers) for name, each in value.items()}
+    if isinstance(value, list):
+        return [_with_other_numbers(each, random, numbers) for each in value]
+    if not isinstance(value, float) or random.random() > _OTHERS:
+        return value
+    near = (value * (1.0 + share) for share in (1e-13, 1e-7, -1e-3, 2.0))
+    return random.choice([*near, 0.0, 1.0, -value, *numbers])
 
 
-def judgements(request: Any, answer: Any) -> list[dict[str, Any]]:
+def _with_another_form(value: Any, random: Random) -> Any:
+    """One field is missing, empty, of another type, or there twice; deep inside as a rule."""
+    if isinstance(value, dict | list) and value and random.random() < _DEEPER:
+        key = random.choice([*value]) if isinstance(value, dict) else random.randrange(len(value))
+        changed = _with_another_form(value[key], random)
+        items = value.items() if isinstance(value, dict) else enumerate(value)
+        if changed is _GONE:
+            kept = [(name, each) for name, each in items if name != key]
+        elif changed is _TWICE:
+            kept = [*items, ("again", value[key])]
+        else:
+            kept = [(name, changed if name == key else each) for name, each in items]
+        return dict(kept) if isinstance(value, dict) else [each for _, each in kept]
+    others = [_GONE, _GONE, _TWICE, None, [], {}, "", "optimal", True, 0, 1, -1.0]
+    if isinstance(value, bool):
+        others += 5 * [not value]
+    elif isinstance(value, int | float):
+        others += 5 * [value + 1]
+    return random.choice(others)
+
+
+#: chance to go one level deeper, and what is done with a field
+_DEEPER, _GONE, _TWICE = 0.9, object(), object()
+
+
+def variants(name: str, request: Any, answer: Any) -> Iterator[tuple[Any, Any]]:
+    """What somebody else might have sent: other numbers, or another form."""
+    random = Random(name)
+    yield request, _with_other_numbers(answer, random, ())
+    yield request, _with_another_form(answer, random)
+    yield _with_other_numbers(request, random, (None,)), answer
+    yield request, _with_another_form(answer, random)
+    yield _with_another_form(request, random), answer
+
+
+def judgements(name: str, request: Any, answer: Any) -> list[dict[str, Any]]:
     """Of an answer, and of what is made up of it where that costs little."""
-    other = range(_VARIANTS) if len(json.dumps(answer)) < _SHORT else ()
-    return [judgement(request, answer), *(judgement(*variant(number, request, answer)) for number in other)]
+    others = () if name in _DEAR else variants(name, request, answer)
+    most = None if len(json.dumps(answer)) < _SHORT else _OF_LONG
+    return [judgement(request, answer), *(judgement(*each) for each in islice(others, most))]
 
 
 def _rounded(number: Any) -> float | None:
@@ -103,15 +136,22 @@ def main() -> None:
     """Writes the file."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--answers", action="store_true", help="ask for the answers anew")
-    if parser.parse_args().answers:
-        of_table = {name: _coarse(request_of(name)) for name in names() if name not in _ALIKE}
-        bodies = SINGLE | of_table | _more()
-        pairs = {name: {"request": body, "answer": answered(body)} for name, body in bodies.items()}
-    else:
-        pairs = {name: {part: one[part] for part in ("request", "answer")} for name, one in records().items()}
-    found = {name: one | {"judgements": judgements(**one)} for name, one in pairs.items()}
+    known = {} if parser.parse_args().answers else records()
+    pairs = {name: known[name] if name in known else _asked(body) for name, body in _bodies().items()}
+    found = {
+        name: {**one, "judgements": judgements(name, one["request"], one["answer"])} for name, one in pairs.items()
+    }
     text = json.dumps(found, separators=(",", ":"))
     FILE.write_bytes(lzma.compress(text.encode(), preset=9 | lzma.PRESET_EXTREME))
+
+
+def _bodies() -> dict[str, Any]:
+    of_table = {name: _coarse(request_of(name)) for name in names() if name not in _ALIKE}
+    return SINGLE | of_table | _more() | combined.bodies()
+
+
+def _asked(body: Any) -> dict[str, Any]:
+    return {"request": json.loads(json.dumps(body)), "answer": answered(body)}
 
 
 def _more() -> dict[str, Any]:

@@ -10,7 +10,7 @@ from optimizer.optimize import optimize
 from schemas.request.requests import OptimizeRequest
 from service.verification import checker
 from tests.pairs.asking import body_of
-from tests.verification.answers import pair
+from tests.verification.answers import answered, pair
 from tests.verification.checking import broken
 from tests.verification.fabricated import KINDS, fabricated, verdict
 from tests.verification.kinds import SINGLE
@@ -59,6 +59,15 @@ def test_nothing_that_is_made_up_passes(name: str) -> None:
 def test_nothing_that_is_made_up_passes_whatever_is_asked(name: str) -> None:
     for way, request, answer in fabricated(name):
         assert verdict(request, answer) in ("broken", "refused", "not covered"), way
+
+
+@pytest.mark.parametrize("name", ["infeasible", "infeasible together"])
+def test_ceilings_that_are_called_out_of_reach_are_not_covered_without_a_proof(name: str) -> None:
+    request = SINGLE[name]
+    answer = answered(request)
+    assert verdict(request, answer) == "held"
+    answer["infeasibility"]["multipliers"]["conflict"] = None
+    assert verdict(request, answer) == "not covered"
 
 
 def test_the_price_of_a_budget_beside_plates_has_to_prove_the_bound() -> None:

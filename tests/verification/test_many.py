@@ -11,6 +11,7 @@ from optimizer.studies.sweep.table import result_schema, result_table
 from schemas.front.pareto import ParetoRequest
 from schemas.sweep.request import SweepRequest
 from service.verification import checker
+from tests.pairs.asking import body_of
 from tests.verification.checking import broken, verdict
 from tests.verification.kinds import SINGLE
 
@@ -104,3 +105,58 @@ def test_the_rows_of_a_sweep(name: str) -> None:
                 row[column] = right * (1 + 1e-6)
                 assert broken(body, table), column
                 row[column] = right
+
+
+_SPEEDS = [{"path": "/machine/speed_rpm", "values": [500, 700]}]
+
+
+@pytest.mark.parametrize("more", [{"multipliers": True}, {}, {"details": True}])
+@pytest.mark.parametrize(
+    "features", [("bearing weight",), ("plates, sectors",), ("ceilings out of reach",), ("priorities", "orders all")]
+)
+def test_rows_over_the_turn(features: tuple[str, ...], more: dict[str, Any]) -> None:
+    """Regression: a row was broken for fields that no row has, or refused for them."""
+    body = {"base": body_of("twin", features, 1.0), "axes": _SPEEDS, **more}
+    table = swept(body)
+    assert not broken(body, table)
+    assert verdict(body, table) in ("held", "not covered")
+
+
+def test_what_multipliers_prove_of_rows_over_the_turn() -> None:
+    body = {"base": body_of("twin", ("bearing weight",), 1.0), "axes": _SPEEDS, "multipliers": True}
+    table = swept(body)
+    found = claims(body, table)
+    assert (found["lower_bound"], found["mass_lower_bound"], found["objective"]) == ("held",) * 3
+    for column in ("force_peak_N", "objective", "lower_bound", "total_mass_kg", "mass_kg.1a"):
+        right = table[0][column]
+        table[0][column] = right * 1.001
+        assert broken(body, table), column
+        table[0][column] = right
+    without = [{name: value for name, value in row.items() if name != "multipliers"} for row in table]
+    assert verdict(body, without) == "not covered"
+    body["base"] = body_of("twin", ("ceilings out of reach",), 1.0)
+    assert verdict(body, swept(body)) == "held"
+
+
+@pytest.mark.parametrize("columns", [["total_mass_kg", "objective"], ["/machine/speed_rpm", "objective"]])
+def test_a_row_of_chosen_columns_is_not_covered(columns: list[str]) -> None:
+    body = {"base": SINGLE["ceilings"], "axes": _SPEEDS, "columns": columns}
+    assert verdict(body, swept(body)) == "not covered"
+
+
+def test_chosen_columns_are_checked_as_far_as_they_go() -> None:
+    webs = [f"{of}.{web['name']}" for web in SINGLE["ceilings"]["machine"]["webs"] for of in ("mass_kg", "angle_deg")]
+    body = {"base": SINGLE["ceilings"], "axes": _SPEEDS, "columns": ["/machine/speed_rpm", "force_peak_N", *webs]}
+    table = swept(body)
+    assert not broken(body, table)
+    table[0][webs[0]] *= 1.001
+    assert broken(body, table)
+
+
+def test_a_row_that_is_called_infeasible_is_not_covered_without_a_proof() -> None:
+    body = {"base": SINGLE["ceilings"], "axes": _SPEEDS}
+    table = swept(body)
+    for row in table:
+        for column in row.keys() - {"index", "/machine/speed_rpm"}:
+            row[column] = "infeasible" if column == "status" else None
+    assert verdict(body, table) == "not covered"

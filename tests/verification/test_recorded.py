@@ -13,7 +13,8 @@ _CLOSE = 0.004
 @pytest.mark.parametrize("name", records())
 def test_claims_are_as_wide_as_they_were(name: str) -> None:
     record = records()[name]
-    for found, recorded in zip(judgements(record["request"], record["answer"]), record["judgements"], strict=True):
+    judged = judgements(name, record["request"], record["answer"])
+    for found, recorded in zip(judged, record["judgements"], strict=True):
         differ = [pair for pair in zip(found["claims"], recorded["claims"], strict=False) if not _alike(*pair)]
         assert not differ, differ[:4]
         assert found["whole"] == recorded["whole"]

@@ -1,0 +1,64 @@
+"""Analytic: a machine whose masses are all 2^-40 times as large is judged alike, for all forces are proportional.
+
+Numbers are scaled by a power of 2, so nothing is rounded in another way. What the checker compares with a number of its
+own, and not with a share of the forces, is seen by that.
+"""
+
+import math
+import re
+from typing import Any
+
+import pytest
+
+from tests.verification.recorded import Line, judgement, records
+
+_LIGHTER = 2.0**-40
+#: what is proportional to the masses; plates of one density are thinner
+_PROPORTIONAL = re.compile(
+    r"_(kg|N|Nm|Pa|W|J)(_|$)|^(objective|lower_bound|continuous_lower_bound|gap|yardstick|thickness_m"
+    r"|objective_without_counterweights|objective_rise_per_(deg|percent)|mass_objective_limit|smallest|ceiling|peak"
+    r"|value|limit|nominal|nominal_optimum|nominal_optimum_worst_case|nominal_lower_bound)$"
+)
+#: prices are quotients of forces and masses, and multipliers of forces
+_QUOTIENTS = ("shadow_prices", "multipliers", "nominal_multipliers")
+#: what is dear, of other forms, or holds values that are no masses
+_LEFT_OUT = ("four strokes", "dynamics", "gas", "friction", "sweep", "front", "match", "texts", "scenario", "few ",
+             "seed", "masses off", "priorities", "cheaper")  # fmt: skip
+_NAMES = [name for name in records() if not any(part in name for part in _LEFT_OUT)]
+
+
+def lighter(value: Any, name: str = "") -> Any:
+    """The same, all masses 2^-40 times as large."""
+    if name in _QUOTIENTS:
+        return _lighter_prices(value) if isinstance(value, list) else value
+    if isinstance(value, dict):
+        inside = name if name.endswith("implied_max_mass_kg") else ""
+        return {key: lighter(each, inside or key) for key, each in value.items()}
+    if isinstance(value, list):
+        return [lighter(each, name) for each in value]
+    number = isinstance(value, int | float) and not isinstance(value, bool)
+    return value * _LIGHTER if number and _PROPORTIONAL.search(name) else value
+
+
+def _lighter_prices(prices: list[Any]) -> list[Any]:
+    """Those of angles are forces by the degree."""
+    return [each | {"value": each["value"] * (_LIGHTER if each["unit"].endswith("/deg") else 1.0)} for each in prices]
+
+
+@pytest.mark.parametrize("name", _NAMES[::2])
+def test_a_lighter_machine_is_judged_alike(name: str) -> None:
+    record = records()[name]
+    found = judgement(lighter(record["request"]), lighter(record["answer"]))
+    as_it_is = record["judgements"][0]
+    assert found["whole"] == as_it_is["whole"]
+    assert [each[:2] for each in found["claims"]] == [each[:2] for each in as_it_is["claims"]]
+    differ = [pair for pair in zip(found["claims"], as_it_is["claims"], strict=True) if not _proportional(*pair)]
+    assert not differ, differ[:4]
+
+
+def _proportional(light: Line, heavy: Line) -> bool:
+    """Rooms are forces, or shares of them; those that are the smallest of all steps remain."""
+    room, other = light[2], heavy[2]
+    if room is None or other is None or max(abs(room), abs(other)) < 1e-200:
+        return bool(room == other or (room is not None and other is not None))
+    return any(math.isclose(room, factor * other, rel_tol=0.004) for factor in (1.0, _LIGHTER))
