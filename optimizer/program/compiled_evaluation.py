@@ -203,7 +203,7 @@ class Flat:
 
     def _of(self, axes: tuple[int, ...]) -> tuple[int, ...]:
         """Leading axes of what has these, which are those of the programs and others before them."""
-        if axes == self.leading:
+        if axes[len(axes) - len(self.leading) :] == self.leading:
             return axes
         leading, own = np.broadcast_shapes(axes, self.leading), tuple(dropwhile(lambda n: n == 1, self.leading))
         if leading[len(leading) - len(own) :] != own:

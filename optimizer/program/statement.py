@@ -123,7 +123,8 @@ class Statement:
         """The largest unbalance that one term or one limited response calls for by itself, kg m (...)."""
         largest = np.zeros(())
         for each in (self.norms, self.ceilings.norms) if self.ceilings.names else (self.norms,):
-            apart = np.where((each.influence != 0).any(axis=-1), np.abs(each.constant) / each.largest_influence, 0.0)
+            some = np.logical_or.reduce(each.influence, axis=-1)
+            apart = np.where(some, np.abs(each.constant) / each.largest_influence, 0.0)
             largest = np.maximum(largest, np.maximum.reduce(apart, axis=-1, initial=0.0))
         return largest
 
