@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, in_order, mapped, parts, plain
+from optimizer.numerics.loading import deferred
 from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, nothing_proven
@@ -25,6 +26,10 @@ if TYPE_CHECKING:
 
 #: both stages, as :func:`optimizer.program.kernel.interior_point.solve`, of programs in units of their own
 Method = Callable[..., tuple[Any, ...]]
+
+#: loops, compiled
+_scaled = deferred("optimizer.program.kernel.disc_forms", "scales")
+_solved_in_discs = deferred("optimizer.program.kernel.discs", "solve")
 
 
 class _Tolerances(NamedTuple):
@@ -186,7 +191,7 @@ def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, s
         multipliers=Multipliers(*found.proof),
         mass_multipliers=solved.mass_proof if least_mass else nothing_proven(statement),
         mass_target=found.mass_target,
-        certify_s=np.full(share.shape, certify_s / max(share.size, 1)),
+        certify_s=np.zeros(share.shape) + certify_s / max(share.size, 1),
         smallest=found.smallest,
         certified=found.certified,
     )
@@ -234,7 +239,8 @@ def _solve(
     )
     points = statement.flat.into(reach * v)
     # in units of what is minimised (the first is any), per unit of objective or response
-    value = np.array([np.ones_like(share), mass_unit])
+    value = np.empty((2, *share.shape))
+    value[0], value[1] = 1.0, mass_unit
     vectors, worth = cone[..., 0] + 1j * cone[..., 1], (value / unit)[..., None]
     parts = vectors[..., :terms] * worth, row * worth, vectors[..., terms:] * value[..., None] / ceilings.size
     proofs = [Multipliers(*(part[stage] for part in parts)) for stage in range(2)]
@@ -245,13 +251,10 @@ def _scales(
     statement: Statement, share: Real, tolerances: _Tolerances, at_least: Real | float
 ) -> tuple[Real, Real, Real]:
     """How far webs reach (N, K), the unit of the objective (N,), and in that the share and the asked gap (2, N)."""
-    # the compiler is loaded when it is first needed
-    from optimizer.program.kernel.disc_forms import scales
-
     region, influence = statement.flat.programs.region, in_order(statement.norms.influence)
     many, _, webs = influence.shape
     reach, unit, asked = np.empty((many, webs)), np.empty(many), np.empty((2, many))
-    scales(
+    _scaled()(
         np.add.reduce(np.abs(statement.norms.constant), axis=-1),
         influence,
         natural_reach(statement),
@@ -299,14 +302,12 @@ def _in_frame(statement: Statement, v: Real, *rest: Any) -> tuple[Any, ...]:
 
 
 def _in_discs(statement: Statement, reach: Real, unit: Real, margin: float, *stages: Any) -> tuple[Any, ...]:
-    from optimizer.program.kernel.discs import solve
-
     least_mass, share, tolerance, mass_tolerance = stages
 
     found, places = [], []
     for which, budgeted, programs in discs_of(statement, reach, unit, margin):
         asked = (share, tolerance) if which is None else (share[which], tolerance[which])
-        v, p, price, mass_unit = solve(programs, budgeted, least_mass, *asked, mass_tolerance)
+        v, p, price, mass_unit = _solved_in_discs()(programs, budgeted, least_mass, *asked, mass_tolerance)
         if which is None:
             return v.view(complex)[..., 0], p, price, mass_unit
         found.append((v.view(complex)[..., 0], p, price, mass_unit[None]))

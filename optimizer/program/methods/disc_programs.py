@@ -1,10 +1,12 @@
 """Programs for the interior point for discs (:mod:`optimizer.program.kernel.discs`): which, and in its form."""
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.loading import deferred
 from optimizer.program.statement import Statement
 
 if TYPE_CHECKING:
@@ -16,6 +18,10 @@ _VECTORS = 6
 _THINNEST = 1e-3
 #: of the largest influence, by which those of a vector may miss a multiple of force or moment: their rounding
 _SAME = 1e-14
+
+#: loops, compiled, and what they are told
+_forms = deferred("optimizer.program.kernel.disc_forms", "forms")
+_discs = deferred("optimizer.program.kernel.disc_starts", "Discs")
 
 
 def suits_discs(statement: Statement, least_mass: bool = True) -> np.ndarray:
@@ -42,15 +48,12 @@ def suits_discs(statement: Statement, least_mass: bool = True) -> np.ndarray:
 
 def discs_of(
     statement: Statement, reach: Real, unit: Real, margin: float
-) -> list[tuple[np.ndarray | None, bool, "Discs"]]:
+) -> Sequence[tuple[np.ndarray | None, bool, "Discs"]]:
     """N programs in parts of one form each: which they are, whether they have a budget, and in units of their own.
 
     Parameters are those of a method of :mod:`optimizer.program.methods.compiled`. Of one part alone which they are is
     None: all.
     """
-    from optimizer.program.kernel.disc_forms import forms
-    from optimizer.program.kernel.disc_starts import Discs
-
     programs, basis = statement.flat.programs, _basis(statement)
     assert basis is not None
     (many, vectors, webs), region = programs.influence.shape, programs.region
@@ -59,7 +62,7 @@ def discs_of(
         multiple, two, _ = _multiples(two, basis)
     shapes = (many, vectors), (many, vectors, 2), (many, 2, webs), (many, webs), (many, webs), programs.cap.shape
     every, budgeted = tuple(map(np.empty, shapes)), np.empty(many, bool)
-    forms(
+    _forms()(
         programs.constant,
         two,
         multiple,
@@ -76,12 +79,12 @@ def discs_of(
     kinds = 2 * sectors + budgeted
     if many == 1 or (kinds == kinds[0]).all():
         normals = _frame(statement) if sectors[0] else none
-        return [(None, bool(budgeted[0]), Discs(basis, *every, normals))]
+        return [(None, bool(budgeted[0]), _discs()(basis, *every, normals))]
     frame, found = _frame(statement) if np.count_nonzero(sectors) else none, []
     for part in np.unique(kinds).tolist():
         which = np.flatnonzero(kinds == part)
         arrays = [values[which] for values in (*every, frame if part > 1 else none)]
-        found.append((which, part % 2 == 1, Discs(basis, *arrays)))
+        found.append((which, part % 2 == 1, _discs()(basis, *arrays)))
     return found
 
 
