@@ -28,6 +28,8 @@ from schemas.machine.machine import Machine
 TOUCHED = 1e-4
 #: a larger limit is none, kg
 _NO_LIMIT = 1e30
+#: the middle of no sector, and its edge
+_ALONG, _ACROSS = np.array([1.0 + 0.0j]), np.array([1j])
 
 
 class Limit(Protocol):
@@ -179,7 +181,7 @@ def limits(machine: Machine, leading: tuple[int, ...] = ()) -> Limits:
     webs = machine.webs
     free, towards, half_angle = sectors(machine)
     if free.all():
-        centre, edge = np.ones(len(webs), complex), np.full(len(webs), 1j)
+        centre, edge = _ALONG.repeat(len(webs)), _ACROSS.repeat(len(webs))
     else:
         centre, edge = direction(towards), direction(half_angle)
     shape, alike = (*leading, len(webs)), alike_webs(machine)

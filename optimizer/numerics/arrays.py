@@ -56,6 +56,8 @@ def spread(array: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:
 
 def merged(leading: tuple[int, ...], array: NDArray[Any], own: int) -> NDArray[Any]:
     """An array with one axis in place of leading axes, which it has or is spread along, and its last ``own`` axes."""
+    if not leading and array.ndim == own:
+        return in_order(array)[None]
     last = array.shape[array.ndim - own :]
     if array.shape != (*leading, *last):
         array = spread(array, (*leading, *last))

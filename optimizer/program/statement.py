@@ -10,7 +10,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, mapped, variant
+from optimizer.numerics.arrays import Complex, Real, variant
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
 from optimizer.program.ceilings import Ceilings
@@ -245,11 +245,11 @@ class Statement:
     def _mapped(self, function: Callable[[Any], Any]) -> "Statement":
         """A function of every array that has the leading axes."""
         return Statement(
-            mapped(self.norms, function),
+            self.norms.mapped(function),
             self.row,
             self.group,
             function(self.floor),
-            mapped(self.ceilings, function),
-            mapped(self.limits, function),
+            self.ceilings.mapped(function),
+            self.limits.mapped(function),
             self.names,
         )

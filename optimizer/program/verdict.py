@@ -23,6 +23,7 @@ MASS_GAP = 1e-4
 _MASS_SHARE = CEILING_TOLERANCE / MASS_GAP
 #: rounding of a mass, relative to it
 _MASS_ROUNDING = 1e-13
+_OPTIMAL = np.array("optimal")
 
 OPTIMAL = "Proven optimal: the gap to the lower bound is within the requested gap, and every limit is kept."
 OPTIMAL_LIGHTEST = (
@@ -130,7 +131,7 @@ def verdict(claim: Claim, tolerance: float) -> Verdict:
     optimal = ~false & kept & close & light
     if optimal.all() and tolerance < np.inf:
         # all is finite then
-        every = np.full(optimal.shape, "optimal"), np.full(optimal.shape, why)
+        every = spread(_OPTIMAL, optimal.shape), spread(np.asarray(why), optimal.shape)
         return Verdict(*every, bound, gap, relative, mass_bound, mass_gap, mass_yardstick)
     nothing = false | ~np.isfinite(relative)
     # the last of these that is so
