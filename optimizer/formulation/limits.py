@@ -131,8 +131,8 @@ def _force_per_kg(machine: Machine) -> Real:
 WEB_LIMITS: dict[WebLimit, Limit] = {
     "max_mass": MassLimit(
         "kg",
-        largest=lambda machine: stacked(
-            [np.inf if web.max_mass_kg is None else web.max_mass_kg for web in machine.webs]
+        largest=remembered(
+            lambda machine: stacked([np.inf if web.max_mass_kg is None else web.max_mass_kg for web in machine.webs])
         ),
         per_kg=lambda machine: 1.0,
     ),

@@ -64,5 +64,6 @@ def orders_of(numbers: Sequence[int], polar: Polar) -> list[dict[str, Any]]:
     ]
 
 
-def _phasor(vector: complex, phase_deg: float, fields: Sequence[str]) -> dict[str, float]:
-    return dict(zip(fields, (vector.real, vector.imag, abs(vector), phase_deg), strict=True))
+def _phasor(vector: complex, phase_deg: float, fields: tuple[str, str, str, str]) -> dict[str, float]:
+    real, imag, magnitude, phase = fields
+    return {real: vector.real, imag: vector.imag, magnitude: abs(vector), phase: phase_deg}

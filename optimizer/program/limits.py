@@ -132,7 +132,7 @@ class Limits:
         Of alike webs the mean of theirs, with vectors that are alike.
         """
         g = g if self.alike is None else self.alike.nearest(g)
-        if self.free.all():
+        if np.logical_and.reduce(self.free, axis=None):
             return np.abs(g)
         rotated = g * np.conj(self.centre)
         across = np.abs(rotated.imag)
@@ -142,7 +142,7 @@ class Limits:
 
     def opening(self, g: Complex) -> Real:
         """Growth of :meth:`support` per radian of half-angle, 1/rad (..., K)."""
-        if self.free.all():
+        if np.logical_and.reduce(self.free, axis=None):
             return np.zeros(g.shape)
         rotated = g * np.conj(self.centre)
         growth = np.abs(rotated.imag) * self.half_angle_cos - rotated.real * self.half_angle_sin

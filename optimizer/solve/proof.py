@@ -89,9 +89,11 @@ def physical_bounds(
     scaled = usable.times(
         np.array([of_price[n] if name == "objective" else per_newton for n, name in enumerate(bounds)])
     )
-    term = _no_longer(scaled.term, scaled.row[..., statement.row])
+    term, ends = _no_longer(scaled.term, scaled.row[..., statement.row]), statement.limits.budget_ends
     for n, name in enumerate(bounds):
-        if name == "objective":
+        if not np.count_nonzero(ends):
+            budget = np.zeros(ends.shape)
+        elif name == "objective":
             budget = budget_price(statement, scaled.chosen(n), 0.0) * omega_squared
         else:
             budget = budget_price(statement, usable.chosen(n), 1.0 if name == "mass" else 0.0)
