@@ -159,7 +159,7 @@ class LimitSize(NamedTuple):
 def limit_sizes(machine: Machine) -> dict[WebLimit, LimitSize]:
     """Limits that some web of a machine states, in the order of the answer; no other is touched, or has a price."""
     every = {name: LimitSize(limit, limit.size(machine)) for name, limit in WEB_LIMITS.items()}
-    return {name: limit for name, limit in every.items() if np.count_nonzero(limit.size < np.inf)}
+    return {name: limit for name, limit in every.items() if np.logical_or.reduce(limit.size < np.inf, axis=None)}
 
 
 @remembered

@@ -181,7 +181,7 @@ def mass_resolution(statement: Statement, yardstick: Real) -> Real:
     yardstick : (..., 1) of the objective or (..., rows) of its rows.
     """
     limits, norms, ceilings = statement.limits, statement.norms, statement.ceilings
-    radius = np.where(limits.reach > 0, limits.radius, 0.0)[..., None, :]
+    radius = np.where(limits.most > 0, limits.radius, 0.0)[..., None, :]
     does, size = statement.membership @ (np.abs(norms.influence) * radius), spread(yardstick, statement.floor.shape)
     if ceilings.names:
         does = np.concatenate([does, np.abs(ceilings.norms.influence) * radius], axis=-2)
