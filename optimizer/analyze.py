@@ -7,7 +7,6 @@ from optimizer.formulation.balance_shafts import fitted
 from optimizer.formulation.counterweights import mass_and_angle, too_heavy
 from optimizer.formulation.placement import on_webs
 from optimizer.mechanics.shapes import fitted_masses
-from optimizer.numerics.arrays import variant
 from optimizer.outputs.registry import fields, prepare
 from schemas.answer.answers import AnalyzeAnswer, Timing
 from schemas.base.mappings import or_mapping
@@ -34,7 +33,7 @@ def analyze(request: AnalyzeRequest) -> AnalyzeAnswer:
     scene = prepare(request, request.outputs, machine=machine)
     reporting = time.perf_counter()
     given = fitted(machine, mass, angle)
-    found = fields(variant(scene, shafts=given.on_shafts), given.on_crank, request.outputs)
+    found = fields(scene.beside(given.on_shafts), given.on_crank, request.outputs)
     end = time.perf_counter()
     return AnalyzeAnswer(
         **found,

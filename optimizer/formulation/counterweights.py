@@ -140,7 +140,7 @@ def _placed(
         vectors = unbalance(mass_kg, angles_deg, stacked([web.radius_m for web in machine.webs]))
     throws, webs = machine.throws, machine.webs
     shapes, radii = _shapes(machine, mass_kg), [web.radius_m for web in webs]
-    fastest = ratio * (machine.overspeed_rpm or machine.speed_rpm) * np.pi / 30.0
+    square = (ratio * (machine.overspeed_rpm or machine.speed_rpm) * np.pi / 30.0) ** 2
     return tuple(
         Counterweight(
             web=web.name,
@@ -156,7 +156,7 @@ def _placed(
             mass_radius_kg_m=mass * radius,
             x_kg_m=vector.real,
             y_kg_m=vector.imag,
-            centrifugal_force_N=mass * radius * fastest**2,
+            centrifugal_force_N=mass * radius * square,
             active_limits=() if web.fixed else tuple([name for name, at in touched.items() if at[k]]),
             fixed=web.fixed is not None,
             shape=shapes.get(k) if mass > 0.0 else None,

@@ -13,7 +13,7 @@ import numpy as np
 
 from optimizer.formulation.groups import alike_webs
 from optimizer.mechanics.angles import direction
-from optimizer.mechanics.fixed_weights import fixed_masses, fixed_webs
+from optimizer.mechanics.fixed_weights import fixed_mass, fixed_webs
 from optimizer.mechanics.layout import stacked
 from optimizer.mechanics.shapes import plates
 from optimizer.numerics.arrays import Real, Reals, mapped, spread
@@ -28,6 +28,9 @@ from schemas.machine.machine import Machine
 TOUCHED = 1e-4
 #: a larger limit is none, kg
 _NO_LIMIT = 1e30
+#: the middle of no sector, and its edge
+_ALONG, _ACROSS = np.array([1.0 + 0.0j]), np.array([1j])
+_NO_CENTRE, _HALF = np.zeros(1), np.array([90.0])
 
 
 class Limit(Protocol):
@@ -129,8 +132,8 @@ def _force_per_kg(machine: Machine) -> Real:
 WEB_LIMITS: dict[WebLimit, Limit] = {
     "max_mass": MassLimit(
         "kg",
-        largest=lambda machine: stacked(
-            [np.inf if web.max_mass_kg is None else web.max_mass_kg for web in machine.webs]
+        largest=remembered(
+            lambda machine: stacked([np.inf if web.max_mass_kg is None else web.max_mass_kg for web in machine.webs])
         ),
         per_kg=lambda machine: 1.0,
     ),
@@ -157,7 +160,7 @@ class LimitSize(NamedTuple):
 def limit_sizes(machine: Machine) -> dict[WebLimit, LimitSize]:
     """Limits that some web of a machine states, in the order of the answer; no other is touched, or has a price."""
     every = {name: LimitSize(limit, limit.size(machine)) for name, limit in WEB_LIMITS.items()}
-    return {name: limit for name, limit in every.items() if np.count_nonzero(limit.size < np.inf)}
+    return {name: limit for name, limit in every.items() if np.logical_or.reduce(limit.size < np.inf, axis=None)}
 
 
 @remembered
@@ -178,12 +181,12 @@ def limits(machine: Machine, leading: tuple[int, ...] = ()) -> Limits:
     """Limits of the counterweights on the webs of a machine, or of many (*leading, K)."""
     webs = machine.webs
     free, towards, half_angle = sectors(machine)
-    if free.all():
-        centre, edge = np.ones(len(webs), complex), np.full(len(webs), 1j)
+    if np.logical_and.reduce(free):
+        centre, edge = _ALONG.repeat(len(webs)), _ACROSS.repeat(len(webs))
     else:
         centre, edge = direction(towards), direction(half_angle)
     shape, alike = (*leading, len(webs)), alike_webs(machine)
-    left = MACHINE_LIMITS["max_total_mass"].size(machine) - np.add.reduce(fixed_masses(machine), axis=-1)
+    left = MACHINE_LIMITS["max_total_mass"].size(machine) - fixed_mass(machine)
     return Limits(
         radius=spread(stacked([web.radius_m for web in webs]), shape),
         max_mass=spread(largest_mass(machine), shape),
@@ -200,8 +203,11 @@ def limits(machine: Machine, leading: tuple[int, ...] = ()) -> Limits:
 def sectors(machine: Machine) -> tuple[np.ndarray, Real, Real]:
     """Which webs have no sector (K,); centres and half-angles [deg] (..., K), 0 and 90 where there is none."""
     webs = machine.webs
+    free = np.array([web.sector is None for web in webs], dtype=bool)
+    if np.logical_and.reduce(free):
+        return free, _NO_CENTRE.repeat(free.size), _HALF.repeat(free.size)
     return (
-        np.array([web.sector is None for web in webs], dtype=bool),
+        free,
         stacked([web.sector.centre_deg if web.sector else 0.0 for web in webs]),
         stacked([web.sector.half_angle_deg if web.sector else 90.0 for web in webs]),
     )

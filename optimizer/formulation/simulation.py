@@ -18,7 +18,7 @@ from optimizer.mechanics.layout import Layout, layout, spread
 from optimizer.mechanics.roll import roll
 from optimizer.mechanics.shaft import INFLUENCES, bearing_places
 from optimizer.mechanics.shaft_curves import ShaftCurves, bending_influence, planes, shaft_curves, stations
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, variant
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
 from optimizer.responses.curve import TurnResponse
@@ -87,6 +87,10 @@ class Prepared:
         if self.layout.balance is None or self.shafts is None:
             return wrench
         return wrench.plus(of_balance_shafts(self.layout, self.layout.balance, self.shafts, order))
+
+    def beside(self, shafts: Complex | None) -> "Prepared":
+        """The same with unbalances of the balance shafts (S,) kg m; None where there are no such shafts."""
+        return self if shafts is None else variant(self, shafts=shafts)
 
     @cached_property
     def laden(self) -> Layout:

@@ -30,10 +30,9 @@ def direction(angle_deg: Real) -> Complex:
     vector = np.asarray(np.exp(_DEGREE * rest))
     # sin 30 = 1/2, and sin 45 = cos 45
     size = np.abs(rest)
-    if np.count_nonzero(there := size == 30.0):
-        np.copysign(0.5, rest, out=vector.imag, where=there)
-    if np.count_nonzero(there := size == 45.0):
-        np.copysign(vector.real, rest, out=vector.imag, where=there)
+    if np.count_nonzero(size >= 30.0):
+        np.copysign(0.5, rest, out=vector.imag, where=size == 30.0)
+        np.copysign(vector.real, rest, out=vector.imag, where=size == 45.0)
     return vector * _QUADRANTS.take(np.asarray(quarters).astype(np.int64), mode="wrap")
 
 

@@ -22,6 +22,12 @@ def fixed_masses(machine: Machine) -> Real:
     return stacked([0.0 if web.fixed is None else web.fixed.mass_kg for web in machine.webs])
 
 
+@remembered
+def fixed_mass(machine: Machine) -> Real:
+    """Their sum (...) kg."""
+    return np.asarray(np.add.reduce(fixed_masses(machine), axis=-1))
+
+
 def beside(machine: Machine, mass_kg: Real, angle_deg: Real) -> tuple[Real, Real]:
     """Masses [kg] and angles [deg] of chosen counterweights (..., K), with the fixed weights in their places.
 

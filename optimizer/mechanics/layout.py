@@ -141,8 +141,16 @@ def spread(plan: Layout, leading: tuple[int, ...]) -> Layout:
 
 def stacked(values: Sequence[Any]) -> Real:
     """Values side by side on a last axis, (..., len(values)); each is a number or a column (N,)."""
-    if np.ndarray not in map(type, values):
+    if values and type(values[0]) is np.ndarray:
+        return _columns(values)
+    try:
         return np.array(values, dtype=float)
+    except ValueError:
+        # numbers beside columns make no array
+        return _columns(values)
+
+
+def _columns(values: Sequence[Any]) -> Real:
     return np.stack(np.broadcast_arrays(*(np.asarray(value, dtype=float) for value in values)), axis=-1)
 
 

@@ -17,6 +17,8 @@ Part = TypeVar("Part")
 #: a sum smaller than this share of the sum of the magnitudes of its terms is rounding error
 _ROUNDING = 16 * np.finfo(float).eps
 _ARRAYS = (np.ndarray, np.generic)
+#: what dataclasses hold most that is no array and no dataclass
+_PLAIN = frozenset({type(None), tuple, float})
 #: nothing real is this small; below it quotients lose their digits and then overflow
 SMALLEST = 1e-250
 
@@ -32,9 +34,12 @@ def mapped(part: Part, function: Callable[[Any], Any]) -> Part:
     """The same dataclass with a function of every array in it, parts within parts too; what is no array stays."""
     found = vars(part).copy()
     for name, value in found.items():
-        if isinstance(value, _ARRAYS):
+        kind = type(value)
+        if kind in _PLAIN:
+            continue
+        if kind is np.ndarray or isinstance(value, _ARRAYS):
             found[name] = function(value)
-        elif value is not None and hasattr(value, "__dataclass_fields__"):
+        elif hasattr(kind, "__dataclass_fields__"):
             found[name] = mapped(value, function)
     return type(part)(**found)
 
@@ -51,6 +56,8 @@ def spread(array: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:
 
 def merged(leading: tuple[int, ...], array: NDArray[Any], own: int) -> NDArray[Any]:
     """An array with one axis in place of leading axes, which it has or is spread along, and its last ``own`` axes."""
+    if not leading and array.ndim == own:
+        return in_order(array)[None]
     last = array.shape[array.ndim - own :]
     if array.shape != (*leading, *last):
         array = spread(array, (*leading, *last))

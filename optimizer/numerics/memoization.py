@@ -35,14 +35,17 @@ def remembered(function: Callable[[Machine], Made]) -> Callable[[Machine], Made]
     Machines are frozen, so that the very same one has the same of everything; whoever gets an array writes nothing
     to it.
     """
-    last: tuple[Machine, Made] | None = None
+    # both at once, for another thread may ask too
+    last: tuple[Any, Any] = (object(), None)
 
     @wraps(function)
     def memoized(machine: Machine) -> Made:
         nonlocal last
-        known = last
-        if known is None or known[0] is not machine:
-            last = known = (machine, function(machine))
-        return known[1]
+        known, made = last
+        if known is not machine:
+            made = function(machine)
+            last = machine, made
+        found: Made = made
+        return found
 
     return memoized

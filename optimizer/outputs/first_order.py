@@ -1,5 +1,6 @@
 """First-order force and moment as ellipses, their floor, and their hodographs."""
 
+import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -14,7 +15,7 @@ from optimizer.mechanics.slider_crank import acceleration_harmonic, acceleration
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.phasors import Polar, orders_of, vectors_of
-from optimizer.responses.response import Phasors, major_axis_deg
+from optimizer.responses.response import Phasors
 from schemas.answer.first_order import FirstOrder, Floor, Residual, ResponseChange, ResponsePeak
 from schemas.answer.outputs import Hodograph, Hodographs
 from schemas.answer.proof import BoundMultipliers
@@ -43,7 +44,8 @@ FIRST_ORDER_EFFECTS = ("rotating_inertia", "reciprocating_inertia")
 
 def first_order(wrench: Wrench) -> FirstOrder:
     """Ellipses of force [N] and moment [N m] of one machine."""
-    return FirstOrder.model_validate(_ellipses(Polar.of(vectors_of([wrench])))[0])
+    vectors = vectors_of([wrench])
+    return FirstOrder.model_validate(_ellipses(vectors, Polar.of(vectors))[0])
 
 
 def floor(layout: Layout, wrench: Wrench) -> Floor:
@@ -121,9 +123,9 @@ def residual(scene: Prepared, unbalance: Complex | None) -> Residual:
     shown = [scene.first_order()] if unbalance is None else [scene.first_order(), scene.first_order(unbalance)]
     second = _second_order(scene, [False] if unbalance is None or scene.shafts is None else [False, True])
     vectors = vectors_of([*shown, *second])
-    polar = Polar.of(vectors)
-    told = orders_of([1] * len(shown) + [2] * len(second), polar)
-    first, twice, ellipses = told[: len(shown)], told[len(shown) :], _ellipses(polar.first(len(shown)))
+    polars, count = Polar.of(vectors), len(shown)
+    told = orders_of([1] * count + [2] * len(second), polars)
+    first, twice, ellipses = told[:count], told[count:], _ellipses(vectors[:count], polars[:count])
     # one validation of the whole takes a third of the time of one of each part
     return Residual.model_validate(
         {
@@ -172,24 +174,32 @@ def _hodograph(force: Complex, moment: Complex) -> Hodograph:
     )
 
 
-def _ellipses(polar: Polar) -> list[dict[str, dict[str, float]]]:
-    """Fields of the ellipses (:class:`schemas.answer.first_order.FirstOrder`) of the phasors of wrenches.
+def _ellipses(vectors: Complex, polars: Sequence[Sequence[Polar]]) -> list[dict[str, dict[str, float]]]:
+    """Fields of the ellipses (:class:`schemas.answer.first_order.FirstOrder`) of the phasors of wrenches (n, 2, 2).
 
     Each figure is that of :class:`optimizer.responses.response.Phasors`, from parts that several figures share.
     """
-    co, counter = polar.vectors[..., 0], polar.vectors[..., 1]
-    size_co, size_counter = polar.size[..., 0], polar.size[..., 1]
-    figures = np.empty((*co.shape, 7))
-    figures[..., 0] = size_co + size_counter
-    figures[..., 1] = np.abs(size_co - size_counter)
-    figures[..., 2] = major_axis_deg((co != 0) & (counter != 0), polar.phase[..., 0] + polar.phase[..., 1])
-    figures[..., 3], figures[..., 4] = np.abs(co + _SQUARES * np.conj(counter))
-    figures[..., 5:] = polar.size
-    columns = figures.tolist()
+    along = np.abs(vectors[..., 0] + _SQUARES * np.conj(vectors[..., 1])).tolist()
     return [
-        {name: dict(zip(fields, values, strict=True)) for (name, fields), values in zip(_FIELDS, of_one, strict=True)}
-        for of_one in columns
+        {name: _ellipse(fields, *figures) for (name, fields), *figures in zip(_FIELDS, *of_wrench, strict=True)}
+        for of_wrench in zip(polars, *along, strict=True)
     ]
+
+
+def _ellipse(fields: Sequence[str], polar: Polar, along_x: float, along_y: float) -> dict[str, float]:
+    (co, counter), (of_co, of_counter) = polar.sizes, polar.phases
+    # as :attr:`optimizer.responses.response.Phasors.major_axis_deg`
+    axis = math.degrees(0.5 * (of_co + of_counter)) % 180.0
+    figures = (
+        co + counter,
+        abs(co - counter),
+        axis if polar.co and polar.counter and axis < 180.0 else 0.0,
+        along_x,
+        along_y,
+        co,
+        counter,
+    )
+    return dict(zip(fields, figures, strict=True))
 
 
 RESIDUAL = Output(

@@ -1,5 +1,6 @@
 """Co- and counter-rotating phasors of one order as an answer holds them."""
 
+import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
@@ -16,20 +17,25 @@ _FIELDS = tuple(
 
 
 class Polar(NamedTuple):
-    """Phasors (n, 2, 2) of wrenches, as :func:`vectors_of`, with what every figure of them is made of."""
+    """A pair of phasors of a force [N] or a moment [N m], with what every figure of them is made of."""
 
-    vectors: Complex
-    size: Real  # N, N m
-    phase: Real  # rad
+    co: complex
+    counter: complex
+    sizes: Sequence[float]  # of both
+    phases: Sequence[float]  # of both, rad
 
     @classmethod
-    def of(cls, vectors: Complex) -> "Polar":
-        """Sizes and phases of phasors (n, 2, 2)."""
-        return cls(vectors, np.abs(vectors), np.arctan2(vectors.imag, vectors.real))
+    def of(cls, vectors: Complex) -> "list[list[Polar]]":
+        """Force and moment of each of n wrenches, of phasors (n, 2, 2) as :func:`vectors_of`."""
+        parts = zip(vectors.tolist(), np.abs(vectors).tolist(), _phases(vectors).tolist(), strict=True)
+        return [
+            [cls(co, counter, sizes, phases) for (co, counter), sizes, phases in zip(*of_wrench, strict=True)]
+            for of_wrench in parts
+        ]
 
-    def first(self, count: int) -> "Polar":
-        """Those of the first of the wrenches."""
-        return Polar(self.vectors[:count], self.size[:count], self.phase[:count])
+
+def _phases(vectors: Complex) -> Real:
+    return np.arctan2(vectors.imag, vectors.real)
 
 
 def vectors_of(wrenches: Sequence[Wrench]) -> Complex:
@@ -38,31 +44,37 @@ def vectors_of(wrenches: Sequence[Wrench]) -> Complex:
     return np.array(vectors, dtype=complex).reshape(-1, 2, 2)
 
 
-def orders_of(numbers: Sequence[int], polar: Polar) -> list[dict[str, Any]]:
+def orders_of(numbers: Sequence[int], polars: Sequence[Sequence[Polar]]) -> list[dict[str, Any]]:
     """Fields of orders (:class:`schemas.answer.outputs.Order`) of force [N] and moment [N m] of one machine.
 
     Parameters
     ----------
-    polar : of the wrenches of these orders.
+    polars : of the wrenches of these orders.
     """
-    vectors, size, _ = polar
-    phase = np.where(vectors == 0, 0.0, np.rad2deg(polar.phase))
-    parts = zip(vectors.tolist(), phase.tolist(), (size[..., 0] + size[..., 1]).tolist(), strict=True)
     return [
         {"order": number}
         | {
-            name: {
-                "co_rotating": _phasor(co, of_co, of_phasor),
-                "counter_rotating": _phasor(counter, of_counter, of_phasor),
-                of_peak: peak,
-            }
-            for (name, of_phasor, of_peak), (co, counter), (of_co, of_counter), peak in zip(
-                _FIELDS, *of_order, strict=True
-            )
+            name: _order(polar, of_phasor, of_peak)
+            for (name, of_phasor, of_peak), polar in zip(_FIELDS, both, strict=True)
         }
-        for number, of_order in zip(numbers, parts, strict=True)
+        for number, both in zip(numbers, polars, strict=True)
     ]
 
 
-def _phasor(vector: complex, phase_deg: float, fields: Sequence[str]) -> dict[str, float]:
-    return dict(zip(fields, (vector.real, vector.imag, abs(vector), phase_deg), strict=True))
+def _order(polar: Polar, of_phasor: tuple[str, str, str, str], of_peak: str) -> dict[str, Any]:
+    of_co, of_counter = polar.phases
+    return {
+        "co_rotating": _phasor(polar.co, of_co, of_phasor),
+        "counter_rotating": _phasor(polar.counter, of_counter, of_phasor),
+        of_peak: polar.sizes[0] + polar.sizes[1],
+    }
+
+
+def _phasor(vector: complex, phase: float, fields: tuple[str, str, str, str]) -> dict[str, float]:
+    real, imag, magnitude, phase_deg = fields
+    return {
+        real: vector.real,
+        imag: vector.imag,
+        magnitude: abs(vector),
+        phase_deg: math.degrees(phase) if vector else 0.0,
+    }

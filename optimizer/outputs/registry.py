@@ -8,7 +8,7 @@ from typing import Any
 from optimizer.effects.registry import EFFECTS, closure, effects_of, rules_of
 from optimizer.errors import MissingInput
 from optimizer.formulation.simulation import Prepared, simulated, turns_over
-from optimizer.numerics.arrays import Complex, Real, variant
+from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.balance_quality import balance_quality
 from optimizer.outputs.balance_rate import BALANCE_RATE, balance_rate
 from optimizer.outputs.bearings import MAIN_BEARINGS
@@ -94,9 +94,11 @@ def fields(
     proven : fields of the answer that tell what is proven of counterweights that were chosen.
     """
     outputs = tuple(dict.fromkeys(outputs))
-    scene = variant(scene, brackets={})
     searches = (search for name in outputs for search in OUTPUTS[name].searches(scene, unbalance))
-    scene.brackets.update(searched(scene, searches))
+    found = searched(scene, searches)
+    # of other counterweights there may be some
+    scene.brackets.clear()
+    scene.brackets.update(found)
     results = {name: OUTPUTS[name].figure(scene, unbalance) for name in outputs}
     if all(effect in scene.results for effect in FIRST_ORDER_EFFECTS):
         results["balance_quality"] = balance_quality(scene, unbalance)

@@ -1,7 +1,8 @@
 """Hard limits on peaks."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -41,6 +42,11 @@ class Ceilings:
     def raised(self, share: float) -> "Ceilings":
         """Every ceiling higher by a share of its size, which is taken from the tolerance."""
         return replace(self, cap=self.cap + share * self.size, tolerance=self.tolerance - share)
+
+    def mapped(self, function: Callable[[Any], Any]) -> "Ceilings":
+        """A function of every array."""
+        norms, cap, size = self.norms.mapped(function), function(self.cap), function(self.size)
+        return Ceilings(self.names, norms, cap, size, self.tolerance, self.angles_deg, self.scenarios)
 
     def only(self, webs: np.ndarray) -> "Ceilings":
         return replace(self, norms=self.norms.only(webs))

@@ -113,7 +113,8 @@ def best_proof(statement: Statement, proofs: Iterable[Multipliers]) -> tuple[Rea
 
 def together(several: Iterable[Multipliers]) -> Multipliers:
     """Several multipliers of the same programs as those of one more leading axis."""
-    return Multipliers(*(np.array(parts) for parts in zip(*(vars(each).values() for each in several), strict=True)))
+    term, row, ceiling = zip(*(each.parts for each in several), strict=True)
+    return Multipliers(np.array(term), np.array(row), np.array(ceiling))
 
 
 def mass_lower_bound(statement: Statement, multipliers: Multipliers, target: Real) -> Real:

@@ -12,8 +12,13 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, in_order, merged, spread
+from optimizer.numerics.loading import deferred
 from optimizer.numerics.records import record
 from optimizer.program.limits import Limits, Region, within
+
+#: loops, compiled
+_values = deferred("optimizer.program.kernel.values", "values")
+_judge = deferred("optimizer.program.kernel.judging", "judge")
 
 
 class Programs(NamedTuple):
@@ -88,13 +93,10 @@ class Flat:
 
         Objective, mass, largest relative excess over a ceiling (-inf without ceilings), rounding of the objective.
         """
-        # the compiler is loaded when it is first needed
-        from optimizer.program.kernel.values import values
-
         leading = self._of(u.shape[:-1])
         many = math.prod(leading)
         found = np.empty((4, many))
-        values(*_rows(leading, u), self.programs, found)
+        _values()(*_rows(leading, u), self.programs, found)
         return found.reshape(4, *leading)
 
     def bounds(self, term: Complex, row: Real, ceiling: Complex, target: Real | None = None) -> Real:
@@ -172,14 +174,12 @@ class Flat:
         ends : (N, K) where both stages ended.
         solver, mass_solver : what the interior point proves the objective and the mass by; None where that is free.
         """
-        from optimizer.program.kernel.judging import judge
-
         many, terms, webs = self.programs.influence.shape
         smallest, lightest = np.array(ends[0], order="C"), in_order(ends[1])
         found, figures, bounds = np.empty((many, webs), complex), np.empty((4, many)), np.empty((3, many))
         certified, own = np.empty(many, bool), _in_order(solver)
         proof = np.empty_like(own[0]), np.empty_like(own[1]), np.empty_like(own[2])
-        judge(
+        _judge()(
             in_order(share),
             in_order(demand),
             mass_solver is not None,
@@ -203,7 +203,7 @@ class Flat:
 
     def _of(self, axes: tuple[int, ...]) -> tuple[int, ...]:
         """Leading axes of what has these, which are those of the programs and others before them."""
-        if axes == self.leading:
+        if axes[len(axes) - len(self.leading) :] == self.leading:
             return axes
         leading, own = np.broadcast_shapes(axes, self.leading), tuple(dropwhile(lambda n: n == 1, self.leading))
         if leading[len(leading) - len(own) :] != own:

@@ -1,13 +1,15 @@
 """Where the counterweights may be: mass, sector, budget."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, merged, plain, spread
+from optimizer.numerics.arrays import Complex, Real, mapped, merged, plain, spread
+from optimizer.numerics.loading import deferred
 from optimizer.numerics.records import record
 from optimizer.program.equal_castings import Alike
 
@@ -17,6 +19,10 @@ OF_WEBS = ("radius", "max_mass", "free", "centre", "half_angle_cos", "half_angle
 
 #: leaders, images and numbers of webs where none are alike
 _NONE_ALIKE = (np.empty(0, np.int64), np.empty(0, bool), np.empty(0))
+
+#: loops, compiled
+_bring = deferred("optimizer.program.kernel.regions", "bring")
+_filled = deferred("optimizer.numerics.kernel.knapsack", "filled")
 
 
 class Region(NamedTuple):
@@ -82,12 +88,9 @@ class Limits:
         ----------
         gain : (..., K) per kilogram.
         """
-        # the compiler is loaded when it is first needed
-        from optimizer.numerics.kernel.knapsack import filled
-
         *leading, webs = gain.shape
         many = math.prod(leading)
-        masses, price = filled(
+        masses, price = _filled()(
             plain(gain).reshape(many, webs),
             plain(spread(self.max_mass, gain.shape)).reshape(many, webs),
             plain(spread(self.max_total_mass, tuple(leading))).reshape(many),
@@ -129,7 +132,7 @@ class Limits:
         Of alike webs the mean of theirs, with vectors that are alike.
         """
         g = g if self.alike is None else self.alike.nearest(g)
-        if self.free.all():
+        if np.logical_and.reduce(self.free, axis=None):
             return np.abs(g)
         rotated = g * np.conj(self.centre)
         across = np.abs(rotated.imag)
@@ -139,11 +142,25 @@ class Limits:
 
     def opening(self, g: Complex) -> Real:
         """Growth of :meth:`support` per radian of half-angle, 1/rad (..., K)."""
-        if self.free.all():
+        if np.logical_and.reduce(self.free, axis=None):
             return np.zeros(g.shape)
         rotated = g * np.conj(self.centre)
         growth = np.abs(rotated.imag) * self.half_angle_cos - rotated.real * self.half_angle_sin
         return np.where(self.free, 0.0, np.maximum(growth, 0.0))
+
+    def mapped(self, function: Callable[[Any], Any]) -> "Limits":
+        """A function of every array."""
+        return Limits(
+            function(self.radius),
+            function(self.max_mass),
+            function(self.free),
+            function(self.centre),
+            function(self.half_angle_cos),
+            function(self.half_angle_sin),
+            function(self.max_total_mass),
+            None if self.alike is None else mapped(self.alike, function),
+            None if self.marginal_radius is None else function(self.marginal_radius),
+        )
 
     def only(self, webs: np.ndarray) -> "Limits":
         """The limits of some of the webs (K,) bool."""
@@ -159,10 +176,7 @@ class Limits:
 
 def within(region: Region, leading: tuple[int, ...], u: Complex) -> Complex:
     """Unbalances, of these leading axes, within all limits, close to those that are nearly so."""
-    # the compiler is loaded when it is first needed
-    from optimizer.program.kernel.regions import bring
-
     webs = u.shape[-1]
     found = np.array(spread(u, (*leading, webs)), complex, order="C")
-    bring(found.reshape(math.prod(leading), webs), region, np.empty(webs, complex))
+    _bring()(found.reshape(math.prod(leading), webs), region, np.empty(webs, complex))
     return found

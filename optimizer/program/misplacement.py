@@ -10,8 +10,13 @@ import math
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, plain
+from optimizer.numerics.arrays import Complex, Real, in_order
+from optimizer.numerics.loading import deferred
 from optimizer.program.norms import Norms
+
+#: loops, compiled
+_worst_scaled = deferred("optimizer.program.kernel.outlines", "worst_scaled")
+_worst_turned = deferred("optimizer.program.kernel.outlines", "worst_turned")
 
 
 def worst_by_mass(norms: Norms, u: Complex, share: float) -> Real:
@@ -21,12 +26,10 @@ def worst_by_mass(norms: Norms, u: Complex, share: float) -> Real:
 
 def farthest_by_mass(middle: Complex, vectors: Complex, share: float) -> Real:
     """Largest |middle + sum_k e_k v_k| (...) of vectors (..., K), |e_k| up to a share."""
-    # the compiler is loaded when it is first needed
-    from optimizer.program.kernel.outlines import worst_scaled
-
-    rows = plain(vectors).reshape(middle.size, vectors.shape[-1])
-    found: Real = worst_scaled(rows, plain(middle).reshape(-1), share).reshape(middle.shape)
-    return found
+    worst = np.empty(middle.size)
+    rows = in_order(vectors).reshape(worst.size, vectors.shape[-1])
+    _worst_scaled()(rows, in_order(middle).reshape(-1), share, worst)
+    return worst.reshape(middle.shape)
 
 
 def mass_corners(vectors: Complex) -> Complex:
@@ -50,12 +53,10 @@ def worst_by_angle(norms: Norms, u: Complex, angle: float) -> Real:
 
 def farthest_by_angle(fixed: Complex, vectors: Complex, angle: float) -> Real:
     """Largest |fixed + sum_k v_k e^{j psi_k}| (...) of vectors (..., K), |psi_k| up to an angle [rad] below pi/2."""
-    # the compiler is loaded when it is first needed
-    from optimizer.program.kernel.outlines import worst_turned
-
-    rows = plain(vectors).reshape(fixed.size, vectors.shape[-1])
-    found: Real = worst_turned(rows, plain(fixed).reshape(-1), angle).reshape(fixed.shape)
-    return found
+    worst = np.empty(fixed.size)
+    rows = in_order(vectors).reshape(worst.size, vectors.shape[-1])
+    _worst_turned()(rows, in_order(fixed).reshape(-1), angle, worst)
+    return worst.reshape(fixed.shape)
 
 
 def angle_corners(vectors: Complex, angle: float) -> Complex:

@@ -1,7 +1,8 @@
 """Norm terms |c_j + H_j u|, of which objectives and ceilings are made."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -43,6 +44,10 @@ class Norms:
         """Largest |H_jk| over the webs, (..., J); 1 where no web has any."""
         largest = np.maximum.reduce(np.abs(self.influence), axis=-1, initial=0.0)
         return np.where(largest > 0, largest, 1.0)
+
+    def mapped(self, function: Callable[[Any], Any]) -> "Norms":
+        """A function of every array."""
+        return Norms(function(self.constant), function(self.influence), self.scatter, self.scalar)
 
     def only(self, webs: np.ndarray) -> "Norms":
         # in the usual order in memory, in which sums are the same to the last bit

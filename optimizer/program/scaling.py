@@ -11,11 +11,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, in_order
+from optimizer.numerics.loading import deferred
 from optimizer.program.certificate import Multipliers
 from optimizer.program.norms import Norms
 from optimizer.program.scaled_program import ScaledData, ScaledSolution, Shape, Stage
 from optimizer.program.statement import Statement
+
+#: loops, compiled
+_least_changes = deferred("optimizer.program.kernel.cancelling", "least_changes")
 
 
 @dataclass(frozen=True)
@@ -76,16 +80,13 @@ def least_change(influence: Real | Complex, constant: Complex, passes: int = 1) 
     ----------
     passes : three are exact to rounding also where rows hardly differ.
     """
-    # the compiler is loaded when it is first needed
-    from optimizer.program.kernel.cancelling import least_changes
-
     *leading, terms, webs = influence.shape
     shape = (math.prod(leading), terms, webs)
     # real or complex, compiled once
     rows = np.array(influence, complex, order="C").reshape(shape)
-    wanted = np.array(constant, complex, order="C").reshape(shape[:-1])
-    found: Complex = least_changes(rows, wanted, passes).reshape(*leading, webs)
-    return found
+    changes = np.zeros((shape[0], webs), complex)
+    _least_changes()(rows, in_order(constant).reshape(shape[:-1]), passes, changes)
+    return changes.reshape(*leading, webs)
 
 
 def scale(

@@ -10,7 +10,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, mapped, variant
+from optimizer.numerics.arrays import Complex, Real, variant
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
 from optimizer.program.ceilings import Ceilings
@@ -123,7 +123,8 @@ class Statement:
         """The largest unbalance that one term or one limited response calls for by itself, kg m (...)."""
         largest = np.zeros(())
         for each in (self.norms, self.ceilings.norms) if self.ceilings.names else (self.norms,):
-            apart = np.where((each.influence != 0).any(axis=-1), np.abs(each.constant) / each.largest_influence, 0.0)
+            some = np.logical_or.reduce(each.influence, axis=-1)
+            apart = np.where(some, np.abs(each.constant) / each.largest_influence, 0.0)
             largest = np.maximum(largest, np.maximum.reduce(apart, axis=-1, initial=0.0))
         return largest
 
@@ -244,11 +245,11 @@ class Statement:
     def _mapped(self, function: Callable[[Any], Any]) -> "Statement":
         """A function of every array that has the leading axes."""
         return Statement(
-            mapped(self.norms, function),
+            self.norms.mapped(function),
             self.row,
             self.group,
             function(self.floor),
-            mapped(self.ceilings, function),
-            mapped(self.limits, function),
+            self.ceilings.mapped(function),
+            self.limits.mapped(function),
             self.names,
         )

@@ -23,6 +23,7 @@ MASS_GAP = 1e-4
 _MASS_SHARE = CEILING_TOLERANCE / MASS_GAP
 #: rounding of a mass, relative to it
 _MASS_ROUNDING = 1e-13
+_OPTIMAL = np.array("optimal")
 
 OPTIMAL = "Proven optimal: the gap to the lower bound is within the requested gap, and every limit is kept."
 OPTIMAL_LIGHTEST = (
@@ -111,7 +112,7 @@ def verdict(claim: Claim, tolerance: float) -> Verdict:
     """
     over = claim.lower_bound - claim.value
     # of several goals the bound is a corner below which nothing is in all of them
-    false = (over > claim.rounding).all(axis=-1) | claim.contradicted
+    false = np.logical_and.reduce(over > claim.rounding, axis=-1) | claim.contradicted
     bound, gap = np.where(over > 0, claim.value, claim.lower_bound), np.maximum(-over, 0.0)
     relative = np.maximum.reduce(relative_gap(gap, claim.yardstick), axis=-1)
     mass_yardstick, kept = np.maximum(claim.mass, claim.mass_resolution), claim.excess <= CEILING_TOLERANCE
@@ -128,9 +129,9 @@ def verdict(claim: Claim, tolerance: float) -> Verdict:
     close = relative <= tolerance
     why = OPTIMAL if claim.mass_lower_bound is None else OPTIMAL_LIGHTEST
     optimal = ~false & kept & close & light
-    if optimal.all() and tolerance < np.inf:
+    if np.logical_and.reduce(optimal, axis=None) and tolerance < np.inf:
         # all is finite then
-        every = np.full(optimal.shape, "optimal"), np.full(optimal.shape, why)
+        every = spread(_OPTIMAL, optimal.shape), spread(np.asarray(why), optimal.shape)
         return Verdict(*every, bound, gap, relative, mass_bound, mass_gap, mass_yardstick)
     nothing = false | ~np.isfinite(relative)
     # the last of these that is so
@@ -149,7 +150,7 @@ def verdict(claim: Claim, tolerance: float) -> Verdict:
 
 def relative_gap(gap: Real, yardstick: Real) -> Real:
     """Gap over yardstick; where the yardstick is 0 any gap is infinitely large, and no gap is none."""
-    if (yardstick > 0).all():
+    if np.logical_and.reduce(yardstick > 0, axis=None):
         return gap / yardstick
     return np.where(yardstick > 0, gap / np.where(yardstick > 0, yardstick, 1.0), np.where(gap > 0, np.inf, 0.0))
 
@@ -161,7 +162,7 @@ def yardstick(statement: Statement) -> Real:
     does to a term.
     """
     rest = statement.at_rest
-    if (rest > 0).all():
+    if np.logical_and.reduce(rest > 0, axis=None):
         return rest
     reach = np.minimum(statement.limits.reach, natural_reach(statement)[..., None])
     change = np.add.reduce(np.abs(statement.norms.influence) * reach[..., None, :], axis=(-2, -1))
@@ -180,11 +181,12 @@ def mass_resolution(statement: Statement, yardstick: Real) -> Real:
     yardstick : (..., 1) of the objective or (..., rows) of its rows.
     """
     limits, norms, ceilings = statement.limits, statement.norms, statement.ceilings
-    radius = np.where(limits.reach > 0, limits.radius, 0.0)[..., None, :]
+    radius = np.where(limits.most > 0, limits.radius, 0.0)[..., None, :]
     does, size = statement.membership @ (np.abs(norms.influence) * radius), spread(yardstick, statement.floor.shape)
     if ceilings.names:
         does = np.concatenate([does, np.abs(ceilings.norms.influence) * radius], axis=-2)
         size = np.concatenate([size, ceilings.size], axis=-1)
     most = np.maximum.reduce(does, axis=-1, initial=0.0)
-    least = np.minimum.reduce(np.where(most > 0, size / np.where(most > 0, most, 1.0), np.inf), axis=-1)
+    some = most > 0
+    least = np.minimum.reduce(np.where(some, size / np.where(some, most, 1.0), np.inf), axis=-1)
     return _MASS_SHARE * np.where(np.isfinite(least), least, 0.0)

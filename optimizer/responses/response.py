@@ -44,7 +44,8 @@ class Phasors:
     def major_axis_deg(self) -> Real:
         """Direction of the major axis in [0, 180) degrees; 0 for a circle, which has none."""
         phases = np.arctan2(self.co.imag, self.co.real) + np.arctan2(self.counter.imag, self.counter.real)
-        return major_axis_deg((self.co != 0) & (self.counter != 0), phases)
+        axis = np.mod(np.rad2deg(0.5 * phases), 180.0)
+        return np.where((self.co != 0) & (self.counter != 0) & (axis < 180.0), axis, 0.0)
 
     def peak_along(self, direction: Complex) -> Real:
         """Largest component along a direction over a turn, |co + e^{2j g} conj(counter)| for e^{j g}.
@@ -68,12 +69,6 @@ class Phasors:
         """
         turn = np.exp(1j * order * angle_rad)
         return self.co[..., None] * turn + self.counter[..., None] * np.conj(turn)
-
-
-def major_axis_deg(both: np.ndarray, phases: Real) -> Real:
-    """The same by the sum of the phases of two vectors (...) rad, and whether both are there."""
-    axis = np.mod(np.rad2deg(0.5 * phases), 180.0)
-    return np.where(both & (axis < 180.0), axis, 0.0)
 
 
 @record

@@ -40,6 +40,7 @@ _CLOSE = 1e-10
 _CLOSER = 1e-12
 #: a floor is a sum of few, known to so many units in its last place
 _FLOORS = 8.0
+_EPS = float(np.finfo(float).eps)
 
 
 class Candidate(NamedTuple):
@@ -213,7 +214,7 @@ def _claim(
     """What is claimed of the counterweights as they are fitted."""
     # the counterweights that the proofs count with can change no more
     size = float(program.yardsticks_within(optimum.limits)[-1])
-    *before, (bound, rounding) = (_bound(goal.proof, u, values.excess) for goal in optimum.goals)
+    *before, (bound, rounding) = (_bound(program, goal.proof, u, values) for goal in optimum.goals)
     # what goals before the last are proven to need, these counterweights need as well
     against = [least > value + off for (least, off), value in zip(before, values.goals[:-1], strict=True)]
     mass_bound = None
@@ -236,13 +237,14 @@ def _claim(
     )
 
 
-def _bound(proof: Proof, u: Complex, excess: float) -> tuple[float, float]:
-    """The bound that is claimed of counterweights with an excess, and the rounding of a value."""
-    statement = proof.statement
+def _bound(program: Problem, proof: Proof, u: Complex, values: Values) -> tuple[float, float]:
+    """The bound that is claimed of counterweights with some values, and the rounding of a value."""
+    statement, own = proof.statement, values.rounding
     # what scatters whatever the counterweights is a floor
     charge = proof.charge + _FLOORS * float(np.add.reduce(np.abs(statement.floor)))
-    rounding = float(points_at(statement, u).rounding) + charge * np.finfo(float).eps
-    return bound_beside(proof, excess), rounding
+    if own is None or program.finite is None or statement.norms is not program.finite.norms:
+        own = float(points_at(statement, u).rounding)
+    return bound_beside(proof, values.excess), own + charge * _EPS
 
 
 def bound_beside(proof: Proof, excess: float) -> float:

@@ -9,7 +9,7 @@ import numpy as np
 from optimizer.formulation.counterweights import masses_and_angles, unbalance
 from optimizer.formulation.goals import cone_program
 from optimizer.formulation.task import Demand
-from optimizer.mechanics.fixed_weights import fixed_masses
+from optimizer.mechanics.fixed_weights import fixed_mass
 from optimizer.numerics.arrays import Complex, Real, Reals
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import Optima, optima
@@ -101,7 +101,7 @@ def figures(
     at_rest, mass_target : objectives without counterweights, and the largest that proofs of the mass count as optima.
     """
     of_mass = {
-        "mass_lower_bound_kg": judged.mass_lower_bound + np.add.reduce(fixed_masses(machine), axis=-1),
+        "mass_lower_bound_kg": judged.mass_lower_bound + fixed_mass(machine),
         "mass_relative_gap": judged.mass_gap,
         "mass_yardstick_kg": judged.mass_yardstick,
         "mass_objective_limit": np.asarray(mass_target * omega_squared),

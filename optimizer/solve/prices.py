@@ -62,7 +62,7 @@ def touched_limits(
 
 def touched_by_mass(machine: Machine, mass_kg: Real) -> tuple[MachineLimit, ...]:
     """Limits of the whole machine that masses (K,) kg touch."""
-    nowhere = np.zeros_like(mass_kg)  # the angles of counterweights are no matter of the machine
+    nowhere = np.zeros(mass_kg.shape)  # the angles of counterweights are no matter of the machine
     return tuple(name for name, limit in MACHINE_LIMITS.items() if limit.touched(machine, mass_kg, nowhere))
 
 

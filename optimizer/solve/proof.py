@@ -89,9 +89,11 @@ def physical_bounds(
     scaled = usable.times(
         np.array([of_price[n] if name == "objective" else per_newton for n, name in enumerate(bounds)])
     )
-    term = _no_longer(scaled.term, scaled.row[..., statement.row])
+    term, ends = _no_longer(scaled.term, scaled.row[..., statement.row]), statement.limits.budget_ends
     for n, name in enumerate(bounds):
-        if name == "objective":
+        if not np.count_nonzero(ends):
+            budget = np.zeros(ends.shape)
+        elif name == "objective":
             budget = budget_price(statement, scaled.chosen(n), 0.0) * omega_squared
         else:
             budget = budget_price(statement, usable.chosen(n), 1.0 if name == "mass" else 0.0)
@@ -128,25 +130,27 @@ def implied_max_mass(machine: Machine, most: Real) -> list[dict[str, float]]:
 
 def named(statement: Statement, multipliers: PhysicalMultipliers) -> BoundMultipliers:
     """Multipliers of a bound on one program (no leading axes of theirs) by the names of its terms, rows, ceilings."""
+    return BoundMultipliers.model_validate(fields_by_name(statement, multipliers))
+
+
+def fields_by_name(statement: Statement, multipliers: PhysicalMultipliers) -> dict[str, Any]:
+    """The same before they are validated: the validation of a whole takes half the time of one of each part."""
     terms, rows = statement.names
-    # one validation of the whole takes half the time of one of each
-    return BoundMultipliers.model_validate(
-        {
-            "terms": tuple(
-                {
-                    "response": term.response,
-                    "part": term.part,
-                    "row": rows[row],
-                    "angle_deg": term.angle_deg,
-                    "scenario": term.scenario,
-                    "x": y.real * term.share,
-                    "y": y.imag * term.share,
-                }
-                for term, row, y in zip(terms, statement.row.tolist(), multipliers.term.tolist(), strict=True)
-            ),
-            **_shared(rows, statement, multipliers),
-        }
-    )
+    return {
+        "terms": [
+            {
+                "response": term.response,
+                "part": term.part,
+                "row": rows[row],
+                "angle_deg": term.angle_deg,
+                "scenario": term.scenario,
+                "x": y.real * term.share,
+                "y": y.imag * term.share,
+            }
+            for term, row, y in zip(terms, statement.row.tolist(), multipliers.term.tolist(), strict=True)
+        ],
+        **_shared(rows, statement, multipliers),
+    }
 
 
 def named_conflict(statement: Statement, multipliers: PhysicalMultipliers) -> BoundMultipliers:
@@ -203,14 +207,12 @@ def _shared(names: tuple[str, ...], statement: Statement, multipliers: PhysicalM
     nothing = (None,) * len(ceilings.names)
     angles, scenarios = ceilings.angles_deg or nothing, ceilings.scenarios or nothing
     return {
-        "rows": tuple(
-            {"name": name, "value": value} for name, value in zip(names, multipliers.row.tolist(), strict=True)
-        ),
+        "rows": [{"name": name, "value": value} for name, value in zip(names, multipliers.row.tolist(), strict=True)],
         "budget": float(multipliers.budget),
-        "ceilings": tuple(
+        "ceilings": [
             {"response": name, "part": "co", "angle_deg": angle, "scenario": scenario, "x": p.real, "y": p.imag}
             for name, angle, scenario, p in zip(
                 ceilings.names, angles, scenarios, multipliers.ceiling.tolist(), strict=True
             )
-        ),
+        ],
     }

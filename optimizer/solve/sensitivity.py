@@ -26,7 +26,8 @@ def _of_cone_program(statement: Statement, u: Complex, omega_squared: float) -> 
     statement : over omega^2.
     """
     norms = statement.norms
-    middle, vectors = norms.at(u), norms.influence * u[..., None, :]
+    vectors = norms.influence * u[..., None, :]
+    middle = norms.counting(norms.constant + np.add.reduce(vectors, axis=-1))
     worst = farthest_by_angle(norms.constant, vectors, _DEGREE), farthest_by_mass(middle, vectors, _PERCENT)
     # of a sum of peaks no less than they come to together
     objectives = statement.objective_of(np.array([np.abs(middle), *worst]))

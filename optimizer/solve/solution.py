@@ -3,7 +3,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from optimizer.formulation.balance_shafts import Fitted
 from optimizer.formulation.simulation import Prepared
@@ -16,14 +16,14 @@ from optimizer.solve.proof import (
     Bounded,
     PhysicalMultipliers,
     Speeds,
+    fields_by_name,
     implied_max_mass,
-    named,
     physical,
     physical_bounds,
 )
 from schemas.answer.answers import Certificate, GoalReached
 from schemas.answer.infeasibility import Infeasibility
-from schemas.answer.proof import BoundMultipliers, Multipliers
+from schemas.answer.proof import BoundMultipliers
 from schemas.machine.machine import Machine
 
 
@@ -91,7 +91,8 @@ def multipliers_of(proof: Proof, omega_squared: float, speeds: Speeds) -> BoundM
     ----------
     speeds : omega^2 by scenario, that ceilings are over.
     """
-    return _named(proof, physical(proof.with_pieces, proof.multipliers, "objective", omega_squared, speeds))
+    in_units = physical(proof.with_pieces, proof.multipliers, "objective", omega_squared, speeds)
+    return BoundMultipliers.model_validate(_named(proof, in_units))
 
 
 class Proofs(NamedTuple):
@@ -120,23 +121,23 @@ class Proofs(NamedTuple):
             return cls(in_units, None)
         return cls(in_units, physical(of_mass.with_pieces, of_mass.multipliers, "mass", omega_squared, speeds))
 
-    def named(self, optimum: CertifiedOptimum) -> Multipliers:
-        """As an answer prints them."""
+    def named(self, optimum: CertifiedOptimum) -> dict[str, Any]:
+        """Fields of :class:`schemas.answer.proof.Multipliers`, as an answer prints them."""
         of_mass = None
         if self.mass is not None and optimum.mass_proof is not None:
             of_mass = _named(optimum.mass_proof, self.mass)
-        return Multipliers(objective=_named(optimum.proof, self.objective), mass=of_mass)
+        return {"objective": _named(optimum.proof, self.objective), "mass": of_mass}
 
 
-def _named(proof: Proof, in_units: PhysicalMultipliers) -> BoundMultipliers:
-    return named(proof.statement, in_units.of_groups(proof.statement, proof.scale))
+def _named(proof: Proof, in_units: PhysicalMultipliers) -> dict[str, Any]:
+    return fields_by_name(proof.statement, in_units.of_groups(proof.statement, proof.scale))
 
 
 def certificate(
     figures: Mapping[str, Real | float | str | None],
     machine: Machine,
     most: Real,
-    multipliers: Multipliers,
+    multipliers: Mapping[str, Any],
     goals: tuple[GoalReached, ...] = (),
 ) -> Certificate:
     """What an answer prints of proofs.
@@ -145,9 +146,10 @@ def certificate(
     ----------
     figures : of one design, by the fields of a certificate; what is not finite is null.
     most : (K,) kg, largest masses that the proofs count with.
+    multipliers : as of :meth:`Proofs.named`.
     """
     return Certificate.model_validate(
-        {name: value if isinstance(value, str) else finite_or_null(value) for name, value in figures.items()}
+        {name: value if type(value) is str else finite_or_null(value) for name, value in figures.items()}
         | {
             "implied_max_mass_kg": implied_max_mass(machine, most[None])[0],
             "multipliers": multipliers,

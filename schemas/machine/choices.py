@@ -70,6 +70,8 @@ KINDS: dict[str, ChoiceKind] = {
     ),
     # beside these two
 }
+#: fields of which a web that states none is of any mass at any angle
+CHOSEN = frozenset({*KINDS, "min_fitted_mass_kg"})
 
 
 def stated(web: Any) -> list[str]:

@@ -12,7 +12,7 @@ from schemas.base.units import Unit
 from schemas.machine.balance_quality import BalanceQuality
 from schemas.machine.catalogue import Catalogue
 from schemas.machine.catalogue_rules import catalogue_rules
-from schemas.machine.choices import stated
+from schemas.machine.choices import CHOSEN, stated
 from schemas.machine.webs import Web, WebGroup
 
 MAX_WEBS = 500
@@ -122,9 +122,12 @@ class Rotor(Ruled):
     @property
     def choice(self) -> Choice | None:
         """What counterweights are chosen from; None is any mass at any angle."""
-        if self.catalogue is not None or self.max_counterweights is not None or any(map(stated, self.webs)):
+        if self.catalogue is not None or self.max_counterweights is not None:
             return "discrete"
-        return "semicontinuous" if any(web.min_fitted_mass_kg is not None for web in self.webs) else None
+        webs = [web for web in self.webs if not CHOSEN.isdisjoint(web.model_fields_set)]
+        if any(map(stated, webs)):
+            return "discrete"
+        return "semicontinuous" if any(web.min_fitted_mass_kg is not None for web in webs) else None
 
     @property
     def discrete(self) -> bool:

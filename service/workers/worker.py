@@ -36,6 +36,8 @@ _BEHIND = {Priority.FIRST: 0, Priority.FURTHER: 8, Priority.LONG: 11}
 _NICEST = 19
 #: an answer that is larger goes to the service in a file
 LARGE_BYTES = 262_144
+#: memory is looked at once in so long [s]: to look takes as long as to read a small request
+_LOOK_S = 0.02
 #: objects made and not freed, after which those that hold one another are looked for: a refusal leaves some
 _COLLECT_AFTER = 5_000
 #: faults of the request; anything else is a fault of the service
@@ -67,7 +69,7 @@ class Answer:
     coding : by which the content is compressed; what is small is not.
     size : of the content, wherever it is [bytes].
     seconds : time of the whole computation.
-    resident : memory that the worker holds now [bytes].
+    resident : memory that the worker holds, seen a moment ago at most [bytes].
     file : of a large content, without a name: it is gone when nobody reads it any more.
     faults : what the service found wrong with its own answer, and says in it.
     stem : what a file of the answer is called, without the ending; None where it has no name of its own.
@@ -242,7 +244,7 @@ def perform(task: Task) -> Outcome | Long:
         # a model takes long to say that it has none
         stem = getattr(found, "file_stem", None) if task.computation.answer is None else None
         return Answer(
-            content, coding, len(content), seconds, _certified(found), _resident(), faults=tuple(faults), stem=stem
+            content, coding, len(content), seconds, _certified(found), _memory(), faults=tuple(faults), stem=stem
         )
     except REFUSALS as error:
         return Refused.because(error)
@@ -276,6 +278,22 @@ def _certified(answer: object) -> Certified | None:
         return None
     gap = math.inf if proof.relative_gap is None else proof.relative_gap
     return Certified(proof.method, timing.solve_ms / 1000, gap)
+
+
+class _Memory:
+    """Resident memory of this process [bytes], 0 where the system does not tell it."""
+
+    def __init__(self) -> None:
+        self._resident, self._until = 0, -math.inf
+
+    def __call__(self) -> int:
+        now = time.perf_counter()
+        if now >= self._until:
+            self._resident, self._until = _resident(), now + _LOOK_S
+        return self._resident
+
+
+_memory = _Memory()
 
 
 def _resident() -> int:

@@ -15,6 +15,7 @@ from optimizer.numerics.kernel import circle, knapsack, meeting
 from optimizer.program.kernel import (
     bounds,
     cancelling,
+    disc_forms,
     discs,
     interior_point,
     judging,
@@ -72,6 +73,7 @@ def test_what_is_compiled_is_what_answers_need() -> None:
         symmetries: ("means",),
         outlines: ("worst_scaled", "worst_turned"),
         cancelling: ("least_changes",),
+        disc_forms: ("forms", "scales"),
         rows: ("row_functions",),
         crossings: ("crossings",),
         curves: ("sums_of_rows",),

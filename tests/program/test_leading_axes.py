@@ -1,7 +1,7 @@
 """Programs beside each other are as each alone, over two leading axes; and what a statement says, term by term."""
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
@@ -29,7 +29,7 @@ from optimizer.program.scaling import cancelling, natural_reach
 from optimizer.program.sensitivity import shadow_prices
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import claim, mass_resolution, verdict, yardstick
-from tests.program.cases import random_limits, random_point, random_responses, stacked
+from tests.program.cases import random_limits, random_point, random_responses, random_statement, stacked
 
 LEADING, WEBS = (2, 3), 4
 
@@ -253,3 +253,16 @@ def test_some_webs_make_a_program_of_their_own() -> None:
     assert part.objective(u[some]) == pytest.approx(program.objective(u), rel=1e-14)
     assert part.mass(u[some]) == pytest.approx(program.mass(u), rel=1e-14)
     np.testing.assert_allclose(part.ceilings.excess(u[some]), program.ceilings.excess(u), rtol=1e-13)
+
+
+def test_a_function_of_every_array_reaches_all_of_them() -> None:
+    """Whatever fields parts of a statement have; what is no array stays as it is."""
+    problem = random_statement(1, "sum", (1.0, 2.0), True, True, True, webs=3)
+    limits = replace(problem.limits, marginal_radius=problem.limits.radius)
+    for part in (problem.norms, problem.ceilings, limits):
+        found = part.mapped(np.copy)
+        for field in fields(part):
+            own, other = getattr(part, field.name), getattr(found, field.name)
+            assert (other is not own) == isinstance(own, np.ndarray | Norms), field.name
+            if isinstance(own, np.ndarray):
+                assert np.array_equal(other, own)

@@ -64,6 +64,7 @@ class Values(NamedTuple):
     over: Real  # (ceilings and limited,) excess over each ceiling, relative to its size
     reached: tuple[Evaluation, ...]  # every quantity
     over_budget: float = -1.0  # of the mass, relative to the budget, where plates count; below 0 some is left
+    rounding: float | None = None  # of the goal of a problem that is a cone program
 
     @property
     def excess(self) -> float:
@@ -309,7 +310,8 @@ class Problem:
 
     def _exact(self, program: Statement, u: Complex) -> Values:
         over = program.ceilings.excess(u) if program.ceilings.names else np.zeros(0)
-        return Values(points_at(program, u).objective[None], over, (), self._over_budget(u))
+        point = points_at(program, u)
+        return Values(point.objective[None], over, (), self._over_budget(u), float(point.rounding))
 
     def _spare(self, about: Real) -> Real:
         """Widths of brackets (quantities,) that tell of what decides nothing that it does not.

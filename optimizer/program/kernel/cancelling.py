@@ -9,14 +9,12 @@ _DEPENDENT = 1e-13
 
 
 @kernel
-def least_changes(influence, constant, passes):  # type: ignore[no-untyped-def]
-    """The least u (N, K) for which constant (N, J) + influence (N, J, K) u is 0, as far as it can be."""
+def least_changes(influence, constant, passes, changes):  # type: ignore[no-untyped-def]
+    """The least u for which constant (N, J) + influence (N, J, K) u is 0, as far as can be, added to changes (N, K)."""
     number, terms, webs = influence.shape
-    changes = np.zeros((number, webs), np.complex128)
     row, basis = np.empty(webs, np.complex128), np.empty((terms, webs), np.complex128)
     for n in range(number):
         change(influence[n], constant[n], passes, row, basis, changes[n])
-    return changes
 
 
 @inner

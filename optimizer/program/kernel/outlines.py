@@ -9,8 +9,8 @@ from optimizer.program.kernel.compiling import kernel
 
 
 @kernel
-def worst_turned(vectors, fixed, angle):  # type: ignore[no-untyped-def]
-    """Largest |fixed + sum_k v_k e^{j psi_k}|, |psi_k| <= angle below pi/2 (M,).
+def worst_turned(vectors, fixed, angle, worst):  # type: ignore[no-untyped-def]
+    """Largest |fixed + sum_k v_k e^{j psi_k}|, |psi_k| <= angle below pi/2.
 
     Along direction phi a vector v gives |v| cos(max(|phi - arg v| - angle, 0)). While phi grows from -pi every vector
     is turned ahead, not at all or back as phi is behind, near or ahead of it; between two of the angles at which that
@@ -19,10 +19,10 @@ def worst_turned(vectors, fixed, angle):  # type: ignore[no-untyped-def]
     Parameters
     ----------
     vectors, fixed : (M, K) and (M,) complex.
+    worst : (M,) what is found.
     """
     number, webs = vectors.shape
     turn = 2.0 * np.pi
-    worst = np.empty(number)
     start, level = np.empty(3 * webs), np.empty(3 * webs)
     turned, order = np.empty(3 * webs, np.complex128), np.empty(3 * webs, np.int64)
     to_ahead, to_behind = np.exp(1j * angle), np.exp(-1j * angle)
@@ -59,21 +59,20 @@ def worst_turned(vectors, fixed, angle):  # type: ignore[no-untyped-def]
                 vector += turned[order[at]]
                 flat += level[order[at]]
             begin = end
-    return worst
 
 
 @kernel
-def worst_scaled(vectors, middle, share):  # type: ignore[no-untyped-def]
-    """Largest |middle + sum_k e_k v_k|, |e_k| <= share (M,): at a corner of all such sums.
+def worst_scaled(vectors, middle, share, worst):  # type: ignore[no-untyped-def]
+    """Largest |middle + sum_k e_k v_k|, |e_k| <= share: at a corner of all such sums.
 
     Around half of their outline the vectors, all of which point ahead, change sign one after the other.
 
     Parameters
     ----------
     vectors, middle : (M, K) and (M,) complex.
+    worst : (M,) what is found.
     """
     number, webs = vectors.shape
-    worst = np.empty(number)
     ahead, towards, order = np.empty(webs, np.complex128), np.empty(webs), np.empty(webs, np.int64)
     for m in range(number):
         corner = 0j
@@ -91,4 +90,3 @@ def worst_scaled(vectors, middle, share):  # type: ignore[no-untyped-def]
         for at in range(webs):
             corner -= 2.0 * ahead[order[at]]
             worst[m] = max(worst[m], abs(middle[m] + share * corner), abs(middle[m] - share * corner))
-    return worst

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, mapped, parts, plain
+from optimizer.numerics.arrays import Complex, Real, in_order, mapped, parts, plain
+from optimizer.numerics.loading import deferred
 from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, nothing_proven
@@ -23,12 +24,12 @@ from optimizer.program.statement import Statement
 if TYPE_CHECKING:
     from optimizer.program.kernel.interior_point import Programs
 
-#: multiple of the natural reach beyond which limits are ignored
-_REACH = 10.0
-
-
 #: both stages, as :func:`optimizer.program.kernel.interior_point.solve`, of programs in units of their own
 Method = Callable[..., tuple[Any, ...]]
+
+#: loops, compiled
+_scaled = deferred("optimizer.program.kernel.disc_forms", "scales")
+_solved_in_discs = deferred("optimizer.program.kernel.discs", "solve")
 
 
 class _Tolerances(NamedTuple):
@@ -190,7 +191,7 @@ def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, s
         multipliers=Multipliers(*found.proof),
         mass_multipliers=solved.mass_proof if least_mass else nothing_proven(statement),
         mass_target=found.mass_target,
-        certify_s=np.full(share.shape, certify_s / max(share.size, 1)),
+        certify_s=np.zeros(share.shape) + certify_s / max(share.size, 1),
         smallest=found.smallest,
         certified=found.certified,
     )
@@ -231,29 +232,41 @@ def _solve(
         # nothing to choose
         nothing, proof = np.zeros(statement.limits.radius.shape, complex), nothing_proven(statement)
         return _Solved(nothing, nothing, proof, proof)
-    limits, norms, ceilings = statement.limits, statement.norms, statement.ceilings
-    reach = np.minimum(limits.reach, (_REACH * natural_reach(statement))[:, None])
-    unit = np.add.reduce(np.abs(norms.constant), axis=-1)
-    reachable = np.add.reduce(np.abs(norms.influence) * reach[:, None, :], axis=(-2, -1))
-    # a level far above where the search starts is hardly found
-    unit = np.maximum(np.where(unit > 0, unit, np.where(reachable > 0, reachable, 1.0)), at_least)
+    ceilings, terms = statement.ceilings, statement.norms.constant.shape[-1]
+    reach, unit, asked = _scales(statement, share, tolerances, at_least)
     v, cone, row, mass_unit = (method or _by_interior_point)(
-        statement,
-        reach,
-        unit,
-        tolerances.ceilings,
-        least_mass,
-        share / unit,
-        (tolerances.sharpness * share / unit).clip(tolerances.finest, tolerances.coarsest),
-        tolerances.mass,
+        statement, reach, unit, tolerances.ceilings, least_mass, *asked, tolerances.mass
     )
     points = statement.flat.into(reach * v)
     # in units of what is minimised (the first is any), per unit of objective or response
-    value, terms = np.array([np.ones_like(share), mass_unit]), norms.constant.shape[-1]
+    value = np.empty((2, *share.shape))
+    value[0], value[1] = 1.0, mass_unit
     vectors, worth = cone[..., 0] + 1j * cone[..., 1], (value / unit)[..., None]
     parts = vectors[..., :terms] * worth, row * worth, vectors[..., terms:] * value[..., None] / ceilings.size
     proofs = [Multipliers(*(part[stage] for part in parts)) for stage in range(2)]
     return _Solved(points[0], points[1], *proofs)
+
+
+def _scales(
+    statement: Statement, share: Real, tolerances: _Tolerances, at_least: Real | float
+) -> tuple[Real, Real, Real]:
+    """How far webs reach (N, K), the unit of the objective (N,), and in that the share and the asked gap (2, N)."""
+    region, influence = statement.flat.programs.region, in_order(statement.norms.influence)
+    many, _, webs = influence.shape
+    reach, unit, asked = np.empty((many, webs)), np.empty(many), np.empty((2, many))
+    _scaled()(
+        np.add.reduce(np.abs(statement.norms.constant), axis=-1),
+        influence,
+        natural_reach(statement),
+        (region.radius, region.max_mass, region.budget),
+        at_least + np.zeros(many),
+        in_order(share),
+        (tolerances.sharpness, tolerances.finest, tolerances.coarsest),
+        reach,
+        unit,
+        asked,
+    )
+    return reach, unit, asked
 
 
 def pulled(statement: Statement, u: Complex, inside: Complex) -> Complex:
@@ -289,20 +302,18 @@ def _in_frame(statement: Statement, v: Real, *rest: Any) -> tuple[Any, ...]:
 
 
 def _in_discs(statement: Statement, reach: Real, unit: Real, margin: float, *stages: Any) -> tuple[Any, ...]:
-    from optimizer.program.kernel.discs import solve
-
     least_mass, share, tolerance, mass_tolerance = stages
 
     found, places = [], []
     for which, budgeted, programs in discs_of(statement, reach, unit, margin):
-        v, p, price, mass_unit = solve(programs, budgeted, least_mass, share[which], tolerance[which], mass_tolerance)
+        asked = (share, tolerance) if which is None else (share[which], tolerance[which])
+        v, p, price, mass_unit = _solved_in_discs()(programs, budgeted, least_mass, *asked, mass_tolerance)
+        if which is None:
+            return v.view(complex)[..., 0], p, price, mass_unit
         found.append((v.view(complex)[..., 0], p, price, mass_unit[None]))
         places.append(which)
-    if len(found) == 1:
-        (v, p, price, mass_unit) = found[0]
-    else:
-        order = np.argsort(np.concatenate(places))
-        v, p, price, mass_unit = (np.concatenate(each, axis=1)[:, order] for each in zip(*found, strict=True))
+    order = np.argsort(np.concatenate(places))
+    v, p, price, mass_unit = (np.concatenate(each, axis=1)[:, order] for each in zip(*found, strict=True))
     return v, p, price, mass_unit[0]
 
 

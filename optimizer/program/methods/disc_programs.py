@@ -1,10 +1,12 @@
 """Programs for the interior point for discs (:mod:`optimizer.program.kernel.discs`): which, and in its form."""
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from optimizer.numerics.arrays import Real, parts, plain
+from optimizer.numerics.arrays import Real
+from optimizer.numerics.loading import deferred
 from optimizer.program.statement import Statement
 
 if TYPE_CHECKING:
@@ -16,6 +18,10 @@ _VECTORS = 6
 _THINNEST = 1e-3
 #: of the largest influence, by which those of a vector may miss a multiple of force or moment: their rounding
 _SAME = 1e-14
+
+#: loops, compiled, and what they are told
+_forms = deferred("optimizer.program.kernel.disc_forms", "forms")
+_discs = deferred("optimizer.program.kernel.disc_starts", "Discs")
 
 
 def suits_discs(statement: Statement, least_mass: bool = True) -> np.ndarray:
@@ -40,46 +46,45 @@ def suits_discs(statement: Statement, least_mass: bool = True) -> np.ndarray:
     return np.asarray(wide if vectors < 3 else wide & _multiples(np.real(statement.every_influence), basis)[2])
 
 
-def discs_of(statement: Statement, reach: Real, unit: Real, margin: float) -> list[tuple[np.ndarray, bool, "Discs"]]:
+def discs_of(
+    statement: Statement, reach: Real, unit: Real, margin: float
+) -> Sequence[tuple[np.ndarray | None, bool, "Discs"]]:
     """N programs in parts of one form each: which they are, whether they have a budget, and in units of their own.
 
-    Parameters are those of a method of :mod:`optimizer.program.methods.compiled`.
+    Parameters are those of a method of :mod:`optimizer.program.methods.compiled`. Of one part alone which they are is
+    None: all.
     """
-    from optimizer.program.kernel.disc_starts import Discs
-
-    limits, norms, ceilings = statement.limits, statement.norms, statement.ceilings
-    scale, cap = unit[:, None], ceilings.cap
-    if ceilings.names:
-        scale = np.concatenate([np.broadcast_to(scale, norms.constant.shape), ceilings.size], axis=-1)
-        cap = cap / ceilings.size
-        cap = cap - np.clip(cap, 0.0, margin)
-    mass, budget = reach / limits.radius, limits.max_total_mass[:, None]
-    budgeted, sectors = np.add.reduce(mass, axis=-1) > budget[:, 0], ~limits.free.all(axis=-1)
-    basis = _basis(statement)
+    programs, basis = statement.flat.programs, _basis(statement)
     assert basis is not None
-    if basis.size < 3:
-        multiple, two = np.ones((len(mass), basis.size)), np.zeros((len(mass), 2, mass.shape[-1]))
-        two[:, : basis.size] = statement.every_influence
-    else:
-        multiple, two, _ = _multiples(np.real(statement.every_influence), basis)
-    frame = _frame(statement) if sectors.any() else np.zeros((len(mass), 5, 0))
-    every = (
-        multiple / scale,
-        parts(statement.every_constant / scale),
-        two * reach[:, None, :],
-        mass,
-        mass / np.where(budgeted[:, None], budget, np.inf) if budgeted.any() else np.zeros(mass.shape),
-        cap,
-        frame,
+    (many, vectors, webs), region = programs.influence.shape, programs.region
+    multiple, two = np.ones((many, vectors)), programs.influence
+    if vectors > 2:
+        multiple, two, _ = _multiples(two, basis)
+    shapes = (many, vectors), (many, vectors, 2), (many, 2, webs), (many, webs), (many, webs), programs.cap.shape
+    every, budgeted = tuple(map(np.empty, shapes)), np.empty(many, bool)
+    _forms()(
+        programs.constant,
+        two,
+        multiple,
+        statement.norms.constant.shape[-1],
+        (region.radius, region.budget),
+        (programs.cap, programs.size),
+        margin,
+        reach,
+        unit,
+        budgeted,
+        every,
     )
-    found = []
+    sectors, none = ~np.logical_and.reduce(region.free, axis=-1), np.empty((many, 5, 0))
     kinds = 2 * sectors + budgeted
-    for part in np.unique(kinds).tolist() if kinds.size > 1 else kinds.tolist():
+    if many == 1 or (kinds == kinds[0]).all():
+        normals = _frame(statement) if sectors[0] else none
+        return [(None, bool(budgeted[0]), _discs()(basis, *every, normals))]
+    frame, found = _frame(statement) if np.count_nonzero(sectors) else none, []
+    for part in np.unique(kinds).tolist():
         which = np.flatnonzero(kinds == part)
-        arrays = [plain(values[which] if which.size < kinds.size else values) for values in every]
-        if part < 2:
-            arrays[-1] = arrays[-1][..., :0].copy()
-        found.append((which, part % 2 == 1, Discs(basis, *arrays)))
+        arrays = [values[which] for values in (*every, frame if part > 1 else none)]
+        found.append((which, part % 2 == 1, _discs()(basis, *arrays)))
     return found
 
 

@@ -32,6 +32,8 @@ from optimizer.program.verdict import yardstick
 
 #: what optima have of solutions, before what they have of their own
 _OF_SOLUTIONS = attrgetter(*(field.name for field in fields(Solutions)))
+#: of what is compiled: without webs, and with some
+_METHODS = (np.array([CLOSED_FORM], dtype=object), np.array([INTERIOR_POINT], dtype=object))
 
 
 @record
@@ -120,8 +122,8 @@ def _optima(statement: Statement, relative_gap: float, least_mass: bool) -> Opti
 def _compiled(statement: Statement, solutions: Solutions) -> Optima:
     """What the compiled interior point has found."""
     programs = solutions.objective.shape
-    method = INTERIOR_POINT if statement.limits.radius.shape[-1] else CLOSED_FORM
-    own = np.zeros(programs, bool), np.full(programs, method, dtype=object), _no_conflict(statement)
+    method = _METHODS[bool(statement.limits.radius.shape[-1])].repeat(solutions.objective.size)
+    own = np.zeros(programs, bool), method, _no_conflict(statement)
     every: tuple[Any, ...] = (*_OF_SOLUTIONS(solutions), *own)
     return Optima(*every)
 

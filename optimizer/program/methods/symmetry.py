@@ -9,8 +9,13 @@ the mass (docs/mathematics.md section 9).
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, plain
+from optimizer.numerics.loading import deferred
 from optimizer.program.equal_unknowns import apart, united
 from optimizer.program.statement import Statement
+
+#: loops, compiled
+_alike = deferred("optimizer.program.kernel.symmetries", "Alike")
+_means = deferred("optimizer.program.kernel.symmetries", "means")
 
 
 def symmetric(statement: Statement, u: Complex, kinds: np.ndarray | None = None) -> Complex:
@@ -31,14 +36,12 @@ def symmetric(statement: Statement, u: Complex, kinds: np.ndarray | None = None)
     influence = statement.every_influence
     if u.shape[-1] < 2 or not u.size or np.iscomplexobj(influence):
         return u
-    # the compiler is loaded when it is first needed
-    from optimizer.program.kernel.symmetries import Alike, means
-
-    limits = statement.limits
-    return means(
+    limits, kind = statement.limits, _alike()
+    found: Complex = _means()(
         plain(statement.every_constant),
         plain(influence),
-        Alike(*(plain(getattr(limits, name)) for name in Alike._fields)),
+        kind(*(plain(getattr(limits, name)) for name in kind._fields)),
         np.zeros(u.shape[-1], np.int64) if kinds is None else kinds.astype(np.int64),
         plain(u),
     )
+    return found

@@ -1,0 +1,76 @@
+"""Programs in units of their own, compiled: what both methods begin with, and the form that the one for discs takes."""
+
+from optimizer.program.kernel.compiling import in_place
+
+#: multiple of the natural reach beyond which limits are ignored
+_REACH = 10.0
+
+
+@in_place
+def scales(rest, influence, natural, limits, at_least, share, gaps, reach, unit, asked):  # type: ignore[no-untyped-def]
+    """How far webs reach, what the objective is measured by, and what is asked of it in that unit, of N programs.
+
+    Parameters
+    ----------
+    rest : (N,) sum of the sizes of the J terms without counterweights.
+    influence : (N, J, K) of the terms, real.
+    natural : (N,) reach that cancels everything.
+    limits : (N, K) radius and (N, K) largest mass of the webs, and (N,) budget.
+    at_least : (N,) what the objective comes to under the ceilings, or less.
+    share : (N,) what optima may differ by.
+    gaps : of the first stage: as a share of that, and between which ends.
+    reach, unit, asked : (N, K), (N,) and (2, N), what is found: the last are the share and the gap.
+    """
+    radius, most, budget = limits
+    number, terms, webs = influence.shape
+    for n in range(number):
+        reachable = 0.0
+        for k in range(webs):
+            reach[n, k] = min(radius[n, k] * min(most[n, k], budget[n]), _REACH * natural[n])
+        for j in range(terms):
+            for k in range(webs):
+                reachable += abs(influence[n, j, k]) * reach[n, k]
+        own = rest[n] if rest[n] > 0.0 else reachable if reachable > 0.0 else 1.0
+        # a level far above where the search starts is hardly found
+        unit[n] = max(own, at_least[n])
+        asked[0, n] = share[n] / unit[n]
+        asked[1, n] = min(max(gaps[0] * share[n] / unit[n], gaps[1]), gaps[2])
+
+
+@in_place
+def forms(constant, influence, multiple, terms, limits, ceilings, margin, reach, unit, budgeted, found):  # type: ignore[no-untyped-def]
+    """N programs as :class:`optimizer.program.kernel.disc_starts.Discs` has them.
+
+    Parameters
+    ----------
+    constant, multiple : (N, Q), of the terms and of what is under ceilings.
+    influence : (N, B, K) on one or both of two responses.
+    limits : (N, K) radius of the webs, and (N,) budget.
+    ceilings : (N, I) caps and sizes.
+    margin : share of its size by which a ceiling is lowered.
+    reach, unit : of :func:`scales`.
+    budgeted, found : (N,) bool, whether the budget can bind, and the six arrays that follow the basis.
+    """
+    of_multiple, of_constant, of_influence, mass, of_budget, of_cap = found
+    radius, budget = limits
+    cap, size = ceilings
+    (number, webs), vectors = mass.shape, multiple.shape[1]
+    for n in range(number):
+        for q in range(vectors):
+            scale = unit[n] if q < terms else size[n, q - terms]
+            of_multiple[n, q] = multiple[n, q] / scale
+            # as numpy divides what is complex
+            inverse = 1.0 / scale
+            of_constant[n, q, 0], of_constant[n, q, 1] = constant[n, q].real * inverse, constant[n, q].imag * inverse
+        total = 0.0
+        for k in range(webs):
+            mass[n, k] = reach[n, k] / radius[n, k]
+            total += mass[n, k]
+            for b in range(2):
+                of_influence[n, b, k] = influence[n, b, k] * reach[n, k] if b < influence.shape[1] else 0.0
+        budgeted[n] = total > budget[n]
+        for k in range(webs):
+            of_budget[n, k] = mass[n, k] / budget[n] if budgeted[n] else 0.0
+        for i in range(cap.shape[1]):
+            own = cap[n, i] / size[n, i]
+            of_cap[n, i] = own - min(max(own, 0.0), margin)
