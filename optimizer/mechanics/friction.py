@@ -16,9 +16,8 @@ def reciprocating_friction(motion: Motion, magnitude: Real) -> Real:
     ----------
     magnitude : (..., rows) N.
     """
-    sine = np.sin(motion.crank_angle)
-    still = np.abs(sine) < 1e-12
-    return np.where(still, 0.0, np.sign(sine)) * magnitude[..., None]
+    still = np.abs(motion.sine) < 1e-12
+    return np.where(still, 0.0, np.sign(motion.sine)) * magnitude[..., None]
 
 
 def share_of_losses(

@@ -94,7 +94,8 @@ def stations(layout: Layout, places: Real) -> Real:
     loaded = planes(layout)
     supported = np.broadcast_to(places, (*loaded.shape[:-1], places.shape[-1]))
     every = np.sort(np.concatenate([loaded, supported], axis=-1), axis=-1)
-    apart = np.diff(every, axis=-1, prepend=-np.inf) > 0.0
+    apart = np.ones(every.shape, dtype=bool)
+    np.greater(every[..., 1:], every[..., :-1], out=apart[..., 1:])
     return every[..., np.any(apart, axis=tuple(range(every.ndim - 1)))]
 
 

@@ -64,7 +64,8 @@ def break_angles(layout: Layout, opens: tuple[Real, ...] = (), traces: Sequence[
         found = np.concatenate([*again, entries(traces, ahead[..., 0])], axis=-1)
     found = np.sort(found, axis=-1)
     # rows that reverse together, and tables that have the same entries, would only make panels without width
-    same = np.diff(found, axis=-1, prepend=-np.inf) <= apart
+    same = np.zeros(found.shape, dtype=bool)
+    np.less_equal(found[..., 1:] - found[..., :-1], apart, out=same[..., 1:])
     return found[..., ~np.all(same, axis=designs)]
 
 
