@@ -129,7 +129,7 @@ def bending_moment(bearing: Real, reaction: Complex, position: Real, load: Compl
         return np.maximum(side * (place[..., None, :] - station[..., :, None]), 0.0)
 
     def terms(side: float) -> Real:
-        largest = [np.max(np.abs(force), axis=-1)[..., None] for force in (reaction, load)]
+        largest = [np.maximum.reduce(np.abs(force), axis=-1)[..., None] for force in (reaction, load)]
         return arms(bearing, side) @ largest[0] + arms(position, side) @ largest[1]
 
     # both sides give the same, but one has the smaller terms, and no terms at all where the shaft ends

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from optimizer.mechanics.row_data import RowData, compact
-from optimizer.mechanics.row_series import AT_ONCE, Reading, RowSeries
+from optimizer.mechanics.row_series import AT_ONCE, NO_WIDTHS, Reading, RowSeries
 from optimizer.numerics.arrays import Complex, Real, in_order, spread
 from optimizer.numerics.memoization import cached_property
 from optimizer.responses.piecewise_cubics import Index
@@ -17,9 +17,6 @@ if TYPE_CHECKING:
     from optimizer.mechanics.kernel.curves import Sums
     from optimizer.responses.kernel.motion import Motion
     from optimizer.responses.kernel.parts import Best, Cubics, Members
-
-#: of what is expanded at points
-_NO_WIDTHS = np.zeros(0)
 
 
 @dataclass(frozen=True)
@@ -95,7 +92,7 @@ class CurveSeries:
         from optimizer.mechanics.kernel.rows import ALL_ROWS, Places, row_functions
 
         rows = self.rows.packed
-        places = Places(design, angle, _NO_WIDTHS, within)
+        places = Places(design, angle, NO_WIDTHS, within)
         functions = row_functions(rows, places, order, self._pressed, ALL_ROWS)
         wide = np.ones((curve.size, 1))
         found: Complex = sums_of_rows(rows, self.sums, curve, functions, NOTHING, design, 1, wide)[0][:, 0]

@@ -54,7 +54,7 @@ class GasForces:
     @cached_property
     def total(self) -> Real:
         """Gas force of the rows, (..., rows, T) N."""
-        return np.sum(self.force, axis=-2)
+        return np.add.reduce(self.force, axis=-2)
 
 
 def gas_forces(chambers: Chambers, motion: Motion, layout: Layout, traces: Sequence[Trace] = ()) -> GasForces:

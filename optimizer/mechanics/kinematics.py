@@ -59,7 +59,8 @@ def own_angle(layout: Layout, shaft_angle: Real) -> Real:
     (..., rows, T).
     """
     rows = layout.reciprocating
-    ahead = layout.sense[..., None] * np.angle(rows.crank_direction * np.conj(rows.axis))
+    apart = rows.crank_direction * np.conj(rows.axis)
+    ahead = layout.sense[..., None] * np.arctan2(apart.imag, apart.real)
     return shaft_angle[..., None, :] + ahead[..., :, None]
 
 

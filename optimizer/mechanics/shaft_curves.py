@@ -40,7 +40,7 @@ class ShaftCurves:
         """What counterweights (..., K) kg m, or none, add to the curves, (N C,)."""
         if unbalance is None:
             return np.zeros(self.webs.shape[:-1], dtype=complex).reshape(-1)
-        return np.sum(self.webs * unbalance[..., None, :], axis=-1).reshape(-1)
+        return np.add.reduce(self.webs * unbalance[..., None, :], axis=-1).reshape(-1)
 
     def first(self, count: int) -> "ShaftCurves":
         """The first curves of each design alone."""
@@ -124,7 +124,7 @@ def shaft_curves(turn: WholeTurn, layout: Layout, influence: Real, reading: Read
     row_count, mass_count, count = rows.mass.shape[-1], masses.mass.shape[-1], influence.shape[-2]
     of_rows, of_masses, of_webs = np.split(influence, [row_count, row_count + mass_count], axis=-1)
     weights = of_rows * (rows.crank_direction / layout.omega[..., None] ** 2)[..., None, :]
-    still = np.sum(of_masses * (masses.mass * masses.radius * masses.direction)[..., None, :], axis=-1)
+    still = np.add.reduce(of_masses * (masses.mass * masses.radius * masses.direction)[..., None, :], axis=-1)
     total = len(turn.centre)
     return ShaftCurves(
         turn.curves(

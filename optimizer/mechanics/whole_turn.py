@@ -218,17 +218,21 @@ class TurnCurves:
         """Means over the turn (N C,)."""
         means = self.whole.means
         if self.reading == "tangential" and means is not None:
-            closed: Complex = np.sum(self.weights * means[:, None], axis=-1) + self.constant
+            closed: Complex = np.add.reduce(self.weights * means[:, None], axis=-1) + self.constant
             return closed.reshape(-1)
+        return self._mean.reshape(-1)
+
+    @cached_property
+    def _mean(self) -> Complex:
+        """The same by quadrature (N, C)."""
         values, shares = self._quadrature
-        return np.sum(values * shares, axis=-1).reshape(-1)
+        return np.add.reduce(values * shares, axis=-1)
 
     @cached_property
     def variance(self) -> Real:
         """Means of |curve - mean|^2 over the turn (N C,)."""
         values, shares = self._quadrature
-        mean = np.sum(values * shares, axis=-1, keepdims=True)
-        return np.sum(np.abs(values - mean) ** 2 * shares, axis=-1).reshape(-1)
+        return np.add.reduce(np.abs(values - self._mean[..., None]) ** 2 * shares, axis=-1).reshape(-1)
 
     @cached_property
     def rms_error(self) -> Real:
@@ -239,7 +243,7 @@ class TurnCurves:
         """
         pieces = self.pieces
         share, rest = pieces.half / (np.pi * self.whole.turns), self._left_out / self._parts**_GAUSS
-        return 2.0 * np.sqrt(np.sum(share * rest**2, axis=-1)) + _ROUNDING * pieces.size
+        return 2.0 * np.sqrt(np.add.reduce(share * rest**2, axis=-1)) + _ROUNDING * pieces.size
 
     @cached_property
     def _left_out(self) -> Real:
@@ -250,7 +254,7 @@ class TurnCurves:
     def _parts(self) -> Real:
         """Number of equal parts of every piece (P,) in the quadrature: the more, the more is left out there."""
         size = np.where(self.pieces.size > 0.0, self.pieces.size, 1.0)
-        out = np.max(self._left_out / size[:, None], axis=0)
+        out = np.maximum.reduce(self._left_out / size[:, None], axis=0)
         return np.clip(np.ceil((out / _LEFT_OUT) ** (1.0 / _GAUSS)), 1, _MOST_PARTS)
 
     @cached_property
