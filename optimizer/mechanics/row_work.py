@@ -164,8 +164,9 @@ def _polished(
     (design, piece), (low, high) = where, between
     centre, half = torque.pieces.centre[where], torque.pieces.half[where]
     slope, step, before = _slope_at(torque.pieces.cubic[where].real, place), np.zeros(place.shape), None
+    curve, level = torque.along(design, piece), mean[design]
     for _ in range(_EXACT_STEPS if design.size else 0):
-        value = torque.values(design, piece, centre + half * place).real - mean[design]
+        value = curve(centre + half * place).real - level
         if before is not None:
             slope = np.where(step == 0.0, slope, (value - before) / np.where(step == 0.0, 1.0, step))
         next_ = np.minimum(np.maximum(place - value / np.where(slope == 0.0, np.inf, slope), low), high)

@@ -6,7 +6,7 @@ brackets peaks with.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -294,6 +294,10 @@ class TurnCurves:
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
         """The curves at angles (m,) within pieces, ends included."""
         return self._series.values(curve, piece, angle)
+
+    def along(self, curve: Index, piece: Index) -> Callable[[Real], Complex]:
+        """The same as a function of the angles."""
+        return self._series.along(curve, piece)
 
     def search(self, cubics: "Cubics", members: "Members", best: "Best", motion: "Motion | None" = None) -> Complex:
         """Peaks of the curves, or of one of them in motion."""
