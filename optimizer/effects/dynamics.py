@@ -152,7 +152,7 @@ def _rod_forces(context: Context) -> RodForces:
 def _torque(context: Context) -> TorqueSeries:
     rows = context.results["rod_forces"].torque
     friction = context.results["friction"].torque if "friction" in context.results else np.zeros(rows.shape[:-2])
-    return TorqueSeries(rows, np.sum(rows, axis=-2) + friction[..., None], friction)
+    return TorqueSeries(rows, np.add.reduce(rows, axis=-2) + friction[..., None], friction)
 
 
 def _torque_at(context: Context, turn: Turn) -> tuple[Real, Real]:
@@ -162,7 +162,7 @@ def _torque_at(context: Context, turn: Turn) -> tuple[Real, Real]:
     force = whole.tangential(turn)
     rows = radius * force.reshape(*leading, *force.shape[1:])
     friction = context.results["friction"].torque[..., None] if "friction" in context.results else 0.0
-    return rows, np.sum(rows, axis=-2) + friction
+    return rows, np.add.reduce(rows, axis=-2) + friction
 
 
 def _breaks(context: Context) -> Real:
@@ -194,7 +194,7 @@ def _torque_integrals(context: Context) -> TorqueIntegrals:
     friction_power, rotating = np.zeros(omega.shape), np.zeros(omega.shape)
     if "friction" in context.results:
         friction = context.results["friction"]
-        per_turn = np.sum(friction.magnitude * 4.0 * context.layout.reciprocating.crank_radius, axis=-1)
+        per_turn = np.add.reduce(friction.magnitude * 4.0 * context.layout.reciprocating.crank_radius, axis=-1)
         friction_power, rotating = per_turn * omega / TURN + friction.torque * omega, friction.torque
     closed = _row_work(context)
     if closed is None:
@@ -206,14 +206,14 @@ def _torque_integrals(context: Context) -> TorqueIntegrals:
         whole, energy, error = mean(fine, total), fluctuation(fine, total), None
     else:
         row_mean = closed.of_a_turn / TURN
-        whole = np.sum(row_mean, axis=-1) + rotating
+        whole = np.add.reduce(row_mean, axis=-1) + rotating
         energy, error = closed.fluctuation(context.results["whole_turn"].torque)
     return TorqueIntegrals(
         row_mean=row_mean,
         mean=whole,
         fluctuation=energy,
         fluctuation_error=error,
-        indicated_power=np.sum(_indicated_power(context), axis=-1),
+        indicated_power=np.add.reduce(_indicated_power(context), axis=-1),
         friction_power=friction_power,
     )
 

@@ -207,14 +207,19 @@ def _run(
     """
     names = closure(machine, needs)
     last = {need: name for name in names for need in (*EFFECTS[name].needs, name)}
+    done: dict[str, list[str]] = {}
+    for need, name in last.items():
+        if need not in needs:
+            done.setdefault(name, []).append(need)
     found: dict[str, Any] = {}
     times: dict[str, float] = {}
     for name in names:
         start = time.perf_counter()
         found[name] = EFFECTS[name].simulate(_context(machine, layout, fidelity, angle, name, found))
         times[name] = (time.perf_counter() - start) * 1e3
-        for done in [each for each in found if last[each] == name and each not in needs]:
-            del found[done]
+        for need in done.get(name, ()):
+            # what does not apply was never there
+            found.pop(need, None)
     return found, times
 
 

@@ -41,7 +41,7 @@ class GasCycle:
     @cached_property
     def power(self) -> Real:
         """(..., rows) W, indicated."""
-        return np.sum(self.work, axis=-1) * self.layout.omega[..., None] / (2.0 * np.pi)
+        return np.add.reduce(self.work, axis=-1) * self.layout.omega[..., None] / (2.0 * np.pi)
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from optimizer.effects.inertia import harmonic
 from optimizer.effects.registry import Simulated, closure, simulate
 from optimizer.formulation.formulate import added, responses
 from optimizer.mechanics.balance_shafts import of_balance_shafts
@@ -74,13 +75,47 @@ class Prepared:
         """First-order force [N] and moment [N m], with counterweights if given (..., K) kg m."""
         if unbalance is None:
             return self._bare
-        wrench = self.simulated.first_order.plus(counterweights(self.layout, unbalance))
-        return self.with_shafts(wrench, 1).times(self.layout.omega**2)
+        if not self._last or self._last[0][0] is not unbalance:
+            wrench = self.simulated.first_order.plus(counterweights(self.layout, unbalance))
+            self._last[:] = [(unbalance, self.with_shafts(wrench, 1).times(self.layout.omega**2))]
+        return self._last[0][1]
+
+    @cached_property
+    def _last(self) -> list[tuple[Complex, Wrench]]:
+        """The last counterweights asked for, and the first order with them: many outputs show the same."""
+        return []
 
     @cached_property
     def _bare(self) -> Wrench:
         """First-order force [N] and moment [N m] without counterweights."""
         return self.simulated.first_order.times(self.layout.omega**2)
+
+    def orders(self, unbalance: Complex | None) -> dict[int, Wrench]:
+        """Force [N] and moment [N m] of every order; counterweights change the first, balance shafts two of them."""
+        higher = self._higher
+        if unbalance is not None and self.shafts is not None:
+            square = self.layout.omega**2
+            higher = {order: self.with_shafts(own, order).times(square) for order, own in self._over_square.items()}
+        return {1: self.first_order(unbalance), **higher}
+
+    @cached_property
+    def second_order(self) -> Wrench:
+        """The second order over omega^2 without counterweights, of a machine whose rows have rods."""
+        if "second_order" in self.results:
+            wrench: Wrench = self.results["second_order"]
+            return wrench
+        return reciprocating(self.layout, 2, harmonic(self.request.fidelity))
+
+    @cached_property
+    def _over_square(self) -> dict[int, Wrench]:
+        """The orders above the first over omega^2, without counterweights."""
+        return {2: self.second_order, **self.results["higher_orders"]}
+
+    @cached_property
+    def _higher(self) -> dict[int, Wrench]:
+        """The same in N and N m."""
+        square = self.layout.omega**2
+        return {order: own.times(square) for order, own in self._over_square.items()}
 
     def with_shafts(self, wrench: Wrench, order: int) -> Wrench:
         """Force and moment of an order over omega^2, with what the balance shafts add."""

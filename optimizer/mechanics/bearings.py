@@ -23,7 +23,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, spread
 
 #: bearings nearer to each other than this share of the bearings' extent are one bearing
 _COINCIDENT = 1e-9
@@ -129,7 +129,7 @@ def bending_moment(bearing: Real, reaction: Complex, position: Real, load: Compl
         return np.maximum(side * (place[..., None, :] - station[..., :, None]), 0.0)
 
     def terms(side: float) -> Real:
-        largest = [np.max(np.abs(force), axis=-1)[..., None] for force in (reaction, load)]
+        largest = [np.maximum.reduce(np.abs(force), axis=-1)[..., None] for force in (reaction, load)]
         return arms(bearing, side) @ largest[0] + arms(position, side) @ largest[1]
 
     # both sides give the same, but one has the smaller terms, and no terms at all where the shaft ends
@@ -140,7 +140,7 @@ def bending_moment(bearing: Real, reaction: Complex, position: Real, load: Compl
 class _Spans(NamedTuple):
     """Loads on the spans between neighbouring bearings in rising z; an end span has its overhang with it."""
 
-    rank: NDArray[np.intp]  # (..., B) where each bearing as given stands in rising z
+    rank: NDArray[np.intp] | None  # (..., B) where each bearing as given stands in rising z; None where all do so
     length: Real  # (..., B-1, 1) m
     carries: Real  # (..., B-1, L) 1 for the span that has the load, else 0
     from_left: Real  # (..., B-1, L) from the left bearing to the load, m; negative on the left overhang
@@ -148,7 +148,7 @@ class _Spans(NamedTuple):
 
     def by_bearing(self, influence: Real) -> Real:
         """Rows (..., B, L) in rising z, put into the order in which the bearings came."""
-        return np.take_along_axis(influence, self.rank[..., None], axis=-2)
+        return influence if self.rank is None else np.take_along_axis(influence, self.rank[..., None], axis=-2)
 
 
 def _spans(bearing: Real, position: Real) -> _Spans:
@@ -156,9 +156,10 @@ def _spans(bearing: Real, position: Real) -> _Spans:
     if bearing.ndim == 0 or bearing.shape[-1] < 2:
         raise ValueError("a shaft needs two bearings at least: one alone holds no couple")
     leading = np.broadcast_shapes(bearing.shape[:-1], position.shape[:-1])
-    bearing = np.broadcast_to(bearing, leading + bearing.shape[-1:])
-    order = np.argsort(bearing, axis=-1)
-    place = np.take_along_axis(bearing, order, axis=-1)
+    place, rank = spread(bearing, leading + bearing.shape[-1:]), None
+    if not np.all(bearing[..., 1:] > bearing[..., :-1]):
+        order = np.argsort(place, axis=-1)
+        place, rank = np.take_along_axis(place, order, axis=-1), np.argsort(order, axis=-1)
     _refuse_coincident(place)
     place, load_plane = place[..., None], position[..., None, :]
     left, right = place[..., :-1, :], place[..., 1:, :]
@@ -166,7 +167,7 @@ def _spans(bearing: Real, position: Real) -> _Spans:
     starts, ends = left.copy(), right.copy()
     starts[..., 0, :], ends[..., -1, :] = -np.inf, np.inf
     return _Spans(
-        rank=np.argsort(order, axis=-1),
+        rank=rank,
         length=right - left,
         carries=((starts <= load_plane) & (load_plane < ends)).astype(float),
         from_left=load_plane - left,
@@ -176,9 +177,9 @@ def _spans(bearing: Real, position: Real) -> _Spans:
 
 def _refuse_coincident(place: Real) -> None:
     """Refuse bearings (..., B) in rising z that rounding cannot tell apart; nan is refused as well."""
-    extent = place[..., -1:] - place[..., :1]
-    resolution = 4.0 * np.spacing(np.max(np.abs(place), axis=-1, keepdims=True))
-    if not np.all(np.diff(place, axis=-1) > np.maximum(_COINCIDENT * extent, resolution)):
+    first, last = place[..., :1], place[..., -1:]
+    resolution = 4.0 * np.spacing(np.maximum(np.abs(first), np.abs(last)))
+    if not np.all(place[..., 1:] - place[..., :-1] > np.maximum(_COINCIDENT * (last - first), resolution)):
         raise ValueError("two bearings are in the same place: every bearing needs a place of its own on the shaft")
 
 

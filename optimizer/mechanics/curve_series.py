@@ -1,6 +1,7 @@
 """Series of curves about angles within pieces of the turn: all rows are expanded about an angle once, whatever curves
 ask for it."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import repeat
 from typing import TYPE_CHECKING
@@ -8,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from optimizer.mechanics.row_data import RowData, compact
-from optimizer.mechanics.row_series import AT_ONCE, Reading, RowSeries
+from optimizer.mechanics.row_series import AT_ONCE, NO_WIDTHS, Reading, RowSeries
 from optimizer.numerics.arrays import Complex, Real, in_order, spread
 from optimizer.numerics.memoization import cached_property
 from optimizer.responses.piecewise_cubics import Index
@@ -18,8 +19,7 @@ if TYPE_CHECKING:
     from optimizer.responses.kernel.motion import Motion
     from optimizer.responses.kernel.parts import Best, Cubics, Members
 
-#: of what is expanded at points
-_NO_WIDTHS = np.zeros(0)
+_POWERS = np.arange(4)
 
 
 @dataclass(frozen=True)
@@ -39,11 +39,16 @@ class CurveSeries:
 
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
         """Values (m,) at angles (m,) rad within pieces, ends included."""
-        return self._about(curve, piece, angle, 0)[:, 0]
+        return self.along(curve, piece)(angle)
+
+    def along(self, curve: Index, piece: Index) -> Callable[[Real], Complex]:
+        """The same as a function of the angles, for what comes back to curves and pieces again and again."""
+        places = self._places(curve, piece)
+        return lambda angle: self._about(*places, angle, 0)[:, 0]
 
     def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
         """Taylor polynomials (m, 4) about centres (m,) rad within pieces, in units of half widths (m,)."""
-        return self._about(curve, piece, centre, 3) * half[:, None] ** np.arange(4)
+        return self._about(*self._places(curve, piece), centre, 3) * half[:, None] ** _POWERS
 
     def over(self, points: RowSeries | None, bounds: RowSeries | None, half: Real) -> tuple[Complex, Real, Real]:
         """Coefficients (J, P, order + 1) over the angles of series, in units of half widths (N, P); by bounds what they
@@ -81,23 +86,31 @@ class CurveSeries:
         values: Complex = search(cubics, members, best, self.rows.packed, self.sums, self._within, moving)
         return values
 
-    def _about(self, curve: Index, piece: Index, angle: Real, order: int) -> Complex:
-        """Coefficients (m, order + 1) at angles (m,) rad; so many at once as rows are expanded at."""
-        step, number, places = max(1, AT_ONCE // max(self.weights.shape[1], 1)), _integers(curve), compact(angle)
+    def _places(self, curve: Index, piece: Index) -> tuple[Index, Index, Real]:
+        """Curves (m,), their designs, and angles rad that say which process counts, as what is compiled takes them."""
+        number = _integers(curve)
         design = number // max(len(self.weights) // len(self.middle), 1)
-        within = self._within[design, piece]
-        parts = [slice(first, first + step) for first in range(0, max(number.size, 1), step)]
-        found = [self._at(number[part], design[part], places[part], within[part], order) for part in parts]
-        return found[0] if len(found) == 1 else np.concatenate(found)
+        return number, design, self._within[design, piece]
+
+    def _about(self, curve: Index, design: Index, within: Real, angle: Real, order: int) -> Complex:
+        """Coefficients (m, order + 1) at angles (m,) rad; so many at once as rows are expanded at."""
+        step, places = max(1, AT_ONCE // max(self.weights.shape[1], 1)), compact(angle)
+        if curve.size <= step:
+            return self._at(curve, design, places, within, order)
+        parts = [slice(first, first + step) for first in range(0, curve.size, step)]
+        return np.concatenate(
+            [self._at(curve[part], design[part], places[part], within[part], order) for part in parts]
+        )
 
     def _at(self, curve: Index, design: Index, angle: Real, within: Real, order: int) -> Complex:
         from optimizer.mechanics.kernel.curves import NOTHING, sums_of_rows
         from optimizer.mechanics.kernel.rows import ALL_ROWS, Places, row_functions
 
         rows = self.rows.packed
-        places = Places(design, angle, _NO_WIDTHS, within)
+        places = Places(design, angle, NO_WIDTHS, within)
         functions = row_functions(rows, places, order, self._pressed, ALL_ROWS)
-        wide = np.ones((curve.size, 1))
+        wide = np.empty((curve.size, 1))
+        wide.fill(1.0)
         found: Complex = sums_of_rows(rows, self.sums, curve, functions, NOTHING, design, 1, wide)[0][:, 0]
         return found
 

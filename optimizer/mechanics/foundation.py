@@ -43,8 +43,8 @@ def foundation_load(
     dead_centre_deg : (...) shaft angle from which phases count.
     negligible : force [N] and couple [N m] that rounding alone leaves, (...) each.
     """
-    phasors = np.stack([phasor for pair in wrench for phasor in _along(pair)])
-    least = np.stack([spread(each, phasors.shape[1:]) for each in negligible for _ in range(2)])
+    phasors = np.array([phasor for pair in wrench for phasor in _along(pair)])
+    least = np.array([spread(each, phasors.shape[1:]) for each in negligible for _ in range(2)])
     loads = _oscillation(phasors, order, sense, dead_centre_deg, least)
     return FoundationLoad(*(Oscillation(*each) for each in zip(*loads, strict=True)))
 
@@ -79,8 +79,8 @@ def rounding(layout: Layout, unbalance: Complex) -> tuple[Real, Real]:
     square = _ROUNDING * layout.omega**2
     force, couple = np.zeros(()), np.zeros(())
     for size, arm in zip(sizes, arms, strict=True):
-        force = force + np.sum(size, axis=-1)
-        couple = couple + np.sum(size * (arm + far), axis=-1)
+        force = force + np.add.reduce(size, axis=-1)
+        couple = couple + np.add.reduce(size * (arm + far), axis=-1)
     return force * square, couple * square
 
 

@@ -16,9 +16,8 @@ def reciprocating_friction(motion: Motion, magnitude: Real) -> Real:
     ----------
     magnitude : (..., rows) N.
     """
-    sine = np.sin(motion.crank_angle)
-    still = np.abs(sine) < 1e-12
-    return np.where(still, 0.0, np.sign(sine)) * magnitude[..., None]
+    still = np.abs(motion.sine) < 1e-12
+    return np.where(still, 0.0, np.sign(motion.sine)) * magnitude[..., None]
 
 
 def share_of_losses(
@@ -41,5 +40,5 @@ def share_of_losses(
     losses = np.where(indicated_power < 0.0, -indicated_power * lost, indicated_power * (lost / efficiency[..., None]))
     per_turn = losses * 2.0 * np.pi / omega[..., None]
     force = reciprocating_share[..., None] * per_turn / (2.0 * stroke)
-    torque = (1.0 - reciprocating_share) * np.sum(losses, axis=-1) / omega
+    torque = (1.0 - reciprocating_share) * np.add.reduce(losses, axis=-1) / omega
     return force, torque

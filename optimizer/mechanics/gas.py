@@ -17,6 +17,7 @@ from optimizer.mechanics.indicated import Trace
 from optimizer.mechanics.kinematics import Motion, angle_at
 from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.memoization import cached_property
 
 #: Gauss-Legendre quadrature on [0, 1]
 _INSIDE, _SHARES = (np.array(values) for values in (0.5 * (1.0 + leggauss(10)[0]), 0.5 * leggauss(10)[1]))
@@ -50,10 +51,10 @@ class GasForces:
         """(..., rows, C, T) N, positive in rod tension."""
         return np.where(head_sides(self.area), -1.0, 1.0)[:, None] * self.pressure * self.area[..., None]
 
-    @property
+    @cached_property
     def total(self) -> Real:
         """Gas force of the rows, (..., rows, T) N."""
-        return np.sum(self.force, axis=-2)
+        return np.add.reduce(self.force, axis=-2)
 
 
 def gas_forces(chambers: Chambers, motion: Motion, layout: Layout, traces: Sequence[Trace] = ()) -> GasForces:

@@ -40,7 +40,7 @@ def internal_moment(layout: Layout, unbalance: Complex | None = None) -> Real:
 def _largest_of_side(arm: Real, force: Complex) -> Real:
     """Largest couple (...) of all forces (..., 2, n) up to each, about the place of it (..., 1, n)."""
     couple = arm * np.cumsum(force, axis=-1) - np.cumsum(arm * force, axis=-1)
-    result: Real = np.max(np.add.reduce(np.abs(couple), axis=-2), axis=-1, initial=0.0)
+    result: Real = np.maximum.reduce(np.add.reduce(np.abs(couple), axis=-2), axis=-1, initial=0.0)
     return result
 
 

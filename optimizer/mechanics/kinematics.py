@@ -11,6 +11,7 @@ import numpy as np
 
 from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.memoization import cached_property
 
 
 @dataclass(frozen=True)
@@ -25,15 +26,25 @@ class Motion:
     rod_angle_cosine: Real
     remaining: Real  # m, stroke - displacement without cancellation
 
+    @cached_property
+    def sine(self) -> Real:
+        """sin phi, which most of the forces have in common."""
+        return np.sin(self.crank_angle)
+
+    @cached_property
+    def cosine(self) -> Real:
+        """cos phi."""
+        return np.cos(self.crank_angle)
+
     @property
     def tangential_factor(self) -> Real:
         """sin(phi + beta) / cos beta: tangential force over piston force (design calculation of the 2D12, 2-22)."""
-        return np.sin(self.crank_angle) + np.cos(self.crank_angle) * self.rod_angle_sine / self.rod_angle_cosine
+        return self.sine + self.cosine * self.rod_angle_sine / self.rod_angle_cosine
 
     @property
     def radial_factor(self) -> Real:
         """cos(phi + beta) / cos beta: radial force over piston force (lecture slides on compressors)."""
-        return np.cos(self.crank_angle) - np.sin(self.crank_angle) * self.rod_angle_sine / self.rod_angle_cosine
+        return self.cosine - self.sine * self.rod_angle_sine / self.rod_angle_cosine
 
 
 def own_angle(layout: Layout, shaft_angle: Real) -> Real:
@@ -48,7 +59,8 @@ def own_angle(layout: Layout, shaft_angle: Real) -> Real:
     (..., rows, T).
     """
     rows = layout.reciprocating
-    ahead = layout.sense[..., None] * np.angle(rows.crank_direction * np.conj(rows.axis))
+    apart = rows.crank_direction * np.conj(rows.axis)
+    ahead = layout.sense[..., None] * np.arctan2(apart.imag, apart.real)
     return shaft_angle[..., None, :] + ahead[..., :, None]
 
 

@@ -49,9 +49,9 @@ class RodForces:
     @property
     def overturning(self) -> Real:
         """Side force times the distance from pin to shaft, N m; equals the torque."""
-        phi = self.motion.crank_angle
+        moving = self.motion
         # l sin beta = r sin phi, which stands for the infinite rod as well: N h = P (l sin beta + r cos phi tan beta)
-        return self.piston * (self.crank_radius * (np.sin(phi) + np.cos(phi) * self._tangent))
+        return self.piston * (self.crank_radius * (moving.sine + moving.cosine * self._tangent))
 
     @property
     def _tangent(self) -> Real:

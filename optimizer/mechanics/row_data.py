@@ -145,8 +145,10 @@ def compact(values: Real) -> Real:
 
 def _together(values: Sequence[Real], shape: tuple[int, ...]) -> Real:
     """Values (D, *shape) on a last axis; D is 1 where all designs have the same."""
-    designs = max(len(each) for each in values)
-    return np.stack([spread(each, (designs, *shape)) for each in values], axis=-1).astype(float)
+    found = np.empty((max(len(each) for each in values), *shape, len(values)))
+    for k, each in enumerate(values):
+        found[..., k] = each
+    return found
 
 
 def shared(values: Real) -> Real:

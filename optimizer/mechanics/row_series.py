@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 #: rows times places of which it is kept what forces are made of, which bounds the memory
 AT_ONCE = 50_000
+#: of what is expanded at points
+NO_WIDTHS = np.zeros(0)
 
 #: a force of the rows
 Reading = Literal[
@@ -66,17 +68,19 @@ class RowSeries:
         once = len(rows.motion) == len(self.centre) == 1 and rows.traces.table.shape[1] == 1
         design = self.design[:1] if once else self.design
         shape = (design.size, angles)
-        centre, within = (spread(each, shape) for each in (self.centre, self.within))
+        centre = spread(self.centre, shape)
+        within = centre if self.within is self.centre else spread(self.within, shape)
         half = None if self.half is None else spread(self.half, shape)
         parts = max(1, min(-(-design.size * rows.motion.shape[1] * angles // AT_ONCE), angles))
         ends = [angles * part // parts for part in range(parts + 1)]
         for first, last in pairwise(ends):
             place = slice(first, last)
+            some = _flat(centre[:, place])
             places = Places(
                 np.repeat(design, last - first),
-                _flat(centre[:, place]),
-                np.zeros(0) if half is None else _flat(half[:, place]),
-                _flat(within[:, place]),
+                some,
+                NO_WIDTHS if half is None else _flat(half[:, place]),
+                some if within is centre else _flat(within[:, place]),
             )
             functions = row_functions(rows, places, self.order, pressed, ALL_ROWS)
             if parts == 1:

@@ -49,7 +49,7 @@ class RowWork:
     @cached_property
     def of_a_turn(self) -> Real:
         """Work of every row in one turn (..., rows) J."""
-        gas = 0.0 if self._indicated is None else np.sum(self._indicated, axis=-1)
+        gas = 0.0 if self._indicated is None else np.add.reduce(self._indicated, axis=-1)
         found: Real = gas + self._rubbed
         return found
 
@@ -73,17 +73,19 @@ class RowWork:
             travel, rest = np.where(heads, moved, left), np.where(heads, left, moved)
             switching = switching_travels(self.chambers, self.layout)
             gas = _gas_work(self.chambers, stroke[..., None], travel, rest, since < 0.5 * TURN, switching)
-            work += np.sum(gas - self._indicated[..., None] * (since / TURN), axis=-2)
-        found: Real = np.sum(work, axis=-2)
+            work += np.add.reduce(gas - self._indicated[..., None] * (since / TURN), axis=-2)
+        found: Real = np.add.reduce(work, axis=-2)
         return found
 
     def fluctuation(self, torque: TurnCurves) -> Range:
         """Range of the running integral of torque - mean, of the torque of all rows: it turns where they are equal."""
-        leading, mean = self.layout.omega.shape, np.sum(self.of_a_turn, axis=-1) / TURN
+        leading, mean = self.layout.omega.shape, np.add.reduce(self.of_a_turn, axis=-1) / TURN
         angle, error = _crossings(torque, np.reshape(mean, -1))
         work = self.beside_mean(angle.reshape(*leading, -1))
-        rounding = ROUNDING * np.max(np.abs(work), axis=-1)
-        return Range(np.max(work, axis=-1) - np.min(work, axis=-1), error.reshape(leading) + rounding)
+        rounding = ROUNDING * np.maximum.reduce(np.abs(work), axis=-1)
+        return Range(
+            np.maximum.reduce(work, axis=-1) - np.minimum.reduce(work, axis=-1), error.reshape(leading) + rounding
+        )
 
     @cached_property
     def _rubbed(self) -> Real:
@@ -159,14 +161,15 @@ def _polished(
     torque: TurnCurves, mean: Real, where: tuple[Index, Index], place: Real, between: tuple[Real, Real]
 ) -> tuple[Real, Real]:
     """Angles (m,) where the curve itself is its mean, from places in pieces, and what the integral may be off by."""
-    design, piece = where
+    (design, piece), (low, high) = where, between
     centre, half = torque.pieces.centre[where], torque.pieces.half[where]
     slope, step, before = _slope_at(torque.pieces.cubic[where].real, place), np.zeros(place.shape), None
+    curve, level = torque.along(design, piece), mean[design]
     for _ in range(_EXACT_STEPS if design.size else 0):
-        value = torque.values(design, piece, centre + half * place).real - mean[design]
+        value = curve(centre + half * place).real - level
         if before is not None:
             slope = np.where(step == 0.0, slope, (value - before) / np.where(step == 0.0, 1.0, step))
-        next_ = np.clip(place - value / np.where(slope == 0.0, np.inf, slope), *between)
+        next_ = np.minimum(np.maximum(place - value / np.where(slope == 0.0, np.inf, slope), low), high)
         place, step, before = next_, next_ - place, value
     # the integral is flat there
     return centre + half * place, np.zeros(place.shape) if before is None else np.abs(before * step * half)

@@ -40,7 +40,7 @@ class ShaftCurves:
         """What counterweights (..., K) kg m, or none, add to the curves, (N C,)."""
         if unbalance is None:
             return np.zeros(self.webs.shape[:-1], dtype=complex).reshape(-1)
-        return np.sum(self.webs * unbalance[..., None, :], axis=-1).reshape(-1)
+        return np.add.reduce(self.webs * unbalance[..., None, :], axis=-1).reshape(-1)
 
     def first(self, count: int) -> "ShaftCurves":
         """The first curves of each design alone."""
@@ -94,7 +94,8 @@ def stations(layout: Layout, places: Real) -> Real:
     loaded = planes(layout)
     supported = np.broadcast_to(places, (*loaded.shape[:-1], places.shape[-1]))
     every = np.sort(np.concatenate([loaded, supported], axis=-1), axis=-1)
-    apart = np.diff(every, axis=-1, prepend=-np.inf) > 0.0
+    apart = np.ones(every.shape, dtype=bool)
+    np.greater(every[..., 1:], every[..., :-1], out=apart[..., 1:])
     return every[..., np.any(apart, axis=tuple(range(every.ndim - 1)))]
 
 
@@ -123,7 +124,7 @@ def shaft_curves(turn: WholeTurn, layout: Layout, influence: Real, reading: Read
     row_count, mass_count, count = rows.mass.shape[-1], masses.mass.shape[-1], influence.shape[-2]
     of_rows, of_masses, of_webs = np.split(influence, [row_count, row_count + mass_count], axis=-1)
     weights = of_rows * (rows.crank_direction / layout.omega[..., None] ** 2)[..., None, :]
-    still = np.sum(of_masses * (masses.mass * masses.radius * masses.direction)[..., None, :], axis=-1)
+    still = np.add.reduce(of_masses * (masses.mass * masses.radius * masses.direction)[..., None, :], axis=-1)
     total = len(turn.centre)
     return ShaftCurves(
         turn.curves(

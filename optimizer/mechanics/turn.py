@@ -78,7 +78,7 @@ def panels(breaks: Real, widest: float, halved: bool = False, turns: int = 1) ->
     inner = np.mod(np.where(np.isnan(breaks), 0.0, breaks), period)
     grid = np.linspace(0.0, period, int(np.ceil(period / widest)) + 1)
     edges = np.sort(np.concatenate([inner, np.broadcast_to(grid, (*inner.shape[:-1], grid.size))], axis=-1), axis=-1)
-    width = np.diff(edges, axis=-1)
+    width = edges[..., 1:] - edges[..., :-1]
     if not halved:
         return Turn(edges[..., :-1], width, turns)
     half = np.repeat(0.5 * width, 2, axis=-1)

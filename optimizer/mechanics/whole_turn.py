@@ -6,7 +6,7 @@ brackets peaks with.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -64,7 +64,8 @@ def break_angles(layout: Layout, opens: tuple[Real, ...] = (), traces: Sequence[
         found = np.concatenate([*again, entries(traces, ahead[..., 0])], axis=-1)
     found = np.sort(found, axis=-1)
     # rows that reverse together, and tables that have the same entries, would only make panels without width
-    same = np.diff(found, axis=-1, prepend=-np.inf) <= apart
+    same = np.zeros(found.shape, dtype=bool)
+    np.less_equal(found[..., 1:] - found[..., :-1], apart, out=same[..., 1:])
     return found[..., ~np.all(same, axis=designs)]
 
 
@@ -217,17 +218,21 @@ class TurnCurves:
         """Means over the turn (N C,)."""
         means = self.whole.means
         if self.reading == "tangential" and means is not None:
-            closed: Complex = np.sum(self.weights * means[:, None], axis=-1) + self.constant
+            closed: Complex = np.add.reduce(self.weights * means[:, None], axis=-1) + self.constant
             return closed.reshape(-1)
+        return self._mean.reshape(-1)
+
+    @cached_property
+    def _mean(self) -> Complex:
+        """The same by quadrature (N, C)."""
         values, shares = self._quadrature
-        return np.sum(values * shares, axis=-1).reshape(-1)
+        return np.add.reduce(values * shares, axis=-1)
 
     @cached_property
     def variance(self) -> Real:
         """Means of |curve - mean|^2 over the turn (N C,)."""
         values, shares = self._quadrature
-        mean = np.sum(values * shares, axis=-1, keepdims=True)
-        return np.sum(np.abs(values - mean) ** 2 * shares, axis=-1).reshape(-1)
+        return np.add.reduce(np.abs(values - self._mean[..., None]) ** 2 * shares, axis=-1).reshape(-1)
 
     @cached_property
     def rms_error(self) -> Real:
@@ -238,7 +243,7 @@ class TurnCurves:
         """
         pieces = self.pieces
         share, rest = pieces.half / (np.pi * self.whole.turns), self._left_out / self._parts**_GAUSS
-        return 2.0 * np.sqrt(np.sum(share * rest**2, axis=-1)) + _ROUNDING * pieces.size
+        return 2.0 * np.sqrt(np.add.reduce(share * rest**2, axis=-1)) + _ROUNDING * pieces.size
 
     @cached_property
     def _left_out(self) -> Real:
@@ -249,7 +254,7 @@ class TurnCurves:
     def _parts(self) -> Real:
         """Number of equal parts of every piece (P,) in the quadrature: the more, the more is left out there."""
         size = np.where(self.pieces.size > 0.0, self.pieces.size, 1.0)
-        out = np.max(self._left_out / size[:, None], axis=0)
+        out = np.maximum.reduce(self._left_out / size[:, None], axis=0)
         return np.clip(np.ceil((out / _LEFT_OUT) ** (1.0 / _GAUSS)), 1, _MOST_PARTS)
 
     @cached_property
@@ -289,6 +294,10 @@ class TurnCurves:
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
         """The curves at angles (m,) within pieces, ends included."""
         return self._series.values(curve, piece, angle)
+
+    def along(self, curve: Index, piece: Index) -> Callable[[Real], Complex]:
+        """The same as a function of the angles."""
+        return self._series.along(curve, piece)
 
     def search(self, cubics: "Cubics", members: "Members", best: "Best", motion: "Motion | None" = None) -> Complex:
         """Peaks of the curves, or of one of them in motion."""

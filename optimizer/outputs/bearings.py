@@ -40,13 +40,12 @@ def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
     circles = [
         floor.circle for floor in floors(curves.curves, FLOOR_TOLERANCE, None, separate_groups(count, planes.size))
     ]
-    before, *fitted_too = of_shaft_sets(scene, curves, _sets(unbalance))
-    after = fitted_too[0] if fitted_too else None
-    alone = curves.first(count)
-    samples = _samples(scene)
-    loads = _loads(scene, alone, samples, before, circles, None)
-    fitted = None if after is None else _loads(scene, alone, samples, after, circles, unbalance)
-    shown = before if after is None else after
+    sets = _sets(unbalance)
+    peaks = of_shaft_sets(scene, curves, sets)
+    loads, *fitted = _loads(scene, curves.first(count), peaks, circles, sets)
+    before, *others = peaks
+    after = others[0] if others else None
+    shown = peaks[-1]
     worst = int(np.argmax(shown.lower[count:]))
     return MainBearings(
         angle_deg=scene.angles,
@@ -56,7 +55,7 @@ def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
                 name=bearing.name,
                 position_m=bearing.position_m,
                 before=loads[k],
-                after=None if fitted is None else fitted[k],
+                after=fitted[0][k] if fitted else None,
             )
             for k, bearing in enumerate(machine.bearings)
         ),
@@ -96,29 +95,37 @@ def _samples(scene: Prepared) -> Complex:
 def _loads(
     scene: Prepared,
     curves: ShaftCurves,
-    bare: Complex,
-    peak: Bracket,
+    peaks: Sequence[Bracket],
     circles: Sequence[Circle],
-    unbalance: Complex | None,
-) -> tuple[BearingLoad, ...]:
-    """Loads of the bearings of one machine, by their curves, without or with counterweights (webs,) kg m.
-
-    Parameters
-    ----------
-    bare : (B, T) N, without counterweights.
-    """
-    machine = scene.machine
-    bearings = machine.bearings
-    square, turn = scene.omega_squared, np.deg2rad(scene.angle_deg)
-    offset = curves.offsets(unbalance)
-    samples = bare + offset[:, None] * turned(scene.layout.sense, turn) * square
+    sets: Sequence[Complex | None],
+) -> list[tuple[BearingLoad, ...]]:
+    """Loads of the bearings of one machine, by their curves and peaks, with sets of counterweights (webs,) kg m or
+    without."""
+    bearings, square, turn = scene.machine.bearings, scene.omega_squared, np.deg2rad(scene.angle_deg)
+    offset = np.array([curves.offsets(unbalance) for unbalance in sets])
+    samples = _samples(scene) + offset[..., None] * turned(scene.layout.sense, turn) * square
     centre = (np.array([circle.centre for circle in circles[: len(bearings)]]) + offset) * square
     rms = np.sqrt(curves.curves.variance + np.abs(curves.curves.mean + offset) ** 2) * square
-    figures = np.rad2deg(peak.angle[: len(bearings)]).tolist(), rms.tolist(), centre.tolist()
+    figures = samples.real.tolist(), samples.imag.tolist(), rms.tolist(), centre.tolist()
+    return [_of_set(bearings, circles, square, peak, *own) for peak, *own in zip(peaks, *figures, strict=True)]
+
+
+def _of_set(
+    bearings: Sequence[Bearing],
+    circles: Sequence[Circle],
+    square: float,
+    peak: Bracket,
+    along_x: Sequence[Sequence[float]],
+    along_y: Sequence[Sequence[float]],
+    rms: Sequence[float],
+    centre: Sequence[complex],
+) -> tuple[BearingLoad, ...]:
+    """Loads of the bearings with one set of counterweights, from what is known of all sets."""
+    angles = np.rad2deg(peak.angle[: len(bearings)]).tolist()
     return tuple(
         BearingLoad(
-            force_x_N=load.real.tolist(),
-            force_y_N=load.imag.tolist(),
+            force_x_N=x,
+            force_y_N=y,
             peak_N=float(peak.lower[k]),
             peak_bracket_N=bracket(peak, k),
             peak_angle_deg=angle,
@@ -128,7 +135,7 @@ def _loads(
             circle_x_N=middle.real,
             circle_y_N=middle.imag,
         )
-        for k, (load, angle, of_rms, middle) in enumerate(zip(samples, *figures, strict=True))
+        for k, (x, y, angle, of_rms, middle) in enumerate(zip(along_x, along_y, angles, rms, centre, strict=True))
     )
 
 

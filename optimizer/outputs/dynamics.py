@@ -62,7 +62,7 @@ def kinematics(scene: Prepared, _fitted: Complex | None = None) -> Kinematics:
 
 
 def _indicated_power(scene: Prepared) -> Real:
-    power: Real = np.sum(scene.results["gas"].power, axis=-1)
+    power: Real = np.add.reduce(scene.results["gas"].power, axis=-1)
     return power
 
 
@@ -214,7 +214,7 @@ def flywheel(scene: Prepared, _fitted: Complex | None = None) -> Flywheel:
 def overturning(scene: Prepared, _fitted: Complex | None = None) -> Overturning:
     """Overturning couple on the frame."""
     rows = scene.results["rod_forces"].overturning
-    total, peak = np.sum(rows, axis=-2), of_torque(scene)
+    total, peak = np.add.reduce(rows, axis=-2), of_torque(scene)
     return Overturning(
         angle_deg=scene.angles,
         rows=tuple(RowOverturning(**labels, couple_Nm=_series(rows[k])) for k, labels in rows_of(scene)),

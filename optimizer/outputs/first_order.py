@@ -9,9 +9,8 @@ from optimizer.formulation.formulate import RESPONSES
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.balance_shafts import shaft_arms
 from optimizer.mechanics.frame import phasors
-from optimizer.mechanics.inertia import Wrench, reciprocating
+from optimizer.mechanics.inertia import Wrench
 from optimizer.mechanics.layout import Layout
-from optimizer.mechanics.slider_crank import acceleration_harmonic, acceleration_harmonic_order_2
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.phasors import Polar, orders_of, vectors_of
@@ -145,8 +144,7 @@ def _second_order(scene: Prepared, with_shafts: Sequence[bool]) -> list[Wrench]:
     rod."""
     if np.count_nonzero(np.isnan(scene.layout.reciprocating.rod_ratio)):
         return []
-    harmonic = acceleration_harmonic if scene.request.fidelity.kinematics == "exact" else acceleration_harmonic_order_2
-    own, square = reciprocating(scene.layout, 2, harmonic), scene.layout.omega**2
+    own, square = scene.second_order, scene.layout.omega**2
     return [(scene.with_shafts(own, 2) if turning else own).times(square) for turning in with_shafts]
 
 

@@ -13,7 +13,7 @@ from optimizer.mechanics.foundation import foundation_load, outer_dead_centre_de
 from optimizer.mechanics.inertia import Wrench
 from optimizer.mechanics.shapes import fitted_masses
 from optimizer.numerics.arrays import Complex
-from optimizer.outputs.orders import ORDERS, by_order
+from optimizer.outputs.orders import ORDERS
 from optimizer.outputs.output import Output
 from optimizer.outputs.phasors import vectors_of
 from optimizer.responses.response import Phasors
@@ -70,7 +70,7 @@ def _loads(
 ) -> list[dict[int, dict[str, Any]]]:
     """Fields of the loads of all orders with sets of counterweights, all sets at once."""
     orders, bare = scene.request.foundation_orders, np.zeros(len(scene.machine.webs), complex)
-    wrenches = [by_order(fitted_scene, vectors) for fitted_scene, vectors in sets]
+    wrenches = [fitted_scene.orders(vectors) for fitted_scene, vectors in sets]
     # odd orders above the first vanish for a slider-crank
     every = [vectors_of([of_set.get(order, _NOTHING) for order in orders]) for of_set in wrenches]
     phasors = np.array(every).transpose(2, 3, 0, 1)

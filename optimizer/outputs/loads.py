@@ -15,7 +15,7 @@ from optimizer.mechanics.layout import stacked
 from optimizer.mechanics.row_series import Reading
 from optimizer.mechanics.shaft import INFLUENCES, bearing_places
 from optimizer.mechanics.weight import GRAVITY, along_axis, on_guide
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, spread
 from optimizer.outputs.dynamics import rows_of
 from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.peaks import Search, largest_of_rows, of_rows, of_torque, rows_search, torque_search
@@ -178,14 +178,15 @@ def _turning(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | N
     if fitted is None:
         return places, masses
     webs = scene.layout.webs
+    size = np.abs(fitted)
     # of designs without counterweights they are nan
-    return _joined(places, webs.position), _joined(masses, np.nan_to_num(np.abs(fitted)) / webs.radius)
+    return _joined(places, webs.position), _joined(masses, np.where(np.isnan(size), 0.0, size) / webs.radius)
 
 
 def _joined(first: Any, second: Any) -> Any:
     """Side by side on the last axis, leading axes broadcast."""
     leading = np.broadcast_shapes(first.shape[:-1], second.shape[:-1])
-    return np.concatenate([np.broadcast_to(part, (*leading, part.shape[-1])) for part in (first, second)], axis=-1)
+    return np.concatenate([spread(part, (*leading, part.shape[-1])) for part in (first, second)], axis=-1)
 
 
 def on_bearings(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | None) -> Complex:

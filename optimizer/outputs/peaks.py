@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Hashable, Iterable, Iterator, Sequence
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -57,6 +57,11 @@ class Search(NamedTuple):
     group: Index | None = None  # (m,) from 0, where only the largest of each group is shown
 
     @property
+    def peak_count(self) -> int:
+        """How many peaks are found."""
+        return self.number.size if self.group is None else int(np.max(self.group, initial=-1)) + 1
+
+    @property
     def peaks(self) -> Bracket:
         """What is found of it alone."""
         return self.curves.pieces.peaks(self.offset, TOLERANCE, self.number, self.group, self.sign)
@@ -75,7 +80,7 @@ def searched(scene: Prepared, searches: Iterable[Search]) -> dict[tuple[Hashable
     offset = np.concatenate([search.offset for search in every])
     sign = np.concatenate([np.zeros(search.number.size) + search.sign for search in every])
     groups = [np.arange(search.number.size) if search.group is None else search.group for search in every]
-    ends = np.cumsum([0, *(int(np.max(group, initial=-1)) + 1 for group in groups)]).tolist()
+    ends = [0, *accumulate(search.peak_count for search in every)]
     group = np.concatenate([part + end for part, end in zip(groups, ends, strict=False)])
     peaks = _reshaped(scene, batch.pieces.peaks(offset, TOLERANCE, number, group, sign))
     return {

@@ -213,7 +213,7 @@ class _Missing:
         planes, centre = centred.webs.position, centred.centre_plane
         if planes.shape[-1] == 0:
             return np.abs(force)
-        low, high = np.min(planes, axis=-1), np.max(planes, axis=-1)
+        low, high = np.minimum.reduce(planes, axis=-1), np.maximum.reduce(planes, axis=-1)
         apart = high - low > SAME_PLANE_M
         ends = np.abs(couple - (high - centre) * force) + np.abs(couple - (low - centre) * force)
         return np.where(apart, ends / np.where(apart, high - low, 1.0), np.abs(force))

@@ -17,7 +17,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, Reals, in_order
-from optimizer.numerics.enclosing_circle import Circle, smallest_circle
+from optimizer.numerics.enclosing_circle import Circle
 from optimizer.responses.moving_curves import Harmonics, moved
 from optimizer.responses.piecewise_cubics import Bracket, Index, Pieces
 from optimizer.responses.worst_masses import Parts
@@ -216,18 +216,17 @@ def floors(
         return []
     together = np.arange(number.size) if group is None else group
     outline = outlines(every, number, np.flatnonzero(pieces.half[number[0]] > 0.0))
-    rounding = _ROUNDING * np.max(np.abs(outline.values), axis=-1)
+    rounding = _ROUNDING * outline.size
     # the first points of a curve are those that hold its outline
     of, (piece, place) = outline.curve, np.divmod(outline.place, PLACES.size)
     piece = outline.piece[piece]
     at = pieces.centre[number[of], piece] + pieces.half[number[of], piece] * PLACES[place]
-    points = _Points(number.size)
-    points.add(of, at, pieces.source.values(number[of], piece, at))
+    points = _Points(number.size, of, at, pieces.source.values(number[of], piece, at))
     centre, radius, upper = outline.centre, outline.radius, outline.upper
-    most = np.full(np.max(together) + 1, -np.inf)
+    most = np.full(int(np.maximum.reduce(together)) + 1, -np.inf)
     np.maximum.at(most, together, outline.lower)
     open_ = np.flatnonzero(upper >= most[together])
-    circles: dict[int, Circle] = {k: points.circle(k) for k in np.flatnonzero(upper < most[together]).tolist()}
+    points.surround(np.flatnonzero(upper < most[together]))
     for _ in range(_MOST_POINTS):
         # all points that may hold a circle about this centre, not only the farthest
         which, piece, near = farthest(every, number, outline, open_, centre[open_])
@@ -235,11 +234,9 @@ def floors(
         there = (number[of], piece)
         middle, half = pieces.centre[there], pieces.half[there]
         step = nearer(in_order(np.asarray(pieces.source.cubics(*there, near, half), complex)), centre[of])
-        near = np.clip(near + half * step, middle - half, middle + half)
+        near = np.minimum(np.maximum(near + half * step, middle - half), middle + half)
         points.add(of, near, pieces.source.values(*there, near))
-        for k in open_.tolist():
-            circles[k] = points.circle(k)
-            centre[k], radius[k] = circles[k].centre, circles[k].radius
+        centre[open_], radius[open_] = points.surround(open_)
         peak = pieces.peaks(-centre[open_], 0.5 * tolerance, number[open_])
         upper[open_] = peak.upper
         most[:] = 0.0
@@ -247,35 +244,49 @@ def floors(
         beyond = peak.upper > radius[open_] * (1.0 + tolerance) + rounding[open_]
         beyond &= peak.upper > most[together[open_]]
         open_ = open_[beyond]
-        points.add(open_, peak.angle[beyond], peak.value[beyond])
-        for k in open_.tolist():
-            circles[k] = points.circle(k)
-            centre[k], radius[k] = circles[k].centre, circles[k].radius
         if not open_.size:
             break
-    return [Floor(circles[k], *points.at(k, circles[k].support), upper[k]) for k in range(number.size)]
+        points.add(open_, peak.angle[beyond], peak.value[beyond])
+        centre[open_], radius[open_] = points.surround(open_)
+    return [Floor(*points.circle(k), upper[k]) for k in range(number.size)]
 
 
 class _Points:
-    """Points of curves, of each those that may hold its smallest circle."""
+    """Points of curves, of each those that may hold its smallest circle, and the circles last found.
 
-    def __init__(self, curves: int) -> None:
-        self._angle: list[list[float]] = [[] for _ in range(curves)]
-        self._value: list[list[complex]] = [[] for _ in range(curves)]
+    of, angle, value : (m,) which curve, rad, and the curve there.
+    """
+
+    def __init__(self, curves: int, of: Index, angle: Real, value: Complex) -> None:
+        self._of, self._angle, self._value = of, angle, value
+        self._circles = (
+            np.empty(curves, complex),
+            np.empty(curves),
+            np.zeros((curves, 3), np.intp),
+            np.zeros((curves, 3)),
+            np.zeros(curves, np.intp),
+        )
 
     def add(self, of: Index, angle: Real, value: Complex) -> None:
-        """Points (m,) of curves (m,), at angles rad."""
-        for k, there, point in zip(of.tolist(), angle.tolist(), value.tolist(), strict=True):
-            self._angle[k].append(there)
-            self._value[k].append(point)
+        """Points (n,) more."""
+        self._of = np.concatenate((self._of, of))
+        self._angle = np.concatenate((self._angle, angle))
+        self._value = np.concatenate((self._value, value))
 
-    def circle(self, k: int) -> Circle:
-        """The smallest one around those of a curve."""
-        return smallest_circle(np.array(self._value[k]))
+    def surround(self, some: Index) -> tuple[Complex, Real]:
+        """The smallest circles around the points of some curves (n,): centres and radii."""
+        from optimizer.responses.kernel.outlines import circles
 
-    def at(self, k: int, some: Index) -> tuple[Real, Complex]:
-        """Angles and values of some of those of a curve."""
-        return np.array(self._angle[k])[some], np.array(self._value[k])[some]
+        found = circles(self._of, in_order(self._value), some)
+        for every, part in zip(self._circles, found, strict=True):
+            every[some] = part
+        return found[0], found[1]
+
+    def circle(self, k: int) -> tuple[Circle, Real, Complex]:
+        """That of a curve, and angles and values of the points that hold it."""
+        centre, radius, support, weights, count = (part[k] for part in self._circles)
+        held = support[:count]
+        return Circle(complex(centre), float(radius), held, weights[:count]), self._angle[held], self._value[held]
 
 
 def floor(response: TurnResponse, tolerance: float) -> Floor:

@@ -86,7 +86,7 @@ class Pieces:
     @cached_property
     def reach(self) -> Real:
         """How far the curves may be from the middle of their pieces, (J, P)."""
-        return np.sum(np.abs(self.cubic[..., 1:]), axis=-1) + self.rest
+        return np.add.reduce(np.abs(self.cubic[..., 1:]), axis=-1) + self.rest
 
     def part(self, own: slice, source: Source) -> "Pieces":
         """Those of some of the curves, from a source of these alone."""

@@ -88,16 +88,11 @@ def sums_of_rows(rows, sums, curve, points, bounds, design, angles, half):  # ty
                         off[p] += most * radius[n, r, p]
                 for k in range(last):
                     one = series[0, k, n, r] if k < terms else bound[0, 0, n, r]
-                    for p in range(angles):
-                        total[0, k, p] += weight.real * one[p]
-                    if weight.imag != 0.0:
-                        for p in range(angles):
-                            total[1, k, p] += weight.imag * one[p]
                     if parts > 1:
                         other = series[1, k, n, r] if k < terms else bound[1, 0, n, r]
-                        for p in range(angles):
-                            total[0, k, p] -= weight.imag * other[p]
-                            total[1, k, p] += weight.real * other[p]
+                        _add_vectors(weight, one, other, total[0, k], total[1, k])
+                    else:
+                        _add_scalars(weight, one, total[0, k], total[1, k])
             constant, largest = sums.constant[curve[j]], 0.0
             for p in range(angles):
                 wide = 1.0
@@ -113,6 +108,31 @@ def sums_of_rows(rows, sums, curve, points, bounds, design, angles, half):  # ty
             if sized:
                 size[j] = largest + abs(constant)
     return cubic, rest, size
+
+
+@inner
+def _add_scalars(weight, one, along, across):  # type: ignore[no-untyped-def]
+    """Numbers (P,) times a weight to the parts of a sum."""
+    if weight.imag == 0.0:
+        for p in range(one.size):
+            along[p] += weight.real * one[p]
+    else:
+        for p in range(one.size):
+            along[p] += weight.real * one[p]
+            across[p] += weight.imag * one[p]
+
+
+@inner
+def _add_vectors(weight, one, other, along, across):  # type: ignore[no-untyped-def]
+    """Vectors of which both parts are given, (P,) each; all at once, as to fetch the sum takes longer than to add."""
+    if weight.imag == 0.0:
+        for p in range(one.size):
+            along[p] += weight.real * one[p]
+            across[p] += weight.real * other[p]
+    else:
+        for p in range(one.size):
+            along[p] = along[p] + weight.real * one[p] - weight.imag * other[p]
+            across[p] = across[p] + weight.imag * one[p] + weight.real * other[p]
 
 
 @inner

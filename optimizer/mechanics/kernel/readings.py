@@ -85,11 +85,17 @@ def row_series(rows, functions, design, angles, reading):  # type: ignore[no-unt
                     copied(functions.middle[r, f, k, start:], series.middle[to, k], lanes)
                     if bounded:
                         copied(functions.radius[r, f, k, start:], series.radius[to, k], lanes)
+            number_of_first, angle_of_first = start // angles, start % angles
+            # of one design alone, as mostly, results stand side by side
+            alone = angle_of_first + lanes <= angles
+            n, at = number_of_first, angle_of_first
             for p in range(lanes):
-                n = (start + p) // angles
-                where[_NUMBER, p], where[_ANGLE, p], where[_DESIGN, p] = n, start + p - n * angles, design[n]
+                where[_NUMBER, p], where[_ANGLE, p], where[_DESIGN, p] = n, at, design[n]
                 motion = rows.motion[design[n] if rows.motion.shape[0] > 1 else 0, r]
                 lane[_RATIO, p], lane[_SIGN, p] = motion[1], -motion[3]
+                at += 1
+                if at == angles:
+                    n, at = n + 1, 0
             for part in range(parts):
                 factor, inertia = _read(series, reading, part, lane, lanes, first)
                 gas = _FORCE if factor == _UNITY else _OF_GAS
@@ -121,15 +127,17 @@ def row_series(rows, functions, design, angles, reading):  # type: ignore[no-unt
                             sign = lane[_SIGN]
                             for p in range(lanes):
                                 value[p] *= sign[p]
-                        if turns > 1:
-                            copied(value, middle[part, k - first, turn, r, start:], lanes)
-                        else:
-                            for p in range(lanes):
-                                middle[part, k - first, where[_NUMBER, p], r, where[_ANGLE, p]] = value[p]
-                        if bounded and turns > 1:
-                            for p in range(lanes):
-                                radius[turn, r, start + p] = _with_part(radius[turn, r, start + p], off[p], part)
-                        elif bounded:
+                        if turns > 1 or alone:
+                            to = turn if turns > 1 else number_of_first
+                            copied(value, middle[part, k - first, to, r, angle_of_first:], lanes)
+                            if bounded:
+                                spread = radius[to, r, angle_of_first:]
+                                for p in range(lanes):
+                                    spread[p] = _with_part(spread[p], off[p], part)
+                            continue
+                        for p in range(lanes):
+                            middle[part, k - first, where[_NUMBER, p], r, where[_ANGLE, p]] = value[p]
+                        if bounded:
                             for p in range(lanes):
                                 n, at = where[_NUMBER, p], where[_ANGLE, p]
                                 radius[n, r, at] = _with_part(radius[n, r, at], off[p], part)

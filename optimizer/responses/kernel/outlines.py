@@ -30,6 +30,7 @@ class Outlines(NamedTuple):
     lower, upper : (J,) what the radius of the smallest circle around the curve is not below, and what none of its
         points is farther than from the centre.
     curve, place : (m,) which places hold which circle.
+    size : (J,) largest distance of a place from the origin.
     """
 
     piece: np.ndarray
@@ -40,6 +41,7 @@ class Outlines(NamedTuple):
     upper: Real
     curve: np.ndarray
     place: np.ndarray
+    size: Real
 
 
 @kernel
@@ -54,6 +56,7 @@ def outlines(cubics, number, held):  # type: ignore[no-untyped-def]
     centre, radius = np.empty(curves, np.complex128), np.empty(curves)
     lower, upper = np.empty(curves), np.empty(curves)
     curve, place, count = np.empty(3 * curves, np.int64), np.empty(3 * curves, np.int64), 0
+    size = np.empty(curves)
     for j in range(curves):
         for p in range(held.size):
             cubic = cubics.cubic[number[j], held[p]]
@@ -61,6 +64,10 @@ def outlines(cubics, number, held):  # type: ignore[no-untyped-def]
                 at = PLACES[s]
                 square = at * at
                 values[j, p * share + s] = cubic[0] + cubic[1] * at + cubic[2] * square + cubic[3] * (square * at)
+        largest = 0.0
+        for k in range(values.shape[1]):
+            largest = max(largest, values[j, k].real ** 2 + values[j, k].imag ** 2)
+        size[j] = np.sqrt(largest)
         centre[j], radius[j], support, _ = smallest(values[j])
         for k in range(support.size):
             curve[count], place[count] = j, support[k]
@@ -75,7 +82,7 @@ def outlines(cubics, number, held):  # type: ignore[no-untyped-def]
             rest = max(rest, cubics.rest[number[j], held[p]])
             most = max(most, farthest + 0.125 * BETWEEN**2 * bend + cubics.rest[number[j], held[p]])
         lower[j], upper[j] = radius[j] - rest, most
-    return Outlines(held, values, centre, radius, lower, upper, curve[:count].copy(), place[:count].copy())
+    return Outlines(held, values, centre, radius, lower, upper, curve[:count].copy(), place[:count].copy(), size)
 
 
 @kernel
@@ -100,6 +107,27 @@ def farthest(cubics, number, outline, chosen, centre):  # type: ignore[no-untype
             angle[count] = cubics.centre[curve, there] + cubics.half[curve, there] * at
             count += 1
     return which[:count].copy(), piece[:count].copy(), angle[:count].copy()
+
+
+@kernel
+def circles(of, points, chosen):  # type: ignore[no-untyped-def]
+    """The smallest circles around points (m,) of curves (m,), for some of these (n,): centres, radii (n,), which points
+    hold each, with what weights (n, 3), and how many (n,)."""
+    count = chosen.size
+    centre, radius, number = np.empty(count, np.complex128), np.empty(count), np.zeros(count, np.int64)
+    support, weights = np.zeros((count, 3), np.int64), np.zeros((count, 3))
+    place, own = np.empty(of.size, np.int64), np.empty(of.size, np.complex128)
+    for n in range(count):
+        size = 0
+        for k in range(of.size):
+            if of[k] == chosen[n]:
+                place[size], own[size] = k, points[k]
+                size += 1
+        centre[n], radius[n], held, shares = smallest(own[:size])
+        number[n] = held.size
+        for k in range(held.size):
+            support[n, k], weights[n, k] = place[held[k]], shares[k]
+    return centre, radius, support, weights, number
 
 
 @kernel
