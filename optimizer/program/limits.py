@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, merged, plain, spread
+from optimizer.numerics.arrays import Complex, Real, columns, merged, plain, spread
 from optimizer.numerics.records import record
 from optimizer.program.equal_castings import Alike
 
@@ -146,8 +146,8 @@ class Limits:
         return np.where(self.free, 0.0, np.maximum(growth, 0.0))
 
     def only(self, webs: np.ndarray) -> "Limits":
-        """The limits of some of the webs (K,) bool."""
-        of_webs = {name: np.compress(webs, getattr(self, name), axis=-1) for name in OF_WEBS}
+        """The limits of some of the webs (K,) bool; or (N, K), of each of N programs as many, where none are alike."""
+        of_webs = {name: columns(getattr(self, name), webs) for name in OF_WEBS}
         alike = None if self.alike is None else self.alike.only(webs)
         return Limits(**of_webs, max_total_mass=self.max_total_mass, alike=alike)
 
