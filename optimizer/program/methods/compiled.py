@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, mapped, parts, plain
+from optimizer.numerics.arrays import Complex, Real, in_order, mapped, parts, plain
 from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, nothing_proven
@@ -250,7 +250,7 @@ def _solve(
     points = statement.flat.into(reach * v)
     # in units of what is minimised (the first is any), per unit of objective or response
     value, terms = np.array([np.ones_like(share), mass_unit]), norms.constant.shape[-1]
-    vectors, worth = cone[..., 0] + 1j * cone[..., 1], (value / unit)[..., None]
+    vectors, worth = in_order(cone).view(complex)[..., 0], (value / unit)[..., None]
     parts = vectors[..., :terms] * worth, row * worth, vectors[..., terms:] * value[..., None] / ceilings.size
     proofs = [Multipliers(*(part[stage] for part in parts)) for stage in range(2)]
     return _Solved(points[0], points[1], *proofs)

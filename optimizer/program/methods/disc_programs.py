@@ -1,10 +1,11 @@
 """Programs for the interior point for discs (:mod:`optimizer.program.kernel.discs`): which, and in its form."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from optimizer.numerics.arrays import Real, parts, plain
+from optimizer.numerics.arrays import Real, in_order
+from optimizer.numerics.memoization import remembered
 from optimizer.program.statement import Statement
 
 if TYPE_CHECKING:
@@ -30,14 +31,14 @@ def suits_discs(statement: Statement, least_mass: bool = True) -> np.ndarray:
     vectors = terms + ceilings.constant.shape[-1]
     if not (statement.floor.shape[-1] == 1 and simple and 0 < terms <= vectors <= _VECTORS and webs > 0):
         return np.zeros(statement.floor.shape[:-1], bool)
-    basis = _basis(statement)
-    if basis is None or limits.alike is not None:
+    pair = _pair(statement)
+    if pair is None or limits.alike is not None:
         return np.zeros(statement.floor.shape[:-1], bool)
     if not least_mass:
         plain_webs = np.logical_and.reduce(limits.free, axis=-1) & ~limits.budget_ends
         return plain_webs & bool(terms < 3 and not statement.ceilings.names)
     wide = np.logical_and.reduce(limits.free | (limits.half_angle_sin >= _THINNEST), axis=-1)
-    return np.asarray(wide if vectors < 3 else wide & _multiples(np.real(statement.every_influence), basis)[2])
+    return np.asarray(wide & pair.holds)
 
 
 def discs_of(statement: Statement, reach: Real, unit: Real, margin: float) -> list[tuple[np.ndarray, bool, "Discs"]]:
@@ -55,18 +56,13 @@ def discs_of(statement: Statement, reach: Real, unit: Real, margin: float) -> li
         cap = cap - np.clip(cap, 0.0, margin)
     mass, budget = reach / limits.radius, limits.max_total_mass[:, None]
     budgeted, sectors = np.add.reduce(mass, axis=-1) > budget[:, 0], ~limits.free.all(axis=-1)
-    basis = _basis(statement)
-    assert basis is not None
-    if basis.size < 3:
-        multiple, two = np.ones((len(mass), basis.size)), np.zeros((len(mass), 2, mass.shape[-1]))
-        two[:, : basis.size] = statement.every_influence
-    else:
-        multiple, two, _ = _multiples(np.real(statement.every_influence), basis)
+    pair = _pair(statement)
+    assert pair is not None
     frame = _frame(statement) if sectors.any() else np.zeros((len(mass), 5, 0))
     every = (
-        multiple / scale,
-        parts(statement.every_constant / scale),
-        two * reach[:, None, :],
+        pair.multiple / scale,
+        in_order(statement.every_constant / scale).view(float).reshape(*pair.multiple.shape, 2),
+        pair.influence * reach[:, None, :],
         mass,
         mass / np.where(budgeted[:, None], budget, np.inf) if budgeted.any() else np.zeros(mass.shape),
         cap,
@@ -76,10 +72,10 @@ def discs_of(statement: Statement, reach: Real, unit: Real, margin: float) -> li
     kinds = 2 * sectors + budgeted
     for part in np.unique(kinds).tolist() if kinds.size > 1 else kinds.tolist():
         which = np.flatnonzero(kinds == part)
-        arrays = [plain(values[which] if which.size < kinds.size else values) for values in every]
+        arrays = [in_order(values[which] if which.size < kinds.size else values) for values in every]
         if part < 2:
             arrays[-1] = arrays[-1][..., :0].copy()
-        found.append((which, part % 2 == 1, Discs(basis, *arrays)))
+        found.append((which, part % 2 == 1, Discs(pair.basis, *arrays)))
     return found
 
 
@@ -105,27 +101,35 @@ def _basis(statement: Statement) -> np.ndarray | None:
     return np.array([two.index(name) for name in responses]) if len(two) < 3 else None
 
 
-def _multiples(influence: Real, basis: np.ndarray) -> tuple[Real, Real, np.ndarray]:
-    """Vectors as multiples of the largest of their response.
+class _Pair(NamedTuple):
+    """Vectors of N programs as multiples of two, the largest of either response."""
 
-    Parameters
-    ----------
-    influence : (N, Q, K).
+    basis: np.ndarray  # (Q,) of which response
+    multiple: Real  # (N, Q)
+    influence: Real  # (N, 2, K) of both
+    holds: np.ndarray  # (N,) bool, whether the vectors are such multiples
 
-    Returns
-    -------
-    Multiples (N, Q), influences of both responses (N, 2, K), and whether the vectors are such multiples (N,) bool.
-    """
-    number, vectors, webs = influence.shape
+
+@remembered
+def _pair(statement: Statement) -> _Pair | None:
+    """The same of a statement whose influences are real; None where there are more than two responses."""
+    basis, every = _basis(statement), np.real(statement.every_influence)
+    if basis is None:
+        return None
+    number, vectors, webs = every.shape
     multiple, two, holds = np.ones((number, vectors)), np.zeros((number, 2, webs)), np.ones(number, bool)
-    size = np.maximum.reduce(np.abs(influence), axis=-1)
-    for b in np.unique(basis).tolist():
+    for b in range(2):
         (own,) = (basis == b).nonzero()
-        largest = own[np.argmax(size[:, own], axis=-1)]
-        two[:, b] = influence[np.arange(number), largest]
-        square = np.add.reduce(two[:, b] ** 2, axis=-1)
-        along = np.add.reduce(influence[:, own] * two[:, None, b], axis=-1)
-        multiple[:, own] = along / np.where(square > 0, square, 1.0)[:, None]
-        off = np.abs(influence[:, own] - multiple[:, own, None] * two[:, None, b])
-        holds &= (np.maximum.reduce(off, axis=-1) <= _SAME * size[:, own]).all(axis=-1)
-    return multiple, two, holds
+        if own.size == 1:
+            two[:, b] = every[:, own[0]]
+        if own.size < 2:
+            continue
+        influence = every[:, own]
+        size = np.maximum.reduce(np.abs(influence), axis=-1)
+        largest = influence[np.arange(number), np.argmax(size, axis=-1)]
+        square = np.einsum("nk,nk->n", largest, largest)
+        along = np.einsum("nqk,nk->nq", influence, largest) / np.where(square > 0, square, 1.0)[:, None]
+        off = np.abs(influence - along[..., None] * largest[:, None])
+        multiple[:, own], two[:, b] = along, largest
+        holds &= (np.maximum.reduce(off, axis=-1) <= _SAME * size).all(axis=-1)
+    return _Pair(basis, multiple, two, holds)
