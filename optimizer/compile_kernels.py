@@ -1,8 +1,8 @@
 """Compile the kernels, once for an installation: ``python -m optimizer.compile_kernels``.
 
 Three processes do so beside one another: one what follows the turn, and what sums of options are compared by; one the
-interior point for any limits, what budgets are spent by and what parts are matched by; and one the interior point for
-discs, and what proves and settles.
+interior point for any limits, what budgets are spent by, what parts are matched by and what puts designs in order; and
+one the interior point for discs, and what proves and settles.
 """
 
 import gc
@@ -30,6 +30,13 @@ def budgets() -> None:
     from optimizer.numerics.kernel.knapsack import filled
 
     filled(np.ones((1, 1)), np.ones((1, 1)), np.ones(1))
+
+
+def designs() -> None:
+    """Compile what puts the designs of a Latin hypercube in their order: one of one."""
+    from optimizer.studies.sweep.designs import permuted
+
+    permuted(np.zeros(1, np.int64), 1, 0, 0)
 
 
 def proofs() -> None:
@@ -73,7 +80,11 @@ def main() -> None:
     _say("compiling the kernels, once: half a minute on two cores")
     begun = time.perf_counter()
     # the longest first, and three at a time: where there are two cores, both are busy until the end
-    parts = (follow_a_turn, moving_curves, near_sums), (any_limits, budgets, match_parts), (plain_discs, proofs)
+    parts = (
+        (follow_a_turn, moving_curves, near_sums),
+        (any_limits, budgets, match_parts, designs),
+        (plain_discs, proofs),
+    )
     processes = [get_context("spawn").Process(target=_alone, args=some) for some in parts]
     for process in processes:
         process.start()
