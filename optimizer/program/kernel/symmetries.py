@@ -145,14 +145,16 @@ def _images(relative, signs, limits, kinds, n, turn, mirrored, image):  # type: 
     terms, webs = relative.shape
     for k in range(webs):
         for other in range(webs):
-            same = limits.free[n, k] == limits.free[n, other] and _same_limits(limits, kinds, n, k, other)
+            # most webs are told apart by what they do
+            same = True
+            for q in range(terms):
+                same = same and abs(relative[q, k] - signs[q] * relative[q, other]) <= _SAME
+            same = same and limits.free[n, k] == limits.free[n, other] and _same_limits(limits, kinds, n, k, other)
             if same and not limits.free[n, k]:
                 there = np.conj(limits.centre[n, other]) if mirrored else limits.centre[n, other]
                 apart = abs(limits.centre[n, k] - turn * there)
                 opened = abs(limits.half_angle_sin[n, k] - limits.half_angle_sin[n, other])
                 same = apart <= _SAME and opened <= _SAME
-            for q in range(terms):
-                same = same and abs(relative[q, k] - signs[q] * relative[q, other]) <= _SAME
             image[k, other] = same
 
 

@@ -101,7 +101,10 @@ def both_stages(
         return _in_any_limits(statement, share, demand, least_mass, level)
     part, wanted = statement.chosen(discs) if discs.size < share.size else statement, (share[discs], demand[discs])
     quick = _judged(part, *wanted, least_mass, _solve(part, wanted[0], least_mass, _DOUBLE, _in_discs, level[discs]))
-    if quick.certified.all() and discs.size == share.size:
+    if discs.size == share.size:
+        left = (~quick.certified).nonzero()[0]
+        if left.size:
+            quick.put(left, _in_any_limits(statement.chosen(left), share[left], demand[left], least_mass, level[left]))
         return quick
     done = discs[quick.certified]
     left = np.setdiff1d(np.arange(share.size), done)

@@ -70,8 +70,10 @@ def discs_of(statement: Statement, reach: Real, unit: Real, margin: float) -> li
     )
     found = []
     kinds = 2 * sectors + budgeted
-    for part in np.unique(kinds).tolist() if kinds.size > 1 else kinds.tolist():
-        which = np.flatnonzero(kinds == part)
+    for part in range(4):
+        (which,) = (kinds == part).nonzero()
+        if not which.size:
+            continue
         arrays = [in_order(values[which] if which.size < kinds.size else values) for values in every]
         if part < 2:
             arrays[-1] = arrays[-1][..., :0].copy()
