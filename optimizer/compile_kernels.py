@@ -2,8 +2,8 @@
 
 What budgets are spent by is compiled first, and with it what the compiler needs for any kernel. Three processes have
 that in common and do the rest beside one another: one what follows the turn, and what sums of options are compared by;
-one the interior point for any limits, and what parts are matched by; and one the interior point for discs, and what
-proves and settles.
+one the interior point for any limits, what parts are matched by and what puts designs in order; and one the interior
+point for discs, and what proves and settles.
 """
 
 import gc
@@ -31,6 +31,13 @@ def budgets() -> None:
     from optimizer.numerics.kernel.knapsack import filled
 
     filled(np.ones((1, 1)), np.ones((1, 1)), np.ones(1))
+
+
+def designs() -> None:
+    """Compile what puts the designs of a Latin hypercube in their order: one of one."""
+    from optimizer.studies.sweep.designs import permuted
+
+    permuted(np.zeros(1, np.int64), 1, 0, 0)
 
 
 def proofs() -> None:
@@ -78,7 +85,7 @@ def main() -> None:
     link_first()
     budgets()
     # the longest first, and three at a time: where there are two cores, both are busy until the end
-    parts = (follow_a_turn, moving_curves, near_sums), (any_limits, match_parts), (plain_discs, proofs)
+    parts = (follow_a_turn, moving_curves, near_sums), (any_limits, match_parts, designs), (plain_discs, proofs)
     processes = [get_context("fork").Process(target=_in_turn, args=some) for some in parts]
     for process in processes:
         process.start()

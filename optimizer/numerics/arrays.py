@@ -85,6 +85,19 @@ def in_order(array: NDArray[Any]) -> NDArray[Any]:
     return array if array.flags.carray else np.array(array, order="C")
 
 
+def columns(array: NDArray[Any], chosen: NDArray[np.bool_]) -> NDArray[Any]:
+    """Some of the numbers (..., K) along the last axis, in the usual order in memory.
+
+    Parameters
+    ----------
+    chosen : (K,); or (N, K), as many of each row, of an array (N, ..., K).
+    """
+    if chosen.ndim == 1:
+        return array[..., chosen].copy()
+    each = np.broadcast_to(np.expand_dims(chosen, tuple(range(1, array.ndim - 1))), array.shape)
+    return array[each].reshape(*array.shape[:-1], np.count_nonzero(chosen[:1]))
+
+
 def total(terms: Complex) -> Complex:
     """Sum over the last axis; exactly zero where the terms cancel up to rounding.
 

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, mapped, merged, plain, spread
+from optimizer.numerics.arrays import Complex, Real, columns, mapped, merged, plain, spread
 from optimizer.numerics.loading import deferred
 from optimizer.numerics.records import record
 from optimizer.program.equal_castings import Alike
@@ -163,8 +163,8 @@ class Limits:
         )
 
     def only(self, webs: np.ndarray) -> "Limits":
-        """The limits of some of the webs (K,) bool."""
-        of_webs = {name: np.compress(webs, getattr(self, name), axis=-1) for name in OF_WEBS}
+        """The limits of some of the webs (K,) bool; or (N, K), of each of N programs as many, where none are alike."""
+        of_webs = {name: columns(getattr(self, name), webs) for name in OF_WEBS}
         alike = None if self.alike is None else self.alike.only(webs)
         return Limits(**of_webs, max_total_mass=self.max_total_mass, alike=alike)
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from optimizer.numerics.arrays import SMALLEST, Complex, Real, spread
+from optimizer.numerics.arrays import SMALLEST, Complex, Real, columns, spread
 from optimizer.numerics.records import record
 
 
@@ -51,7 +51,7 @@ class Norms:
 
     def only(self, webs: np.ndarray) -> "Norms":
         # in the usual order in memory, in which sums are the same to the last bit
-        return replace(self, influence=self.influence[..., webs].copy())
+        return replace(self, influence=columns(self.influence, webs))
 
 
 def scalars(norms: Norms) -> tuple[bool, ...]:

@@ -237,7 +237,7 @@ class Statement:
         return self._mapped(lambda array: array[programs])
 
     def only(self, webs: np.ndarray) -> "Statement":
-        """The program with some of the webs (K,) bool."""
+        """The program with some of the webs, as of :meth:`optimizer.program.limits.Limits.only`."""
         return replace(
             self, norms=self.norms.only(webs), ceilings=self.ceilings.only(webs), limits=self.limits.only(webs)
         )

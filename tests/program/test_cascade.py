@@ -1,13 +1,18 @@
-"""What of one term the webs come to each alone: analytic."""
+"""What of one term the webs come to each alone, analytic; and what is found for many programs at once."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from optimizer.program.methods.cascade import _single_term
+from optimizer.program.methods.cascade import _single_term, cascade
+from optimizer.program.methods.optima import optima
+from optimizer.program.methods.single import Target, interior_point
 from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.solution import evaluated
 from optimizer.program.statement import Statement
 from optimizer.responses.response import Phasors, Response
+from tests.program.cases import SOLVER, random_statement, stacked
 from tests.program.turning import wide
 
 
@@ -38,3 +43,28 @@ def test_a_web_alone_is_taken_where_it_is_better_and_keeps_the_ceilings(
     found = _single_term(program, evaluated(program, np.array(point, complex)))
     assert found.objective == pytest.approx(objective, abs=1e-12)
     assert found.lower_bound <= found.objective + 1e-12
+
+
+@pytest.mark.parametrize("least_mass", [True, False])
+def test_ceilings_out_of_reach_are_proven_together_as_by_the_cascade(least_mass: bool) -> None:
+    """Independent: the cascade, which takes one program at a time, finds the same points and the same proofs."""
+    cases = [random_statement(seed, "sum", (1.0, 1.0), True, True, True, 6) for seed in range(12)]
+    program = stacked(cases)
+    share = np.full(len(cases), 0.3)
+    share[::3] = 1.0
+    program = replace(program, ceilings=replace(program.ceilings, cap=share[:, None] * program.ceilings.cap))
+    found = optima(program, 1e-6, least_mass, SOLVER)
+    assert 2 <= np.count_nonzero(found.unreachable) <= 8
+    assert not found.unreachable[::3].any()
+    for n in found.unreachable.nonzero()[0].tolist():
+        alone, target = program.chosen(n), Target(1e-6, 1e-6, least_mass)
+        own = cascade(alone, target, SOLVER, interior_point(alone, target))
+        assert own.conflict is not None
+        assert np.array_equal(own.unbalance, found.unbalance[n])
+        assert np.array_equal(own.conflict.ceiling, found.conflict.ceiling[n])
+        assert np.array_equal(own.conflict.row, found.conflict.row[n])
+        assert own.method == found.method[n]
+        assert (own.lower_bound, own.mass_lower_bound) == (found.lower_bound[n], found.mass_lower_bound[n])
+        assert own.mass_target == found.mass_target[n]
+        for name in ("objective", "mass", "excess"):
+            assert getattr(own, name) == pytest.approx(getattr(found, name)[n], rel=1e-13)

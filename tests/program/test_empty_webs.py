@@ -10,7 +10,7 @@ from optimizer.program.cuts import empty_webs as cuts
 from optimizer.program.methods import empty_webs
 from optimizer.program.methods.empty_webs import Optimum, _unit, leave_empty
 from optimizer.program.methods.optima import optima
-from optimizer.program.points import Points
+from optimizer.program.points import Points, points_at
 from optimizer.program.solution import CEILING_ROUNDING
 from optimizer.program.verdict import MASS_GAP
 from tests.program.test_settled import in_planes
@@ -53,17 +53,37 @@ def test_without_dust_a_point_is_as_heavy_as_may_be_claimed(least_mass: bool, mo
     found.mass_lower_bound[:], found.mass_target[:], found.lower_bound[:] = 4.6, 9.0, 1.0
     asked = []
 
-    def keep(_: object, old: Points, new: object, empty: object, optimum: Optimum, *rest: object) -> Points:
+    def nowhere(_: object, empty: np.ndarray, optimum: Optimum, *rest: object) -> tuple[Points, np.ndarray]:
         asked.append(optimum)
-        return old
+        return points_at(program, dusty), np.zeros(len(empty), bool)
 
-    monkeypatch.setattr(empty_webs, "_emptied", keep)
+    monkeypatch.setattr(empty_webs, "_without", nowhere)
     leave_empty(program, found, np.array([0.5]), least_mass)
-    (optimum,) = asked
+    optimum = asked[0]
     assert optimum.mass == pytest.approx([4.6 / (1.0 - 0.9 * MASS_GAP) if least_mass else np.inf], rel=1e-14)
     assert optimum.excess == [CEILING_ROUNDING]
     assert optimum.objective == pytest.approx(max(1.0 + empty_webs.TARGET * 0.5, float(program.objective(dusty)[0])))
     assert (optimum.mass_bound is None) != least_mass
+
+
+def test_webs_are_left_empty_in_many_programs_at_once_as_in_each_alone() -> None:
+    """Programs with dust on one web, on another and on two, and one with none: to the last bit as each by itself."""
+    program = in_planes([-1.0, 1.0, 0.3, 0.7]).alone().chosen(np.zeros(4, np.int64))
+    found, share = optima(program, 1e-6, True), np.full(4, 0.5)
+    dust = np.array([[1e-9, 0, 0, 0], [0, 0, 1e-9, 0], [0, 1e-9, 1e-9, 0], [0, 0, 0, 0]])
+    dusty = np.array([-2.0, -2.5, -1.0, -1.5]) * (dust == 0) + dust + 0j
+    objective = program.objective(dusty)
+    found = replace(found, unbalance=dusty, objective=objective, mass=program.mass(dusty))
+    found.lower_bound[:], found.mass_lower_bound[:], found.mass_target[:] = objective, 1e-3, objective + 1.0
+    alone = [found.chosen(np.array([n])) for n in range(4)]
+    leave_empty(program, found, share, True)
+    for n, each in enumerate(alone):
+        leave_empty(program.chosen(np.array([n])), each, share[[n]], True)
+        assert np.array_equal(each.unbalance[0], found.unbalance[n])
+        assert each.objective[0] == found.objective[n]
+        assert each.mass[0] == found.mass[n]
+    assert ((found.unbalance == 0) >= (dust > 0)).all()
+    assert np.array_equal(found.unbalance[3], dusty[3])
 
 
 class _Noted(cuts.EmptyWebs):

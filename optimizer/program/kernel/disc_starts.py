@@ -16,6 +16,8 @@ from optimizer.program.kernel.stages import CENTRALITY, OPEN, RESERVE
 #: first stage: product of slack and multiplier of a web at the start, share of its size that it has along a sector, and
 #: share of a budget that is spent at most
 _PRODUCT, _ALONG, _SPENT = 0.5, 0.6, 0.75
+#: second stage: what the size of the multiplier of a web is above its mass at least
+_ABOVE_MASS = 0.05
 
 
 class Discs(NamedTuple):
@@ -120,8 +122,8 @@ def begin_second(programs, n, budgeted, share, gap, end, cost, where):  # type: 
         cost[k] = programs.mass[n, k] / unit
         # in the middle between |v| and 1
         x = (1.0 + np.sqrt(1.0 + 3.0 * (vx * vx + vy * vy))) / 3.0
-        z = max(np.sqrt(px * px + py * py), cost[k]) + CENTRALITY
-        z = max(z, (CENTRALITY - vx * px - vy * py) / x, cost[k] + CENTRALITY / (1.0 - x))
+        # no farther above p for a full web: there is next to nothing left for its size, and the gap would be huge
+        z = max(np.sqrt(px * px + py * py) + CENTRALITY, cost[k] + _ABOVE_MASS)
         where[2 * webs + k], where[3 * webs + k], where[4 * webs + k], where[5 * webs + k] = x, z, px, py
     return unit, most
 

@@ -369,7 +369,7 @@ def correct_webs(sized, webs, web, edge, own):  # type: ignore[no-untyped-def]
 
 
 @fused
-def move_webs(webs, web, edge, own):  # type: ignore[no-untyped-def]
+def move_webs(webs, web, own):  # type: ignore[no-untyped-def]
     """Slacks by ``PRIMAL``, multipliers by ``DUAL``."""
     for k in range(webs):
         for t in range(LANES):
@@ -381,9 +381,15 @@ def move_webs(webs, web, edge, own):  # type: ignore[no-untyped-def]
             # moved with the others, not summed anew: sums of large multipliers may all but cancel
             web[at + PX] += dual * web[at + DPX]
             web[at + PY] += dual * web[at + DPY]
-            if edge is not None:
-                on = k * EDGE + t
-                edge[on + E1] += primal * edge[on + DE1]
-                edge[on + E2] += primal * edge[on + DE2]
-                edge[on + G1] += dual * edge[on + DG1]
-                edge[on + G2] += dual * edge[on + DG2]
+
+
+@fused
+def move_edges(webs, edge, own):  # type: ignore[no-untyped-def]
+    """The same of the edges."""
+    for k in range(webs):
+        for t in range(LANES):
+            on, primal, dual = k * EDGE + t, own[t + PRIMAL], own[t + DUAL]
+            edge[on + E1] += primal * edge[on + DE1]
+            edge[on + E2] += primal * edge[on + DE2]
+            edge[on + G1] += dual * edge[on + DG1]
+            edge[on + G2] += dual * edge[on + DG2]

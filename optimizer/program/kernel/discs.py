@@ -56,6 +56,7 @@ from optimizer.program.kernel.disc_webs import (
     WEB,
     correct_webs,
     look_at_webs,
+    move_edges,
     move_webs,
     share_budget,
     step_webs,
@@ -64,7 +65,7 @@ from optimizer.program.kernel.stages import BLOCK as AT_A_TIME
 
 _MOST_STEPS = 25
 #: least share of the way to the boundary that a step goes; the rest is the gap at most
-_STEP, _LONGEST = 0.99, 0.999
+_STEP, _LONGEST = 0.995, 0.99999
 #: multiples of the gap asked for that are enough where a step led no farther, and where several did not
 _NEARLY, _LOOSEST, _LOOSEST_MASS = 8.0, 500.0, 30.0
 #: a step below this is short, and share of the gap that the next one aims at then
@@ -72,7 +73,7 @@ _SHORT, _CAUTIOUS = 0.1, 0.5
 
 
 @inner
-def _load(programs, n, cost, where, t, web, edge, peak, own):  # type: ignore[no-untyped-def]
+def _load(programs, n, cost, where, t, web, peak, own):  # type: ignore[no-untyped-def]
     """Program n and where it stands (:mod:`optimizer.program.kernel.disc_starts`) into lane t."""
     vectors, webs = programs.multiple.shape[1], cost.size
     terms, at_prices = vectors - programs.cap.shape[1], 6 * webs + 4 * vectors
@@ -82,15 +83,6 @@ def _load(programs, n, cost, where, t, web, edge, peak, own):  # type: ignore[no
         web[at + COST] = cost[k]
         for i in range(6):
             web[at + VX + i * LANES] = where[i * webs + k]
-        if edge is not None:
-            on, normals = k * EDGE + t, programs.normals[n]
-            for i in range(5):
-                edge[on + N1X + i * LANES] = normals[i, k]
-            for i in range(2):
-                # where there is no edge its slack is 1, and stays so
-                slack = normals[2 * i, k] * where[k] + normals[2 * i + 1, k] * where[webs + k]
-                edge[on + E1 + i * LANES] = slack + 1.0 - normals[4, k]
-                edge[on + G1 + i * LANES] = where[at_prices + 2 + i * webs + k]
     for j in range(vectors):
         one, at = peak[j], 6 * webs + 4 * j
         one[t + CX], one[t + CX + LANES] = programs.constant[n, j, 0], programs.constant[n, j, 1]
@@ -102,16 +94,36 @@ def _load(programs, n, cost, where, t, web, edge, peak, own):  # type: ignore[no
 
 
 @inner
-def _save(webs, t, web, edge, peak, own, where):  # type: ignore[no-untyped-def]
+def _load_edges(normals, where, vectors, t, edge):  # type: ignore[no-untyped-def]
+    """The edges of the webs of a program (5, K), and where they stand, into lane t."""
+    webs = normals.shape[1]
+    for k in range(webs):
+        on = k * EDGE + t
+        for i in range(5):
+            edge[on + N1X + i * LANES] = normals[i, k]
+        for i in range(2):
+            # where there is no edge its slack is 1, and stays so
+            slack = normals[2 * i, k] * where[k] + normals[2 * i + 1, k] * where[webs + k]
+            edge[on + E1 + i * LANES] = slack + 1.0 - normals[4, k]
+            edge[on + G1 + i * LANES] = where[6 * webs + 4 * vectors + 2 + i * webs + k]
+
+
+@inner
+def _save_edges(webs, vectors, t, edge, where):  # type: ignore[no-untyped-def]
+    """Where the edges of lane t stand."""
+    for k in range(webs):
+        for i in range(2):
+            where[6 * webs + 4 * vectors + 2 + i * webs + k] = edge[k * EDGE + G1 + i * LANES + t]
+
+
+@inner
+def _save(webs, t, web, peak, own, where):  # type: ignore[no-untyped-def]
     """Where lane t stands."""
     vectors = peak.shape[0]
     at_prices = 6 * webs + 4 * vectors
     for k in range(webs):
         for i in range(6):
             where[i * webs + k] = web[k * WEB + VX + i * LANES + t]
-        if edge is not None:
-            for i in range(2):
-                where[at_prices + 2 + i * webs + k] = edge[k * EDGE + G1 + i * LANES + t]
     for j in range(vectors):
         for i in range(4):
             where[6 * webs + 4 * j + i] = peak[j, YX + i * LANES + t]
@@ -147,7 +159,9 @@ def run(least_mass, budgeted, programs, first, edge, cost, most, tolerance, midd
             if program[t] < 0 and waiting < number:
                 n = waiting
                 program[t], steps[t], held[t], wanted[t] = n, 0, 0, middle[n]
-                _load(programs, first + n, cost[n], starts[n], t, web, edge, peak, own)
+                _load(programs, first + n, cost[n], starts[n], t, web, peak, own)
+                if edge is not None:
+                    _load_edges(programs.normals[first + n], starts[n], vectors, t, edge)
                 own[MOST + t], own[BOTH + t], before[t] = most[n], 1.0, np.inf
                 degree[t] = 2.0 * webs + vectors + 1.0 if sized else 1.0 * (webs + vectors)
                 for k in range(programs.normals.shape[2]):
@@ -164,7 +178,9 @@ def run(least_mass, budgeted, programs, first, edge, cost, most, tolerance, midd
                 over = max(over, abs(peak[j, OVER + t]))
             if wanted[t] > 0.0 and gap + over <= wanted[t]:
                 wanted[t] = 0.0
-                _save(webs, t, web, edge, peak, own, starts[n])
+                _save(webs, t, web, peak, own, starts[n])
+                if edge is not None:
+                    _save_edges(webs, vectors, t, edge, starts[n])
             if least_mass:
                 gap /= max(own[MASS + t], 1e-3)
             gap += over
@@ -173,7 +189,7 @@ def run(least_mass, budgeted, programs, first, edge, cost, most, tolerance, midd
             enough = tolerance[n] * (1.0 if held[t] == 0 else _NEARLY if held[t] == 1 else loosest)
             if gap <= enough or steps[t] > _MOST_STEPS or not np.isfinite(gap):
                 reached[n] = gap if gap <= enough else np.inf
-                _save(webs, t, web, edge, peak, own, ends[n])
+                _save(webs, t, web, peak, own, ends[n])
                 program[t], solved = -1, solved + 1
         if solved == number:
             return
@@ -209,7 +225,9 @@ def run(least_mass, budgeted, programs, first, edge, cost, most, tolerance, midd
             well = min(own[PRIMAL + t], own[DUAL + t]) >= _SHORT and own[GAP + t] < 0.9 * before[t]
             own[BOTH + t], held[t] = (1.0, 0) if well else (0.0, held[t] + 1)
             before[t] = own[GAP + t]
-        move_webs(webs, web, edge, own)
+        move_webs(webs, web, own)
+        if edge is not None:
+            move_edges(webs, edge, own)
         move_peaks(terms, peak, own)
 
 

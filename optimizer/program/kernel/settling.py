@@ -8,6 +8,9 @@ from optimizer.program.kernel.compiling import folded, in_place
 from optimizer.program.kernel.regions import into
 from optimizer.program.kernel.values import value
 
+#: passes; a number that is written out is a type of its own, for which all would be compiled once more
+_ONCE = np.int64(1)
+
 
 @folded
 def copy(numbers, place):  # type: ignore[no-untyped-def]
@@ -64,7 +67,7 @@ def make_up(influence, across, region, n, room, left, work, scaled, u):  # type:
                 if turned:
                     scaled[0, j, k] += complex(0.0, across[j, k] * room[k])
         made[:webs] = 0.0
-        change(scaled[0], left, 1, row[:webs], scaled[1], made[:webs])
+        change(scaled[0], left, _ONCE, row[:webs], scaled[1], made[:webs])
         for k in range(webs):
             u[k] += room[k] * made[k]
         return
@@ -80,7 +83,7 @@ def make_up(influence, across, region, n, room, left, work, scaled, u):  # type:
             scaled[0, terms + j, webs + first] += sign * part.real
         work[2, j], work[2, terms + j] = left[j].real, left[j].imag
     made[: 2 * webs] = 0.0
-    change(scaled[0], work[2, : 2 * terms], 1, row[: 2 * webs], scaled[1], made[: 2 * webs])
+    change(scaled[0], work[2, : 2 * terms], _ONCE, row[: 2 * webs], scaled[1], made[: 2 * webs])
     for k in range(webs):
         first = region.leader[k]
         each = room[first] * complex(made[first].real, made[webs + first].real)

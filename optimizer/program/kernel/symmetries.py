@@ -40,16 +40,16 @@ def means(constant, influence, limits, kinds, u):  # type: ignore[no-untyped-def
     number, terms, webs = influence.shape
     found = u.copy()
     relative, level = np.empty((terms, webs)), np.empty(terms)
-    alike, image = np.empty((webs, webs), np.bool_), np.empty((webs, webs), np.bool_)
+    image = np.empty((webs, webs), np.bool_)
     own, counts, moved = np.empty(webs), np.empty(terms, np.bool_), np.empty(webs, np.complex128)
     ones = np.empty(terms)
     for q in range(terms):
         ones[q] = 1.0
     for n in range(number):
         _scaled(influence[n], relative, level)
-        _same_limits(limits, kinds, n, alike)
         # most programs have hardly any, which is told at little cost
-        straight, turned_round = _partners(relative, ones, alike), _partners(relative, level, alike)
+        straight = _partners(relative, ones, limits, kinds, n)
+        turned_round = _partners(relative, level, limits, kinds, n)
         counted, changed = False, False
         for symmetry in range(4):
             # straight or from end to end, as they are or as mirror images
@@ -64,7 +64,7 @@ def means(constant, influence, limits, kinds, u):  # type: ignore[no-untyped-def
                 for q in range(terms):
                     counts[q] = abs(constant[n, q]) > _NOTHING * _done(influence[n, q], u[n])
             turn, known = _turn(constant[n], counts, signs, symmetry > 1)
-            _images(relative, signs, limits, n, turn, symmetry > 1, alike, image)
+            _images(relative, signs, limits, kinds, n, turn, symmetry > 1, image)
             for k in range(webs):
                 count = 0.0
                 moved[k] = 0.0
@@ -109,21 +109,19 @@ def _close(first, second):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _same_limits(limits, kinds, n, alike):  # type: ignore[no-untyped-def]
-    """Which webs of program n have one radius, one largest mass and are of one kind."""
-    webs = kinds.size
-    for k in range(webs):
-        for other in range(webs):
-            alike[k, other] = (
-                kinds[k] == kinds[other]
-                and _close(limits.radius[n, k], limits.radius[n, other])
-                and _close(limits.max_mass[n, k], limits.max_mass[n, other])
-            )
+def _same_limits(limits, kinds, n, k, other):  # type: ignore[no-untyped-def]
+    """Whether two webs of program n have one radius, one largest mass and are of one kind."""
+    return (
+        kinds[k] == kinds[other]
+        and _close(limits.radius[n, k], limits.radius[n, other])
+        and _close(limits.max_mass[n, k], limits.max_mass[n, other])
+    )
 
 
 @inner
-def _partners(relative, signs, alike):  # type: ignore[no-untyped-def]
-    """How many webs have the influences of a web with these signs, itself among them, at least and at most."""
+def _partners(relative, signs, limits, kinds, n):  # type: ignore[no-untyped-def]
+    """How many webs are alike and have the influences of a web with these signs, itself among them, at least and at
+    most."""
     terms, webs = relative.shape
     least, most = webs, 0
     for k in range(webs):
@@ -133,7 +131,7 @@ def _partners(relative, signs, alike):  # type: ignore[no-untyped-def]
             q = terms
             while q > 0 and abs(relative[q - 1, k] - signs[q - 1] * relative[q - 1, other]) <= _SAME:
                 q -= 1
-            if q == 0 and alike[k, other]:
+            if q == 0 and _same_limits(limits, kinds, n, k, other):
                 count += 1
         least, most = min(least, count), max(most, count)
         if least == 0:
@@ -142,19 +140,21 @@ def _partners(relative, signs, alike):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _images(relative, signs, limits, n, turn, mirrored, alike, image):  # type: ignore[no-untyped-def]
+def _images(relative, signs, limits, kinds, n, turn, mirrored, image):  # type: ignore[no-untyped-def]
     """Which webs k may take what another has, turned or mirrored, and have its influences with these signs."""
     terms, webs = relative.shape
     for k in range(webs):
         for other in range(webs):
-            same = alike[k, other] and limits.free[n, k] == limits.free[n, other]
+            # most webs are told apart by what they do
+            same = True
+            for q in range(terms):
+                same = same and abs(relative[q, k] - signs[q] * relative[q, other]) <= _SAME
+            same = same and limits.free[n, k] == limits.free[n, other] and _same_limits(limits, kinds, n, k, other)
             if same and not limits.free[n, k]:
                 there = np.conj(limits.centre[n, other]) if mirrored else limits.centre[n, other]
                 apart = abs(limits.centre[n, k] - turn * there)
                 opened = abs(limits.half_angle_sin[n, k] - limits.half_angle_sin[n, other])
                 same = apart <= _SAME and opened <= _SAME
-            for q in range(terms):
-                same = same and abs(relative[q, k] - signs[q] * relative[q, other]) <= _SAME
             image[k, other] = same
 
 

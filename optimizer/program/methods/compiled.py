@@ -102,7 +102,10 @@ def both_stages(
         return _in_any_limits(statement, share, demand, least_mass, level)
     part, wanted = statement.chosen(discs) if discs.size < share.size else statement, (share[discs], demand[discs])
     quick = _judged(part, *wanted, least_mass, _solve(part, wanted[0], least_mass, _DOUBLE, _in_discs, level[discs]))
-    if quick.certified.all() and discs.size == share.size:
+    if discs.size == share.size:
+        left = (~quick.certified).nonzero()[0]
+        if left.size:
+            quick.put(left, _in_any_limits(statement.chosen(left), share[left], demand[left], least_mass, level[left]))
         return quick
     done = discs[quick.certified]
     left = np.setdiff1d(np.arange(share.size), done)
@@ -241,7 +244,7 @@ def _solve(
     # in units of what is minimised (the first is any), per unit of objective or response
     value = np.empty((2, *share.shape))
     value[0], value[1] = 1.0, mass_unit
-    vectors, worth = cone[..., 0] + 1j * cone[..., 1], (value / unit)[..., None]
+    vectors, worth = in_order(cone).view(complex)[..., 0], (value / unit)[..., None]
     parts = vectors[..., :terms] * worth, row * worth, vectors[..., terms:] * value[..., None] / ceilings.size
     proofs = [Multipliers(*(part[stage] for part in parts)) for stage in range(2)]
     return _Solved(points[0], points[1], *proofs)

@@ -1,12 +1,13 @@
 """Programs for the interior point for discs (:mod:`optimizer.program.kernel.discs`): which, and in its form."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from optimizer.numerics.arrays import Real
 from optimizer.numerics.loading import deferred
+from optimizer.numerics.memoization import remembered
 from optimizer.program.statement import Statement
 
 if TYPE_CHECKING:
@@ -36,14 +37,14 @@ def suits_discs(statement: Statement, least_mass: bool = True) -> np.ndarray:
     vectors = terms + ceilings.constant.shape[-1]
     if not (statement.floor.shape[-1] == 1 and simple and 0 < terms <= vectors <= _VECTORS and webs > 0):
         return np.zeros(statement.floor.shape[:-1], bool)
-    basis = _basis(statement)
-    if basis is None or limits.alike is not None:
+    pair = _pair(statement)
+    if pair is None or limits.alike is not None:
         return np.zeros(statement.floor.shape[:-1], bool)
     if not least_mass:
         plain_webs = np.logical_and.reduce(limits.free, axis=-1) & ~limits.budget_ends
         return plain_webs & bool(terms < 3 and not statement.ceilings.names)
     wide = np.logical_and.reduce(limits.free | (limits.half_angle_sin >= _THINNEST), axis=-1)
-    return np.asarray(wide if vectors < 3 else wide & _multiples(np.real(statement.every_influence), basis)[2])
+    return np.asarray(wide & pair.holds)
 
 
 def discs_of(
@@ -54,18 +55,15 @@ def discs_of(
     Parameters are those of a method of :mod:`optimizer.program.methods.compiled`. Of one part alone which they are is
     None: all.
     """
-    programs, basis = statement.flat.programs, _basis(statement)
-    assert basis is not None
+    programs, pair = statement.flat.programs, _pair(statement)
+    assert pair is not None
     (many, vectors, webs), region = programs.influence.shape, programs.region
-    multiple, two = np.ones((many, vectors)), programs.influence
-    if vectors > 2:
-        multiple, two, _ = _multiples(two, basis)
     shapes = (many, vectors), (many, vectors, 2), (many, 2, webs), (many, webs), (many, webs), programs.cap.shape
     every, budgeted = tuple(map(np.empty, shapes)), np.empty(many, bool)
     _forms()(
         programs.constant,
-        two,
-        multiple,
+        programs.influence if vectors < 3 else pair.influence,
+        pair.multiple,
         statement.norms.constant.shape[-1],
         (region.radius, region.budget),
         (programs.cap, programs.size),
@@ -79,12 +77,12 @@ def discs_of(
     kinds = 2 * sectors + budgeted
     if many == 1 or (kinds == kinds[0]).all():
         normals = _frame(statement) if sectors[0] else none
-        return [(None, bool(budgeted[0]), _discs()(basis, *every, normals))]
+        return [(None, bool(budgeted[0]), _discs()(pair.basis, *every, normals))]
     frame, found = _frame(statement) if np.count_nonzero(sectors) else none, []
     for part in np.unique(kinds).tolist():
         which = np.flatnonzero(kinds == part)
         arrays = [values[which] for values in (*every, frame if part > 1 else none)]
-        found.append((which, part % 2 == 1, _discs()(basis, *arrays)))
+        found.append((which, part % 2 == 1, _discs()(pair.basis, *arrays)))
     return found
 
 
@@ -110,27 +108,37 @@ def _basis(statement: Statement) -> np.ndarray | None:
     return np.array([two.index(name) for name in responses]) if len(two) < 3 else None
 
 
-def _multiples(influence: Real, basis: np.ndarray) -> tuple[Real, Real, np.ndarray]:
-    """Vectors as multiples of the largest of their response.
+class _Pair(NamedTuple):
+    """Vectors of N programs as multiples of two, the largest of either response."""
 
-    Parameters
-    ----------
-    influence : (N, Q, K).
+    basis: np.ndarray  # (Q,) of which response
+    multiple: Real  # (N, Q)
+    influence: Real  # (N, 2, K) of both; of fewer than three vectors these
+    holds: np.ndarray  # (N,) bool, whether the vectors are such multiples
 
-    Returns
-    -------
-    Multiples (N, Q), influences of both responses (N, 2, K), and whether the vectors are such multiples (N,) bool.
-    """
-    number, vectors, webs = influence.shape
+
+@remembered
+def _pair(statement: Statement) -> _Pair | None:
+    """The same of a statement whose influences are real; None where there are more than two responses."""
+    basis, every = _basis(statement), np.real(statement.every_influence)
+    if basis is None:
+        return None
+    number, vectors, webs = every.shape
+    if vectors < 3:
+        return _Pair(basis, np.ones((number, vectors)), every, np.ones(number, bool))
     multiple, two, holds = np.ones((number, vectors)), np.zeros((number, 2, webs)), np.ones(number, bool)
-    size = np.maximum.reduce(np.abs(influence), axis=-1)
-    for b in np.unique(basis).tolist():
+    for b in range(2):
         (own,) = (basis == b).nonzero()
-        largest = own[np.argmax(size[:, own], axis=-1)]
-        two[:, b] = influence[np.arange(number), largest]
-        square = np.add.reduce(two[:, b] ** 2, axis=-1)
-        along = np.add.reduce(influence[:, own] * two[:, None, b], axis=-1)
-        multiple[:, own] = along / np.where(square > 0, square, 1.0)[:, None]
-        off = np.abs(influence[:, own] - multiple[:, own, None] * two[:, None, b])
-        holds &= (np.maximum.reduce(off, axis=-1) <= _SAME * size[:, own]).all(axis=-1)
-    return multiple, two, holds
+        if own.size == 1:
+            two[:, b] = every[:, own[0]]
+        if own.size < 2:
+            continue
+        influence = every[:, own]
+        size = np.maximum.reduce(np.abs(influence), axis=-1)
+        largest = influence[np.arange(number), np.argmax(size, axis=-1)]
+        square = np.einsum("nk,nk->n", largest, largest)
+        along = np.einsum("nqk,nk->nq", influence, largest) / np.where(square > 0, square, 1.0)[:, None]
+        off = np.abs(influence - along[..., None] * largest[:, None])
+        multiple[:, own], two[:, b] = along, largest
+        holds &= (np.maximum.reduce(off, axis=-1) <= _SAME * size).all(axis=-1)
+    return _Pair(basis, multiple, two, holds)

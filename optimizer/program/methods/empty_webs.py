@@ -67,25 +67,29 @@ def leave_empty(statement: Statement, solutions: Solutions, share: Real, least_m
         np.maximum(old.excess, CEILING_ROUNDING),
         bound if least_mass else None,
     )
-    # most have dust on the same webs, all of which can be empty: so first all at once, together
+    # most can do without all their dust: so first all at once, together those that have it on as many webs
     empty = _dusty(some, old.unbalance)
-    patterns, which = np.unique(empty, axis=0, return_inverse=True)
-    for number, pattern in enumerate(patterns):
-        if not pattern.any():
-            # of alike webs some, but not all
-            continue
-        (own,) = (which.reshape(-1) == number).nonzero()
+    count = np.count_nonzero(empty, axis=-1)
+    # of alike webs some may have dust, but not all
+    for number in np.unique(count[count > 0]).tolist():
+        (own,) = (count == number).nonzero()
         kept, wanted = some.chosen(own), optimum.chosen(own)
-        new, found = _without(kept, pattern, wanted, part[own], least_mass)
-        for k, n in enumerate(own.tolist()):
-            one = np.array([k])
+        new, found = _without(kept, empty[own], wanted, part[own], least_mass)
+        done = found & ~has_dust(kept.limits, new.unbalance)
+        _put(solutions, programs[own[done]], new.chosen(done))
+        for k in (~done).nonzero()[0].tolist():
+            one, n = np.array([k]), own[[k]]
             best = _emptied(
-                kept.chosen(one), old.chosen(np.array([n])), new.chosen(one) if found[k] else None, pattern,
-                wanted.chosen(one), part[own[one]], least_mass,
+                kept.chosen(one), old.chosen(n), new.chosen(one) if found[k] else None, empty[n],
+                wanted.chosen(one), part[n], least_mass,
             )  # fmt: skip
-            at = programs[n]
-            solutions.unbalance[at], solutions.objective[at] = best.unbalance[0], best.objective[0]
-            solutions.mass[at], solutions.excess[at] = best.mass[0], best.excess[0]
+            _put(solutions, programs[n], best)
+
+
+def _put(solutions: Solutions, programs: np.ndarray, points: Points) -> None:
+    """Points as the answers of some of the programs."""
+    solutions.unbalance[programs], solutions.objective[programs] = points.unbalance, points.objective
+    solutions.mass[programs], solutions.excess[programs] = points.mass, points.excess
 
 
 def _emptied(
@@ -101,11 +105,11 @@ def _emptied(
 
     Parameters
     ----------
-    new : the same without those of a pattern (K,), the dust; None where it is no optimum.
+    new : the same without those of a pattern (1, K), the dust; None where it is no optimum.
     """
-    best, empty = old, np.zeros(pattern.size, bool)
+    best, empty = old, np.zeros(pattern.shape, bool)
     for number in range(_ROUNDS):
-        nothing = pattern if number == 0 else _dusty(program, best.unbalance)[0]
+        nothing = pattern if number == 0 else _dusty(program, best.unbalance)
         if not nothing.any():
             return best
         if number:
@@ -116,8 +120,8 @@ def _emptied(
         best, empty = new, empty | nothing
     mass = np.abs(best.unbalance[0]) / program.limits.radius[0]
     for web in np.argsort(mass):
-        nothing = _dusty(program, best.unbalance)[0]
-        if nothing[web]:
+        nothing = _dusty(program, best.unbalance)
+        if nothing[0, web]:
             alone = nothing & _unit(program, int(web))
             point, found = _without(program, empty | alone, optimum, share, least_mass)
             if found[0]:
@@ -141,19 +145,19 @@ def _unit(program: Statement, web: int) -> np.ndarray:
 def _without(
     programs: Statement, empty: np.ndarray, optimum: Optimum, share: Real, least_mass: bool
 ) -> tuple[Points, np.ndarray]:
-    """Points of N programs without some webs (K,) bool, and whether they are optima (N,) bool."""
-    part, left = programs.only(~empty), _WITH_ROOM * share
-    best, found = points_at(programs, np.zeros((share.size, empty.size), complex)), np.zeros(share.size, bool)
-    if not suits_kernel(part):
+    """Points of N programs without some webs (N, K) bool, of each as many, and whether they are optima (N,) bool."""
+    best, found = points_at(programs, np.zeros(empty.shape, complex)), np.zeros(share.size, bool)
+    if not suits_kernel(programs):
         return best, found
+    part, left = programs.only(~empty), _WITH_ROOM * share
     tried = np.arange(share.size)
     for _ in range(2):
         some, wanted = part.chosen(tried), optimum.chosen(tried)
         smallest, lightest = (points_at(some, end) for end in ends(some, left, least_mass))
         room = _WITH_ROOM * (wanted.objective - smallest.objective)
         point = settled(some, lightest if least_mass else smallest, wanted.objective, wanted.mass_bound)
-        u = np.zeros((tried.size, empty.size), complex)
-        u[:, ~empty] = point.unbalance
+        u = np.zeros((tried.size, empty.shape[-1]), complex)
+        u[~empty[tried]] = point.unbalance.reshape(-1)
         new = points_at(programs.chosen(tried), u)
         admitted = wanted.admits(new)
         best.put(tried, new)

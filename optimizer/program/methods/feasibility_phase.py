@@ -12,6 +12,7 @@ from optimizer.program.certificate import (
     objective_lower_bound,
 )
 from optimizer.program.kernel.finer_numbers import EXTENDED
+from optimizer.program.methods.compiled import BothStages, both_stages
 from optimizer.program.methods.single import Target, interior_point
 from optimizer.program.reference.solver import smallest_objective
 from optimizer.program.solution import CEILING_ROUNDING, ConeSolution
@@ -36,6 +37,12 @@ def smallest_excess(statement: Statement) -> ConeSolution:
         better, other = (finer, found) if finer.objective < found.objective else (found, finer)
         found = better.bounded(other.lower_bound, other.multipliers)
     return found if _tells(found) else smallest_objective(program, _PRINTED, found, _tells)
+
+
+def smallest_excesses(statement: Statement) -> BothStages:
+    """The same of many programs at once, as far as the compiled interior point goes."""
+    program, asked = statement.excess(), np.full(statement.floor.shape[:-1], CEILING_TOLERANCE)
+    return both_stages(program, asked, asked, False)
 
 
 def _tells(excess: ConeSolution) -> bool:

@@ -16,9 +16,12 @@ from optimizer.program.equal_unknowns import apart, united
 from optimizer.program.methods.cascade import cascade
 from optimizer.program.methods.compiled import both_stages, suits_kernel
 from optimizer.program.methods.empty_webs import leave_empty
+from optimizer.program.methods.feasibility_phase import smallest_excesses
 from optimizer.program.methods.inactive_rows import settle_without_slack_rows
 from optimizer.program.methods.single import Target, interior_point, only
+from optimizer.program.points import points_at
 from optimizer.program.solution import (
+    CEILING_ROUNDING,
     CLOSED_FORM,
     CONE_PROGRAM,
     INTERIOR_POINT,
@@ -111,12 +114,40 @@ def _optima(statement: Statement, relative_gap: float, least_mass: bool) -> Opti
     if found is not None:
         settle_without_slack_rows(statement, share, demand, least_mass, found)
     answer = _nothing(statement) if found is None else _compiled(statement, found)
-    for n in range(size.size) if found is None else (~found.certified).nonzero()[0].tolist():
+    left = np.arange(size.size) if found is None else (~found.certified).nonzero()[0]
+    if found is not None and left.size and statement.ceilings.names:
+        left = _without_unreachable(statement, answer, left)
+    for n in left.tolist():
         program, asked = statement.chosen(n), Target(float(share[n]), float(demand[n]), least_mass)
         quick = interior_point(program, asked) if found is None else only(program, asked, found.chosen(np.array([n])))
         _put(answer, n, cascade(program, asked, quick))
-    leave_empty(statement, answer, share, least_mass)
+    if not answer.unreachable.any():
+        leave_empty(statement, answer, share, least_mass)
+        return answer
+    # without any of the webs what comes closest to the ceilings is no closer
+    within = (~answer.unreachable).nonzero()[0]
+    some = answer.chosen(within)
+    leave_empty(statement.chosen(within), some, share[within], least_mass)
+    answer.put(within, some)
     return answer
+
+
+def _without_unreachable(statement: Statement, answer: Optima, programs: np.ndarray) -> np.ndarray:
+    """Some programs without those whose ceilings are proven to be out of reach, which are answered, all at once.
+
+    As :func:`optimizer.program.methods.cascade.cascade` answers one of them.
+    """
+    some = statement.chosen(programs)
+    nearest = smallest_excesses(some)
+    over = nearest.lower_bound > CEILING_ROUNDING
+    proven, at, points = nearest.chosen(over), programs[over], points_at(some, nearest.smallest).chosen(over)
+    answer.unbalance[at], answer.objective[at], answer.mass[at] = points.unbalance, points.objective, points.mass
+    answer.excess[at], answer.lower_bound[at], answer.mass_lower_bound[at] = points.excess, -np.inf, 0.0
+    answer.multipliers.put(at, nothing_proven(some.chosen(over)))
+    answer.mass_target[at], answer.certify_s[at] = np.inf, proven.certify_s
+    answer.unreachable[at], answer.method[at] = True, CONE_PROGRAM
+    answer.conflict.put(at, proven.multipliers)
+    return programs[~over]
 
 
 def _compiled(statement: Statement, solutions: Solutions) -> Optima:

@@ -17,7 +17,6 @@ from schemas.sweep.axes import Axis
 from schemas.sweep.request import SweepRequest
 
 Indices = NDArray[np.int64]
-_Words = NDArray[np.uint64]
 
 _ROUNDS = 8
 #: bits of the smallest domain that is permuted; on fewer there are too few keyed permutations
@@ -47,16 +46,14 @@ def axis_values(request: SweepRequest, start: int, stop: int) -> list[Real]:
 def permuted(index: Indices, count: int, seed: int, axis: int) -> Indices:
     """A pseudo-random permutation of 0..count-1 at some of its places (n,), without the others.
 
-    A Feistel network on the smallest domain of 2^bits that holds them all; numbers that it sends
-    beyond are sent on until they come back (cycle walking), which keeps it one to one.
+    As :mod:`optimizer.numerics.kernel.permutation`.
     """
+    # the compiler is loaded when it is first needed
+    from optimizer.numerics.kernel.permutation import permute
+
     bits = max((count - 1).bit_length(), _FEWEST_BITS)
-    keys = Philox(key=[seed, 2 * axis + 1]).random_raw(_ROUNDS)
-    result = _feistel(index.astype(np.uint64), bits, keys)
-    outside = np.flatnonzero(result >= count)
-    while outside.size:
-        result[outside] = _feistel(result[outside], bits, keys)
-        outside = outside[result[outside] >= count]
+    result = index.astype(np.uint64)
+    permute(result, np.uint64(count), bits, Philox(key=[seed, 2 * axis + 1]).random_raw(_ROUNDS))
     return result.astype(np.int64)
 
 
@@ -94,25 +91,3 @@ def _between(axis: Axis, target: Target, share: Real) -> Real:
         # the logarithm and back costs the last digits, which the ends keep
         value = np.where(share == 0.0, ends[0], np.where(share == 1.0, ends[1], np.exp(value)))
     return np.clip(value, np.min(ends), np.max(ends))
-
-
-def _feistel(number: _Words, bits: int, keys: _Words) -> _Words:
-    """Keyed permutation of 0..2^bits-1."""
-    low_bits = bits // 2
-    high_bits = bits - low_bits
-    for key in keys:
-        low_mask = np.uint64((1 << low_bits) - 1)
-        high_mask = np.uint64((1 << high_bits) - 1)
-        high, low = number >> np.uint64(low_bits), number & low_mask
-        # the halves change places, and with them their widths
-        number = (low << np.uint64(high_bits)) | ((high ^ _mixed(low, key)) & high_mask)
-        low_bits, high_bits = high_bits, low_bits
-    return number
-
-
-def _mixed(number: _Words, key: np.uint64) -> _Words:
-    """Finaliser of splitmix64 (Steele, Lea, Flood 2014): every bit depends on every bit."""
-    word = number + key
-    word = (word ^ (word >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
-    word = (word ^ (word >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
-    return word ^ (word >> np.uint64(31))

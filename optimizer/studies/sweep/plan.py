@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import pyarrow as pa
 
 from optimizer.errors import MissingInput
+from optimizer.numerics.memoization import remembered
 from optimizer.outputs.registry import missing_inputs
 from optimizer.outputs.requirements import missing
 from optimizer.studies.sweep.table import result_schema
@@ -153,6 +154,7 @@ def _idle_values(request: SweepRequest) -> Iterator[tuple[Path, float | None]]:
             yield target.path, nothing
 
 
+@remembered
 def block_rows(request: SweepRequest) -> int:
     """Rows that are computed at once: enough that calls cost little, few enough to stop soon."""
     return max(1, min(round(_BLOCK_S / _seconds_per_design(request)), _BLOCK_ROWS))

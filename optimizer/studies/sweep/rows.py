@@ -11,12 +11,14 @@ from numpy.typing import NDArray
 from optimizer.errors import OutOfRange
 from optimizer.formulation.placement import on_webs
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.memoization import remembered
 from optimizer.outputs.registry import columns, input_rules
 from optimizer.outputs.requirements import missing
 from optimizer.studies.sweep.counterweights import fixed_columns, optimal, shape_keys
 from optimizer.studies.sweep.designs import axis_values
 from optimizer.studies.sweep.singles import single_optima
 from optimizer.studies.sweep.work import work_per_design
+from schemas.answer.outputs import Column
 from schemas.base.rules import Path, Rule, all_rules
 from schemas.base.target import pointer
 from schemas.base.variation import with_fields
@@ -37,7 +39,7 @@ class Rows:
         count = stop - start
         self.columns: dict[str, Any] = {
             column.name: np.full(count, np.nan) if column.kind == "number" else np.full(count, None, dtype=object)
-            for column in (*request.all_columns, *request.chosen_columns)
+            for column in _columns_of(request)
         }
         self.columns["index"] = np.arange(start, stop, dtype=np.int64)
         self._labels = {"index", *(pointer(target.path) for target in request.targets)}
@@ -72,6 +74,16 @@ class Rows:
             )
 
 
+@remembered
+def _columns_of(request: SweepRequest) -> tuple[Column, ...]:
+    return (*request.all_columns, *request.chosen_columns)
+
+
+@remembered
+def _wanted(request: SweepRequest) -> frozenset[str]:
+    return request.wanted
+
+
 def rows(request: SweepRequest, start: int, stop: int) -> dict[str, Any]:
     """Every column of the designs start..stop-1, by name.
 
@@ -104,14 +116,23 @@ class Group(Generic[Base]):
         self._base: Base = base
         self._targets, self._values = request.targets, values
         self.multipliers, self.always = request.multipliers, request.always
-        self.wanted = request.wanted
+        self.wanted = _wanted(request)
         #: designs without the outputs that all hold: they do not ask for them, and their machines lack what these need
         self.bare = set[int]()
         #: whether the objective of some design may look at the whole turn
         self.turns = bool(request.over_the_turn)
+        self._last: tuple[Designs, Base] | None = None
 
     def of(self, designs: Designs) -> Base:
-        """Some designs, with the same fields null in all, as one request of columns."""
+        """Some designs, with the same fields null in all, as one request of columns.
+
+        Of the very same array it is the very same request, of whose machine much is remembered.
+        """
+        if self._last is None or self._last[0] is not designs:
+            self._last = designs, self._columns(designs)
+        return self._last[1]
+
+    def _columns(self, designs: Designs) -> Base:
         contents: dict[Path, Any] = {}
         for target, column in zip(self._targets, self._values, strict=True):
             chosen = column[designs]
@@ -183,6 +204,9 @@ def _fill_optima(table: Rows, group: Group[OptimizeRequest], designs: Designs) -
     designs = _with_inputs(table, group, designs, of_shaft)
     if not designs.size:
         return
+    if not turning:
+        _fill_first_order(table, group, designs)
+        return
     cut = np.isin(designs, list(turning))
     if np.any(cut):
         found, unbalance = single_optima([turning[int(design)] for design in designs[cut]], group.multipliers)
@@ -218,8 +242,8 @@ def _fill_singles(table: Rows, group: Group[OptimizeRequest], designs: Designs) 
 def _fill_first_order(table: Rows, group: Group[OptimizeRequest], designs: Designs) -> None:
     """Rows of designs whose objective is about the first order, those of one shape of program together."""
     keys = shape_keys(group.of(designs), designs.size)
-    for key in np.unique(keys):
-        alike = designs[keys == key]
+    for key in keys[:1] if (keys == keys[:1]).all() else np.unique(keys):
+        alike = _among(designs, keys == key)
         found, unbalance = optimal(group.of(alike), alike.size, group.multipliers)
         table.put(alike, found)
         _fill_outputs(table, group, alike, unbalance)
@@ -246,6 +270,9 @@ def _with_inputs(table: Rows, group: AnyGroup, designs: Designs, of_shaft: set[i
 
 def _fill_outputs(table: Rows, group: AnyGroup, designs: Designs, unbalance: Complex) -> None:
     """Columns of the outputs."""
+    if not group.bare:
+        _fill_columns(table, group, designs, unbalance, group.always)
+        return
     bare = np.isin(designs, list(group.bare))
     for some, always in ((bare, ()), (~bare, group.always)):
         if np.any(some):
@@ -257,9 +284,9 @@ def _fill_columns(table: Rows, group: AnyGroup, designs: Designs, unbalance: Com
     # without counterweights there is nothing with them
     none = table.columns["status"][designs] == "infeasible"
     fitted = np.where(none[:, None], np.nan, unbalance)
-    size = max(1, _AT_ONCE // max(work_per_design(group.of(designs[:1]), always, group.wanted), 1))
+    size = max(1, _AT_ONCE // max(work_per_design(group.of(designs), always, group.wanted), 1))
     for first in range(0, designs.size, size):
-        block = designs[first : first + size]
+        block = designs[first : first + size] if size < designs.size else designs
         part = group.of(block)
         held = ("residual", *always) if isinstance(part, OptimizeRequest) else ()
         part = on_webs(part) if isinstance(part, AnalyzeRequest) else part
@@ -281,7 +308,12 @@ def _refuse(table: Rows, designs: Designs, rules: Iterable[Rule], among: NDArray
             if np.any(broken):
                 table.refuse(designs[broken], rule)
                 valid &= ~broken
-    return designs[valid]
+    return _among(designs, valid)
+
+
+def _among(designs: Designs, chosen: NDArray[np.bool_]) -> Designs:
+    """Some of the designs; of all of them the very same array."""
+    return designs if chosen.all() else designs[chosen]
 
 
 def _same_nulls(values: Sequence[Real], designs: Designs) -> Iterator[Designs]:

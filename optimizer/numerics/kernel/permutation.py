@@ -1,0 +1,45 @@
+"""A pseudo-random permutation of numbers, compiled: :func:`optimizer.studies.sweep.designs.permuted`.
+
+A Feistel network on the smallest domain of 2^bits that holds all numbers; those that it sends beyond are sent on until
+they come back (cycle walking), which keeps it one to one.
+"""
+
+import numpy as np
+
+from optimizer.numerics.compiling import in_place, inner
+
+
+@in_place
+def permute(numbers, count, bits, keys):  # type: ignore[no-untyped-def]
+    """Some of the numbers 0..count-1 to where they are sent, in place.
+
+    Parameters
+    ----------
+    numbers : (n,) uint64.
+    bits : those of count - 1, at least 2.
+    keys : (rounds,) uint64, an even number.
+    """
+    for n in range(numbers.size):
+        number = _sent(numbers[n], bits, keys)
+        while number >= count:
+            number = _sent(number, bits, keys)
+        numbers[n] = number
+
+
+@inner
+def _sent(number, bits, keys):  # type: ignore[no-untyped-def]
+    """Keyed permutation of 0..2^bits-1."""
+    one = np.uint64(1)
+    low_bits = np.uint64(bits // 2)
+    high_bits = np.uint64(bits) - low_bits
+    for key in keys:
+        high, low = number >> low_bits, number & ((one << low_bits) - one)
+        # finaliser of splitmix64 (Steele, Lea, Flood 2014): every bit depends on every bit
+        word = low + key
+        word = (word ^ (word >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+        word = (word ^ (word >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+        word = word ^ (word >> np.uint64(31))
+        # the halves change places, and with them their widths
+        number = (low << high_bits) | ((high ^ word) & ((one << high_bits) - one))
+        low_bits, high_bits = high_bits, low_bits
+    return number
