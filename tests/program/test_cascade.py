@@ -12,7 +12,7 @@ from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.solution import evaluated
 from optimizer.program.statement import Statement
 from optimizer.responses.response import Phasors, Response
-from tests.program.cases import SOLVER, random_statement, stacked
+from tests.program.cases import random_statement, stacked
 from tests.program.turning import wide
 
 
@@ -53,12 +53,12 @@ def test_ceilings_out_of_reach_are_proven_together_as_by_the_cascade(least_mass:
     share = np.full(len(cases), 0.3)
     share[::3] = 1.0
     program = replace(program, ceilings=replace(program.ceilings, cap=share[:, None] * program.ceilings.cap))
-    found = optima(program, 1e-6, least_mass, SOLVER)
+    found = optima(program, 1e-6, least_mass)
     assert 2 <= np.count_nonzero(found.unreachable) <= 8
     assert not found.unreachable[::3].any()
     for n in found.unreachable.nonzero()[0].tolist():
         alone, target = program.chosen(n), Target(1e-6, 1e-6, least_mass)
-        own = cascade(alone, target, SOLVER, interior_point(alone, target))
+        own = cascade(alone, target, interior_point(alone, target))
         assert own.conflict is not None
         assert np.array_equal(own.unbalance, found.unbalance[n])
         assert np.array_equal(own.conflict.ceiling, found.conflict.ceiling[n])
