@@ -35,6 +35,7 @@ def test_every_method_certifies_both_stages(
     assert at_limits(request_, rows) > 0.8
 
 
+@pytest.mark.nightly
 def test_the_methods_find_the_same_mass(request_: SweepRequest) -> None:
     # independent: three formulations, two modelling layers, three solvers
     chosen = programs(request_, (0, 17, 39))
@@ -49,17 +50,12 @@ def test_the_methods_find_the_same_mass(request_: SweepRequest) -> None:
         assert max(gaps(program, stages).objective for stages in found) <= 1e-6
 
 
-#: the case with every limit; of the others the C is generated at night only, which takes 3 s to compile
-_ALL_LIMITS = "sectors, a budget, a ceiling"
-_FEWER = [case for case in sweep_limits.CASES if case != _ALL_LIMITS]
-
-
 @pytest.mark.parametrize(
     ("case", "generated"),
     [
-        (_ALL_LIMITS, True),
-        *((case, False) for case in _FEWER),
-        *(pytest.param(case, True, marks=pytest.mark.nightly) for case in _FEWER),
+        *((case, False) for case in sweep_limits.CASES),
+        # the C takes 3 s to compile
+        *(pytest.param(case, True, marks=pytest.mark.nightly) for case in sweep_limits.CASES),
     ],
 )
 def test_every_method_certifies_programs_with_limits(

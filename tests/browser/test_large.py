@@ -7,7 +7,7 @@ from playwright.sync_api import expect
 
 from tests.browser.portal import Portal
 
-WEBS = 100
+WEBS = 40
 KEYS = 12
 #: faults that one refusal names at most
 SAID = 50
@@ -49,7 +49,7 @@ def _machine(webs: int) -> dict[str, Any]:
         "speed_rpm": 750,
         "throws": [{"name": "1", **throw}],
         "webs": webs_,
-        "trace": [0.1 * step for step in range(300 * webs)],
+        "trace": [0.1 * step for step in range(800 * webs)],
     }
 
 

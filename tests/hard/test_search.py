@@ -53,7 +53,7 @@ def _answer(body: Body) -> OptimizeAnswer:
         raise
 
 
-@_search(15)
+@_search(8)
 @given(requests(max_webs=4))
 def test_no_answer_is_wrong(body: Body) -> None:
     """Independent: whatever the status, bounds, objective, limits, masses and peaks agree with the reference."""

@@ -19,6 +19,7 @@ from service.jobs.job import Order  # noqa: E402
 from tests.jobs import synthetic  # noqa: E402
 from tests.jobs.house import House  # noqa: E402
 from tests.jobs.sweeps import analyses, optimisations  # noqa: E402
+from tests.night import every  # noqa: E402
 
 pytestmark = pytest.mark.filterwarnings("default::ResourceWarning", "default::DeprecationWarning")
 
@@ -54,7 +55,7 @@ def test_a_killed_worker_of_the_cluster_costs_a_retry(house: House, address: str
     assert house.rows(job).equals(synthetic.rows(0, 60))
 
 
-@pytest.mark.parametrize("body", [analyses(10, 30), optimisations(90)], ids=["analyze", "optimize"])
+@pytest.mark.parametrize("body", every(2, [optimisations(90), analyses(10, 30)]), ids=["optimize", "analyze"])
 def test_a_real_sweep_on_the_cluster(house: House, address: str, body: dict[str, Any]) -> None:
     request = SweepRequest.model_validate(body)
     data = request.model_dump_json().encode()

@@ -13,6 +13,7 @@ from tests.jobs.judge import contradictions
 JOB = "f" * 32
 
 
+@pytest.mark.nightly
 def test_kills_of_services_and_of_their_database(tmp_path: Path) -> None:
     # each of them once; three hundred, and 1,700 faults of the network: python -m tests.jobs.history
     try:

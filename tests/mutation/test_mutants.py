@@ -85,6 +85,7 @@ def test_a_constant_is_where_it_is_used() -> None:
     assert places(of, Path("coded.py"), texts) == {"coded.py": frozenset({6}), "other.py": frozenset({5})}
 
 
+@pytest.mark.nightly
 def test_what_is_noticed(tmp_path: Path) -> None:
     """A test of a tree: which lines it runs, and that it fails for one fault and not for the other."""
     (tmp_path / "tests").symlink_to(ROOT / "tests")
@@ -137,6 +138,7 @@ def above(x, least=1):
 """
 
 
+@pytest.mark.nightly
 def test_a_fault_in_what_is_loaded_is_noticed_as_one_that_is_imported(tmp_path: Path) -> None:
     """A function is given other code; what importing has called, tables and defaults are imported again."""
     (tmp_path / "tests").symlink_to(ROOT / "tests")

@@ -49,12 +49,12 @@ async def _given_back(target: Service, rest_mb: float) -> None:
             await asyncio.sleep(0.5)
 
 
-@pytest.mark.parametrize("times", [1, pytest.param(3, marks=pytest.mark.nightly)])
-def test_memory_of_stopped_readers_is_given_back(times: int) -> None:
+@pytest.mark.nightly
+def test_memory_of_stopped_readers_is_given_back() -> None:
     with service(fresh=True) as target:
         path = asyncio.run(_swept(target))
         rest_mb = target.memory_mb()[0]
-        for _ in range(times):
+        for _ in range(3):
             asyncio.run(_stopped_readers(target, path, rest_mb + _ABOVE_MB))
             asyncio.run(_given_back(target, rest_mb))
 

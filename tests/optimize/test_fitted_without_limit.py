@@ -188,8 +188,8 @@ def _over_turn(seed: int, most: float | None, **objective: object) -> Body:
     ("seed", "objective"),
     [
         (17, {}),
-        (17, {"force_ceiling_N": 35_000}),
-        (25, {}),
+        pytest.param(17, {"force_ceiling_N": 35_000}, marks=pytest.mark.nightly),
+        pytest.param(25, {}, marks=pytest.mark.nightly),
         pytest.param(25, {"force_ceiling_N": 35_000}, marks=pytest.mark.nightly),
     ],
 )

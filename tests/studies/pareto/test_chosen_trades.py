@@ -9,6 +9,7 @@ from optimizer.studies.pareto.pareto import pareto
 from schemas.front.pareto import ParetoRequest
 from schemas.front.trade import TradedFront
 from tests.hard.cases.case import Body
+from tests.night import every
 from tests.studies.pareto.test_counts import Sets, body, every_set
 from tests.studies.pareto.test_trades import ROTOR
 
@@ -96,7 +97,7 @@ def test_heavy_enough_or_not_there() -> None:
     assert values[-1].tolist() == pytest.approx([1e4, 0.0])
 
 
-@pytest.mark.parametrize("names", [("force", "bearings"), ("moment", "mass"), ("force", "bending", "mass")])
+@pytest.mark.parametrize("names", every(2, [("force", "bearings"), ("force", "bending", "mass"), ("moment", "mass")]))
 def test_a_fixed_weight_is_an_unbalance_of_the_shaft(names: tuple[str, ...]) -> None:
     """Metamorphic: the same front as with its unbalance, but for the mass."""
     mass, angle = 5.0, np.radians(200.0)

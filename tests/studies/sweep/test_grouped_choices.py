@@ -57,7 +57,9 @@ def test_groups_from_a_catalogue(mirror: bool, limit: str, most: int) -> None:
     assert rows[0]["objective"] < rows[1]["objective"]
 
 
-@pytest.mark.parametrize(("mirror", "rotating"), [(False, [20, 30]), (True, [30])])
+@pytest.mark.parametrize(
+    ("mirror", "rotating"), [(False, [30]), pytest.param(True, [20, 30], marks=pytest.mark.nightly)]
+)
 def test_groups_that_are_at_least_so_heavy(mirror: bool, rotating: list[float]) -> None:
     base = grouped(PAIRS, mirror, max_mass_kg=12.0)
     for web in base["machine"]["webs"]:

@@ -1,0 +1,20 @@
+"""What is tried by night alone: ``make nightly``, or ``pytest tests/folder/test_file.py`` for all of one file."""
+
+from collections.abc import Container, Iterable
+from typing import Any
+
+import pytest
+
+
+def every(count: int, values: Iterable[Any]) -> list[Any]:
+    """Parameters of a test: by day the first of so many, and so on; all by night."""
+    return [value if place % count == 0 else _by_night(value) for place, value in enumerate(values)]
+
+
+def but(day: Container[Any], values: Iterable[Any]) -> list[Any]:
+    """Parameters of a test: by day those that are named; all by night."""
+    return [value if value in day else _by_night(value) for value in values]
+
+
+def _by_night(value: Any) -> Any:
+    return pytest.param(value, marks=pytest.mark.nightly)
