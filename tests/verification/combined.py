@@ -1,5 +1,6 @@
 """Requests of several features together, and random ones, by name: to what no feature alone leads in the checker."""
 
+import copy
 from typing import Any
 
 from tests.hard.bodies import drawn
@@ -76,6 +77,9 @@ def _made() -> dict[str, Body]:
         "weight with gravity": _with(twin, weighed, outputs=turning),
         "as built on a balance shaft": {**vee, "outputs": ["foundation_loads"], "fitted": [on_shaft, on_web]},
         "as built of plates": {**cut, "outputs": ["foundation_loads"], "fitted": [{**on_web, "web": "1b"}]},
+        "areas of pistons": _with(_of_areas(rods), rubbed, outputs=["gas", "piston_force", "torque"]),
+        "matching, fitted": _matched(twin, counterweights=[on_web | {"web": "1a"}], objective={"moment_weight": 2.0}),
+        "matching, chosen": _matched(twin, choose_counterweights=True, objective={"combine": "max"}),
         "front of budgets": {**front, **SINGLE["ceilings"], "total_mass_budgets_kg": [0.5, 5.0, 20.0]},
         "front without limits": {**SINGLE["no limits, max, sector"], "points": 4, "multipliers": True},
         "sweep between ends": sweep | {"base": SINGLE["budget and ceiling"], "axes": [speeds]},
@@ -83,6 +87,25 @@ def _made() -> dict[str, Body]:
         "sweep over the turn": {"base": _pair("twin", "bearing weight"), "axes": [speeds]},
         "sweep of all": sweep | {"base": mirrored, "axes": [speeds]},
     }
+
+
+def _of_areas(body: Body) -> Body:
+    """Cylinders of other areas than those of a bore and a rod."""
+    found = copy.deepcopy(body)
+    for throw in found["machine"]["throws"]:
+        cylinder = throw["rows"][0]["cylinder"]
+        del cylinder["bore_m"], cylinder["piston_rod_diameter_m"]
+        cylinder |= {"head_area_m2": 0.03, "crank_area_m2": 0.025}
+    return found
+
+
+def _matched(body: Body, **more: Any) -> Body:
+    """Pistons for all rows, rods that go on the second alone, and nuts."""
+    parts = [
+        {"class": "piston", "names": ["P1", "P2"], "masses_kg": [2.1, 1.8]},
+        {"class": "rod", "names": ["R1"], "masses_kg": [0.7], "rows": [{"throw": 1, "row": 0}]},
+    ]
+    return {"machine": body["machine"], "parts": parts, "balance_nuts_kg": [0.2, 0.4], **more}
 
 
 def _drawn(mode: str, number: int, off: bool = False) -> Body:

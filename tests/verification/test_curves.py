@@ -2,12 +2,13 @@
 
 import sys
 from fractions import Fraction
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.integrate import quad
 
 from optimizer.mechanics.bearings import continuous_beam_influence, simple_spans_influence
 from optimizer.numerics.enclosing_circle import smallest_circle
@@ -82,3 +83,27 @@ def test_no_middle_is_nearer_to_a_curve_than_its_circle(harmonics: dict[int, com
         for way in (1, 1j, -1, -1j):
             moved = curve.moved(-found.middle - way * 0.01 * curve.size).peak()
             assert moved.high >= found.low * (1 - 1e-9)
+
+
+@pytest.mark.parametrize("depth", [1e-1, 1e-2, 1e-3])
+def test_a_steep_curve_is_integrated_in_halves_of_halves(depth: float) -> None:
+    """Analytic: 1 / (x + d) from 0 to 1 is the logarithm of 1 + 1 / d; e^{jx} / (x + d) by scipy."""
+    exact = float(np.log1p(1.0 / depth))
+    found = part("pistons").integral(lambda x: 1.0 / (x + depth), 0.0, 1.0, exact)
+    assert found == pytest.approx(exact, rel=1e-12)
+    curve = SimpleNamespace(value=lambda x, within: complex(np.exp(1j * x)) / (x + depth) * within)
+    whole, square = part("pressed")._integrals(curve, 0.0, 1.0, 2.0, 1.0)
+    sides = [quad(lambda x, f=f: 2.0 * f(x) / (x + depth), 0.0, 1.0, epsabs=1e-13)[0] for f in (np.cos, np.sin)]
+    assert whole == pytest.approx(complex(*sides), rel=1e-9)
+    assert square == pytest.approx(4.0 / depth - 4.0 / (1.0 + depth), rel=1e-6)
+
+
+def test_nodes_integrate_polynomials() -> None:
+    """Analytic: n nodes are exact to the degree 2 n - 1, from 0 to 1."""
+    for count in (2, 5, 10):
+        nodes = part("gas").gauss(count)
+        for degree in range(2 * count):
+            assert sum(share * place**degree for place, share in nodes) == pytest.approx(1.0 / (degree + 1), rel=1e-13)
+        assert sum(share * place ** (2 * count) for place, share in nodes) != pytest.approx(
+            1.0 / (2 * count + 1), rel=1e-13
+        )
