@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from optimizer.numerics.arrays import Real, plain
+from optimizer.numerics.arrays import Real, in_order
 from optimizer.numerics.loading import deferred
 from optimizer.program.statement import Statement
 
@@ -94,7 +94,7 @@ def _frame(statement: Statement) -> Real:
     across = 1j * limits.half_angle_cos * limits.centre
     inwards = [np.where(limits.free, 0.0, limits.half_angle_sin * limits.centre + side) for side in (across, -across)]
     normals = [part for normal in inwards for part in (normal.real, normal.imag)]
-    return plain(np.stack([*normals, np.where(limits.free, 0.0, 1.0)], axis=1))
+    return in_order(np.stack([*normals, np.where(limits.free, 0.0, 1.0)], axis=1))
 
 
 def _basis(statement: Statement) -> np.ndarray | None:
