@@ -39,6 +39,10 @@ class Limit(Protocol):
     @property
     def unit(self) -> str: ...
 
+    def stated(self, machine: Machine) -> bool:
+        """Whether there is one anywhere."""
+        ...
+
     def size(self, machine: Machine) -> Real:
         """The limit in its unit; inf where there is none."""
         ...
@@ -59,6 +63,12 @@ class MassLimit:
     unit: str
     largest: Callable[[Machine], Real]  # (..., K), in the unit; inf where a web has no such limit
     per_kg: Callable[[Machine], Reals]  # (..., K), in the unit
+    given: Callable[[Machine], bool] | None = None  # whether any web has one; None where its sizes tell
+
+    def stated(self, machine: Machine) -> bool:
+        if self.given is not None:
+            return self.given(machine)
+        return bool(np.logical_or.reduce(self.largest(machine) < np.inf, axis=None))
 
     def mass(self, machine: Machine) -> Real:
         """Largest mass of every web, kg."""
@@ -79,6 +89,10 @@ class MassLimit:
 class _Sector:
     unit = "deg"
 
+    def stated(self, machine: Machine) -> bool:
+        free, _, _ = sectors(machine)
+        return not np.logical_and.reduce(free)
+
     def size(self, machine: Machine) -> Real:
         free, _, half_angle = sectors(machine)
         return np.where(free, np.inf, half_angle)
@@ -95,6 +109,9 @@ class _Sector:
 
 class _Budget:
     unit = "kg"
+
+    def stated(self, machine: Machine) -> bool:
+        return machine.max_total_mass_kg is not None
 
     def size(self, machine: Machine) -> Real:
         budget = machine.max_total_mass_kg
@@ -141,8 +158,14 @@ WEB_LIMITS: dict[WebLimit, Limit] = {
         "(kg m)",
         largest=_largest_unbalances,
         per_kg=lambda machine: stacked([web.radius_m for web in machine.webs]),
+        given=lambda machine: plates(machine) is not None,
     ),
-    "max_centrifugal_force": MassLimit("N", _largest_force, _force_per_kg),
+    "max_centrifugal_force": MassLimit(
+        "N",
+        _largest_force,
+        _force_per_kg,
+        given=lambda machine: any(web.max_centrifugal_force_N is not None for web in machine.webs),
+    ),
     "sector": _Sector(),
 }
 #: of the machine
@@ -159,8 +182,7 @@ class LimitSize(NamedTuple):
 @remembered
 def limit_sizes(machine: Machine) -> dict[WebLimit, LimitSize]:
     """Limits that some web of a machine states, in the order of the answer; no other is touched, or has a price."""
-    every = {name: LimitSize(limit, limit.size(machine)) for name, limit in WEB_LIMITS.items()}
-    return {name: limit for name, limit in every.items() if np.logical_or.reduce(limit.size < np.inf, axis=None)}
+    return {name: LimitSize(limit, limit.size(machine)) for name, limit in WEB_LIMITS.items() if limit.stated(machine)}
 
 
 @remembered

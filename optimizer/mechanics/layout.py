@@ -80,6 +80,7 @@ class Layout:
     reciprocating: Reciprocating
     webs: Webs
     balance: BalanceWebs | None = None  # None where there are no balance shafts
+    cranks: Complex | None = None  # (..., throws) directions; None of a scroll machine
 
     @property
     def central(self) -> bool:
@@ -97,8 +98,9 @@ def layout(machine: ReciprocatingMachine | ScrollMachine) -> Layout:
     """
     if isinstance(machine, ScrollMachine):
         turning, moving, planes = _scroll(machine)
+        throws = None
     else:
-        turning, moving, planes = _reciprocating(machine)
+        turning, moving, planes, throws = _reciprocating(machine)
     turning_mass, turning_radius, angle, place = _table([*turning, *_unbalances(machine)], 4)
     mass, radius, crank_angle, axis_angle, position, ratio, rest = _table(moving, 7)
     towards, crank, axis = _directions(angle, crank_angle, axis_angle)
@@ -114,6 +116,7 @@ def layout(machine: ReciprocatingMachine | ScrollMachine) -> Layout:
         reciprocating=Reciprocating(mass, radius, crank, axis, position, ratio, rest),
         webs=_webs(machine),
         balance=_balance_webs(machine),
+        cranks=None if throws is None else towards[..., throws],
     )
 
 
@@ -136,6 +139,7 @@ def spread(plan: Layout, leading: tuple[int, ...]) -> Layout:
         reciprocating=leading_axes(plan.reciprocating),
         webs=leading_axes(plan.webs),
         balance=None if plan.balance is None else leading_axes(plan.balance),
+        cranks=None if plan.cranks is None else np.broadcast_to(plan.cranks, (*leading, plan.cranks.shape[-1])),
     )
 
 
@@ -198,12 +202,14 @@ def _unbalances(machine: Rotor) -> Iterator[Any]:
             yield np.abs(component), 1.0, np.where(np.less(component, 0.0), angle + 180.0, angle), unbalance.position_m
 
 
-def _reciprocating(machine: ReciprocatingMachine) -> tuple[list[Any], list[Any], list[float]]:
-    """What turns with the shaft, what moves along axes, and the planes of the throws."""
+def _reciprocating(machine: ReciprocatingMachine) -> tuple[list[Any], list[Any], list[float], list[int]]:
+    """What turns with the shaft, what moves along axes, the planes of the throws, and which of the first they are."""
     turning: list[Any] = []  # mass, radius, angle, position
+    throws: list[int] = []
     moving: list[Any] = []  # mass, radius, crank angle, axis, position, rod ratio and its rest
     for throw in machine.throws:
         radius, angle, plane = throw.crank_radius_m, throw.crank_angle_deg, throw.position_m
+        throws.append(len(turning))
         turning.append((throw.rotating_mass_kg, radius, angle, plane))
         for row in throw.rows:
             ratio, rest = np.nan, 0.0
@@ -214,7 +220,7 @@ def _reciprocating(machine: ReciprocatingMachine) -> tuple[list[Any], list[Any],
                 # the big end turns in the plane of its own row, not in that of the throw
                 turning.append((row.rotating_kg, radius, angle, plane + row.offset_m))
             moving.append((row.reciprocating_kg, radius, angle, row.axis_deg, plane + row.offset_m, ratio, rest))
-    return turning, moving, [throw.position_m for throw in machine.throws]
+    return turning, moving, [throw.position_m for throw in machine.throws], throws
 
 
 def _scroll(machine: ScrollMachine) -> tuple[list[Any], list[Any], list[float]]:

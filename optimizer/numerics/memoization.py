@@ -45,7 +45,6 @@ def remembered(function: Callable[[Machine], Made]) -> Callable[[Machine], Made]
         if known is not machine:
             made = function(machine)
             last = machine, made
-        found: Made = made
-        return found
+        return made  # type: ignore[no-any-return]
 
     return memoized

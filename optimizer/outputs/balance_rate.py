@@ -4,10 +4,9 @@ from cmath import isnan
 from typing import NamedTuple
 
 from optimizer.formulation.simulation import Prepared
-from optimizer.mechanics.angles import direction
 from optimizer.mechanics.balance_rate import balance_rates, customary
 from optimizer.mechanics.crank_of_web import shares
-from optimizer.mechanics.layout import stacked
+from optimizer.mechanics.layout import layout, stacked
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.memoization import remembered
 from optimizer.outputs.output import Columns, Output
@@ -38,7 +37,8 @@ def cranks(machine: ReciprocatingMachine) -> Cranks:
     """Throws of a machine and their webs; its fields may hold columns (n,)."""
     masses = [throw.rotating_mass_kg + sum(row.rotating_kg for row in throw.rows) for throw in machine.throws]
     radii = stacked([throw.crank_radius_m for throw in machine.throws])
-    crank = direction(stacked([throw.crank_angle_deg for throw in machine.throws]))
+    crank = layout(machine).cranks
+    assert crank is not None  # it is no scroll machine
     return Cranks(stacked(masses) * radii * crank, shares(machine))
 
 

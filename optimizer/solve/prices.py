@@ -62,8 +62,11 @@ def touched_limits(
 
 def touched_by_mass(machine: Machine, mass_kg: Real) -> tuple[MachineLimit, ...]:
     """Limits of the whole machine that masses (K,) kg touch."""
+    stated = [(name, limit) for name, limit in MACHINE_LIMITS.items() if limit.stated(machine)]
+    if not stated:
+        return ()
     nowhere = np.zeros(mass_kg.shape)  # the angles of counterweights are no matter of the machine
-    return tuple(name for name, limit in MACHINE_LIMITS.items() if limit.touched(machine, mass_kg, nowhere))
+    return tuple([name for name, limit in stated if limit.touched(machine, mass_kg, nowhere)])
 
 
 class ObjectiveUnit(NamedTuple):
@@ -138,7 +141,7 @@ def of_limits(machine: Machine, prices: ShadowPrices) -> Iterator[Priced]:
             if size[k] < np.inf:
                 yield Priced(name, web.name, price[k], size[k], unit)
     for limit_name, limit in MACHINE_LIMITS.items():
-        if limit.size(machine) < np.inf:
+        if limit.stated(machine):
             yield Priced(limit_name, None, float(limit.price(machine, prices)), float(limit.size(machine)), limit.unit)
 
 

@@ -2,8 +2,8 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from itertools import islice
+from typing import NamedTuple
 
 #: what was so long ago counts for a third of what is now [s]
 LATELY_S = 5.0
@@ -13,8 +13,7 @@ _NEW_S = 1.0
 _NOTHING = 0.001
 
 
-@dataclass(frozen=True)
-class _Load:
+class _Load(NamedTuple):
     """An average that began with nothing, and since when [s]."""
 
     since: float
@@ -64,7 +63,7 @@ class Loads:
 
     def _change(self, owner: str, turns: int, average: float) -> None:
         at = self._clock()
-        load = self._loads.pop(owner, _Load(at, 0.0, 0, at))
+        load = self._loads.pop(owner, None) or _Load(at, 0.0, 0, at)
         self._loads[owner] = _Load(load.since, load.now(at) + average, load.turns + turns, at)
         # one comes at most, so they do not become many; one turn may be nothing where many are much
         for name, other in tuple(islice(self._loads.items(), 2)):

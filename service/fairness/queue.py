@@ -132,6 +132,9 @@ class FairQueue:
         if turn.ended:
             return
         turn.ended = True
+        if not turn.wanted:
+            # nobody knows of it
+            return
         if turn.begun:
             self._begun.remove(turn)
             self._running[turn.owner] -= 1

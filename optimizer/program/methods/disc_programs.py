@@ -97,10 +97,10 @@ def _frame(statement: Statement) -> Real:
 
 def _basis(statement: Statement) -> np.ndarray | None:
     """Which of two responses a vector is a multiple of (J + I,), None where there are more than two."""
-    responses = [term.response for term in statement.names.terms] + list(statement.ceilings.names)
     vectors = statement.every_constant.shape[-1]
     if vectors < 3:
         return np.arange(vectors)
+    responses = [term.response for term in statement.names.terms] + list(statement.ceilings.names)
     if len(responses) != vectors:
         # names of more than is asked for
         return None

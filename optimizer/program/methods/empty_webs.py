@@ -53,9 +53,10 @@ def leave_empty(statement: Statement, solutions: Solutions, share: Real, least_m
     """
     if statement.limits.radius.shape[-1] < 2:
         return
-    programs = np.flatnonzero(has_dust(statement.limits, solutions.unbalance))
-    if not programs.size:
+    dusty = has_dust(statement.limits, solutions.unbalance)
+    if not np.count_nonzero(dusty):
         return
+    programs = np.flatnonzero(dusty)
     some, part = statement.chosen(programs), share[programs]
     old = points_at(some, solutions.unbalance[programs])
     close = solutions.lower_bound[programs] + TARGET * part - old.rounding
