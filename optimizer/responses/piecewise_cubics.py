@@ -157,7 +157,10 @@ def _bracketed(
     curve, peak = (in_order(np.asarray(part, np.int64)) for part in (of_member, group))
     members = Members(curve, peak, in_order(np.asarray(offset, complex)), share, ROUNDING * scale, sign)
     nowhere = np.zeros(count, np.int64)
-    best = Best(np.full(count, np.nan), np.full(count, -np.inf), np.zeros(count), nowhere, nowhere.copy())
+    lower, upper = np.empty(count), np.empty(count)
+    lower.fill(np.nan)
+    upper.fill(-np.inf)
+    best = Best(lower, upper, np.zeros(count), nowhere, nowhere.copy())
     value = pieces.source.search(pieces.cubics, members, best)
     there = value + members.offset[best.member]
     lower = np.where(sign == 0.0, np.abs(there), sign * there.real)
