@@ -31,7 +31,7 @@ from optimizer.mechanics.row_data import row_data
 from optimizer.mechanics.row_work import RowWork
 from optimizer.mechanics.turn import Turn, fluctuation, mean, panels
 from optimizer.mechanics.whole_turn import WholeTurn, break_angles, whole_turn
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, spread
 from optimizer.responses.piecewise_cubics import ROUNDING
 from schemas.base.model import FieldProblem
 from schemas.base.rules import Rule
@@ -113,10 +113,10 @@ def _friction(context: Context) -> FrictionForces:
     omega, stroke = context.layout.omega, 2.0 * context.layout.reciprocating.crank_radius
 
     def of_rows(values: Sequence[float] | None, default: Real) -> Real:
-        return np.broadcast_to(default if values is None else stacked(values), stroke.shape)
+        return spread(default if values is None else stacked(values), stroke.shape)
 
     def of_shaft(value: float | None) -> Real:
-        return np.broadcast_to(np.asarray(0.0 if value is None else value, dtype=float), omega.shape)
+        return spread(np.asarray(0.0 if value is None else value, dtype=float), omega.shape)
 
     if data.mechanical_efficiency is None:
         magnitude, torque = of_rows(data.reciprocating_force_N, np.zeros(())), of_shaft(data.rotating_torque_Nm)

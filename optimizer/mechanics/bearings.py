@@ -157,7 +157,7 @@ def _spans(bearing: Real, position: Real) -> _Spans:
         raise ValueError("a shaft needs two bearings at least: one alone holds no couple")
     leading = np.broadcast_shapes(bearing.shape[:-1], position.shape[:-1])
     place, rank = spread(bearing, leading + bearing.shape[-1:]), None
-    if not np.all(bearing[..., 1:] > bearing[..., :-1]):
+    if not (bearing[..., 1:] > bearing[..., :-1]).all():
         order = np.argsort(place, axis=-1)
         place, rank = np.take_along_axis(place, order, axis=-1), np.argsort(order, axis=-1)
     _refuse_coincident(place)
@@ -179,7 +179,7 @@ def _refuse_coincident(place: Real) -> None:
     """Refuse bearings (..., B) in rising z that rounding cannot tell apart; nan is refused as well."""
     first, last = place[..., :1], place[..., -1:]
     resolution = 4.0 * np.spacing(np.maximum(np.abs(first), np.abs(last)))
-    if not np.all(place[..., 1:] - place[..., :-1] > np.maximum(_COINCIDENT * (last - first), resolution)):
+    if not (place[..., 1:] - place[..., :-1] > np.maximum(_COINCIDENT * (last - first), resolution)).all():
         raise ValueError("two bearings are in the same place: every bearing needs a place of its own on the shaft")
 
 

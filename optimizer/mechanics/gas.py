@@ -17,7 +17,7 @@ from optimizer.mechanics.indicated import Trace
 from optimizer.mechanics.kinematics import Motion, angle_at
 from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Real
-from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.memoization import cached_property, remembered, remembered_of_both
 
 #: Gauss-Legendre quadrature on [0, 1]
 _INSIDE, _SHARES = (np.array(values) for values in (0.5 * (1.0 + leggauss(10)[0]), 0.5 * leggauss(10)[1]))
@@ -99,6 +99,7 @@ def switching_travels(chambers: Chambers, layout: Layout) -> tuple[Real, Real]:
     return suction, discharge
 
 
+@remembered_of_both
 def _switching(chambers: Chambers, layout: Layout) -> tuple[Real, Real, Real]:
     """Switching travels, and how far before full volume discharge opens: each by itself, without cancellation."""
     stroke = 2.0 * layout.reciprocating.crank_radius[..., :, None]
@@ -112,6 +113,7 @@ def _switching(chambers: Chambers, layout: Layout) -> tuple[Real, Real, Real]:
     return np.where(opens, suction, np.nan), np.where(opens, discharge, np.nan), np.where(opens, before, np.nan)
 
 
+@remembered
 def log_ratio(chambers: Chambers) -> Real:
     """ln(p_d / p_s), 0 on open sides; good for pressures that hardly differ."""
     # an open side may be open to a vacuum

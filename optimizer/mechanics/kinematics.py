@@ -11,7 +11,7 @@ import numpy as np
 
 from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Real
-from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.memoization import cached_property, remembered
 
 
 @dataclass(frozen=True)
@@ -58,10 +58,15 @@ def own_angle(layout: Layout, shaft_angle: Real) -> Real:
     -------
     (..., rows, T).
     """
+    return shaft_angle[..., None, :] + _ahead(layout)[..., :, None]
+
+
+@remembered
+def _ahead(layout: Layout) -> Real:
+    """The same at shaft angle 0, (..., rows)."""
     rows = layout.reciprocating
     apart = rows.crank_direction * np.conj(rows.axis)
-    ahead = layout.sense[..., None] * np.arctan2(apart.imag, apart.real)
-    return shaft_angle[..., None, :] + ahead[..., :, None]
+    return layout.sense[..., None] * np.arctan2(apart.imag, apart.real)
 
 
 def motion(layout: Layout, shaft_angle: Real, exact: bool = True) -> Motion:

@@ -14,7 +14,7 @@ import numpy as np
 
 from optimizer.mechanics.layout import BalanceWebs, Layout
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, spread, variant
 from optimizer.responses.curve import TurnResponse
 
 
@@ -36,9 +36,9 @@ def roll(turn: WholeTurn, layout: Layout) -> TurnResponse:
 def roll_curves(turn: WholeTurn, layout: Layout) -> TurnCurves:
     """What the rows of N designs leave on the frame, without its mean: N curves, kg m^2 (over omega^2)."""
     each = layout.sense[..., None] * layout.reciprocating.crank_radius / layout.omega[..., None] ** 2
-    weights = np.broadcast_to(each, (*layout.omega.shape, turn.rows.crank_radius.shape[-1]))
+    weights = spread(each, (*layout.omega.shape, turn.rows.crank_radius.shape[-1]))
     of_rows = turn.curves("tangential", weights.reshape(len(turn.centre), 1, -1))
-    return replace(of_rows, constant=-of_rows.mean[:, None])
+    return variant(of_rows, constant=-of_rows.mean[:, None])
 
 
 def mirrored(response: TurnResponse, shafts: BalanceWebs) -> TurnResponse:

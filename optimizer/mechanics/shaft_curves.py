@@ -92,7 +92,7 @@ def stations(layout: Layout, places: Real) -> Real:
     places : (..., B) of the bearings, m.
     """
     loaded = planes(layout)
-    supported = np.broadcast_to(places, (*loaded.shape[:-1], places.shape[-1]))
+    supported = spread(places, (*loaded.shape[:-1], places.shape[-1]))
     every = np.sort(np.concatenate([loaded, supported], axis=-1), axis=-1)
     apart = np.ones(every.shape, dtype=bool)
     np.greater(every[..., 1:], every[..., :-1], out=apart[..., 1:])
@@ -107,7 +107,7 @@ def bending_influence(layout: Layout, places: Real, reaction: Real, corners: Rea
     reaction : (..., B, L) of the bearings at places (..., B) m, for the same loads.
     """
     loaded = planes(layout)
-    unit = np.broadcast_to(np.eye(loaded.shape[-1], dtype=complex), (*loaded.shape, loaded.shape[-1]))
+    unit = spread(np.eye(loaded.shape[-1], dtype=complex), (*loaded.shape, loaded.shape[-1]))
     return bending_moment(places, reaction.astype(complex), loaded, unit, corners).real
 
 
@@ -122,7 +122,8 @@ def shaft_curves(turn: WholeTurn, layout: Layout, influence: Real, reading: Read
     """Curves by their influences (..., C, L) of unit loads in the planes, of what the rows put on shaft or frame."""
     rows, masses, designs = layout.reciprocating, layout.rotating, layout.omega.shape
     row_count, mass_count, count = rows.mass.shape[-1], masses.mass.shape[-1], influence.shape[-2]
-    of_rows, of_masses, of_webs = np.split(influence, [row_count, row_count + mass_count], axis=-1)
+    of_rows, of_masses = influence[..., :row_count], influence[..., row_count : row_count + mass_count]
+    of_webs = influence[..., row_count + mass_count :]
     weights = of_rows * (rows.crank_direction / layout.omega[..., None] ** 2)[..., None, :]
     still = np.add.reduce(of_masses * (masses.mass * masses.radius * masses.direction)[..., None, :], axis=-1)
     total = len(turn.centre)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
-from optimizer.numerics.arrays import Real
+from optimizer.numerics.arrays import Real, spread
 
 #: nodes of a panel, by the number of panels up to which they serve: many breaks make narrow panels, which need fewer
 _NODES = ((500, 12), (1500, 8))
@@ -77,7 +77,8 @@ def panels(breaks: Real, widest: float, halved: bool = False, turns: int = 1) ->
     period = 2.0 * np.pi * turns
     inner = np.mod(np.where(np.isnan(breaks), 0.0, breaks), period)
     grid = np.linspace(0.0, period, int(np.ceil(period / widest)) + 1)
-    edges = np.sort(np.concatenate([inner, np.broadcast_to(grid, (*inner.shape[:-1], grid.size))], axis=-1), axis=-1)
+    edges = np.concatenate([inner, spread(grid, (*inner.shape[:-1], grid.size))], axis=-1)
+    edges.sort(axis=-1)
     width = edges[..., 1:] - edges[..., :-1]
     if not halved:
         return Turn(edges[..., :-1], width, turns)

@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 
 #: rad, width of pieces that no break shortens
 _WIDEST = np.deg2rad(5.0)
+#: own crank angles at which rows reverse, rad
+_DEAD_CENTRES = np.array([0.0, np.pi])
 #: nodes of the quadrature in each part of a piece: exact for the square of a polynomial of one degree less
 _GAUSS = 8
 _NODES, _SHARES = leggauss(_GAUSS)
@@ -50,8 +52,7 @@ def break_angles(layout: Layout, opens: tuple[Real, ...] = (), traces: Sequence[
     traces : indicated pressures; the breaks are those of all turns after which they repeat.
     """
     ratio = layout.reciprocating.rod_ratio
-    # rows reverse at their dead centres
-    dead = np.broadcast_to([0.0, np.pi], (*ratio.shape, 2))
+    dead = spread(_DEAD_CENTRES, (*ratio.shape, 2))
     own = np.concatenate([*opens, dead, steep_angles(ratio)], axis=-1)
     ahead = own_angle(layout, np.zeros(1))
     found = (own - ahead).reshape(*ratio.shape[:-1], -1)
@@ -97,9 +98,14 @@ class WholeTurn:
     def of_rows(self, reading: Reading) -> "TurnCurves":
         """A force of every row by itself."""
         if reading not in self._of_rows:
-            count = self.rows.crank_radius.shape[-1]
-            self._of_rows[reading] = self.curves(reading, spread(np.eye(count), (len(self.centre), count, count)))
+            self._of_rows[reading] = self.curves(reading, self._alone)
         return self._of_rows[reading]
+
+    @cached_property
+    def _alone(self) -> Real:
+        """Weights (N, R, R) of each row by itself."""
+        count = self.rows.crank_radius.shape[-1]
+        return spread(np.eye(count), (len(self.centre), count, count))
 
     @cached_property
     def _of_rows(self) -> "dict[Reading, TurnCurves]":
@@ -279,7 +285,7 @@ class TurnCurves:
 
     def at(self, angle: Real) -> Complex:
         """The curves (N C, n) at shaft angles (n,) rad; at a jump one of its limits or their middle."""
-        places = np.broadcast_to(angle, (len(self.weights), len(angle)))
+        places = spread(angle, (len(self.weights), len(angle)))
         return self._values(places, places).reshape(-1, len(angle))
 
     def _values(self, angle: Real, within: Real) -> Complex:

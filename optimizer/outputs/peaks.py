@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Hashable, Iterable, Iterator, Sequence
+from functools import lru_cache
 from itertools import accumulate, pairwise
 from typing import NamedTuple
 
@@ -99,11 +100,16 @@ def rows_search(scene: Prepared, reading: Reading) -> Search:
     """Largest and smallest values of a force of every row."""
     whole: WholeTurn = scene.results["whole_turn"]
     curves = whole.of_rows(reading)
-    count = curves.weights.shape[0] * curves.weights.shape[1]
+    return Search(_rows_name(reading), curves, *_both_ways(curves.weights.shape[0] * curves.weights.shape[1]))
+
+
+@lru_cache(maxsize=16)
+def _both_ways(count: int) -> tuple[Index, Real, Real]:
+    """Numbers of so many scalars, what is added to each, and signs: of their maxima and then of their minima."""
     number, sign = np.arange(2 * count), np.ones(2 * count)
     number[count:] -= count
     sign[count:] = -1.0
-    return Search(_rows_name(reading), curves, number, np.zeros(2 * count), sign)
+    return number, np.zeros(2 * count), sign
 
 
 def _rows_name(reading: Reading) -> tuple[Hashable, ...]:

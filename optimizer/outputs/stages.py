@@ -191,7 +191,7 @@ def _split(turning: Phasors, first: Phasors, fitted: Phasors) -> tuple[Phasors, 
     # a denormal number has no direction that could be divided out
     some = size > np.finfo(float).tiny
     outward: Complex = np.where(some, turning.co / np.where(some, size, 1.0), 0j)
-    opposed = np.clip(-(fitted.co * np.conj(outward)).real, 0.0, size)
+    opposed = np.minimum(np.maximum(-(fitted.co * np.conj(outward)).real, 0.0), size)
     return (
         Phasors((size - opposed) * outward, turning.counter),
         Phasors(first.co + fitted.co + opposed * outward, first.counter),

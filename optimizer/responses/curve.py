@@ -165,11 +165,15 @@ def peaks_about(
     group : (responses,) from 0, each of one response, where only the largest of each group is asked for, which costs
         less: peaks (groups,).
     """
+    number: Index = np.array([response.number for response in responses], dtype=np.intp)
+    first = responses[0].curves
+    if group is None and all(response.curves is first for response in responses):
+        # as mostly: there is nothing to be put together
+        return first.pieces.peaks(offset, tolerance, number)
     tolerances, sought = (
         np.broadcast_to(tolerance, len(responses)),
         np.arange(len(responses)) if group is None else group,
     )
-    number: Index = np.array([response.number for response in responses], dtype=np.intp)
     together: dict[int, list[int]] = {}
     for k, response in enumerate(responses):
         together.setdefault(id(response.curves), []).append(k)

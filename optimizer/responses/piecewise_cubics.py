@@ -44,7 +44,7 @@ class Bracket(NamedTuple):
 
     def where(self, mask: NDArray[np.bool_]) -> "Bracket":
         """The same, nan where nothing is known (...)."""
-        return self if np.all(mask) else Bracket(*(np.where(mask, part, np.nan) for part in self))
+        return self if mask.all() else Bracket(*(np.where(mask, part, np.nan) for part in self))
 
 
 class Source(Protocol):
@@ -126,12 +126,11 @@ class Pieces:
             share[:], signs[:] = tolerance, sign
             return _bracketed(self, offset, of_member, every, scale, share, signs)
         sought = every if group is None else group
-        scale, share, signs = np.zeros((3, int(np.max(sought, initial=-1)) + 1))
+        scale, share, signs = np.zeros((3, int(np.maximum.reduce(sought, initial=-1)) + 1))
         offset, of_member, sought = offset[finite], of_member[finite], sought[finite]
-        tolerances, sign = (np.broadcast_to(part, finite.shape)[finite] for part in (tolerance, sign))
         np.maximum.at(scale, sought, self.size[of_member] + np.abs(offset))
-        np.maximum.at(share, sought, tolerances)
-        signs[sought] = sign
+        np.maximum.at(share, sought, tolerance[finite] if isinstance(tolerance, np.ndarray) else tolerance)
+        signs[sought] = sign[finite] if isinstance(sign, np.ndarray) else sign
         some = np.zeros(scale.size, dtype=bool)
         some[sought] = True
         return _bracketed(self, offset, of_member, sought, scale, share, signs).where(some)
@@ -157,7 +156,10 @@ def _bracketed(
     curve, peak = (in_order(np.asarray(part, np.int64)) for part in (of_member, group))
     members = Members(curve, peak, in_order(np.asarray(offset, complex)), share, ROUNDING * scale, sign)
     nowhere = np.zeros(count, np.int64)
-    best = Best(np.full(count, np.nan), np.full(count, -np.inf), np.zeros(count), nowhere, nowhere.copy())
+    lower, upper = np.empty(count), np.empty(count)
+    lower.fill(np.nan)
+    upper.fill(-np.inf)
+    best = Best(lower, upper, np.zeros(count), nowhere, nowhere.copy())
     value = pieces.source.search(pieces.cubics, members, best)
     there = value + members.offset[best.member]
     lower = np.where(sign == 0.0, np.abs(there), sign * there.real)

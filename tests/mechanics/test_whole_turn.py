@@ -4,10 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from optimizer.mechanics.curve_series import forces
 from optimizer.mechanics.friction import reciprocating_friction
 from optimizer.mechanics.gas import gas_forces, switching_angles
+from optimizer.mechanics.kernel.curves import _rising
 from optimizer.mechanics.kinematics import motion
 from optimizer.mechanics.rod import rod_forces, shaft_loads
 from optimizer.mechanics.row_data import row_data, shared
@@ -243,3 +246,13 @@ def _peaks(turn: WholeTurn, reading: Reading) -> Bracket:
     count, designs = turn.rows.crank_radius.shape[-1], len(turn.centre)
     pieces = turn.curves(reading, np.broadcast_to(np.eye(count), (designs, count, count))).pieces
     return pieces.peaks(np.zeros(designs * count), 1e-9)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(st.floats(-10.0, 10.0), max_size=70))
+def test_places_are_put_in_rising_order(values: list[float]) -> None:
+    # independent: numpy's order; of equal ones any comes first
+    places = np.array(values)
+    order = _rising.py_func(places)
+    assert sorted(order.tolist()) == list(range(places.size))
+    assert places[order].tolist() == sorted(values)

@@ -80,7 +80,7 @@ def test_what_is_compiled_is_what_answers_need() -> None:
         search: ("search",),
         knapsack: ("filled",),
         circle: ("smallest",),
-        of_curves: ("farthest", "nearer", "outlines"),
+        of_curves: ("circles", "farthest", "nearer", "outlines"),
         motion: ("in_motion",),
         halves: ("best_below",),
         meeting: ("met",),

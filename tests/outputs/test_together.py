@@ -72,3 +72,17 @@ def test_outputs_without_floors_need_one_search(monkeypatch: pytest.MonkeyPatch)
 def test_nothing_is_searched_where_no_output_shows_a_peak() -> None:
     scene = prepare(AnalyzeRequest.model_validate({"machine": _example("2d12")}), ())
     assert searched(scene, ()) == {}
+
+
+def test_orders_are_those_of_the_counterweights_asked_for() -> None:
+    # independent: each asked of a machine of its own, which knows nothing of the others
+    request = AnalyzeRequest.model_validate({"machine": _example("2d12"), "outputs": ["orders"]})
+    one, other = (np.full(len(request.machine.webs), size, complex) for size in (0.3 - 0.2j, -0.1j))
+    scene = prepare(request, request.outputs)
+    for unbalance in (one, other, None, one):
+        alone = prepare(request, request.outputs).orders(unbalance)
+        for order, wrench in scene.orders(unbalance).items():
+            for pair, own in zip(wrench, alone[order], strict=True):
+                assert (pair.co, pair.counter) == (own.co, own.counter)
+    assert scene.orders(one)[1].force.co != scene.orders(other)[1].force.co
+    assert scene.orders(one)[2] is scene.orders(other)[2]

@@ -209,7 +209,7 @@ def _alike(weights, curve, design, piece, angle, half):  # type: ignore[no-untyp
     kind = np.empty(count, np.int64)
     for n in range(count):
         kind[n] = _kind(weights[curve[n]])
-    order, different, last = np.argsort(angle), 0, -1
+    order, different, last = _rising(angle), 0, -1
     for row in range(rows + 1):
         for k in range(count):
             one = order[k]
@@ -221,6 +221,23 @@ def _alike(weights, curve, design, piece, angle, half):  # type: ignore[no-untyp
                 different += 1
             number[one], last = different - 1, one
     return number, first[:different].copy()
+
+
+@inner_with_arrays
+def _rising(values):  # type: ignore[no-untyped-def]
+    """Numbers of values (m,) in rising order, by Shell's sort: that of numba takes a second to compile."""
+    order = np.arange(values.size)
+    gap = values.size
+    while gap > 1:
+        # a factor of 2.2 between gaps (Tokuda)
+        gap = max(int(gap / 2.2), 1)
+        for k in range(gap, order.size):
+            one, place = order[k], k
+            while place >= gap and values[order[place - gap]] > values[one]:
+                order[place] = order[place - gap]
+                place -= gap
+            order[place] = one
+    return order
 
 
 @inner

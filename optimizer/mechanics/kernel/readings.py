@@ -5,7 +5,7 @@ Shapes: N designs, R rows, P angles of each, Q places: the angles of all designs
 
 import numpy as np
 
-from optimizer.mechanics.kernel.row_numbers import COS, FUNCTIONS, INERTIA, SECANT, SIN, SIN_2, SIN_SQUARED
+from optimizer.mechanics.kernel.row_numbers import COS, FUNCTIONS, INERTIA, OUTWARD, SECANT, SIN, TURNING
 from optimizer.mechanics.kernel.taylor import ALL, LANES, Series, constant, copied, product, scaled, summed
 from optimizer.numerics.compiling import inner, inner_with_arrays
 
@@ -33,9 +33,9 @@ for _reading, *_functions in (
     (ROD_WITHOUT_GAS, SECANT),
     (ROD_AT_REST, SECANT),
     (SIDE, SIN, SECANT),
-    (TANGENTIAL, SIN, SIN_2, SECANT),
-    (RADIAL, COS, SIN_SQUARED, SECANT),
-    (ON_SHAFT, COS, SIN, SIN_2, SIN_SQUARED, SECANT),
+    (TANGENTIAL, TURNING),
+    (RADIAL, OUTWARD),
+    (ON_SHAFT, TURNING, OUTWARD),
     (ON_FRAME, COS, SIN),
 ):
     _MADE_OF[_reading, _functions] = True
@@ -43,8 +43,8 @@ for _reading, *_functions in (
 _UNITY, _FACTOR, _FORCE, _OF_INERTIA, _OF_GAS = np.arange(FUNCTIONS, FUNCTIONS + 5)
 _PRESSURES = FUNCTIONS + 5
 #: numbers of every lane
-_RATIO, _SIGN, _ZERO, _UNIT, _MASS, _FRICTION, _AREA, _F, _VALUE, _OFF = np.arange(10)
-_NUMBERS = 10
+_RATIO, _SIGN, _ZERO, _UNIT, _MASS, _FRICTION, _AREA, _VALUE, _OFF = np.arange(9)
+_NUMBERS = 9
 _NUMBER, _ANGLE, _DESIGN = np.arange(3)
 
 
@@ -168,7 +168,6 @@ def _read(series, reading, part, lane, lanes, first):  # type: ignore[no-untyped
 
     Of the latter the coefficients from the first that is wanted.
     """
-    ratio, f = lane[_RATIO], lane[_F]
     if reading in (PISTON, GAS):
         constant(series, lane[_UNIT], _UNITY, lanes)
         return _UNITY, INERTIA
@@ -180,21 +179,11 @@ def _read(series, reading, part, lane, lanes, first):  # type: ignore[no-untyped
     elif reading == SIDE:
         # P tan beta
         product(series, SIN, SECANT, _FACTOR, lanes, ALL)
-        scaled(series, _FACTOR, ratio, lane[_ZERO], _FACTOR, lanes)
+        scaled(series, _FACTOR, lane[_RATIO], lane[_ZERO], _FACTOR, lanes)
         factor = _FACTOR
     elif reading == TANGENTIAL or part == 1:
-        # P sin(phi + beta) / cos beta, positive against rotation
-        product(series, SIN_2, SECANT, _FACTOR, lanes, ALL)
-        for p in range(lanes):
-            f[p] = 0.5 * ratio[p]
-        summed(series, SIN, _FACTOR, f, _FACTOR, lanes)
-        factor = _FACTOR
+        factor = TURNING
     else:
-        # P cos(phi + beta) / cos beta, positive outward along the crank
-        product(series, SIN_SQUARED, SECANT, _FACTOR, lanes, ALL)
-        for p in range(lanes):
-            f[p] = -ratio[p]
-        summed(series, COS, _FACTOR, f, _FACTOR, lanes)
-        factor = _FACTOR
+        factor = OUTWARD
     product(series, INERTIA, factor, _OF_INERTIA, lanes, first)
     return factor, _OF_INERTIA

@@ -16,6 +16,7 @@ from optimizer.mechanics.kernel.row_numbers import (
     FIRST,
     INERTIA,
     LAST,
+    OUTWARD,
     OVER_CUBE,
     OVER_ROOT,
     RATIO,
@@ -33,6 +34,7 @@ from optimizer.mechanics.kernel.row_numbers import (
     SIN_SQUARED,
     SINE,
     SQUARE,
+    TURNING,
     UNIT,
     UPRIGHT,
     A,
@@ -149,3 +151,15 @@ def accelerate(series, lane, exact, lanes):  # type: ignore[no-untyped-def]
     power(series, UPRIGHT, lane[OVER_CUBE], B, lanes)
     product(series, A, B, C, lanes, ALL)
     summed(series, COS, C, lane[UNIT], INERTIA, lanes)
+
+
+@inner
+def carry(series, lane, lanes):  # type: ignore[no-untyped-def]
+    """What a piston force comes to at the crank pin, along the crank and across it; of several forces the same."""
+    ratio, f = lane[RATIO], lane[F]
+    # sin(phi + beta) / cos beta, positive against rotation, and cos(phi + beta) / cos beta, positive outward
+    for own, by_rod, share, out in ((SIN, SIN_2, 0.5, TURNING), (COS, SIN_SQUARED, -1.0, OUTWARD)):
+        product(series, by_rod, SECANT, A, lanes, ALL)
+        for p in range(lanes):
+            f[p] = share * ratio[p]
+        summed(series, own, A, f, out, lanes)

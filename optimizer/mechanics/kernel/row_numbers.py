@@ -4,10 +4,10 @@ import numpy as np
 
 #: functions of one row; as numpy's integers, for each Python literal that is handed on is a type of its own, for which
 #: all that takes it is compiled anew. The first are what readings are made of, and after them the pressures
-INERTIA, COS, SIN, SIN_2, SIN_SQUARED, SECANT = np.arange(6)
+INERTIA, COS, SIN, TURNING, OUTWARD, SECANT = np.arange(6)
 FUNCTIONS = 6
-COS_2, COS_4, SIN_4, UPRIGHT, COS_BETA, TRAVEL, A, B, C = np.arange(FUNCTIONS, FUNCTIONS + 9)
-PRESSURES = FUNCTIONS + 9
+SIN_2, SIN_SQUARED, COS_2, COS_4, SIN_4, UPRIGHT, COS_BETA, TRAVEL, A, B, C = np.arange(FUNCTIONS, FUNCTIONS + 11)
+PRESSURES = FUNCTIONS + 11
 #: where cranks stand: at the angle that says which process counts, at the place or the first end of the interval, and
 #: at its other end
 INSIDE, FIRST, LAST = np.arange(3)

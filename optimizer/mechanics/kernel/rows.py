@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.mechanics.kernel.pressures import cycle, decide, indicated
-from optimizer.mechanics.kernel.row_motion import accelerate, crank_at, move
+from optimizer.mechanics.kernel.row_motion import accelerate, carry, crank_at, move
 from optimizer.mechanics.kernel.row_numbers import (
     FIRST,
     FUNCTIONS,
@@ -99,8 +99,8 @@ class Functions(NamedTuple):
     """What the forces of designs are made of: those that differ in masses, speed, friction and areas alone have them
     once.
 
-    middle : (R, 6 + C, order + 1, Q) acceleration over r omega^2, cos and sin of the crank angle, sin of twice the
-        angle, sin^2, 1 / cos beta, and pressures [Pa] unless there are none.
+    middle : (R, 6 + C, order + 1, Q) acceleration over r omega^2, cos and sin of the crank angle, what is across and
+        along the crank of a force 1 on the piston, 1 / cos beta, and pressures [Pa] unless there are none.
     radius : the same of enclosures; without functions at points.
     way : (R, Q) which way the row moves: 1 to the shaft; nan where they are not made.
     """
@@ -159,6 +159,7 @@ def row_functions(rows, places, order, pressed, counted):  # type: ignore[no-unt
                 way[r, q] = np.sign(cranks[INSIDE, SINE, p])
             move(series, lane, cranks, trig, lanes)
             accelerate(series, lane, rows.exact, lanes)
+            carry(series, lane, lanes)
             for c in range(chambers):
                 out, trace = PRESSURES + c, rows.trace[r, c]
                 if trace < 0:
