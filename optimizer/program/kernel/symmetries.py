@@ -7,6 +7,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.kernel.compiling import inner, kernel
+from optimizer.program.kernel.lengths import length
 
 #: data that agree this closely, relative, are the same
 _SAME = 1e-12
@@ -64,7 +65,7 @@ def means(constant, influence, limits, kinds, u):  # type: ignore[no-untyped-def
                 for q in range(terms):
                     counts[q] = abs(constant[n, q]) > _NOTHING * _done(influence[n, q], u[n])
             turn, known = _turn(constant[n], counts, signs, symmetry > 1)
-            _images(relative, signs, limits, kinds, n, turn, symmetry > 1, image)
+            _images(relative, signs, limits, kinds, n, turn, symmetry > 1, symmetry % 2 == 0 and most == 1, image)
             for k in range(webs):
                 count = 0.0
                 moved[k] = 0.0
@@ -140,13 +141,18 @@ def _partners(relative, signs, limits, kinds, n):  # type: ignore[no-untyped-def
 
 
 @inner
-def _images(relative, signs, limits, kinds, n, turn, mirrored, image):  # type: ignore[no-untyped-def]
-    """Which webs k may take what another has, turned or mirrored, and have its influences with these signs."""
+def _images(relative, signs, limits, kinds, n, turn, mirrored, alone, image):  # type: ignore[no-untyped-def]
+    """Which webs k may take what another has, turned or mirrored, and have its influences with these signs.
+
+    Parameters
+    ----------
+    alone : no web has the influences of another.
+    """
     terms, webs = relative.shape
     for k in range(webs):
         for other in range(webs):
             # most webs are told apart by what they do
-            same = True
+            same = k == other or not alone
             for q in range(terms):
                 same = same and abs(relative[q, k] - signs[q] * relative[q, other]) <= _SAME
             same = same and limits.free[n, k] == limits.free[n, other] and _same_limits(limits, kinds, n, k, other)
@@ -186,7 +192,7 @@ def _size(constant, influence, u):  # type: ignore[no-untyped-def]
     vector = 0.0j
     for k in range(u.size):
         vector += influence[k] * u[k]
-    return abs(constant + vector)
+    return length(constant + vector)
 
 
 @inner
@@ -194,7 +200,7 @@ def _done(influence, u):  # type: ignore[no-untyped-def]
     """What counterweights do to a term, one by one."""
     done = 0.0
     for k in range(u.size):
-        done += abs(influence[k]) * abs(u[k])
+        done += abs(influence[k]) * length(u[k])
     return done
 
 
@@ -207,6 +213,6 @@ def _worse(constant, influence, radius, u, candidate):  # type: ignore[no-untype
             return True
     mass, before = 0.0, 0.0
     for k in range(u.size):
-        mass += abs(candidate[k]) / radius[k]
-        before += abs(u[k]) / radius[k]
+        mass += length(candidate[k]) / radius[k]
+        before += length(u[k]) / radius[k]
     return not mass <= before * (1.0 + _ROUNDING)
