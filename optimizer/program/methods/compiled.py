@@ -237,9 +237,11 @@ def _solve(
     limits, norms, ceilings = statement.limits, statement.norms, statement.ceilings
     reach = np.minimum(limits.reach, (_REACH * natural_reach(statement))[:, None])
     unit = np.add.reduce(np.abs(norms.constant), axis=-1)
-    reachable = np.add.reduce(np.abs(norms.influence) * reach[:, None, :], axis=(-2, -1))
+    if not (unit > 0).all():
+        reachable = np.add.reduce(np.abs(norms.influence) * reach[:, None, :], axis=(-2, -1))
+        unit = np.where(unit > 0, unit, np.where(reachable > 0, reachable, 1.0))
     # a level far above where the search starts is hardly found
-    unit = np.maximum(np.where(unit > 0, unit, np.where(reachable > 0, reachable, 1.0)), at_least)
+    unit = np.maximum(unit, at_least)
     v, cone, row, mass_unit = (method or _by_interior_point)(
         statement,
         reach,
