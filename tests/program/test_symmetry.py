@@ -151,3 +151,16 @@ def test_the_two_columns_of_the_2d12_are_not_alike() -> None:
     for masses in ((60.0, 60.0, 56.3502, 56.3502), (60.0, 60.0, 60.0, 60.0), (58.1751,) * 4):
         u = 0.25 * np.array(masses) * np.array([-1, -1, 1, 1])
         assert float(statement.objective(u[None])[0]) * square > found.certificate.objective * 1.0001
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_order_of_the_webs_changes_nothing(seed: int) -> None:
+    """Independent: webs in any order, some in one place, most with a partner at the other end, get the same means."""
+    rng = np.random.default_rng(seed)
+    places = rng.choice([0.1, 0.2, 0.35, 0.5], 9)
+    webs = [web(str(k), z) for k, z in enumerate(np.concatenate([places, -places[:7]]).tolist())]
+    u, order = some(16), rng.permutation(16)
+    found = symmetric(two_throws(10.0, 190.0, webs), u)
+    again = symmetric(two_throws(10.0, 190.0, [webs[k] for k in order]), u[:, order])
+    assert not np.array_equal(found, u)
+    np.testing.assert_allclose(again, found[:, order], rtol=1e-13, atol=1e-15)

@@ -8,6 +8,7 @@ import numpy as np
 from optimizer.numerics.kernel.knapsack import fill
 from optimizer.program.kernel.compiling import folded, in_place
 from optimizer.program.kernel.finer_sums import add_product
+from optimizer.program.kernel.lengths import length
 from optimizer.program.kernel.regions import nearest, support
 
 _EPS = float(np.finfo(float).eps)
@@ -76,14 +77,14 @@ def minorant(term, row, ceiling, programs, n, cap, normal):  # type: ignore[no-u
     factor = 1.0 / price if finite and normal else 1.0
     for j in range(terms):
         if j < own:
-            size, most = abs(term[j]), lam[programs.owner[j]]
+            size, most = length(term[j]), lam[programs.owner[j]]
             shrink = most / size if size > most else 1.0
             y[j] = complex(term[j].real * shrink * factor, term[j].imag * shrink * factor)
         else:
             y[j] = complex(ceiling[j - own].real * factor, ceiling[j - own].imag * factor)
         if programs.scalar[j]:
             y[j] = y[j].real
-        size_of[j] = abs(y[j])
+        size_of[j] = length(y[j])
     # the constant, and the size of what it is a sum of
     fixed, size = 0.0, 0.0
     for r in range(rows):
@@ -127,7 +128,7 @@ def minorant(term, row, ceiling, programs, n, cap, normal):  # type: ignore[no-u
             slopes[k] = complex(x + x_rest, z + z_rest)
             # of 2 terms products in either part
             rest = 2.0 * (_EPS * (2 + 2 * terms)) ** 2 * spread[k]
-            rounding[k] = _EPS * (_DATA * spread[k] + _PER_PRODUCT * abs(slopes[k])) + rest
+            rounding[k] = _EPS * (_DATA * spread[k] + _PER_PRODUCT * length(slopes[k])) + rest
     for k in range(webs):
         spread[k] = 0.0
     if programs.scatter[0] > 0.0 or programs.scatter[1] > 0.0:

@@ -3,6 +3,7 @@
 import numpy as np
 
 from optimizer.program.kernel.compiling import inner, kernel
+from optimizer.program.kernel.lengths import length
 
 #: a term whose influence is this close to those before it is not cancelled on its own
 _DEPENDENT = 1e-13
@@ -25,7 +26,7 @@ def change(influence, constant, passes, row, basis, u):  # type: ignore[no-untyp
         for j in range(terms):
             size = 0.0
             for k in range(webs):
-                size = max(size, abs(influence[j, k]))
+                size = max(size, length(influence[j, k]))
             left = constant[j] / size if size > 0.0 else 0.0j
             for k in range(webs):
                 row[k] = influence[j, k] / (size if size > 0.0 else 1.0)
@@ -37,11 +38,11 @@ def change(influence, constant, passes, row, basis, u):  # type: ignore[no-untyp
                     share += row[k] * np.conj(other[k])
                 for k in range(webs):
                     row[k] -= share * other[k]
-            length = 0.0
+            square = 0.0
             for k in range(webs):
-                length += abs(row[k]) ** 2
-            length = np.sqrt(length)
-            new = length > _DEPENDENT
+                square += row[k].real * row[k].real + row[k].imag * row[k].imag
+            size_left = np.sqrt(square)
+            new = size_left > _DEPENDENT
             for k in range(webs):
-                basis[j, k] = row[k] / length if new else 0.0
-                u[k] -= np.conj(basis[j, k]) * (left / length if new else left)
+                basis[j, k] = row[k] / size_left if new else 0.0
+                u[k] -= np.conj(basis[j, k]) * (left / size_left if new else left)

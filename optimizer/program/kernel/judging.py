@@ -8,6 +8,9 @@ from optimizer.program.kernel.compiling import folded, in_place
 from optimizer.program.kernel.settling import copy, settle_point
 from optimizer.program.kernel.values import value
 
+#: of what optima may differ by, a gap in which no other proof is worth its time
+_SHARP = 1e-4
+
 
 @folded
 def largest_rows(programs, n, sizes, at_rest, row):  # type: ignore[no-untyped-def]
@@ -58,21 +61,27 @@ def candidate(which, programs, n, sizes, solver, term, row, ceiling):  # type: i
 
 
 @folded
-def proof_of(programs, n, sizes, solver, term, row, ceiling):  # type: ignore[no-untyped-def]
+def proof_of(programs, n, sizes, solver, share, best_known, at_rest, term, row, ceiling):  # type: ignore[no-untyped-def]
     """The highest lower bound of the objective, and the multipliers that prove it, in place: the first of equal ones.
 
     Parameters
     ----------
     sizes, solver : as of :func:`candidate`.
+    share : how far above the smallest objective an optimum may be.
+    best_known, at_rest : objectives of a point and of rest.
     """
     best, highest, first = 0, -np.inf, 0.0
     for which in range(3):
         candidate(which, programs, n, sizes, solver, term, row, ceiling)
         lower = bound(0.0, 0.0, term, row, ceiling, programs, n, programs.cap)
-        if which == 0:
-            first = lower
         if lower > highest:
             best, highest = which, lower
+        if which == 0:
+            first = lower
+            # no floor proves more than itself, nor rest anything that counts where it is far from an optimum
+            above = programs.floor.shape[1] == 1 and lower > programs.floor[n, 0]
+            if above and best_known - lower <= _SHARP * share and at_rest - lower > share:
+                return lower
     if best < 2:
         candidate(best, programs, n, sizes, solver, term, row, ceiling)
     # where none proves anything that is what the solver's are said to
@@ -152,12 +161,11 @@ def judge(  # type: ignore[no-untyped-def]
     number, _, webs = programs.influence.shape
     for n in range(number):
         u, best, light = unbalance[n], smallest[n], lightest[n]
-        lower = proof_of(
-            programs, n, sizes[n], (solver[0][n], solver[1][n], solver[2][n]), proof[0][n], proof[1][n], proof[2][n]
-        )
         first, light_figures = value(best, programs, n), value(light, programs, n)
         u[:] = 0.0
         rest = value(u, programs, n)
+        own = solver[0][n], solver[1][n], solver[2][n]
+        lower = proof_of(programs, n, sizes[n], own, share[n], first[0], rest[0], proof[0][n], proof[1][n], proof[2][n])
         chosen = rest
         if is_better(rest, first, shares.tolerance):
             chosen = first

@@ -4,6 +4,7 @@ A region is a :class:`optimizer.program.compiled_evaluation.Region` of N program
 """
 
 from optimizer.program.kernel.compiling import folded, in_place
+from optimizer.program.kernel.lengths import length
 
 
 @folded
@@ -35,7 +36,7 @@ def support(pull, region, n, k):  # type: ignore[no-untyped-def]
         across = abs(pull.real * centre.imag - pull.imag * centre.real)
         if across * cosine > along * sine:
             return along * cosine + across * sine
-    return abs(pull)
+    return length(pull)
 
 
 @folded
@@ -51,10 +52,10 @@ def into(u, region, n, mean):  # type: ignore[no-untyped-def]
             if abs(v.imag) * cosine > v.real * sine:
                 edge = complex(cosine, -sine if v.imag < 0.0 else sine)
                 u[k] = max((v * edge.conjugate()).real, 0.0) * edge * region.centre[n, k]
-        size, largest = abs(u[k]), radius * min(region.max_mass[n, k], budget)
+        size, largest = length(u[k]), radius * min(region.max_mass[n, k], budget)
         if size > largest:
             u[k] = complex(u[k].real * (largest / size), u[k].imag * (largest / size))
-        mass += abs(u[k]) / radius
+        mass += (size if size <= largest else length(u[k])) / radius
     if mass > budget:
         for k in range(u.size):
             u[k] = complex(u[k].real * (budget / mass), u[k].imag * (budget / mass))

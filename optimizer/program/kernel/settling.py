@@ -5,6 +5,7 @@ import numpy as np
 
 from optimizer.program.kernel.cancelling import change
 from optimizer.program.kernel.compiling import folded, in_place
+from optimizer.program.kernel.lengths import length
 from optimizer.program.kernel.regions import into
 from optimizer.program.kernel.values import value
 
@@ -24,9 +25,10 @@ def put(u, dust, touched, region, n, room, settled):  # type: ignore[no-untyped-
     """What is next to nothing, or to a limit, there (K,); whether anything was, and the room of the others (K,)."""
     most, moved = 0.0, False
     for k in range(u.size):
-        most = max(most, abs(u[k]) / region.radius[n, k])
+        room[k] = length(u[k])
+        most = max(most, room[k] / region.radius[n, k])
     for k in range(u.size):
-        size, max_mass, sine = abs(u[k]), region.max_mass[n, k], region.sine[n, k]
+        size, max_mass, sine = room[k], region.max_mass[n, k], region.sine[n, k]
         mass, settled[k], edge = size / region.radius[n, k], u[k], False
         none = mass > 0.0 and mass <= dust * most
         next_to = mass >= max_mass * (1.0 - touched)
@@ -40,7 +42,7 @@ def put(u, dust, touched, region, n, room, settled):  # type: ignore[no-untyped-
             edge = v.real * sine - abs(v.imag) * cosine <= touched * sine * size
             if edge:
                 side = complex(cosine, np.copysign(sine, v.imag))
-                settled[k] = abs(settled[k]) * side * centre
+                settled[k] = length(settled[k]) * side * centre
         moved = moved or settled[k] != u[k]
         room[k] = 0.0 if none or edge or next_to else size
     return moved

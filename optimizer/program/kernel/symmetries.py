@@ -7,6 +7,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.kernel.compiling import inner, kernel
+from optimizer.program.kernel.lengths import length
 
 #: data that agree this closely, relative, are the same
 _SAME = 1e-12
@@ -40,7 +41,8 @@ def means(constant, influence, limits, kinds, u):  # type: ignore[no-untyped-def
     number, terms, webs = influence.shape
     found = u.copy()
     relative, level = np.empty((terms, webs)), np.empty(terms)
-    image = np.empty((webs, webs), np.bool_)
+    order, along = np.empty(webs, np.int64), np.empty(webs)
+    begin, end = np.empty((2, webs), np.int64), np.empty((2, webs), np.int64)
     own, counts, moved = np.empty(webs), np.empty(terms, np.bool_), np.empty(webs, np.complex128)
     ones = np.empty(terms)
     for q in range(terms):
@@ -48,8 +50,11 @@ def means(constant, influence, limits, kinds, u):  # type: ignore[no-untyped-def
     for n in range(number):
         _scaled(influence[n], relative, level)
         # most programs have hardly any, which is told at little cost
-        straight = _partners(relative, ones, limits, kinds, n)
-        turned_round = _partners(relative, level, limits, kinds, n)
+        _in_line(relative, level, order, along)
+        for way in range(2):
+            _ranges(order, along, 1.0 - 2.0 * way, begin[way], end[way])
+        straight = _partners(relative, ones, limits, kinds, n, order, begin[0], end[0])
+        turned_round = _partners(relative, level, limits, kinds, n, order, begin[1], end[1])
         counted, changed = False, False
         for symmetry in range(4):
             # straight or from end to end, as they are or as mirror images
@@ -64,12 +69,15 @@ def means(constant, influence, limits, kinds, u):  # type: ignore[no-untyped-def
                 for q in range(terms):
                     counts[q] = abs(constant[n, q]) > _NOTHING * _done(influence[n, q], u[n])
             turn, known = _turn(constant[n], counts, signs, symmetry > 1)
-            _images(relative, signs, limits, kinds, n, turn, symmetry > 1, image)
+            if not known and symmetry > 0:
+                continue
+            first, last = begin[symmetry % 2], end[symmetry % 2]
             for k in range(webs):
                 count = 0.0
                 moved[k] = 0.0
-                for other in range(webs):
-                    if image[k, other]:
+                for i in range(first[k], last[k]):
+                    other = order[i]
+                    if _is_image(relative, signs, limits, kinds, n, turn, symmetry > 1, k, other):
                         count += 1.0
                         moved[k] += np.conj(found[n, other]) if symmetry > 1 else found[n, other]
                 if symmetry == 0:
@@ -119,20 +127,60 @@ def _same_limits(limits, kinds, n, k, other):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _partners(relative, signs, limits, kinds, n):  # type: ignore[no-untyped-def]
+def _in_line(relative, level, order, along):  # type: ignore[no-untyped-def]
+    """Webs in rising order of what tells most of them apart, the last influence that depends on the place of the web.
+
+    Parameters
+    ----------
+    order, along : (K,) webs, and these influences, to be written to; all 0 where no web is told from another.
+    """
+    terms, webs = relative.shape
+    by = -1
+    for q in range(terms):
+        by = q if level[q] < 0.0 else by
+    for k in range(webs):
+        value, i = relative[by, k] if by >= 0 else 0.0, k
+        # most machines have their webs in order already
+        while i > 0 and along[i - 1] > value:
+            order[i], along[i] = order[i - 1], along[i - 1]
+            i -= 1
+        order[i], along[i] = k, value
+
+
+@inner
+def _ranges(order, along, sign, begin, end):  # type: ignore[no-untyped-def]
+    """Places in the line (K,) of the first web that a web may be an image of, and of the one after the last."""
+    webs = order.size
+    first, last = 0, 0
+    for i in range(webs):
+        place = i if sign > 0.0 else webs - 1 - i
+        wanted = sign * along[place]
+        while first < webs and along[first] < wanted - 2.0 * _SAME:
+            first += 1
+        while last < webs and along[last] <= wanted + 2.0 * _SAME:
+            last += 1
+        begin[order[place]], end[order[place]] = first, last
+
+
+@inner
+def _alike(relative, signs, limits, kinds, n, k, other):  # type: ignore[no-untyped-def]
+    """Whether two webs of program n are alike, and have the same influences with these signs."""
+    same = True
+    for q in range(relative.shape[0]):
+        same = same and abs(relative[q, k] - signs[q] * relative[q, other]) <= _SAME
+    return same and _same_limits(limits, kinds, n, k, other)
+
+
+@inner
+def _partners(relative, signs, limits, kinds, n, order, begin, end):  # type: ignore[no-untyped-def]
     """How many webs are alike and have the influences of a web with these signs, itself among them, at least and at
     most."""
-    terms, webs = relative.shape
+    webs = order.size
     least, most = webs, 0
     for k in range(webs):
         count = 0
-        for other in range(webs):
-            # the last, a moment, tells most apart
-            q = terms
-            while q > 0 and abs(relative[q - 1, k] - signs[q - 1] * relative[q - 1, other]) <= _SAME:
-                q -= 1
-            if q == 0 and _same_limits(limits, kinds, n, k, other):
-                count += 1
+        for i in range(begin[k], end[k]):
+            count += 1 if _alike(relative, signs, limits, kinds, n, k, order[i]) else 0
         least, most = min(least, count), max(most, count)
         if least == 0:
             break
@@ -140,22 +188,15 @@ def _partners(relative, signs, limits, kinds, n):  # type: ignore[no-untyped-def
 
 
 @inner
-def _images(relative, signs, limits, kinds, n, turn, mirrored, image):  # type: ignore[no-untyped-def]
-    """Which webs k may take what another has, turned or mirrored, and have its influences with these signs."""
-    terms, webs = relative.shape
-    for k in range(webs):
-        for other in range(webs):
-            # most webs are told apart by what they do
-            same = True
-            for q in range(terms):
-                same = same and abs(relative[q, k] - signs[q] * relative[q, other]) <= _SAME
-            same = same and limits.free[n, k] == limits.free[n, other] and _same_limits(limits, kinds, n, k, other)
-            if same and not limits.free[n, k]:
-                there = np.conj(limits.centre[n, other]) if mirrored else limits.centre[n, other]
-                apart = abs(limits.centre[n, k] - turn * there)
-                opened = abs(limits.half_angle_sin[n, k] - limits.half_angle_sin[n, other])
-                same = apart <= _SAME and opened <= _SAME
-            image[k, other] = same
+def _is_image(relative, signs, limits, kinds, n, turn, mirrored, k, other):  # type: ignore[no-untyped-def]
+    """Whether web k may take what another has, turned or mirrored, and has its influences with these signs."""
+    if not _alike(relative, signs, limits, kinds, n, k, other) or limits.free[n, k] != limits.free[n, other]:
+        return False
+    if limits.free[n, k]:
+        return True
+    there = np.conj(limits.centre[n, other]) if mirrored else limits.centre[n, other]
+    apart = abs(limits.centre[n, k] - turn * there)
+    return apart <= _SAME and abs(limits.half_angle_sin[n, k] - limits.half_angle_sin[n, other]) <= _SAME
 
 
 @inner
@@ -186,7 +227,7 @@ def _size(constant, influence, u):  # type: ignore[no-untyped-def]
     vector = 0.0j
     for k in range(u.size):
         vector += influence[k] * u[k]
-    return abs(constant + vector)
+    return length(constant + vector)
 
 
 @inner
@@ -194,7 +235,7 @@ def _done(influence, u):  # type: ignore[no-untyped-def]
     """What counterweights do to a term, one by one."""
     done = 0.0
     for k in range(u.size):
-        done += abs(influence[k]) * abs(u[k])
+        done += abs(influence[k]) * length(u[k])
     return done
 
 
@@ -207,6 +248,6 @@ def _worse(constant, influence, radius, u, candidate):  # type: ignore[no-untype
             return True
     mass, before = 0.0, 0.0
     for k in range(u.size):
-        mass += abs(candidate[k]) / radius[k]
-        before += abs(u[k]) / radius[k]
+        mass += length(candidate[k]) / radius[k]
+        before += length(u[k]) / radius[k]
     return not mass <= before * (1.0 + _ROUNDING)

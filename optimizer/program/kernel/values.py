@@ -6,6 +6,7 @@ Programs are :class:`optimizer.program.compiled_evaluation.Programs`.
 import numpy as np
 
 from optimizer.program.kernel.compiling import folded, in_place
+from optimizer.program.kernel.lengths import length
 
 #: of a sum, in units of the sum of the magnitudes of its terms
 ROUNDING = 4 * float(np.finfo(float).eps)
@@ -24,7 +25,7 @@ def value(u, programs, n):  # type: ignore[no-untyped-def]
     mass, rounding, excess, own = 0.0, 0.0, -np.inf, programs.owner.size
     webs, turned = u.size, across.shape[2] > 0
     for k in range(webs):
-        long = abs(u[k])
+        long = length(u[k])
         mass += long / programs.region.radius[n, k]
         for j in range(own):
             rounding += (magnitude[n, j, k] if turned else abs(influence[n, j, k])) * long
@@ -41,7 +42,7 @@ def value(u, programs, n):  # type: ignore[no-untyped-def]
         else:
             for k in range(webs):
                 x, y = x + influence[n, j, k] * u[k].real, y + influence[n, j, k] * u[k].imag
-        long = abs(constant.real + x) if programs.scalar[j] else abs(complex(constant.real + x, constant.imag + y))
+        long = abs(constant.real + x) if programs.scalar[j] else length(complex(constant.real + x, constant.imag + y))
         share = programs.scatter[0 if j < own else 1]
         if share > 0.0:
             off = 0.0
@@ -49,7 +50,7 @@ def value(u, programs, n):  # type: ignore[no-untyped-def]
                 off += (magnitude[n, j, k] if turned else abs(influence[n, j, k])) * abs(u[k])
             long += share * off
         if j < own:
-            rounding += abs(constant)
+            rounding += length(constant)
             rows[programs.owner[j]] += long
         else:
             over = (long - programs.cap[n, j - own]) / programs.size[n, j - own]

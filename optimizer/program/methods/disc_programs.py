@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from optimizer.numerics.arrays import Real, in_order
+from optimizer.numerics.arrays import Real
 from optimizer.numerics.loading import deferred
 from optimizer.numerics.memoization import remembered
 from optimizer.program.statement import Statement
@@ -89,10 +89,14 @@ def discs_of(
 def _frame(statement: Statement) -> Real:
     """Both normals of sectors, the centre turned by the rest to a right angle, and whether a web has one (N, 5, K)."""
     limits = statement.limits
-    across = 1j * limits.half_angle_cos * limits.centre
-    inwards = [np.where(limits.free, 0.0, limits.half_angle_sin * limits.centre + side) for side in (across, -across)]
-    normals = [part for normal in inwards for part in (normal.real, normal.imag)]
-    return in_order(np.stack([*normals, np.where(limits.free, 0.0, 1.0)], axis=1))
+    present = np.where(limits.free, 0.0, 1.0)
+    sine, cosine = present * limits.half_angle_sin, present * limits.half_angle_cos
+    x, y = limits.centre.real, limits.centre.imag
+    normals = np.empty((len(present), 5, present.shape[-1]))
+    along_x, along_y, across_x, across_y = sine * x, sine * y, cosine * y, cosine * x
+    normals[:, 0], normals[:, 1] = along_x - across_x, along_y + across_y
+    normals[:, 2], normals[:, 3], normals[:, 4] = along_x + across_x, along_y - across_y, present
+    return normals
 
 
 def _basis(statement: Statement) -> np.ndarray | None:

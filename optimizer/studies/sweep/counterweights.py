@@ -45,20 +45,22 @@ def optimal(request: OptimizeRequest, count: int, multipliers: bool = False) -> 
 def columns_of(request: OptimizeRequest, best: Certified, multipliers: bool) -> tuple[Columns, Complex]:
     """The same of what was certified; the request is of the radii that it has."""
     mass, angle = beside(request.machine, best.mass_kg, best.angle_deg)
+    optimal, none = best.status == "optimal", best.status == "infeasible"
     columns: Columns = {
         **best.certificate,
         "status": best.status,
-        "message": np.where(best.status == "optimal", "", best.reason),
+        "message": np.full(optimal.shape, "") if optimal.all() else np.where(optimal, "", best.reason),
         "total_mass_kg": np.sum(mass, axis=-1),
     }
     if multipliers:
         columns[MULTIPLIERS] = multipliers_as_text(request, best)
     for k, web in enumerate(request.machine.webs):
         columns[f"mass_kg.{web.name}"], columns[f"angle_deg.{web.name}"] = mass[:, k], angle[:, k]
-    columns = {
-        name: np.where(best.status == "infeasible", np.nan, column) if column.dtype == float else column
-        for name, column in columns.items()
-    }
+    if none.any():
+        columns = {
+            name: np.where(none, np.nan, column) if column.dtype == float else column
+            for name, column in columns.items()
+        }
     return columns, unbalance(mass, angle, stacked([web.radius_m for web in request.machine.webs]))
 
 

@@ -47,9 +47,11 @@ class Rows:
 
     def put(self, designs: Designs, columns: dict[str, Any]) -> None:
         """Columns of some designs; those that the result does not have are left out."""
+        # all of them stand in their order
+        place = slice(None) if designs.size == self.columns["index"].size else designs
         for name, column in columns.items():
             if name in self.columns:
-                self.columns[name][designs] = column
+                self.columns[name][place] = column
 
     def refuse(self, designs: Designs, rule: Rule) -> None:
         """Designs that are no valid requests."""

@@ -56,7 +56,8 @@ def versions() -> dict[str, str]:
 
 def _array(column: Any, kind: pa.DataType) -> pa.Array:
     if kind == pa.float64():
-        return pa.array(column, kind, mask=~np.isfinite(column))
+        finite = np.isfinite(column)
+        return pa.array(column, kind) if finite.all() else pa.array(column, kind, mask=~finite)
     if kind == pa.string():
         # few different texts: Arrow repeats them faster than Python does
         number = {text: k for k, text in enumerate(dict.fromkeys(column))}
