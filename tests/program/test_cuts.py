@@ -113,6 +113,9 @@ def test_a_mass_is_proven_for_all_that_come_to_more_at_its_price(seed: int) -> N
     # independent: by the same multipliers with the other target
     again = float(mass_lower_bound(best.mass_proof.statement, best.mass_proof.multipliers, np.asarray(value)))
     assert more.mass_proof.bound == pytest.approx(again, rel=1e-10)
+    # that no mass is below 0 is proven by nothing, and counts those beyond any target as well
+    ended = replace(best, mass_proof=None, timed_out=True).counting(value)
+    assert (ended.mass_target, ended.mass_proof) == (value, None)
 
 
 @pytest.mark.parametrize("seed", range(3))

@@ -85,10 +85,12 @@ class CertifiedOptimum:
 
     def counting(self, value: float) -> "CertifiedOptimum":
         """With the mass proven for all that come to no more than this value: that of counterweights which rounding has
-        put above what was counted as an optimum."""
-        if self.mass_proof is None or value <= self.mass_target:
+        put above what was counted as an optimum, or with which the time has ended."""
+        if value <= self.mass_target:
             return self
-        return replace(self, mass_proof=self.mass_proof.up_to(value - self.mass_target), mass_target=value)
+        # that no mass is below 0 holds of all
+        of_mass = None if self.mass_proof is None else self.mass_proof.up_to(value - self.mass_target)
+        return replace(self, mass_proof=of_mass, mass_target=value)
 
     def within(self, limits: Limits) -> "CertifiedOptimum":
         """With limits that say the same by other radii: those of what is cut from plates."""
