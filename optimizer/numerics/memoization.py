@@ -45,6 +45,6 @@ def remembered(function: Callable[[Machine], Made]) -> Callable[[Machine], Made]
         if known is not machine:
             made = function(machine)
             last = machine, made
-        return made  # type: ignore[no-any-return]
+        return made
 
     return memoized
