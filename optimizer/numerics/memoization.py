@@ -5,6 +5,7 @@ from functools import wraps
 from typing import TYPE_CHECKING, Any, TypeVar
 
 Machine = TypeVar("Machine")
+Part = TypeVar("Part")
 Made = TypeVar("Made")
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ def remembered(function: Callable[[Machine], Made]) -> Callable[[Machine], Made]
     """The function, which remembers what it made of the last machine that it was given.
 
     Machines are frozen, so that the very same one has the same of everything; whoever gets an array writes nothing
-    to it.
+    to it. So are the parts of a machine as arrays.
     """
     # both at once, for another thread may ask too
     last: tuple[Any, Any] = (object(), None)
@@ -46,5 +47,20 @@ def remembered(function: Callable[[Machine], Made]) -> Callable[[Machine], Made]
             made = function(machine)
             last = machine, made
         return made
+
+    return memoized
+
+
+def remembered_of_both(function: Callable[[Part, Machine], Made]) -> Callable[[Part, Machine], Made]:
+    """The same of a function of two."""
+    last: tuple[Part, Machine, Made] | None = None
+
+    @wraps(function)
+    def memoized(part: Part, machine: Machine) -> Made:
+        nonlocal last
+        known = last
+        if known is None or known[0] is not part or known[1] is not machine:
+            last = known = (part, machine, function(part, machine))
+        return known[2]
 
     return memoized
