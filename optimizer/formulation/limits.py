@@ -63,11 +63,11 @@ class MassLimit:
     unit: str
     largest: Callable[[Machine], Real]  # (..., K), in the unit; inf where a web has no such limit
     per_kg: Callable[[Machine], Reals]  # (..., K), in the unit
-    given: Callable[[Machine], bool] | None = None  # whether any web has one; None where its sizes tell
+    presence: Callable[[Machine], bool] | None = None  # whether any web has one; None where its sizes tell
 
     def stated(self, machine: Machine) -> bool:
-        if self.given is not None:
-            return self.given(machine)
+        if self.presence is not None:
+            return self.presence(machine)
         return bool(np.logical_or.reduce(self.largest(machine) < np.inf, axis=None))
 
     def mass(self, machine: Machine) -> Real:
@@ -158,13 +158,13 @@ WEB_LIMITS: dict[WebLimit, Limit] = {
         "(kg m)",
         largest=_largest_unbalances,
         per_kg=lambda machine: stacked([web.radius_m for web in machine.webs]),
-        given=lambda machine: plates(machine) is not None,
+        presence=lambda machine: plates(machine) is not None,
     ),
     "max_centrifugal_force": MassLimit(
         "N",
         _largest_force,
         _force_per_kg,
-        given=lambda machine: any(web.max_centrifugal_force_N is not None for web in machine.webs),
+        presence=lambda machine: any(web.max_centrifugal_force_N is not None for web in machine.webs),
     ),
     "sector": _Sector(),
 }

@@ -7,7 +7,7 @@ _REACH = 10.0
 
 
 @in_place
-def scales(rest, influence, natural, limits, at_least, share, gaps, reach, unit, asked):  # type: ignore[no-untyped-def]
+def scales(rest, influence, natural, limits, at_least, share, gaps, reach, unit, targets):  # type: ignore[no-untyped-def]
     """How far webs reach, what the objective is measured by, and what is asked of it in that unit, of N programs.
 
     Parameters
@@ -19,7 +19,7 @@ def scales(rest, influence, natural, limits, at_least, share, gaps, reach, unit,
     at_least : (N,) what the objective comes to under the ceilings, or less.
     share : (N,) what optima may differ by.
     gaps : of the first stage: as a share of that, and between which ends.
-    reach, unit, asked : (N, K), (N,) and (2, N), what is found: the last are the share and the gap.
+    reach, unit, targets : (N, K), (N,) and (2, N), what is found: the last are the share and the gap.
     """
     radius, most, budget = limits
     number, terms, webs = influence.shape
@@ -33,12 +33,12 @@ def scales(rest, influence, natural, limits, at_least, share, gaps, reach, unit,
         own = rest[n] if rest[n] > 0.0 else reachable if reachable > 0.0 else 1.0
         # a level far above where the search starts is hardly found
         unit[n] = max(own, at_least[n])
-        asked[0, n] = share[n] / unit[n]
-        asked[1, n] = min(max(gaps[0] * share[n] / unit[n], gaps[1]), gaps[2])
+        targets[0, n] = share[n] / unit[n]
+        targets[1, n] = min(max(gaps[0] * share[n] / unit[n], gaps[1]), gaps[2])
 
 
 @in_place
-def forms(constant, influence, multiple, terms, limits, ceilings, margin, reach, unit, budgeted, found):  # type: ignore[no-untyped-def]
+def forms(constant, influence, multiple, terms, limits, ceilings, margin, reach, unit, budgeted, parts):  # type: ignore[no-untyped-def]
     """N programs as :class:`optimizer.program.kernel.disc_starts.Discs` has them.
 
     Parameters
@@ -49,9 +49,9 @@ def forms(constant, influence, multiple, terms, limits, ceilings, margin, reach,
     ceilings : (N, I) caps and sizes.
     margin : share of its size by which a ceiling is lowered.
     reach, unit : of :func:`scales`.
-    budgeted, found : (N,) bool, whether the budget can bind, and the six arrays that follow the basis.
+    budgeted, parts : (N,) bool, whether the budget can bind, and the six arrays that follow the basis.
     """
-    of_multiple, of_constant, of_influence, mass, of_budget, of_cap = found
+    of_multiple, of_constant, of_influence, mass, of_budget, of_cap = parts
     radius, budget = limits
     cap, size = ceilings
     (number, webs), vectors = mass.shape, multiple.shape[1]
