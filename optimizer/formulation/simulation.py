@@ -63,9 +63,9 @@ class Prepared:
         return self.simulated.results
 
     @cached_property
-    def angles(self) -> tuple[float, ...]:
-        """Sampled shaft angles as an answer holds them."""
-        return tuple(self.angle_deg.tolist())
+    def angles(self) -> Any:
+        """Sampled shaft angles as answers take them soonest: a list, of which each makes a tuple."""
+        return self.angle_deg.tolist()
 
     @cached_property
     def omega_squared(self) -> float:
@@ -146,10 +146,15 @@ class Prepared:
         return INFLUENCES[self.request.fidelity.shaft](bearing_places(self.machine), planes(self.layout))
 
     @cached_property
+    def stations(self) -> Real:
+        """Planes in which the bending moment of the shaft has corners, (..., S) m."""
+        return stations(self.layout, bearing_places(self.machine))
+
+    @cached_property
     def shaft_curves(self) -> ShaftCurves:
         """Loads of the B main bearings and bending moments at the S corners, over omega^2: B + S curves together."""
         places, reaction = bearing_places(self.machine), self.bearing_influence
-        moments = bending_influence(self.layout, places, reaction, stations(self.layout, places))
+        moments = bending_influence(self.layout, places, reaction, self.stations)
         both = np.concatenate([reaction, moments], axis=-2)
         return shaft_curves(self.results["whole_turn"], self.layout, both)
 

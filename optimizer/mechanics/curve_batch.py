@@ -4,7 +4,7 @@ Whatever is asked for at an angle, the rows are expanded about it once, and each
 """
 
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -29,7 +29,7 @@ class CurveBatch:
     @cached_property
     def first(self) -> Index:
         """Number of the first curve of each part, and how many there are in all."""
-        return np.cumsum([0, *(len(part.weights[0]) for part in self.parts)])
+        return np.array((0, *accumulate(len(part.weights[0]) for part in self.parts)))
 
     @cached_property
     def pieces(self) -> Pieces:

@@ -45,6 +45,8 @@ def chambers(machine: ReciprocatingMachine, leading: tuple[int, ...] = ()) -> Ch
     leading : axes that every array is to have, whatever depends on columns.
     """
     own = _chambers(machine)
+    if not leading:
+        return own
     axes = np.broadcast_shapes(leading, own.area.shape[:-2])
     return own if axes == own.area.shape[:-2] else mapped(own, lambda part: spread(part, (*axes, *part.shape[-2:])))
 
@@ -73,6 +75,8 @@ def traces(machine: ReciprocatingMachine, layout: Layout) -> tuple[Trace, ...]:
         for side, name in enumerate(_SIDES)
         if getattr(given, name) is not None
     ]
+    if not results:
+        return ()
     leading = np.broadcast_shapes(
         layout.omega.shape, *(part.shape for result in results for part in (result.table, result.lead))
     )

@@ -19,6 +19,7 @@ from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.row_series import Reading
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
 from optimizer.numerics.arrays import Complex, Real, spread
+from optimizer.numerics.memoization import remembered
 from optimizer.responses.curve import TurnResponse
 
 #: bearing loads for unit loads: (..., B) and (..., L) m to (..., B, L)
@@ -96,7 +97,7 @@ def stations(layout: Layout, places: Real) -> Real:
     every = np.sort(np.concatenate([loaded, supported], axis=-1), axis=-1)
     apart = np.ones(every.shape, dtype=bool)
     np.greater(every[..., 1:], every[..., :-1], out=apart[..., 1:])
-    return every[..., np.any(apart, axis=tuple(range(every.ndim - 1)))]
+    return every[..., np.logical_or.reduce(apart, axis=tuple(range(every.ndim - 1)))]
 
 
 def bending_influence(layout: Layout, places: Real, reaction: Real, corners: Real) -> Real:
@@ -111,6 +112,7 @@ def bending_influence(layout: Layout, places: Real, reaction: Real, corners: Rea
     return bending_moment(places, reaction.astype(complex), loaded, unit, corners).real
 
 
+@remembered
 def planes(layout: Layout) -> Real:
     """Planes of rows, rotating masses and webs (..., L) m."""
     parts = (layout.reciprocating.position, layout.rotating.position, layout.webs.position)

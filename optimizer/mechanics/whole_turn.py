@@ -57,7 +57,7 @@ def break_angles(layout: Layout, opens: tuple[Real, ...] = (), traces: Sequence[
     ahead = own_angle(layout, np.zeros(1))
     found = (own - ahead).reshape(*ratio.shape[:-1], -1)
     designs = tuple(range(found.ndim - 1))
-    found = found[..., ~np.all(np.isnan(found), axis=designs)]
+    found = found[..., ~np.logical_and.reduce(np.isnan(found), axis=designs)]
     apart = 0.0
     if traces:
         turns, apart = turns_of(traces), SLIVER
@@ -67,7 +67,7 @@ def break_angles(layout: Layout, opens: tuple[Real, ...] = (), traces: Sequence[
     # rows that reverse together, and tables that have the same entries, would only make panels without width
     same = np.zeros(found.shape, dtype=bool)
     np.less_equal(found[..., 1:] - found[..., :-1], apart, out=same[..., 1:])
-    return found[..., ~np.all(same, axis=designs)]
+    return found[..., ~np.logical_and.reduce(same, axis=designs)]
 
 
 @dataclass(frozen=True)

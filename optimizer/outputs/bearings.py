@@ -6,8 +6,7 @@ import numpy as np
 
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.angles import turned
-from optimizer.mechanics.shaft import bearing_places
-from optimizer.mechanics.shaft_curves import ShaftCurves, stations
+from optimizer.mechanics.shaft_curves import ShaftCurves
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.enclosing_circle import Circle
 from optimizer.outputs.balance_rate import cranks
@@ -33,7 +32,7 @@ from schemas.machine.reciprocating import ReciprocatingMachine
 def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
     """Loads of the main bearings of one machine, and the bending moments of its shaft."""
     machine = scene.machine
-    planes = stations(scene.layout, bearing_places(machine))
+    planes = scene.stations
     curves = scene.shaft_curves
     count = len(machine.bearings)
     # every bearing's, and the largest of all bending moments

@@ -216,7 +216,7 @@ def _loads_grow(evidence: Evidence) -> Iterator[Caution]:
         ("bending_moment_grows", "bending moment", "N m", slice(count, None)),
     )
     largest = [tuple(float(np.max(peaks[some])) for *_, some in kinds) for peaks in (after, before)]
-    usual = of_customary(scene, cranks(machine).customary)
+    usual = of_customary(scene, lambda: cranks(machine).customary)
     for (code, what, unit, _), now, bare, of_usual in zip(kinds, *largest, usual.tolist(), strict=True):
         for than, of in ((bare, "without counterweights"), (of_usual, "of a crank balanced throw by throw")):
             if now > than * (1.0 + _ALIKE):

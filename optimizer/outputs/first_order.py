@@ -156,7 +156,7 @@ def hodographs(scene: Prepared, unbalance: Complex | None) -> Hodographs:
     vectors = np.array([(pair.co, pair.counter) for wrench in shown for pair in wrench]).T
     before, *after = Phasors(*vectors).at(turned).reshape(-1, 2, turned.size)
     return Hodographs(
-        angle_deg=tuple(scene.first_turn_deg.tolist()),
+        angle_deg=scene.angles[: scene.first_turn_deg.size],
         before=_hodograph(*before),
         after=_hodograph(*after[0]) if after else None,
     )

@@ -1,7 +1,7 @@
 """Peaks over the whole turn: bracketed whatever the samples, of one machine and of many designs."""
 
 import math
-from collections.abc import Hashable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from functools import lru_cache
 from itertools import accumulate, pairwise
 from typing import NamedTuple
@@ -19,6 +19,9 @@ from optimizer.responses.piecewise_cubics import Bracket, Index
 
 #: of a bracket, relative to the peak; and of a floor
 TOLERANCE, FLOOR_TOLERANCE = 1e-9, 1e-7
+
+#: names of searches of which an answer has one
+_SHAFT, _CUSTOMARY = ("shaft",), ("customary",)
 
 
 class Extremes(NamedTuple):
@@ -76,7 +79,7 @@ def searched(scene: Prepared, searches: Iterable[Search]) -> dict[tuple[Hashable
     # what several outputs have in common stands there once
     curves = list({id(search.curves): search.curves for search in every}.values())
     batch = CurveBatch(tuple(curves))
-    first = {id(search): int(number) for search, number in zip(curves, batch.first, strict=False)}
+    first = {id(search): number for search, number in zip(curves, batch.first.tolist(), strict=False)}
     number = np.concatenate([search.number + first[id(search.curves)] for search in every])
     offset = np.concatenate([search.offset for search in every])
     sign = np.concatenate([np.zeros(search.number.size) + search.sign for search in every])
@@ -166,12 +169,13 @@ def shaft_search(curves: ShaftCurves, unbalances: Sequence[Complex | None]) -> S
     """Peaks of loads and moments of one machine with several sets of counterweights."""
     count, sets = curves.curves.weights.shape[1], len(unbalances)
     offset = np.concatenate([curves.offsets(unbalance) for unbalance in unbalances])
-    return Search(("shaft",), curves.curves, np.tile(np.arange(count), sets), offset)
+    return Search(_SHAFT, curves.curves, np.tile(np.arange(count), sets), offset)
 
 
 def of_shaft_sets(scene: Prepared, curves: ShaftCurves, unbalances: Sequence[Complex | None]) -> tuple[Bracket, ...]:
     """The same as :func:`of_shaft` with several sets of counterweights, all peaks searched together."""
-    every = peaks_of(scene, shaft_search(curves, unbalances))
+    known = scene.brackets.get(_SHAFT)
+    every = peaks_of(scene, shaft_search(curves, unbalances)) if known is None else known
     return tuple(_times_square(scene, part) for part in _parts(every, len(unbalances)))
 
 
@@ -186,12 +190,14 @@ def customary_search(scene: Prepared, customary: Complex) -> Search:
     """The largest load of a bearing, and the largest bending moment, of one machine with customary counterweights."""
     found, bearings = scene.shaft_curves, len(scene.machine.bearings)
     kind = np.minimum(np.arange(found.curves.weights.shape[1]) // bearings, 1)
-    return Search(("customary",), found.curves, np.arange(kind.size), found.offsets(customary), group=kind)
+    return Search(_CUSTOMARY, found.curves, np.arange(kind.size), found.offsets(customary), group=kind)
 
 
-def of_customary(scene: Prepared, customary: Complex) -> Real:
-    """The same (2,) N, N m."""
-    return _times_square(scene, peaks_of(scene, customary_search(scene, customary))).lower
+def of_customary(scene: Prepared, customary: Callable[[], Complex]) -> Real:
+    """The same (2,) N, N m, of counterweights that are worked out where nothing was searched before."""
+    known = scene.brackets.get(_CUSTOMARY)
+    peaks = peaks_of(scene, customary_search(scene, customary())) if known is None else known
+    return _times_square(scene, peaks).lower
 
 
 def separate_groups(alone: int, together: int) -> Index:
