@@ -5,20 +5,16 @@ An answer asks for a handful of numbers many times: a loop of simple operations 
 
 import math
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from itertools import dropwhile
+from types import ModuleType
 from typing import NamedTuple
 
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, in_order, merged, spread
-from optimizer.numerics.loading import deferred
 from optimizer.numerics.records import record
 from optimizer.program.limits import Limits, Region, within
-
-#: loops, compiled
-_values = deferred("optimizer.program.kernel.values", "values")
-_judge = deferred("optimizer.program.kernel.judging", "judge")
 
 
 class Programs(NamedTuple):
@@ -96,7 +92,7 @@ class Flat:
         leading = self._of(u.shape[:-1])
         many = math.prod(leading)
         found = np.empty((4, many))
-        _values()(*_rows(leading, u), self.programs, found)
+        _values().values(*_rows(leading, u), self.programs, found)
         return found.reshape(4, *leading)
 
     def bounds(self, term: Complex, row: Real, ceiling: Complex, target: Real | None = None) -> Real:
@@ -179,7 +175,7 @@ class Flat:
         found, figures, bounds = np.empty((many, webs), complex), np.empty((4, many)), np.empty((3, many))
         certified, own = np.empty(many, bool), _in_order(solver)
         proof = np.empty_like(own[0]), np.empty_like(own[1]), np.empty_like(own[2])
-        _judge()(
+        _judging().judge(
             in_order(share),
             in_order(demand),
             mass_solver is not None,
@@ -326,3 +322,18 @@ def _rows(leading: tuple[int, ...], *parts: np.ndarray) -> tuple[np.ndarray, ...
     """Arrays (..., n) as (M, n), of what has these leading axes."""
     many = math.prod(leading)
     return tuple(in_order(spread(each, (*leading, each.shape[-1]))).reshape(many, each.shape[-1]) for each in parts)
+
+
+# loads the compiler, a tenth of a second, and so at the first call; an import at each takes as long as a short loop
+@cache
+def _values() -> ModuleType:
+    from optimizer.program.kernel import values
+
+    return values
+
+
+@cache
+def _judging() -> ModuleType:
+    from optimizer.program.kernel import judging
+
+    return judging

@@ -3,13 +3,13 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
+from types import ModuleType
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, columns, mapped, merged, plain, spread
-from optimizer.numerics.loading import deferred
 from optimizer.numerics.records import record
 from optimizer.program.equal_castings import Alike
 
@@ -19,10 +19,6 @@ OF_WEBS = ("radius", "max_mass", "free", "centre", "half_angle_cos", "half_angle
 
 #: leaders, images and numbers of webs where none are alike
 _NONE_ALIKE = (np.empty(0, np.int64), np.empty(0, bool), np.empty(0))
-
-#: loops, compiled
-_bring = deferred("optimizer.program.kernel.regions", "bring")
-_filled = deferred("optimizer.numerics.kernel.knapsack", "filled")
 
 
 class Region(NamedTuple):
@@ -90,7 +86,7 @@ class Limits:
         """
         *leading, webs = gain.shape
         many = math.prod(leading)
-        masses, price = _filled()(
+        masses, price = _knapsack().filled(
             plain(gain).reshape(many, webs),
             plain(spread(self.max_mass, gain.shape)).reshape(many, webs),
             plain(spread(self.max_total_mass, tuple(leading))).reshape(many),
@@ -178,5 +174,20 @@ def within(region: Region, leading: tuple[int, ...], u: Complex) -> Complex:
     """Unbalances, of these leading axes, within all limits, close to those that are nearly so."""
     webs = u.shape[-1]
     found = np.array(spread(u, (*leading, webs)), complex, order="C")
-    _bring()(found.reshape(math.prod(leading), webs), region, np.empty(webs, complex))
+    _regions().bring(found.reshape(math.prod(leading), webs), region, np.empty(webs, complex))
     return found
+
+
+# loads the compiler, a tenth of a second, and so at the first call; an import at each takes as long as a short loop
+@cache
+def _regions() -> ModuleType:
+    from optimizer.program.kernel import regions
+
+    return regions
+
+
+@cache
+def _knapsack() -> ModuleType:
+    from optimizer.numerics.kernel import knapsack
+
+    return knapsack

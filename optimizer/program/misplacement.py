@@ -7,16 +7,13 @@ one angle is left to search, and between finitely many of its values the project
 """
 
 import math
+from functools import cache
+from types import ModuleType
 
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, in_order
-from optimizer.numerics.loading import deferred
 from optimizer.program.norms import Norms
-
-#: loops, compiled
-_worst_scaled = deferred("optimizer.program.kernel.outlines", "worst_scaled")
-_worst_turned = deferred("optimizer.program.kernel.outlines", "worst_turned")
 
 
 def worst_by_mass(norms: Norms, u: Complex, share: float) -> Real:
@@ -28,7 +25,7 @@ def farthest_by_mass(middle: Complex, vectors: Complex, share: float) -> Real:
     """Largest |middle + sum_k e_k v_k| (...) of vectors (..., K), |e_k| up to a share."""
     worst = np.empty(middle.size)
     rows = in_order(vectors).reshape(worst.size, vectors.shape[-1])
-    _worst_scaled()(rows, in_order(middle).reshape(-1), share, worst)
+    _outlines().worst_scaled(rows, in_order(middle).reshape(-1), share, worst)
     return worst.reshape(middle.shape)
 
 
@@ -55,7 +52,7 @@ def farthest_by_angle(fixed: Complex, vectors: Complex, angle: float) -> Real:
     """Largest |fixed + sum_k v_k e^{j psi_k}| (...) of vectors (..., K), |psi_k| up to an angle [rad] below pi/2."""
     worst = np.empty(fixed.size)
     rows = in_order(vectors).reshape(worst.size, vectors.shape[-1])
-    _worst_turned()(rows, in_order(fixed).reshape(-1), angle, worst)
+    _outlines().worst_turned(rows, in_order(fixed).reshape(-1), angle, worst)
     return worst.reshape(fixed.shape)
 
 
@@ -74,3 +71,11 @@ def angle_corners(vectors: Complex, angle: float) -> Complex:
     edges = edges.reshape(*edges.shape[:-2], 4 * edges.shape[-2])
     edges = np.take_along_axis(edges, np.argsort(np.angle(edges), axis=-1), axis=-1)
     return start[..., None] + np.cumsum(edges, axis=-1)
+
+
+# loads the compiler, a tenth of a second, and so at the first call; an import at each takes as long as a short loop
+@cache
+def _outlines() -> ModuleType:
+    from optimizer.program.kernel import outlines
+
+    return outlines

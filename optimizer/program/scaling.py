@@ -8,18 +8,16 @@ sectors as cuts in sine and cosine (half-angles near 90 degrees and near 0).
 
 import math
 from dataclasses import dataclass, replace
+from functools import cache
+from types import ModuleType
 
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, in_order
-from optimizer.numerics.loading import deferred
 from optimizer.program.certificate import Multipliers
 from optimizer.program.norms import Norms
 from optimizer.program.scaled_program import ScaledData, ScaledSolution, Shape, Stage
 from optimizer.program.statement import Statement
-
-#: loops, compiled
-_least_changes = deferred("optimizer.program.kernel.cancelling", "least_changes")
 
 
 @dataclass(frozen=True)
@@ -85,7 +83,7 @@ def least_change(influence: Real | Complex, constant: Complex, passes: int = 1) 
     # real or complex, compiled once
     rows = np.array(influence, complex, order="C").reshape(shape)
     changes = np.zeros((shape[0], webs), complex)
-    _least_changes()(rows, in_order(constant).reshape(shape[:-1]), passes, changes)
+    _cancelling().least_changes(rows, in_order(constant).reshape(shape[:-1]), passes, changes)
     return changes.reshape(*leading, webs)
 
 
@@ -163,3 +161,11 @@ def _matrix(norms: Norms, statement: Statement, reach: Real) -> Real:
         along, across = (limits.alike.summed(norms.influence * each) for each in carried)
     counts = ~np.array(norms.scalar, dtype=bool)[:, None] if any(norms.scalar) else 1.0
     return np.block([[along.real, across.real], [along.imag * counts, across.imag * counts]])
+
+
+# loads the compiler, a tenth of a second, and so at the first call; an import at each takes as long as a short loop
+@cache
+def _cancelling() -> ModuleType:
+    from optimizer.program.kernel import cancelling
+
+    return cancelling

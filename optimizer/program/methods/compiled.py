@@ -3,12 +3,13 @@
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
+from types import ModuleType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, in_order, mapped, parts, plain
-from optimizer.numerics.loading import deferred
 from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, nothing_proven
@@ -26,10 +27,6 @@ if TYPE_CHECKING:
 
 #: both stages, as :func:`optimizer.program.kernel.interior_point.solve`, of programs in units of their own
 Method = Callable[..., tuple[Any, ...]]
-
-#: loops, compiled
-_scaled = deferred("optimizer.program.kernel.disc_forms", "scales")
-_solved_in_discs = deferred("optimizer.program.kernel.discs", "solve")
 
 
 class _Tolerances(NamedTuple):
@@ -257,7 +254,7 @@ def _scales(
     region, influence = statement.flat.programs.region, in_order(statement.norms.influence)
     many, _, webs = influence.shape
     reach, unit, asked = np.empty((many, webs)), np.empty(many), np.empty((2, many))
-    _scaled()(
+    _disc_forms().scales(
         np.add.reduce(np.abs(statement.norms.constant), axis=-1),
         influence,
         natural_reach(statement),
@@ -310,7 +307,7 @@ def _in_discs(statement: Statement, reach: Real, unit: Real, margin: float, *sta
     found, places = [], []
     for which, budgeted, programs in discs_of(statement, reach, unit, margin):
         asked = (share, tolerance) if which is None else (share[which], tolerance[which])
-        v, p, price, mass_unit = _solved_in_discs()(programs, budgeted, least_mass, *asked, mass_tolerance)
+        v, p, price, mass_unit = _discs().solve(programs, budgeted, least_mass, *asked, mass_tolerance)
         if which is None:
             return v.view(complex)[..., 0], p, price, mass_unit
         found.append((v.view(complex)[..., 0], p, price, mass_unit[None]))
@@ -348,3 +345,18 @@ def _programs(statement: Statement, reach: Real, unit: Real, margin: float) -> "
         budget=mass / np.where(over, budget, np.inf),
     )
     return Programs(*(plain(values) for values in programs))
+
+
+# loads the compiler, a tenth of a second, and so at the first call; an import at each takes as long as a short loop
+@cache
+def _disc_forms() -> ModuleType:
+    from optimizer.program.kernel import disc_forms
+
+    return disc_forms
+
+
+@cache
+def _discs() -> ModuleType:
+    from optimizer.program.kernel import discs
+
+    return discs

@@ -1,12 +1,13 @@
 """Programs for the interior point for discs (:mod:`optimizer.program.kernel.discs`): which, and in its form."""
 
 from collections.abc import Sequence
+from functools import cache
+from types import ModuleType
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from optimizer.numerics.arrays import Real
-from optimizer.numerics.loading import deferred
 from optimizer.numerics.memoization import remembered
 from optimizer.program.statement import Statement
 
@@ -19,10 +20,6 @@ _VECTORS = 6
 _THINNEST = 1e-3
 #: of the largest influence, by which those of a vector may miss a multiple of force or moment: their rounding
 _SAME = 1e-14
-
-#: loops, compiled, and what they are told
-_forms = deferred("optimizer.program.kernel.disc_forms", "forms")
-_discs = deferred("optimizer.program.kernel.disc_starts", "Discs")
 
 
 def suits_discs(statement: Statement, least_mass: bool = True) -> np.ndarray:
@@ -60,7 +57,7 @@ def discs_of(
     (many, vectors, webs), region = programs.influence.shape, programs.region
     shapes = (many, vectors), (many, vectors, 2), (many, 2, webs), (many, webs), (many, webs), programs.cap.shape
     every, budgeted = tuple(map(np.empty, shapes)), np.empty(many, bool)
-    _forms()(
+    _disc_forms().forms(
         programs.constant,
         programs.influence if vectors < 3 else pair.influence,
         pair.multiple,
@@ -77,12 +74,12 @@ def discs_of(
     kinds = 2 * sectors + budgeted
     if many == 1 or (kinds == kinds[0]).all():
         normals = _frame(statement) if sectors[0] else none
-        return [(None, bool(budgeted[0]), _discs()(pair.basis, *every, normals))]
+        return [(None, bool(budgeted[0]), _disc_starts().Discs(pair.basis, *every, normals))]
     frame, found = _frame(statement) if np.count_nonzero(sectors) else none, []
     for part in np.unique(kinds).tolist():
         which = np.flatnonzero(kinds == part)
         arrays = [values[which] for values in (*every, frame if part > 1 else none)]
-        found.append((which, part % 2 == 1, _discs()(pair.basis, *arrays)))
+        found.append((which, part % 2 == 1, _disc_starts().Discs(pair.basis, *arrays)))
     return found
 
 
@@ -146,3 +143,18 @@ def _pair(statement: Statement) -> _Pair | None:
         multiple[:, own], two[:, b] = along, largest
         holds &= (np.maximum.reduce(off, axis=-1) <= _SAME * size).all(axis=-1)
     return _Pair(basis, multiple, two, holds)
+
+
+# loads the compiler, a tenth of a second, and so at the first call; an import at each takes as long as a short loop
+@cache
+def _disc_forms() -> ModuleType:
+    from optimizer.program.kernel import disc_forms
+
+    return disc_forms
+
+
+@cache
+def _disc_starts() -> ModuleType:
+    from optimizer.program.kernel import disc_starts
+
+    return disc_starts

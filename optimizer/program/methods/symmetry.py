@@ -6,16 +6,14 @@ keeps its size and every counterweight its mass; sizes are convex, so that of th
 the mass (docs/mathematics.md section 9).
 """
 
+from functools import cache
+from types import ModuleType
+
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, plain
-from optimizer.numerics.loading import deferred
 from optimizer.program.equal_unknowns import apart, united
 from optimizer.program.statement import Statement
-
-#: loops, compiled
-_alike = deferred("optimizer.program.kernel.symmetries", "Alike")
-_means = deferred("optimizer.program.kernel.symmetries", "means")
 
 
 def symmetric(statement: Statement, u: Complex, kinds: np.ndarray | None = None) -> Complex:
@@ -36,8 +34,8 @@ def symmetric(statement: Statement, u: Complex, kinds: np.ndarray | None = None)
     influence = statement.every_influence
     if u.shape[-1] < 2 or not u.size or np.iscomplexobj(influence):
         return u
-    limits, kind = statement.limits, _alike()
-    found: Complex = _means()(
+    limits, kind = statement.limits, _symmetries().Alike
+    found: Complex = _symmetries().means(
         plain(statement.every_constant),
         plain(influence),
         kind(*(plain(getattr(limits, name)) for name in kind._fields)),
@@ -45,3 +43,11 @@ def symmetric(statement: Statement, u: Complex, kinds: np.ndarray | None = None)
         plain(u),
     )
     return found
+
+
+# loads the compiler, a tenth of a second, and so at the first call; an import at each takes as long as a short loop
+@cache
+def _symmetries() -> ModuleType:
+    from optimizer.program.kernel import symmetries
+
+    return symmetries
