@@ -235,18 +235,18 @@ def _row(request: Place, row: Place, chosen: bool) -> Claims:
         yield EVIDENCE, row / "multipliers", None, ONE
 
 
-def _by_columns(claims: Claims, row: Place, found: Any, chosen: bool) -> Claims:
+def _by_columns(claims: Claims, row: Place, fields: Any, chosen: bool) -> Claims:
     """Claims by the columns that they are about: of one that there is not nothing is claimed."""
     untold = chosen and not {*row.value} >= OF_STATUS
     try:
         for claim, place, room, size in claims:
             room = None if claim == "status" and untold else room
-            path = _column(place.path, len(row.path), found)
+            path = _column(place.path, len(row.path), fields)
             there = path[-1] in row.value or (path[-1] == WITH_MULTIPLIERS and row / "multipliers")
             if there or place or not (chosen or path[-1] in (NO_COLUMN, WITH_MULTIPLIERS)):
                 yield claim, Place(place.value, *path), room, size
     except Unreadable as error:
-        path = _column(error.path, len(row.path), found)
+        path = _column(error.path, len(row.path), fields)
         if chosen and path[-1] not in row.value:
             raise NotCovered(Place(None, *path)) from None
         raise

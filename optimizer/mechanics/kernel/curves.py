@@ -111,28 +111,28 @@ def sums_of_rows(rows, sums, curve, points, bounds, design, angles, half):  # ty
 
 
 @inner
-def _add_scalars(weight, one, along, across):  # type: ignore[no-untyped-def]
+def _add_scalars(weight, numbers, along, across):  # type: ignore[no-untyped-def]
     """Numbers (P,) times a weight to the parts of a sum."""
     if weight.imag == 0.0:
-        for p in range(one.size):
-            along[p] += weight.real * one[p]
+        for p in range(numbers.size):
+            along[p] += weight.real * numbers[p]
     else:
-        for p in range(one.size):
-            along[p] += weight.real * one[p]
-            across[p] += weight.imag * one[p]
+        for p in range(numbers.size):
+            along[p] += weight.real * numbers[p]
+            across[p] += weight.imag * numbers[p]
 
 
 @inner
-def _add_vectors(weight, one, other, along, across):  # type: ignore[no-untyped-def]
+def _add_vectors(weight, first, second, along, across):  # type: ignore[no-untyped-def]
     """Vectors of which both parts are given, (P,) each; all at once, as to fetch the sum takes longer than to add."""
     if weight.imag == 0.0:
-        for p in range(one.size):
-            along[p] += weight.real * one[p]
-            across[p] += weight.real * other[p]
+        for p in range(first.size):
+            along[p] += weight.real * first[p]
+            across[p] += weight.real * second[p]
     else:
-        for p in range(one.size):
-            along[p] = along[p] + weight.real * one[p] - weight.imag * other[p]
-            across[p] = across[p] + weight.imag * one[p] + weight.real * other[p]
+        for p in range(first.size):
+            along[p] = along[p] + weight.real * first[p] - weight.imag * second[p]
+            across[p] = across[p] + weight.imag * first[p] + weight.real * second[p]
 
 
 @inner
