@@ -13,9 +13,9 @@ from optimizer.numerics.arrays import Real
 from optimizer.program.kernel.compiling import inner
 from optimizer.program.kernel.stages import CENTRALITY, OPEN, RESERVE
 
-#: first stage: product of slack and multiplier of a web at the start, share of its size that it has along a sector, and
-#: share of a budget that is spent at most
-_PRODUCT, _ALONG, _SPENT = 0.5, 0.6, 0.75
+#: first stage: product of slack and multiplier of a web at the start, what sizes are above their vectors, share of its
+#: size that a web has along a sector, and share of a budget that is spent at most
+_PRODUCT, _ABOVE_VECTOR, _ALONG, _SPENT = 0.1, 0.1, 0.6, 0.75
 #: second stage: what the size of the multiplier of a web is above its mass at least
 _ABOVE_MASS = 0.05
 
@@ -74,7 +74,7 @@ def begin_first(programs, n, budgeted, cost, where):  # type: ignore[no-untyped-
     for j in range(vectors):
         at = 6 * webs + 4 * j
         vx, vy = _vector(programs, n, j, where)
-        size = np.sqrt(vx * vx + vy * vy) + 0.5
+        size = np.sqrt(vx * vx + vy * vy) + _ABOVE_VECTOR
         where[at + 2], where[at + 3] = (size, 1.0) if j < terms else (max(size, programs.cap[n, j - terms]), 0.5)
 
 
@@ -86,7 +86,8 @@ def begin_second(programs, n, budgeted, share, gap, end, cost, where):  # type: 
     total, value, sizes = 0.0, 0.0, 0.0
     for k in range(webs):
         total += programs.mass[n, k] * np.sqrt(end[k] ** 2 + end[webs + k] ** 2)
-    unit = total if total > 0.0 else 1.0
+    # a first stage that did not end well may be anywhere
+    unit = total if 0.0 < total < np.inf else 1.0
     for j in range(terms):
         vx, vy = _vector(programs, n, j, end)
         value += np.sqrt(vx * vx + vy * vy)

@@ -61,14 +61,14 @@ def candidate(which, programs, n, sizes, solver, term, row, ceiling):  # type: i
 
 
 @folded
-def proof_of(programs, n, sizes, solver, share, best_known, at_rest, term, row, ceiling):  # type: ignore[no-untyped-def]
+def proof_of(programs, n, sizes, solver, share, objective, rest, term, row, ceiling):  # type: ignore[no-untyped-def]
     """The highest lower bound of the objective, and the multipliers that prove it, in place: the first of equal ones.
 
     Parameters
     ----------
     sizes, solver : as of :func:`candidate`.
     share : how far above the smallest objective an optimum may be.
-    best_known, at_rest : objectives of a point and of rest.
+    objective, rest : of a point, and of rest.
     """
     best, highest, first = 0, -np.inf, 0.0
     for which in range(3):
@@ -80,7 +80,7 @@ def proof_of(programs, n, sizes, solver, share, best_known, at_rest, term, row, 
             first = lower
             # no floor proves more than itself, nor rest anything that counts where it is far from an optimum
             above = programs.floor.shape[1] == 1 and lower > programs.floor[n, 0]
-            if above and best_known - lower <= _SHARP * share and at_rest - lower > share:
+            if above and objective - lower <= _SHARP * share and rest - lower > share:
                 return lower
     if best < 2:
         candidate(best, programs, n, sizes, solver, term, row, ceiling)
