@@ -1,8 +1,11 @@
-"""The benchmark on the wire runs once on every change; times are for `make bench`."""
+"""The benchmark on the wire runs once every night; times are for `make bench`."""
+
+import pytest
 
 from tests.benchmarks.wire import Seen, measure
 
 
+@pytest.mark.nightly
 def test_every_kind_of_connection_is_measured() -> None:
     seen = {(target.name, count, kept): found for target, count, kept, found in measure((2,), 0.1)}
     assert set(seen) == {(name, 2, kept) for name in ("service", "echo") for kept in (True, False)}

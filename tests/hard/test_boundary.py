@@ -21,6 +21,7 @@ def test_nothing_jumps_and_everything_is_settled(seed: int) -> None:
         assert set(statuses) <= {"optimal", "infeasible"}, (ladder.place, ladder.ceilings, statuses)
 
 
+@pytest.mark.nightly
 def test_many_webs_on_the_boundary() -> None:
     """32 webs, half of which carry next to nothing: doubles do not tell whether both ceilings can be kept."""
     (reachable,) = (

@@ -21,7 +21,7 @@ def _held(kind: str, cases: range) -> None:
 
 @pytest.mark.parametrize(("offset", "kind"), list(enumerate(KINDS)))
 def test_some_cases_of_each_kind(offset: int, kind: str) -> None:
-    _held(kind, range(offset, len(_CASES), 12))
+    _held(kind, range(offset, len(_CASES), 24))
 
 
 @pytest.mark.nightly

@@ -172,6 +172,7 @@ def test_a_stop_parks_and_a_start_goes_on(house: House, tmp_path: Path) -> None:
     assert house.rows(job).equals(synthetic.rows(0, 40))
 
 
+@pytest.mark.parametrize("any_house", ["sqlite", pytest.param("postgresql", marks=pytest.mark.nightly)], indirect=True)
 def test_two_coordinators_share_a_job(any_house: House) -> None:
     job = any_house.submit(total=200, chunk_rows=2, sleep_s=0.01)
     with any_house.coordinator(threads()), any_house.coordinator(threads()):

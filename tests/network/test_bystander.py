@@ -14,7 +14,6 @@ from service.settings import Settings
 from tests.network.bystander import CEILING_MB, PRESSES, TORQUE, beside, largest, mixed, search
 from tests.network.load import start_sweep
 from tests.network.serving import Service, service
-from tests.night import but
 
 
 @pytest.fixture(scope="module")
@@ -37,7 +36,8 @@ def test_what_presses_is_legal(model: type[Model], body: bytes) -> None:
     SizeLimits.of(Settings()).require(check(model, json.loads(body)))
 
 
-@pytest.mark.parametrize("press", [PRESSES["stalled bodies"], *but((), [PRESSES["streams of events"], mixed])])
+@pytest.mark.nightly
+@pytest.mark.parametrize("press", [PRESSES["stalled bodies"], PRESSES["streams of events"], mixed])
 def test_a_bystander_is_answered(pressed: Service, press: object) -> None:
     outcome = asyncio.run(beside(pressed, press, 150, 2.0))  # type: ignore[arg-type]
     assert outcome.refused == 0, outcome.statuses

@@ -2,6 +2,8 @@
 
 import re
 
+import pytest
+
 from tests.network.schema import run
 from tests.network.serving import Service
 
@@ -11,6 +13,7 @@ PATHS = (
 )
 
 
+@pytest.mark.nightly
 def test_operations_answer_as_the_document_says(target: Service) -> None:
     phases = ("examples", "fuzzing", "stateful")
     code, made, text = run(target.url, phases, 2, *(f"--include-path={path}" for path in PATHS))

@@ -20,6 +20,7 @@ from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.objective import Objective
 from schemas.request.requests import OptimizeRequest
 from tests.hard_turn import machines
+from tests.night import every
 
 _STEPS = np.linspace(0.0, 2.0 * np.pi, 721)
 
@@ -44,7 +45,7 @@ def _corners(response: TurnResponse, angle: Real, share: float) -> Complex:
     return response.at(angle) + signs @ parts.T
 
 
-@pytest.mark.parametrize("share", [1e-6, 0.02, 0.3, 1.0])
+@pytest.mark.parametrize("share", every(2, [1e-6, 0.02, 0.3, 1.0]))
 @pytest.mark.parametrize("size", [0.0, 0.03, 0.5])
 @pytest.mark.parametrize(
     ("name", "gas", "shaft"),

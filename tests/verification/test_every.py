@@ -10,12 +10,12 @@ from tests.verification.checking import Spread, is_checked, require
 from tests.verification.every import _checked, unchecked
 
 
-def test_the_first_of_a_test_and_a_thirtieth_of_the_others() -> None:
+def test_the_first_of_a_file_and_a_twentieth_of_the_others() -> None:
     spread = Spread(every=False)
-    assert [number for number in range(1, 101) if spread("file::one (call)")] == [1, 30, 60, 90]
-    # with all of its parameters it is one test
-    names = [f"file::another[{number}] (call)" for number in range(1, 32)]
-    assert [number for number, name in enumerate(names, 1) if spread(name)] == [1, 30]
+    assert [number for number in range(1, 61) if spread("file::one (call)")] == [1, 20, 40, 60]
+    # whichever of its tests asks
+    names = [f"another::test_{number}[x::y] (call)" for number in range(1, 32)]
+    assert [number for number, name in enumerate(names, 1) if spread(name)] == [1, 20]
 
 
 def test_every_one_at_night() -> None:
@@ -25,7 +25,7 @@ def test_every_one_at_night() -> None:
 
 def test_every_one_outside_of_tests(monkeypatch: pytest.MonkeyPatch) -> None:
     spread = Spread(every=False)
-    assert [number for number in range(1, 32) if is_checked(spread)] == [1, 30]
+    assert [number for number in range(1, 32) if is_checked(spread)] == [1, 20]
     monkeypatch.delenv("PYTEST_CURRENT_TEST")
     assert all(is_checked(spread) for _ in range(12))
 

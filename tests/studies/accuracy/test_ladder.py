@@ -165,6 +165,7 @@ def test_what_is_too_large_or_too_late_is_skipped_and_says_so(monkeypatch: pytes
     assert "used up" in late.skipped
 
 
+@pytest.mark.nightly
 def test_a_machine_of_500_webs_is_measured_within_its_bounds(monkeypatch: pytest.MonkeyPatch) -> None:
     """What is not skipped is bounded in size; here the bound is lowered, to keep the test short."""
     monkeypatch.setattr(ladder, "MAX_ENTRIES", 10_000)

@@ -10,6 +10,7 @@ from optimizer.errors import MissingInput
 from optimizer.studies.pareto.pareto import pareto
 from schemas.front.counts import CountFront
 from schemas.front.pareto import ParetoRequest
+from tests.night import every
 from tests.optimize import choices
 from tests.verification.checking import optimized
 
@@ -226,7 +227,7 @@ def test_numbers_for_the_whole_turn(of: str) -> None:
     assert found.points[-1].value == pytest.approx(float(np.min(loads)), rel=choices.DEGREE)
 
 
-@pytest.mark.parametrize("of", ["weights", "part_numbers"])
+@pytest.mark.parametrize("of", every(2, ["part_numbers", "weights"]))
 def test_the_least_mass_for_the_whole_turn(of: str) -> None:
     """Independent: of all 2,401 sets that keep a ceiling on the bearings the lightest."""
     machine = choices.twin()
