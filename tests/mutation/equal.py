@@ -97,6 +97,7 @@ _VERIFY: dict[str, str] = {
     " middles of pieces, which end at dead centres",
     "verify_program.py spent: web.plate.lever(0.0) -> web.plate.lever(0.001)": "an end of the prices that are halved,"
     " less by a millionth",
+    "verify_levels.py levels: max -> min": "without a goal before the last nothing that follows it is covered",
     "verify_harmonics.py rod: wide ** 2 -> wide ** 3": "wide is not below 1: a larger bound calls for more samples",
     "verify_program.py lightest: sizes[row].low > 0 -> sizes[row].low > 1": "it counts the smallest steps of numbers",
     "verify_pressed.py _sizes: each > 1e-14 -> each >= 1e-14": "no size is 1e-14 to the bit, which is of no account",
