@@ -59,6 +59,10 @@ _PROGRAM: dict[str, str] = {
     " -> np.add.reduce(mass, axis=+1, keepdims=True)": "it has two axes",
     "methods/compiled.py _programs: np.maximum.reduce(statement.floor, axis=-1)"
     " -> np.maximum.reduce(statement.floor, axis=+1)": "it has two axes",
+    "methods/compiled.py _programs: -1 -> +1": "it has two axes",
+    "methods/compiled.py _solve: statement.limits.radius.shape[-1] -> statement.limits.radius.shape[-2]": "without webs"
+    " the same is found by solving",
+    "methods/polish.py lightened: statement.limits.radius.size == 0 -> statement.limits.radius.size == 1": _STEERS,
     "methods/compiled.py _in_any_limits: points_at(statement.chosen(left), nearest).excess < 0"
     " -> points_at(statement.chosen(left), nearest).excess < 1": _STEERS,
     "methods/feasibility_phase.py at_rest: rest.gap + float(allowance) <= target.share"
@@ -97,6 +101,8 @@ _VERIFY: dict[str, str] = {
     " middles of pieces, which end at dead centres",
     "verify_program.py spent: web.plate.lever(0.0) -> web.plate.lever(0.001)": "an end of the prices that are halved,"
     " less by a millionth",
+    "verify_nominal.py nominal_optimum: above < 0 -> above <= 0": "nothing is above a bound by 0 to the bit",
+    "verify_levels.py levels: max -> min": "without a goal before the last nothing that follows it is covered",
     "verify_harmonics.py rod: wide ** 2 -> wide ** 3": "wide is not below 1: a larger bound calls for more samples",
     "verify_program.py lightest: sizes[row].low > 0 -> sizes[row].low > 1": "it counts the smallest steps of numbers",
     "verify_pressed.py _sizes: each > 1e-14 -> each >= 1e-14": "no size is 1e-14 to the bit, which is of no account",

@@ -14,6 +14,7 @@ from tests.verification.answers import answered, pair
 from tests.verification.checking import broken
 from tests.verification.fabricated import KINDS, fabricated, verdict
 from tests.verification.kinds import SINGLE
+from tests.verification.recorded import records
 
 SEVERAL = (
     "scenarios", "scenarios over the turn", "tolerances", "tolerances over the turn", "priorities",
@@ -183,3 +184,11 @@ def test_floors_of_a_scenario_alone_are_those_of_its_machine(path: str, value: f
         wrong = copy.deepcopy(answer)
         wrong["infeasibility"][field] *= 1.0001
         assert broken(body, wrong), field
+
+
+@pytest.mark.parametrize("places", [(), (0,), (1,), (1, 0), (0, 0, 1), (0, 1, 1)])
+def test_no_goal_is_left_out_or_out_of_order(places: tuple[int, ...]) -> None:
+    request, answer = (copy.deepcopy(records()["priorities"][part]) for part in ("request", "answer"))
+    goals = answer["certificate"]["goals"]
+    answer["certificate"]["goals"] = [goals[k] for k in places]
+    assert verdict(request, answer) in ("broken", "not covered")
