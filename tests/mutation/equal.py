@@ -12,15 +12,16 @@ _MECHANICS: dict[str, str] = {
     "bearings.py bending_moment: terms(-1.0) < terms(1.0) -> terms(-1.0) <= terms(1.0)": _ALIKE,
     "bearings.py bending_moment: terms(-1.0) -> terms(-1.011)": _SIDES,
     "bearings.py bending_moment: terms(1.0) -> terms(1.011)": _SIDES,
-    "bearings.py _refuse_coincident: 4.0 -> 4.041": _FINER,
+    "bearings.py _refuse_coincident: 4.0 * np.spacing(np.maximum(np.abs(first), np.abs(last)))"
+    " -> 4.041 * np.spacing(np.maximum(np.abs(first), np.abs(last)))": _FINER,
     "row_data.py _opened: np.where(closed, discharge, 1.0) -> np.where(closed, discharge, 1.011)": _OPEN,
     "row_data.py _opened: np.where(closed, suction, 1.0) -> np.where(closed, suction, 1.011)": _OPEN,
     "row_work.py beside_mean: own < 0.5 * TURN -> own <= 0.5 * TURN": _ALIKE,
-    "friction.py reciprocating_friction: np.abs(sine) < 1e-12 -> np.abs(sine) <= 1e-12": _ALIKE,
+    "friction.py reciprocating_friction: np.abs(motion.sine) < 1e-12 -> np.abs(motion.sine) <= 1e-12": _ALIKE,
     "layout.py _unbalances: angle + 180.0 -> angle - 180.0": "a whole turn",
     "row_series.py _memo: self._functions_by_pressure.get(True) or self._functions_by_pressure.get(pressed)"
     " -> self._functions_by_pressure.get(True) and self._functions_by_pressure.get(pressed)": _SPEED,
-    "whole_turn.py of_rows: self.rows.crank_radius.shape[-1] -> self.rows.crank_radius.shape[+1]": "it has two axes",
+    "whole_turn.py _alone: self.rows.crank_radius.shape[-1] -> self.rows.crank_radius.shape[+1]": "it has two axes",
     "gas.py _above_start: np.minimum(exponent[..., None] * u, 1.0)"
     " -> np.minimum(exponent[..., None] * u, 1.011)": _LIMITED,
     "indicated.py _WIDEST_PANEL": _FINER,
@@ -67,8 +68,6 @@ _PROGRAM: dict[str, str] = {
     " -> points_at(statement.chosen(left), nearest).excess < 1": _STEERS,
     "methods/feasibility_phase.py at_rest: rest.gap + float(allowance) <= target.share"
     " -> rest.gap + float(allowance) < target.share": _ALIKE,
-    "methods/compiled.py _solve: reachable > 0 -> reachable > 1": _STEERS,
-    "methods/compiled.py _solve: unit > 0 -> unit > 1": _STEERS,
     "methods/implied_bounds.py _in_sectors: np.min(along[outside], initial=1.0)"
     " -> np.min(along[outside], initial=1.011)": "the shortest support is 1 along some ray outside; without such a ray"
     " nothing is divided by it",
