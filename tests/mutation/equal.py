@@ -77,6 +77,8 @@ _PROGRAM: dict[str, str] = {
     " limits.max_total_mass) -> _ROOM_FOR_MASS * before.mass <= worth_less * np.minimum(limits.max_mass,"
     " limits.max_total_mass)": _STEERS,
     "methods/rounding.py RUNGS": _STEERS,
+    "cuts/empty_webs.py _without: found.mass <= max(point.mass, heaviest)"
+    " -> found.mass < max(point.mass, heaviest)": _ALIKE,
     "cuts/proof.py _MEAN: 64 * np.finfo(float).eps -> 65 * np.finfo(float).eps": _FINER,
     "reference/modelling.py _vector_duals: np.zeros(0, complex) -> np.zeros(1, complex)": "it is multiplied with the"
     " influences of none",
@@ -100,6 +102,8 @@ _VERIFY: dict[str, str] = {
     " middles of pieces, which end at dead centres",
     "verify_program.py spent: web.plate.lever(0.0) -> web.plate.lever(0.001)": "an end of the prices that are halved,"
     " less by a millionth",
+    "verify_gas.py breaks: one + self.lead -> one - self.lead": "it is a revolution of two, forwards or backwards",
+    "verify_claims.py judged: found[claim][:2] -> found[claim][:3]": "a pair is never above what begins with it",
     "verify_nominal.py nominal_optimum: above < 0 -> above <= 0": "nothing is above a bound by 0 to the bit",
     "verify_levels.py levels: max -> min": "without a goal before the last nothing that follows it is covered",
     "verify_harmonics.py rod: wide ** 2 -> wide ** 3": "wide is not below 1: a larger bound calls for more samples",

@@ -107,3 +107,12 @@ def test_nodes_integrate_polynomials() -> None:
         assert sum(share * place ** (2 * count) for place, share in nodes) != pytest.approx(
             1.0 / (2 * count + 1), rel=1e-13
         )
+
+
+def test_what_rounds_a_weighed_peak_is_all_that_may_cancel_in_it() -> None:
+    """Analytic: |3 + 4 j| and 2, seen along x and y by their weights of 1 and 0.3, at half a newton metre each."""
+    real, turned = part("numbers").real, part("numbers").J
+    responses = {"moment": (real(3.0) + turned * real(4.0), real(2.0))}
+    seen, weighed = SimpleNamespace(x=real(1.0), y=real(0.3)), SimpleNamespace(weights={"moment": real(0.5)})
+    size = part("cuts").Part.size(weighed, seen, responses, "moment")
+    assert float(size) == pytest.approx(7.0 * 1.3 * 0.5, rel=1e-15)
