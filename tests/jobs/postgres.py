@@ -89,11 +89,12 @@ class Server:
 
     def __init__(self, found: Path, home: Path, identity: dict[str, Any], options: str = "") -> None:
         self._programs, self._home, self._identity, self._options = found, home, identity, options
-        self._port = _port()
-        self.url = f"postgresql://tests@127.0.0.1:{self._port}/postgres"
         # what another server was restored into is there already
         if not (home / "data").exists():
             self._run("initdb", "--username=tests", "--auth=trust", "--encoding=UTF8", "--locale=C", "--no-sync")
+        # that takes seconds, in which somebody else might take the port
+        self._port = _port()
+        self.url = f"postgresql://tests@127.0.0.1:{self._port}/postgres"
         self.start()
 
     def _run(self, program: str, *arguments: str) -> None:
@@ -103,7 +104,9 @@ class Server:
             done = subprocess.run(command, timeout=150, cwd="/", **quiet, **self._identity)
             said.seek(0)
             if done.returncode:
-                raise Missing(f"the PostgreSQL server cannot be run: {said.read()[-500:]}")
+                log = self._home / "log"
+                why = log.read_text(errors="replace")[-500:] if log.exists() else ""
+                raise Missing(f"the PostgreSQL server cannot be run: {said.read()[-500:]}{why}")
 
     def start(self) -> None:
         """Start it; it takes connections when this returns."""
