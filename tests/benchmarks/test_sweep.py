@@ -91,6 +91,7 @@ def test_counted_operations(request_: SweepRequest) -> None:
     assert 1e3 < operations / iterations < 1e5
 
 
+@pytest.mark.nightly
 def test_scaling_and_memory_run() -> None:
     # other tests in this process may have workers of theirs
     others = sweep_memory.workers()

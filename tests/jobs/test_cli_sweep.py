@@ -102,11 +102,11 @@ def test_an_interrupted_sweep_goes_on(tmp_path: Path, ending: signal.Signals) ->
 @pytest.mark.parametrize(
     ("where", "during"),
     [
-        ("service.jobs.desk", "JobService"),
+        pytest.param("service.jobs.desk", "JobService", marks=pytest.mark.nightly),
         ("service.jobs.owner_jobs", "OwnerJobs.sweep"),
-        ("service.cli.sweep", "_watch"),
+        pytest.param("service.cli.sweep", "_watch", marks=pytest.mark.nightly),
         ("service.jobs.export", "export"),
-        ("service.cli.sweep", "put"),
+        pytest.param("service.cli.sweep", "put", marks=pytest.mark.nightly),
     ],
 )
 def test_whenever_it_is_interrupted_it_says_so_and_goes_on(
@@ -148,7 +148,12 @@ def test_what_cannot_be_done(
 
 
 @pytest.mark.parametrize(
-    ("counts", "code"), [({"optimal": 6}, 0), ({"optimal": 5, "infeasible": 1}, 1), ({"optimal": 5, "failed": 1}, 70)]
+    ("counts", "code"),
+    [
+        pytest.param({"optimal": 6}, 0, marks=pytest.mark.nightly),
+        ({"optimal": 5, "infeasible": 1}, 1),
+        ({"optimal": 5, "failed": 1}, 70),
+    ],
 )
 def test_a_row_that_broke_down_is_no_infeasible_one(
     counts: dict[str, int], code: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
