@@ -22,9 +22,9 @@ _PROPORTIONAL = re.compile(
 #: prices are quotients of forces and masses, and multipliers of forces
 _QUOTIENTS = ("shadow_prices", "multipliers", "nominal_multipliers")
 #: what is dear, of other forms, or holds values that are no masses
-_LEFT_OUT = ("four strokes", "dynamics", "gas", "friction", "sweep", "front", "match", "texts", "scenario", "few ",
+LEFT_OUT = ("four strokes", "dynamics", "gas", "friction", "sweep", "front", "match", "texts", "scenario", "few ",
              "seed", "masses off", "priorities", "cheaper")  # fmt: skip
-_NAMES = [name for name in records() if not any(part in name for part in _LEFT_OUT)]
+_NAMES = [name for name in records() if not any(part in name for part in LEFT_OUT)]
 
 
 def lighter(value: Any, name: str = "") -> Any:
