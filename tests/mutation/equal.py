@@ -43,6 +43,7 @@ _MECHANICS: dict[str, str] = {
     " -> np.where(self.pieces.size > 0.0, self.pieces.size, 1.011)": "of what has no size nothing is left out",
 }
 _PROGRAM: dict[str, str] = {
+    "solution.py certify_s: 0.0 -> 0.001": "a millisecond of what is told of time",
     "cuts/attempts.py FREELY": _STEERS,
     "cuts/attempts.py WITHIN": _STEERS,
     "cuts/cut.py alike: max -> min": _ALIKE,
@@ -97,6 +98,8 @@ _FORMULATION: dict[str, str] = {
     " compared with their masses beside",
 }
 _VERIFY: dict[str, str] = {
+    "verify_plates.py up_to: self.mass(self.most) <= limit -> self.mass(self.most) < limit": "halving comes to it too",
+    "verify_inside.py internal_moment: 0.0 -> 0.001": "there is always a throw, and so a plane",
     "verify_gas.py slopes: max -> min": "what encloses steeper slopes encloses these, in more pieces",
     "verify_pistons.py steepness: (within + self.ahead) % TURN < pi -> (within + self.ahead) % TURN <= pi": "of the"
     " middles of pieces, which end at dead centres",

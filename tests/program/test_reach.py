@@ -10,6 +10,7 @@ from scipy.optimize import linprog
 from optimizer.mechanics.angles import direction
 from optimizer.numerics.arrays import Complex
 from optimizer.program.ceilings import Ceilings
+from optimizer.program.equal_castings import Alike
 from optimizer.program.limits import Limits
 from optimizer.program.methods.implied_bounds import (
     _masses_by_inverse,
@@ -216,6 +217,17 @@ def test_a_web_alone_is_bound_by_what_its_responses_leave() -> None:
     assert bounded(near, level).limits.max_mass[1] >= 29.0 / 0.25
     # without a level nothing is proven, and no more than the largest mass is left
     assert np.all(bounded(program, np.inf).limits.max_mass == 1e15)
+
+
+def test_of_mirrored_webs_nothing_is_proven_by_what_one_does() -> None:
+    """By definition: a limit that there is stays, and no more than the largest mass is left of none."""
+    program, level = _two_terms()
+    pair = Alike(np.ones(2, complex), np.zeros(2), (0, 0), (False, True))
+    for most in (np.array([4.0, 4.0]), np.full(2, np.inf)):
+        limits = replace(program.limits, max_mass=most, alike=pair)
+        assert (
+            bounded(replace(program, limits=limits), level).limits.max_mass.tolist() == np.minimum(most, 1e15).tolist()
+        )
 
 
 def test_the_level_leaves_room_for_all_that_counts_as_an_optimum() -> None:
