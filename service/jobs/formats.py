@@ -1,7 +1,7 @@
 """Rows as bytes: Parquet, Arrow, CSV, NDJSON and workbooks, a batch at a time, in full double precision."""
 
 import json
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Generator, Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -26,12 +26,12 @@ class Format:
     """How rows are written; ``encode`` takes a schema and batches of it."""
 
     media_type: str
-    encode: Callable[["pa.Schema", Batches], Iterator[bytes]]
+    encode: Callable[["pa.Schema", Batches], Generator[bytes, None, None]]
     #: whether the metadata of the schema is in the file
     describes_itself: bool
 
 
-def _parquet(schema: "pa.Schema", batches: Batches) -> Iterator[bytes]:
+def _parquet(schema: "pa.Schema", batches: Batches) -> Generator[bytes, None, None]:
     import pyarrow as pa
     import pyarrow.parquet as pq
 
@@ -43,7 +43,7 @@ def _parquet(schema: "pa.Schema", batches: Batches) -> Iterator[bytes]:
     yield out.take()
 
 
-def _groups(batches: Batches) -> "Iterator[list[pa.RecordBatch]]":
+def _groups(batches: Batches) -> "Iterable[list[pa.RecordBatch]]":
     """Batches that are written together: what is said of each group of rows takes room in a file, and in memory until
     its end."""
     group: list[pa.RecordBatch] = []
@@ -59,19 +59,19 @@ def _groups(batches: Batches) -> "Iterator[list[pa.RecordBatch]]":
         yield group
 
 
-def _arrow_stream(schema: "pa.Schema", batches: Batches) -> Iterator[bytes]:
+def _arrow_stream(schema: "pa.Schema", batches: Batches) -> Generator[bytes, None, None]:
     import pyarrow as pa
 
     return _arrow(pa.ipc.new_stream, schema, batches)
 
 
-def _arrow_file(schema: "pa.Schema", batches: Batches) -> Iterator[bytes]:
+def _arrow_file(schema: "pa.Schema", batches: Batches) -> Generator[bytes, None, None]:
     import pyarrow as pa
 
     return _arrow(pa.ipc.new_file, schema, batches)
 
 
-def _arrow(new: Callable[..., Any], schema: "pa.Schema", batches: Batches) -> Iterator[bytes]:
+def _arrow(new: Callable[..., Any], schema: "pa.Schema", batches: Batches) -> Generator[bytes, None, None]:
     out = Outbox()
     with new(out, schema) as writer:
         for batch in batches:
@@ -80,7 +80,7 @@ def _arrow(new: Callable[..., Any], schema: "pa.Schema", batches: Batches) -> It
     yield out.take()
 
 
-def _csv(schema: "pa.Schema", batches: Batches) -> Iterator[bytes]:
+def _csv(schema: "pa.Schema", batches: Batches) -> Generator[bytes, None, None]:
     import pyarrow as pa
     import pyarrow.csv as pa_csv
 
@@ -116,7 +116,7 @@ def _harmless(texts: "pa.Array") -> "pa.Array":
     return pc.if_else(pc.match_substring_regex(texts, FORMULA), pc.binary_join_element_wise("'", quoted, ""), quoted)
 
 
-def _ndjson(schema: "pa.Schema", batches: Batches) -> Iterator[bytes]:
+def _ndjson(schema: "pa.Schema", batches: Batches) -> Generator[bytes, None, None]:
     import pyarrow as pa
     import pyarrow.compute as pc
 

@@ -4,7 +4,7 @@ A workbook of a library is finished before its first byte can be sent; here Arro
 part 1, 18.3.1), and memory holds one batch however many there are.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable
 from typing import TYPE_CHECKING
 from xml.sax.saxutils import escape
 from zipfile import ZIP_DEFLATED, ZipFile
@@ -79,7 +79,7 @@ def require_fits(rows: int, columns: int) -> None:
         )
 
 
-def worksheet(schema: "pa.Schema", batches: "Iterable[pa.RecordBatch]") -> Iterator[bytes]:
+def worksheet(schema: "pa.Schema", batches: "Iterable[pa.RecordBatch]") -> Generator[bytes, None, None]:
     """The rows on a sheet, and on a second one the unit and the meaning of their columns.
 
     Raises

@@ -1,7 +1,7 @@
 """Sweeps, and the other jobs that are answered later."""
 
 import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Generator, Mapping
 from itertools import chain
 from typing import Annotated, BinaryIO, Literal
 
@@ -29,6 +29,7 @@ from service.http.operations import (
     problems,
     request_body,
 )
+from service.http.stream import Stream
 from service.jobs.accepting import accepted, desk_of, idempotency_key, prefix
 from service.jobs.events import News, Watch, events, news
 from service.jobs.formats import FORMATS, Name
@@ -37,6 +38,8 @@ from service.jobs.owner_jobs import OwnerJobs, Rows
 from service.jobs.page import SweepPage
 from service.jobs.results import chosen, description
 from service.jobs.worksheet import require_fits
+
+Pieces = Generator[bytes, None, None]
 
 router = APIRouter(tags=["sweeps"])
 
@@ -230,7 +233,7 @@ def read_results(
     return _stream(request, job, name, rows, FORMATS[name].encode(schema, rows.batches), more)
 
 
-def _stream(request: Request, job: Job, name: Name, rows: Rows, content: Iterator[bytes], more: int | None) -> Response:
+def _stream(request: Request, job: Job, name: Name, rows: Rows, content: Pieces, more: int | None) -> Response:
     here = f"{prefix(request)}/v1/sweeps/{job.id}"
     links = [f'<{here}/metadata>; rel="describedby"; type="application/json"']
     if more is not None:
@@ -247,7 +250,7 @@ def _stream(request: Request, job: Job, name: Name, rows: Rows, content: Iterato
     return _streamed(request, content, FORMATS[name].media_type, headers)
 
 
-def _streamed(request: Request, content: Iterator[bytes], media_type: str, headers: Mapping[str, str]) -> Response:
+def _streamed(request: Request, content: Pieces, media_type: str, headers: Mapping[str, str]) -> Response:
     """What is read as fast as its client reads it."""
     if request.scope.get("head"):
         return _head(headers, media_type)
@@ -255,10 +258,10 @@ def _streamed(request: Request, content: Iterator[bytes], media_type: str, heade
     # what goes wrong at once is answered with a status
     first = next(content, b"")
     pieces = threads_of(request).pieces(holding(request).who, chain((first,), content))
-    return StreamingResponse(pieces, headers=headers, media_type=media_type)
+    return Stream(pieces, content, media_type, headers)
 
 
-def _blocks(opened: Callable[[], BinaryIO]) -> Iterator[bytes]:
+def _blocks(opened: Callable[[], BinaryIO]) -> Pieces:
     with opened() as file:
         while block := file.read(_BLOCK_BYTES):
             yield block
