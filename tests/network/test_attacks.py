@@ -32,11 +32,11 @@ def test_nothing_that_means_ill_does_harm(target: Service, attack: Attack) -> No
 
 
 def test_nothing_by_chance_does_harm(target: Service) -> None:
-    outcome = asyncio.run(by_chance(target, 200, seed=0))
+    outcome = asyncio.run(by_chance(target, 120, seed=0))
     assert outcome.wrong == []
-    assert outcome.statuses.total() >= 200
+    assert outcome.statuses.total() >= 120
     # few are so wrong that the connection ends without an answer
-    assert outcome.statuses[0] < 50
+    assert outcome.statuses[0] < 30
 
 
 def test_the_service_says_nothing_of_faults_and_still_computes(target: Service) -> None:
