@@ -4,13 +4,13 @@ Numbers are scaled by a power of 2, so nothing is rounded in another way. What t
 own, and not with a share of the forces, is seen by that.
 """
 
-import math
 import re
 from typing import Any
 
 import pytest
 
-from tests.verification.recorded import Line, judgement, records
+from tests.verification.recorded import records
+from tests.verification.scaled import differences
 
 _LIGHTER = 2.0**-40
 #: what is proportional to the masses; plates of one density are thinner
@@ -47,18 +47,5 @@ def _lighter_prices(prices: list[Any]) -> list[Any]:
 
 @pytest.mark.parametrize("name", _NAMES[::4])
 def test_a_lighter_machine_is_judged_alike(name: str) -> None:
-    record = records()[name]
-    found = judgement(lighter(record["request"]), lighter(record["answer"]))
-    as_it_is = record["judgements"][0]
-    assert found["whole"] == as_it_is["whole"]
-    assert [each[:2] for each in found["claims"]] == [each[:2] for each in as_it_is["claims"]]
-    differ = [pair for pair in zip(found["claims"], as_it_is["claims"], strict=True) if not _proportional(*pair)]
-    assert not differ, differ[:4]
-
-
-def _proportional(light: Line, heavy: Line) -> bool:
-    """Rooms are forces, or shares of them; those that are the smallest of all steps remain."""
-    room, other = light[2], heavy[2]
-    if room is None or other is None or max(abs(room), abs(other)) < 1e-200:
-        return bool(room == other or (room is not None and other is not None))
-    return any(math.isclose(room, factor * other, rel_tol=0.004) for factor in (1.0, _LIGHTER))
+    """Rooms are forces, or shares of them."""
+    assert differences(name, lighter, (1.0, _LIGHTER))[:4] == []

@@ -5,14 +5,14 @@ compares with a price of its own is seen by that; of what is compared with a mas
 :mod:`tests.verification.test_lighter`.
 """
 
-import math
 import re
 from typing import Any
 
 import pytest
 
 from tests.night import every
-from tests.verification.recorded import Line, judgement, records
+from tests.verification.recorded import records
+from tests.verification.scaled import differences
 from tests.verification.test_lighter import LEFT_OUT
 
 _SLOWER = 2.0**-40
@@ -75,18 +75,5 @@ def _slower_multipliers(proof: Any, bounded: str) -> Any:
 
 @pytest.mark.parametrize("name", every(3, _NAMES))
 def test_a_slower_machine_is_judged_alike(name: str) -> None:
-    record = records()[name]
-    found = judgement(slower(record["request"]), slower(record["answer"]))
-    as_it_is = record["judgements"][0]
-    assert found["whole"] == as_it_is["whole"]
-    assert [each[:2] for each in found["claims"]] == [each[:2] for each in as_it_is["claims"]]
-    differ = [pair for pair in zip(found["claims"], as_it_is["claims"], strict=True) if not _proportional(*pair)]
-    assert not differ, differ[:4]
-
-
-def _proportional(slow: Line, fast: Line) -> bool:
-    """Rooms are forces, masses, prices or shares; those that are the smallest of all steps remain."""
-    room, other = slow[2], fast[2]
-    if room is None or other is None or max(abs(room), abs(other)) < 1e-200:
-        return bool(room == other or (room is not None and other is not None))
-    return any(math.isclose(room, factor * other, rel_tol=0.004) for factor in (1.0, _SLOWER, 1.0 / _SLOWER))
+    """Rooms are forces, masses, prices or shares."""
+    assert differences(name, slower, (1.0, _SLOWER, 1.0 / _SLOWER))[:4] == []
