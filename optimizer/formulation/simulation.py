@@ -75,10 +75,13 @@ class Prepared:
         """First-order force [N] and moment [N m], with counterweights if given (..., K) kg m."""
         if unbalance is None:
             return self._bare
-        if not self._last or self._last[0][0] is not unbalance:
+        # both at once, for another thread may ask too
+        last = self._last[0] if self._last else None
+        if last is None or last[0] is not unbalance:
             wrench = self.simulated.first_order.plus(counterweights(self.layout, unbalance))
-            self._last[:] = [(unbalance, self.with_shafts(wrench, 1).times(self.layout.omega**2))]
-        return self._last[0][1]
+            last = unbalance, self.with_shafts(wrench, 1).times(self.layout.omega**2)
+            self._last[:] = [last]
+        return last[1]
 
     @cached_property
     def _last(self) -> list[tuple[Complex, Wrench]]:
