@@ -97,6 +97,24 @@ def test_a_minus_is_one_where_it_is_read_and_a_hyphen_where_it_is_computed_with(
     assert not re.search(r"<data[^>]*>[^<]*-", content)
 
 
+def test_numbers_stand_below_their_heading(made: Make) -> None:
+    """On the right, both of them: also in a first column, which names its row."""
+    rows: list[list[dict[str, str | None]]] = []
+    first = []
+    for tag, attributes in Page(html(made("catalogue-twin"))).elements:
+        if tag == "table":
+            rows = []
+        elif tag == "tr":
+            rows.append([])
+        elif tag in ("th", "td"):
+            rows[-1].append(attributes)
+            if len(rows) > 1 and rows[0][0].get("scope") == "col":
+                heading = rows[0][len(rows[-1]) - 1]
+                assert heading.get("class") == attributes.get("class")
+                first += [attributes] if len(rows[-1]) == 1 and attributes.get("class") == "n" else []
+    assert first
+
+
 def test_names_that_are_markup_are_names(hostile: Document) -> None:
     content = html(hostile)
     page = Page(content)
