@@ -197,7 +197,8 @@ def _in_order(cranks: Sequence[Place], order: Place) -> Claims:
 def _on_axis(axis: Place, row: Place) -> Claim:
     """A value of the axis: one of those that are listed, or between its ends."""
     path = (axis / "path").text()
-    where, said = path.split("/")[1:], row / path
+    # of an item of a list, the name of the list says the unit
+    where, said = [int(part) if part.isdecimal() else part for part in path.split("/")[1:]], row / path
     if axis / "values":
         allowed = [
             None if one.value is None else Place(one.value, "request", *where).double() for one in axis / "values"

@@ -191,6 +191,19 @@ def test_the_bound_of_a_search_is_not_covered_in_a_row() -> None:
         assert claims(body, table)["lower_bound"] == "not covered"
 
 
+def test_axes_through_lists_take_texts() -> None:
+    """Regression: the unit of a mass in a list was sought in its number there, and the sweep could not be read."""
+    base = body_of("twin", ("own masses",), 1.0)
+    place, web = next((n, one) for n, one in enumerate(base["machine"]["webs"]) if one.get("catalogue_masses_kg"))
+    path = f"/machine/webs/{place}/catalogue_masses_kg/{len(web['catalogue_masses_kg']) - 1}"
+    body = {"base": base, "axes": [{"path": path, "values": ["20 lb", "9.5 kg", 11]}], "multipliers": True}
+    table = swept(body)
+    assert not broken(body, table)
+    assert claims(body, table)["axis"] == "held"
+    table[1][path] = 20.0
+    assert claims(body, table)["axis"] == "broken"
+
+
 @pytest.mark.parametrize("angles", [[0.0, 90.0], ["0 deg", "1.5 rad"], [400.0, -20.0], [120.0, 120.0]])
 def test_orders_of_cranks(angles: list[Any]) -> None:
     """Regression: rows were held against the machine as it is given."""
