@@ -74,7 +74,7 @@ ROOMS = {
         "service/guard/*.py",
         tuple(
             f"tests/network/test_{name}.py"
-            for name in ("caller", "access", "key_command", "size_limits", "hosts", "users", "accounts")
+            for name in ("caller", "access", "key_command", "key_file", "size_limits", "hosts", "users", "accounts")
         ),
         0.9,
     ),

@@ -57,11 +57,22 @@ def test_a_file_that_is_gone_takes_no_key_away_and_is_told_of_once(
     assert [known.caller(key) is None for key in (old, new)] == [True, False]
 
 
-@pytest.mark.parametrize("line", ["{}", "[]", "\x00", '{"id":1}', "x" * 10_000])
-def test_a_file_that_holds_no_keys_is_refused_by_line(tmp_path: Path, line: str) -> None:
+@pytest.mark.parametrize(
+    ("line", "place"),
+    [
+        ("{}", "id"),
+        ("[]", "line"),
+        ("\x00", "line"),
+        ('{"id":1}', "id"),
+        ("x" * 10_000, "line"),
+        ('{"id":1,"x":2}', "id"),
+    ],
+)
+def test_a_file_that_holds_no_keys_is_refused_by_line(tmp_path: Path, line: str, place: str) -> None:
+    """By the first field that is wrong; by the line where it is no object."""
     file = tmp_path / "keys"
     file.write_text(f"\n{line}\n")
-    with pytest.raises(BadKeyFile, match="line 2"):
+    with pytest.raises(BadKeyFile, match=f"line 2: {place}: "):
         keys.keys(Settings(keys_file=file))
     with pytest.raises(BadKeyFile, match="No such file"):
         keys.keys(Settings(keys_file=tmp_path / "none"))
