@@ -34,7 +34,9 @@ class Room(NamedTuple):
     least: float
 
 
-_JOBS = tuple(f"tests/jobs/test_{name}.py" for name in ("steps", "coordinator", "store", "damage", "races", "schema"))
+_JOBS = tuple(
+    f"tests/jobs/test_{name}.py" for name in ("leases", "steps", "coordinator", "store", "damage", "races", "schema")
+)
 
 ROOMS = {
     "mechanics": Room(
