@@ -103,13 +103,14 @@ def test_use_and_change_of_keys_are_noted(
     monkeypatch.setattr(keys, "_LOOK_S", 0.0)
     (one, first), (other, second) = keys.make("portal", ("read",)), keys.make("cad", ("compute",))
     old, expired = keys.make("old", ("read",), expires=1.0)
+    _, unused = keys.make("idle", ("read",))
     file = tmp_path / "keys.jsonl"
-    keys.write(file, [first, expired])
+    keys.write(file, [first, expired, unused])
     caplog.set_level("INFO", "service.audit")
     known = keys.Keys(file)
     for given in (one, one, old, old, "cw_wrong"):
         known.caller(given)
-    keys.write(file, [second, expired.model_copy(update={"expires": 2.0})])
+    keys.write(file, [second, expired.model_copy(update={"expires": 2.0}), unused])
     known.caller(one)
     known.caller(other)
     said = [(record.getMessage().split(" ", 2)[2], vars(record)["owner"]) for record in caplog.records]
