@@ -1,6 +1,7 @@
 """Planes and radii in the table of counterweights, and what bolts hold, where that is asked."""
 
 import json
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from schemas.request.requests import AnalyzeRequest
 from service.documents.examples import load
 from service.report.blocks import Document, Number, Table
 from service.report.chapters.answers import analyzed
+from service.report.chapters.making import holding
 from service.report.document import report
 from tests.report_document.conftest import AT, asked
 
@@ -62,6 +64,20 @@ def test_what_bolts_hold(limited: bool) -> None:
     rows = held(fitted(report(asked("m-type-four", machine=changed), AT)), str(rpm))
     assert {"1a", "4b"} <= {row[0] for row in rows}
     assert not limited or rows[0][1] <= 5e3 * (1 + 1e-9)
+
+
+def test_bolts_hold_light_counterweights_too_and_no_plates() -> None:
+    """Analytic: what has any mass is held; a web without, and what is cut from a plate, is not in the table."""
+    bolted: Any = SimpleNamespace(
+        overspeed_rpm=None, speed_rpm=500.0, webs=[SimpleNamespace(max_centrifugal_force_N=9.0)]
+    )
+    light, none, heavy = ("light", 1e-3, None, 0.4), ("none", 0.0, None, 0.0), ("heavy", 30.0, None, 900.0)
+    weights: Any = [
+        SimpleNamespace(web=name, mass_kg=mass, shape=shape, centrifugal_force_N=force)
+        for name, mass, shape, force in (light, none, ("cut", 2.0, "a sector", 70.0), heavy)
+    ]
+    assert held(holding(bolted, weights), "500") == [("light", 0.4), ("heavy", 900.0)]
+    assert not list(holding(bolted, weights[1:3]))
 
 
 def test_nothing_is_said_where_nothing_is_asked() -> None:
