@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 
 from optimizer.analyze import analyze
+from schemas.answer.first_order import FirstOrder
 from schemas.request.requests import AnalyzeRequest
 from service.documents.examples import load
 from service.report.blocks import Document, Number, Table
 from service.report.chapters.answers import analyzed
+from service.report.chapters.balance import first_order
 from service.report.chapters.making import holding
 from service.report.document import report
 from tests.report_document.conftest import AT, asked
@@ -83,3 +85,25 @@ def test_bolts_hold_light_counterweights_too_and_no_plates() -> None:
 def test_nothing_is_said_where_nothing_is_asked() -> None:
     titles = [block.title for block in fitted(report(asked("m-type-four"), AT)) if isinstance(block, Table)]
     assert not [title for title in titles if title.startswith("What holds them")]
+
+
+def test_a_direction_is_filed_where_something_is_or_comes() -> None:
+    """Analytic: what is 0 without counterweights and with them is left out, what is 0 in one of both is not."""
+    asked = AnalyzeRequest.model_validate({"machine": machine(), "counterweights": []})
+    answer = analyze(asked)
+    assert answer.residual is not None
+    was, floor = answer.residual.before, answer.floor
+
+    def without(field: str) -> FirstOrder:
+        return was.model_copy(update={"moment": was.moment.model_copy(update={field: 0.0})})
+
+    def titles(before: FirstOrder, after: FirstOrder | None) -> set[Any]:
+        chapter = first_order(asked.machine, before, after, floor, "with", None)
+        (found,) = [block for block in chapter.blocks if isinstance(block, Table)]
+        return {row[0] for row in found.rows}
+
+    title, none = "peak horizontal couple (of the x forces), N m", without("peak_x_Nm")
+    assert title in titles(was, none)
+    assert title in titles(none, was)
+    assert title not in titles(none, none)
+    assert title not in titles(none, None)
