@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 
 from optimizer.studies.sweep import rows
+from tests.night import but
 from tests.verification import genuine
 from tests.verification.genuine import KINDS, Kind, questions, run
 
@@ -19,25 +20,24 @@ def test_questions_of_every_kind_are_drawn() -> None:
     assert len({one.name for one in asked}) == len(asked)
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", but({"sweep", "match"}, KINDS))
 def test_genuine_answers_are_not_broken(kind: str) -> None:
     """By night python -m tests.verification.genuine draws a thousand."""
-    verdicts, faults = run(2, _SEED, only=(kind,))
+    verdicts, faults = run(1, _SEED, only=(kind,))
     assert not faults
-    assert sum(verdicts[f"{kind} {one}"] for one in ("held", "not covered")) == 2
+    assert sum(verdicts[f"{kind} {one}"] for one in ("held", "not covered")) == 1
 
 
-@pytest.mark.parametrize("column", ["force_peak_N", "objective"])
-def test_a_row_that_is_broken_is_a_fault(column: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_row_that_is_broken_is_a_fault(monkeypatch: pytest.MonkeyPatch) -> None:
     made, answered = KINDS["sweep"]
 
     def falsified(sent: Any) -> Any:
-        return [row if row[column] is None else row | {column: row[column] * 1.01 + 1.0} for row in answered(sent)]
+        return [row | {"force_peak_N": 1.01 * (row["force_peak_N"] or 0.0) + 1.0} for row in answered(sent)]
 
     monkeypatch.setitem(genuine.KINDS, "sweep", Kind(made, falsified))
-    verdicts, faults = run(4, _SEED, only=("sweep",))
-    assert verdicts["sweep broken"] > 0
-    assert any(column in fault or "objective" in fault for fault in faults)
+    verdicts, faults = run(1, _SEED, only=("sweep",))
+    assert verdicts == {"sweep broken": 1}
+    assert any("force_peak_N" in fault for fault in faults)
 
 
 def test_a_row_that_computing_breaks_down_for_is_a_fault(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -46,6 +46,6 @@ def test_a_row_that_computing_breaks_down_for_is_a_fault(monkeypatch: pytest.Mon
 
     monkeypatch.setattr(rows, "_fill_optima", broken_down)
     monkeypatch.setattr(rows, "_fill_singles", broken_down)
-    verdicts, faults = run(2, _SEED, only=("sweep",))
-    assert verdicts == {"sweep raised": 2}
+    verdicts, faults = run(1, _SEED, only=("sweep",))
+    assert verdicts == {"sweep raised": 1}
     assert all("nothing is computed" in fault for fault in faults)
