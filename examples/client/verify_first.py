@@ -28,6 +28,8 @@ from verify_weights import catalogue, heavy_enough, stocked
 
 CEILING = 1e-9  # of the larger of a ceiling and what is there without counterweights, likewise
 SMALLEST = 1e-5  # of what is there before: by which what is smallest may be above its bound
+#: how choices are searched
+SEARCHES = ("exhaustion in halves", "branch and bound")
 MASS_SHARE = 1e-5  # of the least mass that could cancel something: masses below are not told apart any finer
 
 
@@ -118,7 +120,10 @@ def searched(design: Place, place: Place, proof: Place) -> Claims:
     stock = (design / "catalogue") or (design / "max_counterweights") or any(map(stocked, design / "webs"))
     if stock:
         yield from catalogue(design, place)
-    chosen = bool(stock or proof / "continuous_lower_bound")
+    # of rows of a sweep the method alone tells it, where it is a column
+    least = any((web / "min_fitted_mass_kg").value for web in design / "webs")
+    by_method = (proof / "method").value in SEARCHES or (least and not proof / "method")
+    chosen = bool(stock or proof / "continuous_lower_bound" or by_method)
     if chosen:
         yield "lower_bound", proof / "lower_bound", None, ONE
     return chosen

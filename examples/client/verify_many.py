@@ -8,6 +8,7 @@ from typing import Any, Dict, Iterator, Sequence
 
 from verify_answer import MASS_GAP, before, touched
 from verify_cases import with_value
+from verify_ceilings import LOADED
 from verify_claims import EVIDENCE, Claim, Claims, covered, near, same
 from verify_first import CEILING, ceilings, infeasible, light, lightest, priced_at, proven, smallest
 from verify_form import form
@@ -22,6 +23,7 @@ from verify_weights import counterweights, listed, usual_gap
 STATUSES = ("optimal", "inaccurate", "infeasible")
 STRAIGHT = 1e-4  # a front that lies nearer to the line between its ends has no knee
 UNSURE = 1e-9
+ORDERED = "crank_orders"  # a design that varies the crank angles instead of axes
 #: of a certificate what no row has, and what it has with its multipliers alone
 NO_COLUMN, WITH_MULTIPLIERS = "objective_without_counterweights", "mass_objective_limit"
 #: columns without which it is not told whether a row is optimal
@@ -158,8 +160,10 @@ def _active(request: Place, machine: Machine, place: Place, left: Responses, mas
 
 
 def sweep(request: Place, rows: Place) -> Iterator[Claim]:
-    """Rows of a sweep, each as the answer to the base with the values of its axes."""
+    """Rows of a sweep, each as the answer to the base with the values of its axes or in an order of its cranks."""
     paths = [(axis / "path").text() for axis in request / "axes"]
+    if (request / "design").value == ORDERED:
+        paths = [f"/machine/throws/{t}/crank_angle_deg" for t, _ in enumerate(request / "angles_deg")]
     first = next(iter(rows), Place(None))
     for row in rows:
         if isinstance(row.value, dict) and isinstance(first.value, dict) and {*row.value} != {*first.value}:
@@ -178,12 +182,23 @@ def _design(request: Place, paths: Sequence[str], row: Place) -> Claims:
         body = with_value(body, path.split("/")[1:], (row / path).value, request / "axes")
     yield from covered(_row(Place(body, "request", "base"), row, chosen))
     yield from (_on_axis(axis, row) for axis in request / "axes")
+    if (request / "design").value == ORDERED:
+        yield from _in_order([row / path for path in paths], request / "angles_deg")
+
+
+def _in_order(cranks: Sequence[Place], order: Place) -> Claims:
+    """Every angle stands in a row as often as it is listed."""
+    angles, asked = [crank.double() for crank in cranks], [one.double() for one in order]
+    for crank, angle in zip(cranks, angles):
+        times = [sum(abs((one - angle + 180) % 360 - 180) <= 360 * UNSURE for one in each) for each in (angles, asked)]
+        yield "axis", crank, ONE if times[0] == times[1] else -ONE, ONE
 
 
 def _on_axis(axis: Place, row: Place) -> Claim:
     """A value of the axis: one of those that are listed, or between its ends."""
     path = (axis / "path").text()
-    where, said = path.split("/")[1:], row / path
+    # of an item of a list, the name of the list says the unit
+    where, said = [int(part) if part.isdecimal() else part for part in path.split("/")[1:]], row / path
     if axis / "values":
         allowed = [
             None if one.value is None else Place(one.value, "request", *where).double() for one in axis / "values"
@@ -219,7 +234,7 @@ def _row(request: Place, row: Place, chosen: bool) -> Claims:
         if status != "infeasible" and (web / "envelope" or weights[-1]["mass_kg"] is None):
             # a column that was not asked for; and of what is cut from a plate no row tells the radius
             raise NotCovered(row / f"mass_kg.{name}")
-    given = [field for field in CEILINGS.values() if request / "objective" / field]
+    given = [field for field in (*CEILINGS.values(), *LOADED) if request / "objective" / field]
     peaks = {name: {f"peak_{unit}": (row / f"{name}_peak_{unit}").value} for name, unit in NAMES.items()}
     proofs = {**proof, **row.value, "multipliers": proof}
     found = {
@@ -240,6 +255,9 @@ def _by_columns(claims: Claims, row: Place, fields: Any, chosen: bool) -> Claims
     untold = chosen and not {*row.value} >= OF_STATUS
     try:
         for claim, place, room, size in claims:
+            if claim == "active_limits":
+                # which limits are touched is in no column
+                continue
             room = None if claim == "status" and untold else room
             path = _column(place.path, len(row.path), fields)
             there = path[-1] in row.value or (path[-1] == WITH_MULTIPLIERS and row / "multipliers")

@@ -23,6 +23,8 @@ __all__ = ["matching"]
 
 #: assignments that are compared, and what doubles may be off by, of all forces together
 MOST, ROUNDING = 5_000, 1e-11
+#: kg on a row that show what a kilogram there does, beside which its own mass is rounding
+HEAVY = 2.0**120
 NUT = "balance_nut"
 Row = Tuple[int, int]
 
@@ -147,7 +149,7 @@ def _evaluated(
     yield from _gap(request, answer, proof)
     if not chosen and _count(classes, nuts, len(list(_places(request / "machine")))) <= MOST:
         lengths = {name: float(weight) for name, weight in weights.items()}
-        bare = [_with(request / "machine", {row: 1.0}) for row in [None, *_places(request / "machine")]]
+        bare = [_with(request / "machine", {row: HEAVY}) for row in [None, *_places(request / "machine")]]
         responses = [Machine(one, none, none, none).responses(turning) for one in bare]
         least = min(_every(request, lengths, together, responses, classes, nuts))
         off = ROUNDING * (float(abs(size)) + float(objective))
@@ -185,11 +187,11 @@ def _every(
     request: Place, weights: Dict[str, float], together: bool, machines: Sequence[Responses], parts: Sequence[Parts],
     nuts: Dict[str, float],
 ) -> Iterator[float]:  # fmt: skip
-    """Objectives of all assignments; ``machines``: responses without parts, and with a kilogram on each row."""
+    """Objectives of all assignments; ``machines``: responses without parts, and with HEAVY on each row."""
     rows = list(_places(request / "machine"))
     start, *more = [[one[name] for name in NAMES] for one in machines]
     base = [each.middle() for each in _flat(start)]
-    slopes = [[each.middle() - old for each, old in zip(_flat(one), base)] for one in more]
+    slopes = [[(each.middle() - old) / HEAVY for each, old in zip(_flat(one), base)] for one in more]
     across = [(request / "objective" / "direction_weights" / name).double(1.0, least=0) for name in ("x", "y")]
     p, q = sum(across) / 2, (across[0] - across[1]) / 2
     for orders in product(*(permutations(each.masses.values()) for each in parts)):

@@ -69,7 +69,7 @@ def cancelling(statement: Statement, passes: int = 1) -> Complex:
     return least_change(statement.every_influence, statement.every_constant, passes)
 
 
-def least_change(influence: Real | Complex, constant: Complex, passes: int = 1) -> Complex:
+def least_change(influence: Real | Complex, constant: Complex, passes: int) -> Complex:
     """The least u (..., K) for which constant (..., J) + influence (..., J, K) u is 0, as far as it can be.
 
     One row after the other, each by the least change that leaves those before it alone.

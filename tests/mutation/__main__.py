@@ -34,7 +34,9 @@ class Room(NamedTuple):
     least: float
 
 
-_JOBS = tuple(f"tests/jobs/test_{name}.py" for name in ("steps", "coordinator", "store", "damage", "races", "schema"))
+_JOBS = tuple(
+    f"tests/jobs/test_{name}.py" for name in ("leases", "steps", "coordinator", "store", "damage", "races", "schema")
+)
 
 ROOMS = {
     "mechanics": Room(
@@ -74,7 +76,7 @@ ROOMS = {
         "service/guard/*.py",
         tuple(
             f"tests/network/test_{name}.py"
-            for name in ("caller", "access", "key_command", "size_limits", "hosts", "users", "accounts")
+            for name in ("caller", "access", "key_command", "key_file", "size_limits", "hosts", "users", "accounts")
         ),
         0.9,
     ),

@@ -67,6 +67,8 @@ _PROGRAM: dict[str, str] = {
     "methods/polish.py lightened: statement.limits.radius.size == 0 -> statement.limits.radius.size == 1": _STEERS,
     "methods/compiled.py _in_any_limits: points_at(statement.chosen(left), nearest).excess < 0"
     " -> points_at(statement.chosen(left), nearest).excess < 1": _STEERS,
+    "methods/discs.py in_discs: np.argmax(np.abs(lines), axis=-1) -> np.argmax(np.abs(lines), axis=+1)": "it has two"
+    " axes",
     "methods/feasibility_phase.py at_rest: rest.gap + float(allowance) <= target.share"
     " -> rest.gap + float(allowance) < target.share": _ALIKE,
     "methods/implied_bounds.py _in_sectors: np.min(along[outside], initial=1.0)"
@@ -96,6 +98,9 @@ _FORMULATION: dict[str, str] = {
     "groups.py _same_options: one[:, 1] - angle + 180.0 -> one[:, 1] - angle - 180.0": "a whole turn",
     "groups.py _masses: mass is not None and angle is None -> mass is not None or angle is None": "angles are"
     " compared with their masses beside",
+    "groups.py _at_angles: mass or 0.0 -> mass or 0.001": "a mark of what is left open, the same of both that are"
+    " compared",
+    "counterweights.py _within: over > 0 -> over >= 0": "beyond an edge by nothing, the share that is left is 1",
 }
 _VERIFY: dict[str, str] = {
     "verify_plates.py up_to: self.mass(self.most) <= limit -> self.mass(self.most) < limit": "halving comes to it too",

@@ -57,11 +57,22 @@ def test_a_file_that_is_gone_takes_no_key_away_and_is_told_of_once(
     assert [known.caller(key) is None for key in (old, new)] == [True, False]
 
 
-@pytest.mark.parametrize("line", ["{}", "[]", "\x00", '{"id":1}', "x" * 10_000])
-def test_a_file_that_holds_no_keys_is_refused_by_line(tmp_path: Path, line: str) -> None:
+@pytest.mark.parametrize(
+    ("line", "place"),
+    [
+        ("{}", "id"),
+        ("[]", "line"),
+        ("\x00", "line"),
+        ('{"id":1}', "id"),
+        ("x" * 10_000, "line"),
+        ('{"id":1,"x":2}', "id"),
+    ],
+)
+def test_a_file_that_holds_no_keys_is_refused_by_line(tmp_path: Path, line: str, place: str) -> None:
+    """By the first field that is wrong; by the line where it is no object."""
     file = tmp_path / "keys"
     file.write_text(f"\n{line}\n")
-    with pytest.raises(BadKeyFile, match="line 2"):
+    with pytest.raises(BadKeyFile, match=f"line 2: {place}: "):
         keys.keys(Settings(keys_file=file))
     with pytest.raises(BadKeyFile, match="No such file"):
         keys.keys(Settings(keys_file=tmp_path / "none"))
@@ -92,13 +103,14 @@ def test_use_and_change_of_keys_are_noted(
     monkeypatch.setattr(keys, "_LOOK_S", 0.0)
     (one, first), (other, second) = keys.make("portal", ("read",)), keys.make("cad", ("compute",))
     old, expired = keys.make("old", ("read",), expires=1.0)
+    _, unused = keys.make("idle", ("read",))
     file = tmp_path / "keys.jsonl"
-    keys.write(file, [first, expired])
+    keys.write(file, [first, expired, unused])
     caplog.set_level("INFO", "service.audit")
     known = keys.Keys(file)
     for given in (one, one, old, old, "cw_wrong"):
         known.caller(given)
-    keys.write(file, [second, expired.model_copy(update={"expires": 2.0})])
+    keys.write(file, [second, expired.model_copy(update={"expires": 2.0}), unused])
     known.caller(one)
     known.caller(other)
     said = [(record.getMessage().split(" ", 2)[2], vars(record)["owner"]) for record in caplog.records]

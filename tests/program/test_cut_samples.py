@@ -9,6 +9,7 @@ from optimizer.formulation.goals import bearing_responses
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.enclosing_circle import smallest_circle
 from optimizer.outputs.registry import prepare
+from optimizer.program.cuts import samples
 from optimizer.program.cuts.brackets import Brackets
 from optimizer.program.cuts.cut import EXACT, Quantity, Scatter
 from optimizer.program.cuts.dominance import deciding, spare
@@ -171,3 +172,28 @@ def test_what_is_known_of_an_unbalance_tells_of_what_is_near_it() -> None:
     # what is asked more closely, or lies farther away, is bracketed by itself
     assert brackets.evaluate(u, np.full(4, 1e-13))[0].cut is not known[0].cut
     assert brackets.evaluate(u * 1.001, np.full(4, 1e-10))[0].cut is not known[0].cut
+
+
+@pytest.mark.parametrize(
+    ("values", "step", "highest"),
+    [
+        # analytic: 3 - (x - 0.25)^2 / 2 at -1, 0 and 1
+        ((2.21875, 2.96875, 2.71875), 0.25, 3.0),
+        # the vertex lies outside: the end, and what is there
+        ((0.0, 1.0, 1.9), 1.0, 1.9),
+        ((1.9, 1.0, 0.0), -1.0, 1.9),
+        # bent upwards by however little, or not at all: the step that is named
+        ((1.0, 0.5, 1.0), -1.0, 1.0),
+        ((1.00025, 1.0, 1.00025), -1.0, 1.00025),
+        ((1.0, 1.2501, 1.5005), -1.0, 1.0),
+        ((2.0, 2.0, 2.0), -1.0, 2.0),
+    ],
+)
+def test_a_parabola_is_highest_at_its_vertex_or_at_an_end(
+    values: tuple[float, ...], step: float, highest: float
+) -> None:
+    """Over leading axes as by themselves."""
+    around = np.array([[values, (0.0, 1.0, 0.0)]])
+    found, peak = samples._vertex(around, np.full((1, 2), -1))
+    assert found == pytest.approx(np.array([[step, 0.0]]), abs=1e-12)
+    assert peak == pytest.approx(np.array([[highest, 1.0]]))

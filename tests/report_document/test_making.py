@@ -1,16 +1,20 @@
 """Planes and radii in the table of counterweights, and what bolts hold, where that is asked."""
 
 import json
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
 from optimizer.analyze import analyze
+from schemas.answer.first_order import FirstOrder
 from schemas.request.requests import AnalyzeRequest
 from service.documents.examples import load
 from service.report.blocks import Document, Number, Table
 from service.report.chapters.answers import analyzed
+from service.report.chapters.balance import first_order
+from service.report.chapters.making import holding
 from service.report.document import report
 from tests.report_document.conftest import AT, asked
 
@@ -64,6 +68,42 @@ def test_what_bolts_hold(limited: bool) -> None:
     assert not limited or rows[0][1] <= 5e3 * (1 + 1e-9)
 
 
+def test_bolts_hold_light_counterweights_too_and_no_plates() -> None:
+    """Analytic: what has any mass is held; a web without, and what is cut from a plate, is not in the table."""
+    bolted: Any = SimpleNamespace(
+        overspeed_rpm=None, speed_rpm=500.0, webs=[SimpleNamespace(max_centrifugal_force_N=9.0)]
+    )
+    light, none, heavy = ("light", 1e-3, None, 0.4), ("none", 0.0, None, 0.0), ("heavy", 30.0, None, 900.0)
+    weights: Any = [
+        SimpleNamespace(web=name, mass_kg=mass, shape=shape, centrifugal_force_N=force)
+        for name, mass, shape, force in (light, none, ("cut", 2.0, "a sector", 70.0), heavy)
+    ]
+    assert held(holding(bolted, weights), "500") == [("light", 0.4), ("heavy", 900.0)]
+    assert not list(holding(bolted, weights[1:3]))
+
+
 def test_nothing_is_said_where_nothing_is_asked() -> None:
     titles = [block.title for block in fitted(report(asked("m-type-four"), AT)) if isinstance(block, Table)]
     assert not [title for title in titles if title.startswith("What holds them")]
+
+
+def test_a_direction_is_filed_where_something_is_or_comes() -> None:
+    """Analytic: what is 0 without counterweights and with them is left out, what is 0 in one of both is not."""
+    asked = AnalyzeRequest.model_validate({"machine": machine(), "counterweights": []})
+    answer = analyze(asked)
+    assert answer.residual is not None
+    was, floor = answer.residual.before, answer.floor
+
+    def without(field: str) -> FirstOrder:
+        return was.model_copy(update={"moment": was.moment.model_copy(update={field: 0.0})})
+
+    def titles(before: FirstOrder, after: FirstOrder | None) -> set[Any]:
+        chapter = first_order(asked.machine, before, after, floor, "with", None)
+        (found,) = [block for block in chapter.blocks if isinstance(block, Table)]
+        return {row[0] for row in found.rows}
+
+    title, none = "peak horizontal couple (of the x forces), N m", without("peak_x_Nm")
+    assert title in titles(was, none)
+    assert title in titles(none, was)
+    assert title not in titles(none, none)
+    assert title not in titles(none, None)

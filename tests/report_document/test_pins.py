@@ -3,6 +3,8 @@
 import csv
 import io
 from math import pi, sin
+from types import SimpleNamespace
+from typing import Any
 from xml.etree import ElementTree
 
 import pytest
@@ -13,7 +15,7 @@ from schemas.scroll.pin_loads import PinLoadsRequest
 from service.app import create_app
 from service.computations import COMPUTATIONS
 from service.report.blocks import Number, Paragraph, Table
-from service.report.chapters.pins import loaded
+from service.report.chapters.pins import _assumption, loaded
 from service.settings import Settings
 from service.tables.pins import lines
 from tests.report_document.conftest import asked
@@ -76,3 +78,23 @@ def test_the_picture_draws_every_pin_and_a_crank_has_none() -> None:
         assert drawn.text.startswith("<svg")
         body = asked("2d12").alone.model_dump(mode="json")
         assert client.post("/v1/tables/pin_loads", json=body).status_code == 422
+
+
+@pytest.mark.parametrize(
+    ("clearance", "error", "stiffness", "expected"),
+    [
+        (0.0, 0.0, None, ("all pins have equal stiffness", "No pin has clearance")),
+        (1e-6, 0.0, None, ("all pins have equal stiffness", "as below")),
+        (0.0, -1e-6, 2e7, ("stiffnesses below share", "as below")),
+        (0.0, 0.0, 2e7, ("stiffnesses below share", "No pin has clearance")),
+    ],
+)
+def test_what_is_assumed_of_pins(
+    clearance: float, error: float, stiffness: float | None, expected: tuple[str, ...]
+) -> None:
+    """Of two pins the second alone has any of it."""
+    pins: Any = [
+        SimpleNamespace(stiffness_N_per_m=firm, clearance_m=play, eccentricity_error_m=off)
+        for firm, play, off in ((None, 0.0, 0.0), (stiffness, clearance, error))
+    ]
+    assert all(part in _assumption(pins) for part in expected)

@@ -2,15 +2,17 @@
 
 import pytest
 
+from optimizer.analyze import analyze
 from optimizer.optimize import optimize
 from schemas.answer.alternatives import Alternative
 from schemas.request.picture import PictureStyle
 from schemas.request.report import ReportRequest
+from schemas.request.requests import AnalyzeRequest
 from service.drawings.svg import Drawing
 from service.report.accuracy_picture import _steps
 from service.report.blocks import Number, Table, _upwards
 from service.report.chapters.alternatives import alternatives
-from service.report.chapters.answers import optimized
+from service.report.chapters.answers import analyzed, optimized
 from service.report.charts import axis
 from service.report.document import report
 from service.report.html import html
@@ -97,3 +99,11 @@ def test_stages_are_shown_where_they_are_asked_for(outputs: list[str]) -> None:
     titles = [chapter.title for chapter in optimized(request, optimize(request))]
     assert ("The eight balancing stages" in titles) == bool(outputs)
     assert len(titles) == len(set(titles))
+
+
+@pytest.mark.parametrize("outputs", [["residual"], ["residual", "stages"]])
+def test_stages_of_what_is_analyzed_are_shown_where_they_are_asked_for(outputs: list[str]) -> None:
+    machine = asked("2d12").alone.machine
+    request = AnalyzeRequest.model_validate({"machine": machine, "counterweights": [], "outputs": outputs})
+    titles = [chapter.title for chapter in analyzed(request, analyze(request))]
+    assert titles.count("The eight balancing stages") == len(outputs) - 1

@@ -12,6 +12,7 @@ from schemas.request.requests import AnalyzeRequest
 from service.common.validation import InvalidRequest, check
 from service.guard.sizes import SizeLimits
 from service.report.blocks import Number, Table
+from service.report.chapters import versions
 from service.report.document import report
 from service.report.pdf import pdf
 from tests.report_document.conftest import AT, asked
@@ -96,3 +97,23 @@ def test_what_an_operator_allows_holds_for_versions_too() -> None:
     with pytest.raises(InvalidRequest) as refused:
         SizeLimits(throws=500, rows=500, webs=3, angles=36_000, designs=10).require(request)
     assert [problem.path for problem in refused.value.problems] == [("versions", 0, "machine", "webs")]
+
+
+def test_lists_are_compared_item_by_item_where_they_are_as_long() -> None:
+    """Analytic: pointer, value here, value there; of lists of other lengths how many there are."""
+    here = {
+        "webs": [{"mass_kg": 1.5, "name": "a"}, {"mass_kg": 2.0}],
+        "rows": [1, 2, 3],
+        "plane": None,
+        "own": {"x": 1.0},
+    }
+    there = {"webs": [{"mass_kg": 1.5, "name": "b"}, {"mass_kg": 2.5}], "rows": [1, 2], "plane": 0.25, "kind": "scroll"}
+    assert list(versions._apart(("machine",), here, there)) == [
+        ("/machine/webs/0/name", "a", "b"),
+        ("/machine/webs/1/mass_kg", "2", "2.5"),
+        ("/machine/rows", "3 of them", "2 of them"),
+        ("/machine/plane", "none", "0.25"),
+        ("/machine/own", "given", "none"),
+        ("/machine/kind", "none", "scroll"),
+    ]
+    assert list(versions._apart(("machine",), here, here)) == []

@@ -1,8 +1,9 @@
 """``python -m tests.verification.genuine --count 10000``: genuine answers, of which none may be broken.
 
 Pairs of features of tests/pairs, and random machines of tests/hard with what their bodies may ask for, some with masses
-that are off. Prints what came of them, and every claim that was broken. Exit code 1 where there was one, or where the
-checker or the optimiser raised something; a warning is raised.
+that are off. Sweeps and fronts through both are drawn too (tests.verification.studies), their rows and points checked;
+and parts are matched to machines. Prints what came of them, and every claim that was broken. Exit code 1 where there
+was one, or where the checker or the optimiser raised something, also in one row alone; a warning is raised.
 """
 
 import argparse
@@ -12,11 +13,13 @@ import sys
 import time
 import warnings
 from collections import Counter
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Callable, Container, Iterator
+from typing import Any, NamedTuple
 
 from optimizer.errors import MissingInput, OutOfRange
 from optimizer.optimize import optimize
+from optimizer.studies.matching.match import match
+from schemas.match.request import MatchRequest
 from schemas.request.requests import OptimizeRequest
 from service.common.validation import InvalidRequest, check
 from service.verification import checker
@@ -24,6 +27,7 @@ from tests.hard.bodies import drawn
 from tests.hard.random_features import FEATURES
 from tests.pairs.asking import body_of
 from tests.pairs.combinations import all_pairs
+from tests.verification.studies import front_answer, front_of, sweep_of, sweep_rows
 
 #: s, of searches
 _TIME_LIMIT = 0.3
@@ -33,19 +37,51 @@ _OFF = 5
 _TOLD = 100
 
 
-def requests(seed: int) -> Iterator[tuple[str, Any]]:
-    """Names and bodies without end: every other one a random machine, every other one a pair of features."""
+class Kind(NamedTuple):
+    """What is made of a request to optimise one machine, and what answers it; both may refuse."""
+
+    made: Callable[[Any, random.Random], Any]
+    answered: Callable[[Any], Any]
+
+
+class Question(NamedTuple):
+    """What is asked: a kind of answer, and what that is made of."""
+
+    name: str
+    kind: str
+    sent: Any
+
+
+KINDS = {
+    "optimize": Kind(
+        lambda sent, _: sent, lambda sent: json.loads(optimize(check(OptimizeRequest, sent)).model_dump_json())
+    ),
+    "sweep": Kind(sweep_of, sweep_rows),
+    "front": Kind(front_of, front_answer),
+    "match": Kind(lambda sent, _: sent, lambda sent: json.loads(match(check(MatchRequest, sent)).model_dump_json())),
+}
+#: in turn: each of a random machine, and sweeps and fronts of a pair of features
+_STUDIES = (("sweep", True), ("sweep", False), ("front", True), ("sweep", False), ("match", True), ("front", False))
+
+
+def questions(seed: int) -> Iterator[Question]:
+    """Without end: a random machine, a pair of features, and a study of one of them."""
     pairs = list(all_pairs())
     order = random.Random(seed)
     order.shuffle(pairs)
     modes = [one for one in FEATURES if one != "match"]
     for number in range(10**9):
         mode, sent = modes[number % len(modes)], drawn(number, seed, modes[number % len(modes)])
-        yield f"{mode} {number} of seed {seed}", sent
+        yield Question(f"{mode} {number} of seed {seed}", "optimize", sent)
         if number % _OFF == 0 and sent is not None:
-            yield f"{mode} {number} of seed {seed}, masses off", with_masses_off(sent, number)
+            yield Question(f"{mode} {number} of seed {seed}, masses off", "optimize", with_masses_off(sent, number))
         base, features = pairs[number % len(pairs)]
-        yield f"{base} {features}", body_of(base, features, _TIME_LIMIT)
+        pair = body_of(base, features, _TIME_LIMIT)
+        yield Question(f"{base} {features}", "optimize", pair)
+        kind, of_machine = _STUDIES[number % len(_STUDIES)]
+        study = drawn(number, seed, "match") if kind == "match" else sent if of_machine else pair
+        name = f"{mode} {number}" if of_machine else f"{base} {features}"
+        yield Question(f"{kind} {number} of seed {seed}, {name}", kind, study)
 
 
 def with_masses_off(sent: Any, number: int) -> Any:
@@ -54,39 +90,43 @@ def with_masses_off(sent: Any, number: int) -> Any:
     return sent | {"tolerances": (sent.get("tolerances") or {}) | {"reciprocating_mass_relative": share}}
 
 
-def judged(sent: Any) -> dict[str, Any] | None:
-    """What the checker finds of the answer to a request; None where that is refused."""
+def judged(asked: Question) -> dict[str, Any] | None:
+    """What the checker finds of the answer to a question; None where that is refused."""
+    kind = KINDS[asked.kind]
     try:
-        answer = optimize(check(OptimizeRequest, sent))
+        sent = kind.made(asked.sent, random.Random(asked.name))
+        answer = kind.answered(sent)
     except (InvalidRequest, MissingInput, OutOfRange):
         return None
-    found: dict[str, Any] = checker().verify(json.loads(json.dumps(sent)), json.loads(answer.model_dump_json()))
+    found: dict[str, Any] = checker().verify(json.loads(json.dumps(sent)), answer)
     return found
 
 
-def run(count: int, seed: int, seconds: float = float("inf")) -> tuple[Counter[str], list[str]]:
+def run(
+    count: int, seed: int, seconds: float = float("inf"), only: Container[str] = KINDS
+) -> tuple[Counter[str], list[str]]:
     """Verdicts of so many answers, or of so many seconds of computing, and what was broken or raised."""
     verdicts, faults, begun = Counter[str](), [], time.process_time()
-    for name, sent in requests(seed):
+    for asked in questions(seed):
         if verdicts.total() >= count or time.process_time() - begun > seconds:
             break
-        if sent is None:
+        if asked.sent is None or asked.kind not in only:
             continue
         try:
-            found = judged(sent)
+            found = judged(asked)
         except Exception as error:  # whatever it is, it is a fault
-            verdicts["raised"] += 1
-            faults.append(f"{name}: raised {error!r}")
+            verdicts[f"{asked.kind} raised"] += 1
+            faults.append(f"{asked.name}: raised {error!r}")
             print(faults[-1], flush=True)
             continue
         if found is not None:
-            verdicts[found["verdict"]] += 1
+            verdicts[f"{asked.kind} {found['verdict']}"] += 1
             broken = (one for one in found["claims"] if one["verdict"] == "broken")
-            new = [f"{name}: {one['claim']} {one['margin']} {one['where']}" for one in broken]
+            new = [f"{asked.name}: {one['claim']} {one['margin']} {one['where']}" for one in broken]
             faults += new
             print(*new, sep="\n", end="\n" if new else "", flush=True)
-        if verdicts.total() % _TOLD == 0:
-            print(f"{verdicts.total()} {dict(verdicts)}", file=sys.stderr, flush=True)
+            if verdicts.total() % _TOLD == 0:
+                print(f"{verdicts.total()} {dict(verdicts)}", file=sys.stderr, flush=True)
     return verdicts, faults
 
 
@@ -94,10 +134,11 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.verification.genuine", description=__doc__)
     parser.add_argument("--count", type=int, default=1_000)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", choices=KINDS, action="append", help="kinds of answers; all if not given")
     parser.add_argument("--seconds", type=float, default=float("inf"), help="of computing, at most")
     arguments = parser.parse_args()
     warnings.simplefilter("error")
-    verdicts, faults = run(arguments.count, arguments.seed, arguments.seconds)
+    verdicts, faults = run(arguments.count, arguments.seed, arguments.seconds, arguments.only or KINDS)
     print(verdicts.total(), dict(verdicts))
     return int(bool(faults))
 

@@ -11,6 +11,7 @@ from optimizer.studies.sweep.table import result_schema, result_table
 from schemas.front.pareto import ParetoRequest
 from schemas.sweep.request import SweepRequest
 from service.verification import checker
+from tests.night import every
 from tests.pairs.asking import body_of
 from tests.verification.checking import broken, verdict
 from tests.verification.kinds import SINGLE
@@ -160,3 +161,57 @@ def test_a_row_that_is_called_infeasible_is_not_covered_without_a_proof() -> Non
         for column in row.keys() - {"index", "/machine/speed_rpm"}:
             row[column] = "infeasible" if column == "status" else None
     assert verdict(body, table) == "not covered"
+
+
+@pytest.mark.parametrize(
+    ("features", "axes"),
+    [
+        (("bearing weight",), [{"path": "/objective/bearing_ceiling_N", "values": [None, 0.4]}]),
+        (("gap of 1e-3",), [{"path": "/objective/bending_ceiling_Nm", "values": [1.5]}]),
+        # a ceiling over the turn that the optimum touches
+        (("moment alone", "bearing_ceiling_N near"), [{"path": "/objective/moment_ceiling_y_Nm", "values": [0.7]}]),
+    ],
+)
+@pytest.mark.parametrize("base", every(2, ["vee", "twin"]))
+def test_axes_of_ceilings_over_the_turn(base: str, features: tuple[str, ...], axes: list[dict[str, Any]]) -> None:
+    """Regression: rows were broken for ceilings of loads that conflict, and for limits that no row names."""
+    body = {"base": body_of(base, features, 1.0), "axes": axes, "multipliers": True}
+    assert not broken(body, swept(body))
+
+
+def test_the_bound_of_a_search_is_not_covered_in_a_row() -> None:
+    """Regression: heavy enough or nothing is proven by a tree; without the column of the method neither."""
+    *webs, last = SINGLE["sum"]["machine"]["webs"]
+    webs = [*webs, {**last, "max_mass_kg": 60.0, "min_fitted_mass_kg": 50.0}]
+    base = {**SINGLE["sum"], "machine": {**SINGLE["sum"]["machine"], "webs": webs}}
+    names = [f"{of}.{web['name']}" for web in webs for of in ("mass_kg", "angle_deg")]
+    for columns in (None, ["/machine/speed_rpm", "objective", "lower_bound", *names]):
+        body = {"base": base, "axes": _SPEEDS, "multipliers": True, "columns": columns}
+        table = swept(body)
+        assert not broken(body, table)
+        assert claims(body, table)["lower_bound"] == "not covered"
+
+
+def test_axes_through_lists_take_texts() -> None:
+    """Regression: the unit of a mass in a list was sought in its number there, and the sweep could not be read."""
+    base = body_of("twin", ("own masses",), 1.0)
+    place, web = next((n, one) for n, one in enumerate(base["machine"]["webs"]) if one.get("catalogue_masses_kg"))
+    path = f"/machine/webs/{place}/catalogue_masses_kg/{len(web['catalogue_masses_kg']) - 1}"
+    body = {"base": base, "axes": [{"path": path, "values": ["20 lb", "9.5 kg", 11]}], "multipliers": True}
+    table = swept(body)
+    assert not broken(body, table)
+    assert claims(body, table)["axis"] == "held"
+    table[1][path] = 20.0
+    assert claims(body, table)["axis"] == "broken"
+
+
+@pytest.mark.parametrize("angles", every(4, [["400 deg", "-0.3 rad"], [0.0, 90.0], [120.0, 120.0]]))
+def test_orders_of_cranks(angles: list[Any]) -> None:
+    """Regression: rows were held against the machine as it is given."""
+    body = {"base": SINGLE["sum"], "design": "crank_orders", "angles_deg": angles, "multipliers": True}
+    table = swept(body)
+    assert verdict(body, table) == "held"
+    # a whole turn more is the same machine, though no angle that a service gives
+    table[0]["/machine/throws/1/crank_angle_deg"] += 1e-3
+    assert claims(body, table)["axis"] == "broken"
+    assert verdict(body | {"angles_deg": [0.0, 33.0]}, swept(body)) == "broken"

@@ -86,3 +86,17 @@ def test_nuts_are_on_rows_or_beside_the_machine(tampered: Callable[[Answer], Non
     answer["spares"].append(nut)
     tampered(answer)
     assert checker().verify(request, answer)["verdict"] == "broken"
+
+
+def test_parts_beside_a_heavy_row_are_compared_to_their_last_digits() -> None:
+    """Regression: what a part does was the difference of two machines, in which a heavy row left few digits of it."""
+    body = {
+        "machine": machine([0.0, 90.0, 70.0], [180.0, 90.0, 120.0]),
+        "parts": [{"class": "part", "names": ["a", "b", "c"], "masses_kg": [4.1e5, 4.7e5, 4.3e5]}],
+        "objective": {"direction_weights": {"x": 0.0, "y": 1.0}, "moment_weight": 0.0},
+    }
+    body["machine"]["throws"][0]["rows"][0]["reciprocating_mass_kg"] = 3e11
+    answer = matched(body).model_dump(mode="json", by_alias=True)
+    assert checker().verify(body, answer)["verdict"] == "held"
+    answer["certificate"]["lower_bound"] *= 1.0 + 1e-7
+    assert checker().verify(body, answer)["verdict"] == "broken"

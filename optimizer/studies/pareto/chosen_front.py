@@ -80,7 +80,7 @@ class _Boxes(ChoiceSearch):
                 infeasibility=moment.infeasibility if isinstance(moment, Infeasible) else None,
             )
         edges = np.maximum(force.values, moment.values)
-        size = np.where(self.at_rest > OPTIMUM_SHARE * edges, self.at_rest, np.where(edges > 0, edges, 1.0))
+        size = np.where(self.at_rest > OPTIMUM_SHARE * edges, self.at_rest, np.where(edges > 0, edges, self.square))
         bounds = force.corner[0], moment.corner[1]
         optima, reason = self._between(self._corner(force, 0, size), self._corner(moment, 1, size), size, count)
         first, last, points = optima[0].values, optima[-1].values, tuple(self._point(each, size) for each in optima)

@@ -199,3 +199,16 @@ def test_multipliers_do_not_go_with_it() -> None:
         ParetoRequest.model_validate(body(STEP_DEG, MASSES, multipliers=True))
     problems = [problem.path for error in refusal.value.errors() for problem in error["ctx"]["problems"]]
     assert ("multipliers",) in problems
+
+
+def test_of_moments_that_nothing_makes_a_unit_that_turns_is_the_scale() -> None:
+    """Analytic: 1 kg m^2 at the speed of the shaft, as where nothing is chosen; it was 1 N m at any speed."""
+    throw = {"position_m": 0.0, "crank_radius_m": 0.1, "crank_angle_deg": 0.0, "rotating_mass_kg": 3.0, "rows": []}
+    machine = {"kind": "reciprocating", "throws": [throw], "speed_rpm": 30.0 / np.pi * 0.2, "webs": []}
+    asked: Body = {"machine": machine, "objective": {"moment_weight": 1.0}, "points": 2}
+    chosen = asked | {"machine": machine | {"catalogue": {"masses_kg": [1.0]}, "max_counterweights": 1}}
+    for request in (asked, chosen):
+        scale = front(request).scale
+        assert scale is not None
+        assert scale.moment_Nm == pytest.approx(0.04)
+        assert scale.force_N == pytest.approx(3.0 * 0.1 * 0.04)
