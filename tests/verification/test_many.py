@@ -12,6 +12,7 @@ from schemas.front.pareto import ParetoRequest
 from schemas.sweep.request import SweepRequest
 from service.verification import checker
 from tests.pairs.asking import body_of
+from tests.verification.answers import pair
 from tests.verification.checking import broken, verdict
 from tests.verification.kinds import SINGLE
 
@@ -160,3 +161,11 @@ def test_a_row_that_is_called_infeasible_is_not_covered_without_a_proof() -> Non
         for column in row.keys() - {"index", "/machine/speed_rpm"}:
             row[column] = "infeasible" if column == "status" else None
     assert verdict(body, table) == "not covered"
+
+
+@pytest.mark.parametrize("budget", [0.0, 5.0])
+def test_a_budget_of_a_front_that_nobody_asked_for_is_broken(budget: float) -> None:
+    """Regression: one of 0 kg was held."""
+    request, answer = pair("front")
+    answer["fronts"][0]["max_total_mass_kg"] = budget
+    assert any(one.startswith("max_total_mass") for one in broken(request, answer))
