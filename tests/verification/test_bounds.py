@@ -297,3 +297,17 @@ def test_a_budget_is_worth_what_is_left_out_next(price: float, expected: float) 
     gains = [(real(8.0), real(3.0)), (real(2.0), real(4.0)), (real(-1.0), real(5.0))]
     found = part("program").worth_of_budget(real(price), gains, real(5.0))
     assert float(found) == expected
+
+
+_INTERVALS = ((-3, 0), (0, 5), (-3, 5), (1, 4), (-4, -1), (0, 0), (-2, -2), (7, 7))
+
+
+@pytest.mark.parametrize("one", _INTERVALS)
+@pytest.mark.parametrize("other", _INTERVALS)
+def test_a_product_of_intervals_that_end_at_0(one: tuple[int, int], other: tuple[int, int]) -> None:
+    """Independent: the products of all ends."""
+    every = [a * b for a in one for b in other]
+    assert part("numbers")._product(one, other) == (min(every), max(every))
+    low, high = one
+    least = 0 if low <= 0 <= high else min(abs(low), abs(high))
+    assert part("numbers")._distance(low, high) == (least, max(abs(low), abs(high)))

@@ -264,3 +264,22 @@ def test_two_hundred_names_are_listed() -> None:
     assert (found["leaves"], found["checked"]) == (498, 2)
     assert found["not_covered"][:3] == ["/answer/n0/*", "/answer/n1/*", "/answer/n3"]
     assert leaves.leaves(json.loads('{"a": [1, 2, {"b": null}], "c": "d"}')) == 7
+
+
+@pytest.mark.parametrize(("planes", "rows", "orders", "right"), [(50, 4, 5, True), (51, 4, 5, False), (40, 5, 5, True),
+                                                                  (41, 5, 5, False), (40, 5, 75, True),
+                                                                  (40, 5, 76, False)])  # fmt: skip
+def test_the_bending_of_many_planes_is_not_covered(planes: int, rows: int, orders: int, right: bool) -> None:
+    """Analytic: 200 planes times rows, and 3000 planes times harmonics."""
+    row = Fields(position=0.0, axis=1j)
+    turn = Fields(pistons=Fields(rows=[row] * rows), turning=[], place=place({}, "request", "bearings"))
+    harmonics = [Fields(shaft=dict.fromkeys(range(orders), 0j))]
+    loads = Fields(pistons=harmonics, planes=[0.0] * planes, turn=turn, factor=lambda *_: 1.0, added=lambda *_: 2j)
+    curve = part("loads").Loads._curve
+    if right:
+        found = curve(loads, "bending:0.0")
+        assert (found.weights, found.beside) == ([(k, 1j) for k in range(rows)], {0: 2j})
+    else:
+        with pytest.raises(part("numbers").NotCovered):
+            curve(loads, "bending:0.0")
+    assert curve(loads, "bearing:a").reading == "shaft"
