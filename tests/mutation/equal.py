@@ -131,6 +131,7 @@ _VERIFY: dict[str, str] = {
     "verify_numbers.py _distance: low >= 0 -> low > 0": _ALIKE,
     "verify_rods.py _root: curve(middle) * first > 0 -> curve(middle) * first >= 0": "halving comes to the same place"
     " from its other side",
+    "verify_harmonics.py MOST: 40000 -> 40001": "angles are counted in pairs",
     "verify_alternatives.py costs: mass_kg - masses[n - 1] > SAME * mass_kg"
     " -> mass_kg - masses[n - 1] >= SAME * mass_kg": "no mass is that to the bit",
     "verify_levels.py _sizes: one - masses[n - 1] > SAME * one -> one - masses[n - 1] >= SAME * one": "no mass is that"
