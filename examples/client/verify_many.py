@@ -44,8 +44,11 @@ def front(request: Place, answer: Place) -> Claims:
     worst = max(fronts, key=lambda curve: STATUSES.index((curve / "status").text(*STATUSES)))
     yield same("status", answer / "status", (worst / "status").value)
     for curve, budget in zip(fronts, budgets or [design / "max_total_mass_kg"]):
-        if curve / "max_total_mass_kg" or budget:
-            yield near("max_total_mass", curve / "max_total_mass_kg", budget.number(0.0))
+        if budget:
+            yield near("max_total_mass", curve / "max_total_mass_kg", budget.number())
+        elif curve / "max_total_mass_kg":
+            # nobody asked for one
+            yield "max_total_mass", curve / "max_total_mass_kg", -ONE, ONE
         if (curve / "status").text(*STATUSES) == "infeasible":
             yield "status", curve / "status", ONE if curve / "infeasibility" else -ONE, ONE
             yield from infeasible(request, answer, budget, curve / "infeasibility")

@@ -124,7 +124,165 @@ _VERIFY: dict[str, str] = {
     " which the smallest double is many",
     "verify_weights.py counterweights: total_mass * machine.wide -> total_mass / machine.wide": "it is 1 with its"
     " rounding to both sides",
+    "verify_first.py near_the_bound: above - SPECK * most -> above + SPECK * most": "an interval around 0 is its own"
+    " negative",
+    "verify_numbers.py ABOUT_ONE: SPECK + J * SPECK -> SPECK - J * SPECK": "an interval around 0 is its own negative",
+    "verify_cranks.py balance_rates: size.low <= real(NEXT_TO_NOTHING).high"
+    " -> size.low < real(NEXT_TO_NOTHING).high": "nothing is 1e-280 kg m to the bit",
+    "verify_program.py bound: price.high > 0 -> price.high >= 0": "without a price what is free gains the smallest"
+    " steps of numbers at most",
+    "verify_weights.py listed: room <= TOUCHED - UNSURE -> room < TOUCHED - UNSURE": "no room is that to the bit",
+    "verify_shafts.py power: times > 0 -> times >= 0": "0 times nothing is multiplied",
+    "verify_numbers.py _distance: low >= 0 -> low > 0": _ALIKE,
+    "verify_rods.py _root: curve(middle) * first > 0 -> curve(middle) * first >= 0": "halving comes to the same place"
+    " from its other side",
+    "verify_harmonics.py MOST: 40000 -> 40001": "angles are counted in pairs",
+    "verify_alternatives.py costs: mass_kg - masses[n - 1] > SAME * mass_kg"
+    " -> mass_kg - masses[n - 1] >= SAME * mass_kg": "no mass is that to the bit",
+    "verify_levels.py _sizes: one - masses[n - 1] > SAME * one -> one - masses[n - 1] >= SAME * one": "no mass is that"
+    " to the bit",
+    "verify_match.py _count: min(len(each.masses), 20) -> min(len(each.masses), 21)": "either is more than is compared",
 }
+
+
+def _with(places: tuple[str, ...], one: str, other: str, why: str) -> dict[str, str]:
+    """Faults by what they are in, each with the last of some signs another."""
+    return {f"{place} -> {other.join(_fault(place).rsplit(one, 1))}": why for place in places}
+
+
+def _fault(place: str) -> str:
+    return place.partition(": ")[2]
+
+
+#: what is added is as wide to both sides of 0
+_TO_BOTH_SIDES = (
+    "verify_answer.py rates: mass.co + machine.blur",
+    "verify_answer.py gaps: gap + noise",
+    "verify_answer.py gaps: wide * size + noise",
+    "verify_answer.py gaps: size * real(MASS_GAP) + noise",
+    "verify_cranks.py balance_rates: direction((throw / 'crank_angle_deg').double()) + machine.blur",
+    "verify_cranks.py balance_rates: total(against) + BLUR * total((abs(part) for part in against))",
+    "verify_curves.py seen: mass.co + machine.blur",
+    "verify_curves.py turned: direction(degrees) + self.machine.blur",
+    "verify_cuts.py _mean: real(mean.real) + around",
+    "verify_cuts.py _mean: real(mean.imag) + around",
+    "verify_cuts.py _mean: real(curve.moved(-mean).rms) + around",
+    "verify_cuts.py _fixed: one.co + self.machine.blur",
+    "verify_cuts.py value: most[name] + SPECK * size",
+    "verify_first.py near_the_bound: above + noise",
+    "verify_first.py near_the_bound: size * real(SMALLEST) + noise",
+    "verify_machine.py _plus: mass.co + self.blur",
+    "verify_machine.py _plus: mass.counter + self.blur",
+    "verify_many.py point: peaks[name] + SPECK * peaks[name]",
+    "verify_match.py _gap: gap + noise",
+    "verify_match.py _gap: wide * size + noise",
+    "verify_multipliers.py reached: one * wide + self.machine.blur * size",
+    "verify_numbers.py ABOUT_ONE: ONE + SPECK",
+    "verify_orders.py first_order: direction(degrees) + BLUR",
+    "verify_orders.py _plus: way + machine.blur",
+    "verify_orders.py _phasor: direction(phase) + BLUR",
+    "verify_prices.py prices: least + noise",
+    "verify_quality.py quality: direction((place / 'angle_deg').double()) + BLUR",
+    "verify_quality.py _in_planes: mass.co + machine.blur",
+    "verify_shaking.py _foundation: direction(degrees) + BLUR",
+    "verify_shaking.py _load: direction(degrees) + BLUR",
+    "verify_turn.py over_turn: value + noise",
+    "verify_turn.py over_turn: limit + noise",
+    "verify_weights.py counterweight: direction(angle) + machine.blur",
+)
+#: factors that are 1 with their rounding to both sides
+_ABOUT_ONE = (
+    "verify_answer.py before: machine.own_plane * ABOUT_ONE",
+    "verify_answer.py gaps: (gap + noise) * ABOUT_ONE",
+    "verify_answer.py gaps: rest.number() * ABOUT_ONE",
+    "verify_cases.py scatter: real(share) * ABOUT_ONE",
+    "verify_cranks.py balance_rates: total(turning) * (throw / 'crank_radius_m').number() * machine.wide",
+    "verify_cranks.py balance_rates: part * ABOUT_ONE",
+    "verify_curves.py seen: row.product * machine.wide",
+    "verify_curves.py seen: mass.product * machine.wide",
+    "verify_cuts.py term: self.weights[kind] * ABOUT_ONE",
+    "verify_cuts.py _mean: self.weights['bearing'] * ABOUT_ONE",
+    "verify_first.py most: largest(mass - statement.machine.fixed, counts * real(MASS_SHARE)) * ABOUT_ONE",
+    "verify_first.py yardstick: most * ABOUT_ONE",
+    "verify_goals.py _exactly: value * ABOUT_ONE",
+    "verify_goals.py _exactly: rest * ABOUT_ONE",
+    "verify_goals.py _exactly: largest(*peaks) * ABOUT_ONE",
+    "verify_machine.py _plus: mass.product * self.wide",
+    "verify_machine.py arm: force * wide",
+    "verify_machine.py arm: position * wide",
+    "verify_machine.py arm: self.plane * wide",
+    "verify_machine.py arm: along * moment * wide",
+    "verify_many.py _shape: peak.number() * ABOUT_ONE",
+    "verify_many.py _scale: largest(most, machine.square) * ABOUT_ONE",
+    "verify_many.py point: (peaks[name] + SPECK * peaks[name] - corner.number()) * ABOUT_ONE",
+    "verify_many.py point: gap * ABOUT_ONE",
+    "verify_match.py matching: whole * ABOUT_ONE",
+    "verify_match.py _gap: (gap + noise) * ABOUT_ONE",
+    "verify_multipliers.py reached: one * wide",
+    "verify_orders.py _plus: where * machine.wide",
+    "verify_orders.py _plus: machine.plane * machine.wide",
+    "verify_orders.py _plus: size * machine.wide",
+    "verify_program.py reach: real(web.plate.mass(web.plate.most)) * ABOUT_ONE",
+    "verify_program.py change: real(web.plate.lever(0.0)) * ABOUT_ONE",
+    "verify_quality.py quality: grade * real(1 / 1000) * ABOUT_ONE",
+    "verify_quality.py quality: permitted * real(part) * ABOUT_ONE",
+    "verify_quality.py _in_planes: (mass.co + machine.blur) * mass.product * machine.wide",
+    "verify_quality.py _in_planes: mass.position * machine.wide",
+    "verify_weights.py counterweight: (direction(angle) + machine.blur) * mass * radius * machine.wide",
+    "verify_weights.py counterweight: mass * radius * machine.wide",
+    "verify_weights.py counterweight: mass * radius * fastest * machine.wide",
+    "verify_weights.py shafts: on_shaft * machine.wide",
+    "verify_weights.py shafts: mass * machine.wide",
+)
+#: numbers that count the smallest steps, of which the smallest double is many
+_STEPS = (
+    "verify_answer.py gaps: size.low > 0",
+    "verify_claims.py _share: size.high > 0",
+    "verify_curves.py seen: upright.low <= 0",
+    "verify_cuts.py __init__: weights['roll'].high > 0",
+    "verify_cuts.py term: self.weights[kind].high <= 0",
+    "verify_first.py optimum: weight.high > 0",
+    "verify_first.py lightest: least.high <= 0",
+    "verify_first.py yardstick: rest.low > 0",
+    "verify_first.py near_the_bound: (above - SPECK * most).low <= 0",
+    "verify_machine.py web_of: per_kg.low <= 0",
+    "verify_machine.py over: by.low <= 0",
+    "verify_many.py point: size.low > 0",
+    "verify_match.py _gap: size.low > 0",
+    "verify_misplacement.py __init__: one.product.high > 0",
+    "verify_multipliers.py __init__: self.off.share.high > 0",
+    "verify_multipliers.py __init__: self.off.besides.high > 0",
+    "verify_multipliers.py __init__: weight.high > 0",
+    "verify_multipliers.py bound: value.low > 0",
+    "verify_multipliers.py _add: size.low > 0",
+    "verify_multipliers.py _add_ceilings: abs(p).high <= 0",
+    "verify_multipliers.py _within_limits: gain.high <= 0",
+    "verify_orders.py floor: abs(plane - machine.plane).low > 0",
+    "verify_program.py _size: size.low > 0",
+    "verify_program.py _size: arm.low > 0",
+    "verify_program.py _size: abs(one.factor).low > 0",
+    "verify_program.py _size: other.low > 0",
+    "verify_program.py bound: total(rows.values()).low <= 0",
+    "verify_program.py bound: price.low > 0",
+    "verify_program.py bound: gain.high > 0",
+    "verify_program.py bound: price.high > 0",
+    "verify_program.py _multipliers: row.high > 0",
+    "verify_program.py _multipliers: abs(vector).high > 0",
+    "verify_program.py _balance: one.factor.low > 0",
+    "verify_program.py _balance: abs(slope[name]).high > 0",
+    "verify_program.py lightest: limit.high > 0",
+    "verify_program.py lightest: does.low > 0",
+    "verify_program.py of_plate: pull.high <= 0",
+    "verify_program.py of_plate: web.limit.high <= 0",
+    "verify_turn.py over_turn: (least.number() - machine.fixed).high <= 0",
+    "verify_weights.py counterweight: mass.high > 0",
+    "verify_weights.py _alike: (one / 'mass_kg').number().high > 0",
+    "verify_weights.py heavy_enough: mass.high > 0",
+    "verify_weights.py catalogue: mass.high <= 0",
+)
+_VERIFY |= _with(_TO_BOTH_SIDES, " + ", " - ", "an interval around 0 is its own negative")
+_VERIFY |= _with(_ABOUT_ONE, " * ", " / ", "it is 1 with its rounding to both sides")
+_VERIFY |= _with(_STEPS, "0", "1", "it counts the smallest steps of numbers")
 _SERVICE: dict[str, str] = {
     "guard/keys.py caller: record.expires < time.time() -> record.expires <= time.time()": "no clock stands still",
     "guard/keys.py _stamped": "no file is of such a time: it tells that there is none",

@@ -1,5 +1,6 @@
 """A fault put into functions that are loaded already: nothing is imported again."""
 
+import ast
 import gc
 from collections.abc import Iterator
 from inspect import CO_OPTIMIZED
@@ -35,11 +36,12 @@ def patched(functions: Functions, path: Path, original: str, text: str) -> bool:
 
     It has to be where a module or a class does something else, such as a table or a default, or calls what does.
     """
-    before, after = (list(_codes(compile(each, str(path), "exec"))) for each in (original, text))
+    # the text has been written anew: of a statement on several lines other code is made
+    anew = ast.unparse(ast.parse(original))
+    before, same, after = (list(_codes(compile(each, str(path), "exec"))) for each in (original, anew, text))
     if [one.co_qualname for one in before] != [one.co_qualname for one in after]:
         return False
-    # the text has been written anew: lines are others, where what is compiled is not
-    changed = [old for old, new in zip(before, after, strict=True) if _does(old) != _does(new)]
+    changed = [old for old, as_new, new in zip(before, same, after, strict=True) if _does(as_new) != _does(new)]
     if not changed or any(not old.co_flags & CO_OPTIMIZED or _place(old) in functions.called for old in changed):
         return False
     every = [

@@ -13,6 +13,7 @@ from schemas.sweep.request import SweepRequest
 from service.verification import checker
 from tests.night import every
 from tests.pairs.asking import body_of
+from tests.verification.answers import pair
 from tests.verification.checking import broken, verdict
 from tests.verification.kinds import SINGLE
 
@@ -215,3 +216,11 @@ def test_orders_of_cranks(angles: list[Any]) -> None:
     table[0]["/machine/throws/1/crank_angle_deg"] += 1e-3
     assert claims(body, table)["axis"] == "broken"
     assert verdict(body | {"angles_deg": [0.0, 33.0]}, swept(body)) == "broken"
+
+
+@pytest.mark.parametrize("budget", [0.0, 5.0])
+def test_a_budget_of_a_front_that_nobody_asked_for_is_broken(budget: float) -> None:
+    """Regression: one of 0 kg was held."""
+    request, answer = pair("front")
+    answer["fronts"][0]["max_total_mass_kg"] = budget
+    assert any(one.startswith("max_total_mass") for one in broken(request, answer))
