@@ -113,7 +113,7 @@ def verdict(claim: Claim, tolerance: float) -> Verdict:
     over = claim.lower_bound - claim.value
     # of several goals the bound is a corner below which nothing is in all of them
     false = np.logical_and.reduce(over > claim.rounding, axis=-1) | claim.contradicted
-    bound, gap = np.where(over > 0, claim.value, claim.lower_bound), np.maximum(-over, 0.0)
+    bound, gap = np.minimum(claim.lower_bound, claim.value), np.maximum(-over, 0.0)
     relative = np.maximum.reduce(relative_gap(gap, claim.yardstick), axis=-1)
     mass_yardstick, kept = np.maximum(claim.mass, claim.mass_resolution), claim.excess <= CEILING_TOLERANCE
     if claim.mass_lower_bound is None:

@@ -65,9 +65,8 @@ def suits_kernel(statement: Statement) -> bool:
 
     They have one group, real influences, and no webs that are to be alike.
     """
-    influences = (statement.norms.influence, statement.ceilings.norms.influence)
-    apart = statement.group[-1] == 0 and statement.limits.alike is None
-    return bool(apart and not any(np.iscomplexobj(influence) for influence in influences))
+    real = not statement.norms.turned and not statement.ceilings.norms.turned
+    return bool(real and statement.group[-1] == 0 and statement.limits.alike is None)
 
 
 def both_stages(
@@ -97,8 +96,9 @@ def both_stages(
     (discs,), level = suits_discs(statement, least_mass).nonzero(), at_least + np.zeros(share.shape)
     if not discs.size:
         return _in_any_limits(statement, share, demand, least_mass, level)
-    part, wanted = statement.chosen(discs) if discs.size < share.size else statement, (share[discs], demand[discs])
-    quick = _judged(part, *wanted, least_mass, _solve(part, wanted[0], least_mass, _DOUBLE, _in_discs, level[discs]))
+    part, some = (statement.chosen(discs), discs) if discs.size < share.size else (statement, slice(None))
+    solved = _solve(part, share[some], least_mass, _DOUBLE, _in_discs, level[some])
+    quick = _judged(part, share[some], demand[some], least_mass, solved)
     if discs.size == share.size:
         left = (~quick.certified).nonzero()[0]
         if left.size:
