@@ -150,7 +150,7 @@ class Flat:
             priced.reshape(many),
             factor.reshape(many),
             inside,
-            Rows(programs.owner, programs.group, programs.floor),
+            self.rows,
             programs.scalar,
             programs.numbers[0],
             *(each.reshape(many, each.shape[-1]) for each in dual),
@@ -174,6 +174,11 @@ class Flat:
         reach = np.empty(math.prod(self.leading))
         _units().single_reaches(merged(self.leading, sizes, 1), self._magnitude, reach)
         return reach.reshape(self.leading)
+
+    @property
+    def rows(self) -> Rows:
+        """The rows alone."""
+        return Rows(self.programs.owner, self.programs.group, self.programs.floor)
 
     @property
     def _magnitude(self) -> Real:
