@@ -125,9 +125,12 @@ def _pair(statement: Statement) -> _Pair | None:
     if basis is None:
         return None
     number, vectors, webs = every.shape
+    multiple, holds = np.empty((number, vectors)), np.empty(number, bool)
+    multiple.fill(1.0)
+    holds.fill(True)
     if vectors < 3:
-        return _Pair(basis, np.ones((number, vectors)), every, np.ones(number, bool))
-    multiple, two, holds = np.ones((number, vectors)), np.zeros((number, 2, webs)), np.ones(number, bool)
+        return _Pair(basis, multiple, every, holds)
+    two = np.zeros((number, 2, webs))
     for b in range(2):
         (own,) = (basis == b).nonzero()
         if own.size == 1:
