@@ -70,10 +70,10 @@ def printed(priced, factor, inside, rows, scalar, lam, term, row, ceiling):  # t
         for r in range(row.shape[1]):
             row[m, r] = lam[r] * own
         for j in range(term.shape[1]):
-            y = complex(term[m, j].real * own, 0.0 if scalar[j] else term[m, j].imag * own)
+            y = complex(term[m, j].real * own, term[m, j].imag * own)
             size, most = length(y), row[m, rows.owner[j]] * inside
             shrink = most / size if size > most else 1.0
-            term[m, j] = complex(y.real * shrink, y.imag * shrink)
+            term[m, j] = complex(y.real * shrink, 0.0 if scalar[j] else y.imag * shrink)
         for i in range(ceiling.shape[1]):
             across = 0.0 if scalar[term.shape[1] + i] else ceiling[m, i].imag * own
             ceiling[m, i] = complex(ceiling[m, i].real * own, across)
