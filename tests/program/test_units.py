@@ -30,8 +30,9 @@ def test_printed_multipliers_are_admissible_and_of_price_1(seed: int, kind: tupl
 
 @given(SEEDS, KINDS)
 def test_multipliers_of_a_mass_are_per_newton(seed: int, kind: tuple[bool, set[str], None]) -> None:
-    asked, multipliers = program(seed, kind), _multipliers(seed, program(seed, kind))
-    printed, usable = physical(asked, multipliers, "mass", SQUARE), multipliers.admissible(asked).times(1.0 / SQUARE)
+    asked, per_newton = program(seed, kind), np.asarray(1.0 / SQUARE)
+    multipliers = _multipliers(seed, asked)
+    printed, usable = physical(asked, multipliers, "mass", SQUARE), multipliers.admissible(asked).times(per_newton)
     for name in ("term", "row", "ceiling"):
         assert getattr(printed, name) == pytest.approx(getattr(usable, name), rel=1e-12, abs=1e-14)
 
