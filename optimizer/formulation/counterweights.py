@@ -44,7 +44,7 @@ def _within(machine: Machine, unbalance: Complex, limits: Limits) -> tuple[Real,
     mass, angle = np.abs(unbalance) / limits.radius, angle_deg(unbalance)
     mass = np.where(mass >= limits.max_mass * (1.0 - _ROUNDING), limits.max_mass, mass)
     free, centre, half_angle = sectors(machine)
-    if free.all():
+    if np.logical_and.reduce(free, axis=None):
         return mass, np.where(mass > 0, angle, 0.0)
     # reduced first, without which the edge of a sector at 1e6 degrees would be rounded to 1e-10
     centre = np.mod(centre, 360.0)

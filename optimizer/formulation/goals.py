@@ -142,6 +142,10 @@ def formulate(
     return Goals(program, limited, tuple(cases))
 
 
+def _all_positive(weight: Reals) -> bool:
+    return weight > 0.0 if isinstance(weight, float) else bool(np.logical_and.reduce(weight > 0.0, axis=None))
+
+
 def cone_program(
     machine: Machine, objective: Objective, responses: Sequence[Response], omega_squared: Reals
 ) -> Statement:
@@ -212,7 +216,7 @@ class _CaseQuantities:
     def _of_frame(self, apart: bool) -> tuple[Group, ...]:
         wanted, across = self._wanted, self.objective.direction_weights
         # of many programs of one shape all weigh it, or none
-        weighs = [name for name, weight in wanted.items() if np.logical_and.reduce(np.asarray(weight) > 0, axis=None)]
+        weighs = [name for name, weight in wanted.items() if _all_positive(weight)]
         if self.objective.orders == "all":
             places = [(self.quantities[q].response.name, q) for q in self._of_shaking()]
             weighed = [Weighed(q, float(wanted[name])) for name, q in places if name in weighs]

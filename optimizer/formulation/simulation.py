@@ -3,6 +3,7 @@
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -200,11 +201,18 @@ def simulated(
     if leading:
         plan = spread(plan, leading)
     turns = turns_over(machine, [need for needs in outputs.values() for need in needs])
-    angle: Real = np.arange(samples * turns, dtype=float) * (360.0 / samples)
-    result = simulate(machine, plan, outputs, request.fidelity, np.deg2rad(angle))
+    angle, radians = _sampled(samples, turns)
+    result = simulate(machine, plan, outputs, request.fidelity, radians)
     objective = request.objective if isinstance(request, OptimizeRequest) else Objective()
     spent_ms = (time.perf_counter() - start) * 1e3
     return Prepared(request, machine, objective, plan, angle, result, spent_ms, turns=turns)
+
+
+@lru_cache(maxsize=4)
+def _sampled(samples: int, turns: int) -> tuple[Real, Real]:
+    """Shaft angles of all samples (T,) in degrees and in radians, to which nobody writes."""
+    angle = np.arange(samples * turns, dtype=float) * (360.0 / samples)
+    return angle, np.deg2rad(angle)
 
 
 def turns_over(machine: Machine, needs: Sequence[str]) -> int:

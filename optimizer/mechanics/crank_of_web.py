@@ -24,9 +24,11 @@ def own_throws(machine: Machine) -> list[int | None]:
     """Number of the throw whose crank each web of one machine belongs to; None where it is none alone."""
     if not isinstance(machine, ReciprocatingMachine) or not machine.webs:
         return [None] * len(machine.webs)
-    of_webs = shares(machine).T
-    first, alone = of_webs.argmax(axis=-1).tolist(), np.logical_or.reduce(of_webs == 1.0, axis=-1).tolist()
-    return [throw if one else None for throw, one in zip(first, alone, strict=True)]
+    own: list[int | None] = [None] * len(machine.webs)
+    throws, webs = (shares(machine) == 1.0).nonzero()
+    for throw, web in zip(throws.tolist(), webs.tolist(), strict=True):
+        own[web] = throw
+    return own
 
 
 def crank_angles(machine: Machine) -> list[float | None]:

@@ -163,21 +163,20 @@ def _component_grows(evidence: Evidence) -> Iterator[Caution]:
     residual: Residual | None = evidence.fields.get("residual")
     if residual is None or residual.after is None:
         return
-    was, now, sizes = residual.before, residual.after, evidence.sizes
-    for names, unit, size, pairs in (
-        (("force along x", "force along y"), "N", sizes[0], {"x": (was.force.peak_x_N, now.force.peak_x_N),
-                                          "y": (was.force.peak_y_N, now.force.peak_y_N)}),
-        (_COUPLES, "N m", sizes[1], {"x": (was.moment.peak_x_Nm, now.moment.peak_x_Nm),
-                                               "y": (was.moment.peak_y_Nm, now.moment.peak_y_Nm)}),
-    ):  # fmt: skip
-        for what, (axis, (before, after)) in zip(names, pairs.items(), strict=True):
-            if after > before + _NOTABLE * size:
-                yield Caution(
-                    code="component_grows",
-                    message=f"The {what} grows from {_plain(before)} to {_plain(after)} {unit}: weigh "
-                    "that direction more if it matters.",
-                    pointer=f"/objective/direction_weights/{axis}",
-                )
+    (was, now), (force, moment) = (residual.before, residual.after), evidence.sizes
+    for what, unit, size, axis, before, after in (
+        ("force along x", "N", force, "x", was.force.peak_x_N, now.force.peak_x_N),
+        ("force along y", "N", force, "y", was.force.peak_y_N, now.force.peak_y_N),
+        (_COUPLES[0], "N m", moment, "x", was.moment.peak_x_Nm, now.moment.peak_x_Nm),
+        (_COUPLES[1], "N m", moment, "y", was.moment.peak_y_Nm, now.moment.peak_y_Nm),
+    ):
+        if after > before + _NOTABLE * size:
+            yield Caution(
+                code="component_grows",
+                message=f"The {what} grows from {_plain(before)} to {_plain(after)} {unit}: weigh "
+                "that direction more if it matters.",
+                pointer=f"/objective/direction_weights/{axis}",
+            )
 
 
 def _far_web(evidence: Evidence) -> Iterator[Caution]:

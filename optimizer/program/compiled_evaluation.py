@@ -14,7 +14,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, in_order, merged, spread
 from optimizer.numerics.records import record
-from optimizer.program.limits import Limits, Region, within
+from optimizer.program.limits import Limits, Region
 
 
 class Programs(NamedTuple):
@@ -36,6 +36,14 @@ class Programs(NamedTuple):
     numbers: Real  # (6, ...) work, as are the next
     vectors: Complex  # (4, ...)
     places: np.ndarray  # (2, K)
+
+
+class Rows(NamedTuple):
+    """The rows of N programs alone."""
+
+    owner: np.ndarray  # (J,) row of a term
+    group: np.ndarray  # (R,)
+    floor: Real  # (N, R)
 
 
 class Minorants(NamedTuple):
@@ -130,9 +138,52 @@ class Flat:
         minorants(normal, *_rows(leading, term, row, ceiling), programs, cap, constant, slope, of_webs)
         return Minorants(constant.reshape(leading), slope.reshape(*leading, webs), *of_webs.reshape(3, *leading, webs))
 
-    def into(self, u: Complex) -> Complex:
-        """Unbalances (..., *leading, K) within all limits, close to those that are nearly so."""
-        return within(self.programs.region, self._of(u.shape[:-1]), u)
+    def printed(self, priced: np.ndarray, factor: Real, inside: float, dual: Dual) -> None:
+        """Multipliers (..., *leading, n) as they are printed, in place: :func:`optimizer.program.kernel.units.printed`.
+
+        Parameters
+        ----------
+        priced, factor : (..., *leading).
+        """
+        programs, many = self.programs, factor.size
+        _units().printed(
+            priced.reshape(many),
+            factor.reshape(many),
+            inside,
+            self.rows,
+            programs.scalar,
+            programs.numbers[0],
+            *(each.reshape(many, each.shape[-1]) for each in dual),
+        )
+
+    def least_masses(self, objective: Real) -> Real:
+        """Least masses (*leading) kg that could cancel something, 0 where none does anything.
+
+        Parameters
+        ----------
+        objective : (*leading, 1) size of the objective, or (*leading, rows) of its rows.
+        """
+        programs, region, least = self.programs, self.programs.region, np.empty(math.prod(self.leading))
+        limits, size = (region.radius, region.max_mass, region.budget), merged(self.leading, objective, 1)
+        rows = programs.floor.shape[1]
+        _units().least_masses(programs.owner, rows, self._magnitude, limits, size, programs.size, least)
+        return least.reshape(self.leading)
+
+    def single_reaches(self, sizes: Real) -> Real:
+        """The largest unbalance that one of vectors of some sizes (*leading, J + I) calls for by itself (*leading)."""
+        reach = np.empty(math.prod(self.leading))
+        _units().single_reaches(merged(self.leading, sizes, 1), self._magnitude, reach)
+        return reach.reshape(self.leading)
+
+    @property
+    def rows(self) -> Rows:
+        """The rows alone."""
+        return Rows(self.programs.owner, self.programs.group, self.programs.floor)
+
+    @property
+    def _magnitude(self) -> Real:
+        """Magnitudes of the influences (N, J + I, K), or real numbers of these."""
+        return self.programs.magnitude if self.programs.across.size else self.programs.influence
 
     def settle(self, u: Complex, points: Real, target: Real, heaviest: Real, rounding: float, rungs: Real) -> None:
         """Points (*leading, K) without dust and at the limits that they touch, and what they come to, in place.
@@ -330,6 +381,13 @@ def _values() -> ModuleType:
     from optimizer.program.kernel import values
 
     return values
+
+
+@cache
+def _units() -> ModuleType:
+    from optimizer.program.kernel import units
+
+    return units
 
 
 @cache

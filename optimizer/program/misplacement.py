@@ -12,8 +12,30 @@ from types import ModuleType
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, in_order
+from optimizer.numerics.arrays import Complex, Real, in_order, merged
 from optimizer.program.norms import Norms
+from optimizer.program.statement import Statement
+
+
+def worst_objectives(statement: Statement, u: Complex, angle: float, share: float) -> Real:
+    """What the objective of programs (*leading) comes to with counterweights (*leading, K) kg m, (3, *leading).
+
+    As they are; each off by up to an angle; and by up to a share of its mass. Of a sum of peaks no less than that.
+    """
+    flat = statement.flat
+    programs, found = flat.programs, np.empty((3, math.prod(flat.leading)))
+    _outlines().objectives(
+        flat.rows,
+        programs.scalar,
+        programs.constant,
+        programs.influence,
+        programs.across,
+        merged(flat.leading, u, 1),
+        angle,
+        share,
+        found,
+    )
+    return found.reshape(3, *flat.leading)
 
 
 def worst_by_mass(norms: Norms, u: Complex, share: float) -> Real:

@@ -45,6 +45,11 @@ class Norms:
         largest = np.maximum.reduce(np.abs(self.influence), axis=-1, initial=0.0)
         return np.where(largest > 0, largest, 1.0)
 
+    @property
+    def turned(self) -> bool:
+        """Whether influences are complex: counterweights act out of line with themselves."""
+        return self.influence.dtype.kind == "c"
+
     def mapped(self, function: Callable[[Any], Any]) -> "Norms":
         """A function of every array."""
         return Norms(function(self.constant), function(self.influence), self.scatter, self.scalar)

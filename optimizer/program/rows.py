@@ -45,7 +45,7 @@ def weighted_peak(response: Response, weight: Reals, weight_x: Reals = 1.0, weig
     if not np.count_nonzero(q) and against is None:
         alone = p * f
         # what is too small to divide by is none, as in `total`
-        alone = np.where(np.abs(alone) <= SMALLEST, 0.0, alone)[..., None]
+        alone = (alone * (np.abs(alone) > SMALLEST))[..., None]
         norms = Norms(alone, p[..., None, None] * response.influence[..., None, :])
         return WeightedPeak(response.name, p * np.abs(b), norms, response.scenario)
     b = np.conj(b)

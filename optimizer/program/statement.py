@@ -121,12 +121,7 @@ class Statement:
     @cached_property
     def single_reach(self) -> Real:
         """The largest unbalance that one term or one limited response calls for by itself, kg m (...)."""
-        largest = np.zeros(())
-        for each in (self.norms, self.ceilings.norms) if self.ceilings.names else (self.norms,):
-            some = np.logical_or.reduce(each.influence, axis=-1)
-            apart = np.where(some, np.abs(each.constant) / each.largest_influence, 0.0)
-            largest = np.maximum(largest, np.maximum.reduce(apart, axis=-1, initial=0.0))
-        return largest
+        return self.flat.single_reaches(np.abs(self.every_constant))
 
     @cached_property
     def first_rows(self) -> np.ndarray:

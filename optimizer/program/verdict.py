@@ -113,7 +113,7 @@ def verdict(claim: Claim, tolerance: float) -> Verdict:
     over = claim.lower_bound - claim.value
     # of several goals the bound is a corner below which nothing is in all of them
     false = np.logical_and.reduce(over > claim.rounding, axis=-1) | claim.contradicted
-    bound, gap = np.where(over > 0, claim.value, claim.lower_bound), np.maximum(-over, 0.0)
+    bound, gap = np.minimum(claim.lower_bound, claim.value), np.maximum(-over, 0.0)
     relative = np.maximum.reduce(relative_gap(gap, claim.yardstick), axis=-1)
     mass_yardstick, kept = np.maximum(claim.mass, claim.mass_resolution), claim.excess <= CEILING_TOLERANCE
     if claim.mass_lower_bound is None:
@@ -180,13 +180,4 @@ def mass_resolution(statement: Statement, yardstick: Real) -> Real:
     ----------
     yardstick : (..., 1) of the objective or (..., rows) of its rows.
     """
-    limits, norms, ceilings = statement.limits, statement.norms, statement.ceilings
-    radius = np.where(limits.most > 0, limits.radius, 0.0)[..., None, :]
-    does, size = statement.membership @ (np.abs(norms.influence) * radius), spread(yardstick, statement.floor.shape)
-    if ceilings.names:
-        does = np.concatenate([does, np.abs(ceilings.norms.influence) * radius], axis=-2)
-        size = np.concatenate([size, ceilings.size], axis=-1)
-    most = np.maximum.reduce(does, axis=-1, initial=0.0)
-    some = most > 0
-    least = np.minimum.reduce(np.where(some, size / np.where(some, most, 1.0), np.inf), axis=-1)
-    return _MASS_SHARE * np.where(np.isfinite(least), least, 0.0)
+    return _MASS_SHARE * statement.flat.least_masses(yardstick)

@@ -14,7 +14,7 @@ import numpy as np
 
 from optimizer.formulation.limits import largest_mass
 from optimizer.numerics.arrays import Complex, Real, Reals
-from optimizer.program.certificate import Multipliers, budget_price, normalised, nothing_proven, proves, together
+from optimizer.program.certificate import Multipliers, budget_price, normalised, nothing_proven, together
 from optimizer.program.statement import Statement
 from schemas.answer.proof import BoundMultipliers
 from schemas.machine.machine import Machine
@@ -83,22 +83,21 @@ def physical_bounds(
     """The same of several bounds on the same programs at once, in their order."""
     scenarios = statement.ceilings.scenarios
     over = omega_squared / _squares(scenarios, speeds) if speeds and scenarios else None
-    usable = together(bounds.values()).admissible(statement)
-    price = usable.price(statement)
-    of_price, per_newton = 1.0 / np.where(proves(price), price, 1.0), 1.0 / np.asarray(omega_squared)
-    scaled = usable.times(
-        np.array([of_price[n] if name == "objective" else per_newton for n, name in enumerate(bounds)])
-    )
-    term, ends = _no_longer(scaled.term, scaled.row[..., statement.row]), statement.limits.budget_ends
+    found, ends = together(bounds.values()), statement.limits.budget_ends
+    priced, factor = np.zeros(found.row.shape[:-1], bool), np.empty(found.row.shape[:-1])
+    factor[:] = 1.0 / np.asarray(omega_squared)
     for n, name in enumerate(bounds):
+        priced[n] = name == "objective"
+    statement.flat.printed(priced, factor, _INSIDE, found.parts)
+    for n, (name, multipliers) in enumerate(bounds.items()):
         if not np.count_nonzero(ends):
             budget = np.zeros(ends.shape)
         elif name == "objective":
-            budget = budget_price(statement, scaled.chosen(n), 0.0) * omega_squared
+            budget = budget_price(statement, found.chosen(n), 0.0) * omega_squared
         else:
-            budget = budget_price(statement, usable.chosen(n), 1.0 if name == "mass" else 0.0)
-        ceiling = scaled.ceiling[n] if over is None else scaled.ceiling[n] * over
-        yield PhysicalMultipliers(term[n], scaled.row[n], ceiling, budget)
+            budget = budget_price(statement, multipliers, 1.0 if name == "mass" else 0.0)
+        ceiling = found.ceiling[n] if over is None else found.ceiling[n] * over
+        yield PhysicalMultipliers(found.term[n], found.row[n], ceiling, budget)
 
 
 def conflict(statement: Statement, excess: Multipliers, omega_squared: Reals) -> PhysicalMultipliers:

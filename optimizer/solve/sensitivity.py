@@ -9,30 +9,12 @@ from optimizer.numerics.arrays import Complex
 from optimizer.program.cuts.cut import EXACT
 from optimizer.program.cuts.misplacement import largest_last_goals
 from optimizer.program.cuts.semi_infinite import Values
-from optimizer.program.misplacement import farthest_by_angle, farthest_by_mass
-from optimizer.program.statement import Statement
+from optimizer.program.misplacement import worst_objectives
 from schemas.answer.robust import Sensitivity
 
 _DEGREE, _PERCENT = float(np.deg2rad(1.0)), 0.01
 #: width of the brackets of what counterweights come to as they should be
 _CLOSE = 1e-10
-
-
-def _of_cone_program(statement: Statement, u: Complex, omega_squared: float) -> Sensitivity:
-    """Of one program of vectors (no leading axes, or axes of length 1) with counterweights (..., K) kg m.
-
-    Parameters
-    ----------
-    statement : over omega^2.
-    """
-    norms = statement.norms
-    vectors = norms.influence * u[..., None, :]
-    middle = norms.counting(norms.constant + np.add.reduce(vectors, axis=-1))
-    worst = farthest_by_angle(norms.constant, vectors, _DEGREE), farthest_by_mass(middle, vectors, _PERCENT)
-    # of a sum of peaks no less than they come to together
-    objectives = statement.objective_of(np.array([np.abs(middle), *worst]))
-    as_it_is, by_angle, by_mass = objectives.reshape(3).tolist()
-    return _rises(as_it_is, by_angle, by_mass, omega_squared)
 
 
 def sensitivity(goals: Goals, u: Complex, values: Values, omega_squared: float) -> Sensitivity:
@@ -44,7 +26,8 @@ def sensitivity(goals: Goals, u: Complex, values: Values, omega_squared: float) 
     """
     program = goals.anywhere
     if program.finite is not None:
-        return _of_cone_program(program.finite, u, omega_squared)
+        as_it_is, by_angle, by_mass = worst_objectives(program.finite, u, _DEGREE, _PERCENT).reshape(3).tolist()
+        return _rises(as_it_is, by_angle, by_mass, omega_squared)
     if program.scatter != EXACT or program is not goals.program:
         # of the counterweights as they should be, whatever they are allowed to be off by
         program = replace(program, scatter=EXACT)

@@ -5,7 +5,7 @@ Strings are read with a table and exact decimal arithmetic, never with an evalua
 
 import re
 from dataclasses import dataclass
-from decimal import Decimal, localcontext
+from decimal import Context, Decimal
 from typing import Any
 
 from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler
@@ -47,6 +47,8 @@ UNITS: dict[str, dict[str, Decimal]] = {
 }
 
 _NUMBERS = (float, int)
+#: more digits than any product of a number and a unit has
+_EXACT = Context(prec=60)
 _MAX_LENGTH = 48
 _NUMBER = r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?"
 # written out, because the schema's readers take \s for more than ASCII spaces
@@ -74,9 +76,7 @@ def parse_quantity(text: str, unit: str) -> float:
     number, symbol = match[1], " ".join(match[2].split())
     if symbol not in accepted:
         raise ValueError(f"unit must be one of {', '.join(accepted)}")
-    with localcontext() as context:
-        context.prec = 60
-        return float(Decimal(number) * accepted[symbol])
+    return float(_EXACT.multiply(Decimal(number), accepted[symbol]))
 
 
 @dataclass(frozen=True)
@@ -85,7 +85,8 @@ class Unit:
 
     symbol: str
 
-    def _read(self, value: Any) -> Any:
+    def read(self, value: Any) -> Any:
+        """What a client states, a string as the number that it is in the unit of the field."""
         if type(value) in _NUMBERS:
             return value
         if isinstance(value, bool):
@@ -100,7 +101,8 @@ class Unit:
             raise PydanticCustomError("quantity", str(error)) from None
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_before_validator_function(self._read, handler(source))
+        schema = handler(source)
+        return schema if _reads_unit(schema) else core_schema.no_info_before_validator_function(self.read, schema)
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
         number = handler(schema)
@@ -112,6 +114,13 @@ class Unit:
             "pattern": rf"^{_SPACE}{_NUMBER}{_SPACE}({'|'.join(UNITS[self.symbol])}){_SPACE}$",
         }
         return {"anyOf": [number, text], "x-unit": self.symbol, "x-accepted-units": list(UNITS[self.symbol])}
+
+
+def _reads_unit(schema: Any) -> bool:
+    """Whether a number that may be null is one whose unit is read already."""
+    number = schema["schema"] if schema["type"] == "nullable" else schema
+    read = number["function"]["function"] if number["type"] == "function-before" else None
+    return getattr(read, "__func__", None) is Unit.read
 
 
 class AnswerUnit(Unit):

@@ -13,7 +13,7 @@ from optimizer.numerics.arrays import Complex, Real, in_order, mapped, parts, pl
 from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, nothing_proven
-from optimizer.program.compiled_evaluation import Shares
+from optimizer.program.compiled_evaluation import Dual, Shares
 from optimizer.program.kernel.finer_numbers import Precision, solve_in
 from optimizer.program.methods.disc_programs import discs_of, suits_discs
 from optimizer.program.methods.rounding import HEAVIER, RUNGS
@@ -65,9 +65,8 @@ def suits_kernel(statement: Statement) -> bool:
 
     They have one group, real influences, and no webs that are to be alike.
     """
-    influences = (statement.norms.influence, statement.ceilings.norms.influence)
-    apart = statement.group[-1] == 0 and statement.limits.alike is None
-    return bool(apart and not any(np.iscomplexobj(influence) for influence in influences))
+    real = not statement.norms.turned and not statement.ceilings.norms.turned
+    return bool(real and statement.group[-1] == 0 and statement.limits.alike is None)
 
 
 def both_stages(
@@ -97,8 +96,9 @@ def both_stages(
     (discs,), level = suits_discs(statement, least_mass).nonzero(), at_least + np.zeros(share.shape)
     if not discs.size:
         return _in_any_limits(statement, share, demand, least_mass, level)
-    part, wanted = statement.chosen(discs) if discs.size < share.size else statement, (share[discs], demand[discs])
-    quick = _judged(part, *wanted, least_mass, _solve(part, wanted[0], least_mass, _DOUBLE, _in_discs, level[discs]))
+    part, some = (statement.chosen(discs), discs) if discs.size < share.size else (statement, slice(None))
+    solved = _solve(part, share[some], least_mass, _DOUBLE, _in_discs, level[some])
+    quick = _judged(part, share[some], demand[some], least_mass, solved)
     if discs.size == share.size:
         left = (~quick.certified).nonzero()[0]
         if left.size:
@@ -232,19 +232,31 @@ def _solve(
         # nothing to choose
         nothing, proof = np.zeros(statement.limits.radius.shape, complex), nothing_proven(statement)
         return _Solved(nothing, nothing, proof, proof)
-    ceilings, terms = statement.ceilings, statement.norms.constant.shape[-1]
     reach, unit, asked = _scales(statement, share, tolerances, at_least)
-    v, cone, row, mass_unit = (method or _by_interior_point)(
+    found = (method or _by_interior_point)(
         statement, reach, unit, tolerances.ceilings, least_mass, *asked, tolerances.mass
     )
-    points = statement.flat.into(reach * v)
-    # in units of what is minimised (the first is any), per unit of objective or response
-    value = np.empty((2, *share.shape))
-    value[0], value[1] = 1.0, mass_unit
-    vectors, worth = in_order(cone).view(complex)[..., 0], (value / unit)[..., None]
-    parts = vectors[..., :terms] * worth, row * worth, vectors[..., terms:] * value[..., None] / ceilings.size
-    proofs = [Multipliers(*(part[stage] for part in parts)) for stage in range(2)]
-    return _Solved(points[0], points[1], *proofs)
+    points, dual = _physical(statement, (reach, unit), *found)
+    return _Solved(points[0], points[1], *(Multipliers(*(part[stage] for part in dual)) for stage in range(2)))
+
+
+def _physical(
+    statement: Statement, scales: tuple[Real, Real], v: Complex, cone: Real, row: Real, mass_unit: Real
+) -> tuple[Complex, Dual]:
+    """Points (2, N, K) kg m within all limits, and multipliers (2, N, ...), where both stages ended.
+
+    Parameters
+    ----------
+    scales : of :func:`_scales`.
+    v, cone, row, mass_unit : as a method finds them.
+    """
+    programs, points, stages = statement.flat.programs, np.empty(v.shape, complex), v.shape[:2]
+    terms, ceilings = programs.owner.size, programs.size.shape[1]
+    proof = np.empty((*stages, terms), complex), np.empty(row.shape), np.empty((*stages, ceilings), complex)
+    found = in_order(v), in_order(cone), in_order(row), in_order(mass_unit)
+    mean = np.empty(v.shape[-1:], complex)
+    _units().physical(*found, *scales, programs.size, programs.region, mean, points, proof)
+    return points, proof
 
 
 def _scales(
@@ -360,3 +372,10 @@ def _discs() -> ModuleType:
     from optimizer.program.kernel import discs
 
     return discs
+
+
+@cache
+def _units() -> ModuleType:
+    from optimizer.program.kernel import units
+
+    return units

@@ -30,7 +30,7 @@ def suits_discs(statement: Statement, least_mass: bool = True) -> np.ndarray:
     """
     norms, ceilings, limits = statement.norms, statement.ceilings.norms, statement.limits
     terms, webs = norms.constant.shape[-1], limits.radius.shape[-1]
-    simple = not any(part.scatter or any(part.scalar) or np.iscomplexobj(part.influence) for part in (norms, ceilings))
+    simple = not any(part.scatter or any(part.scalar) or part.turned for part in (norms, ceilings))
     vectors = terms + ceilings.constant.shape[-1]
     if not (statement.floor.shape[-1] == 1 and simple and 0 < terms <= vectors <= _VECTORS and webs > 0):
         return np.zeros(statement.floor.shape[:-1], bool)
@@ -121,13 +121,16 @@ class _Pair(NamedTuple):
 @remembered
 def _pair(statement: Statement) -> _Pair | None:
     """The same of a statement whose influences are real; None where there are more than two responses."""
-    basis, every = _basis(statement), np.real(statement.every_influence)
+    basis, every = _basis(statement), statement.every_influence.real
     if basis is None:
         return None
     number, vectors, webs = every.shape
+    multiple, holds = np.empty((number, vectors)), np.empty(number, bool)
+    multiple.fill(1.0)
+    holds.fill(True)
     if vectors < 3:
-        return _Pair(basis, np.ones((number, vectors)), every, np.ones(number, bool))
-    multiple, two, holds = np.ones((number, vectors)), np.zeros((number, 2, webs)), np.ones(number, bool)
+        return _Pair(basis, multiple, every, holds)
+    two = np.zeros((number, 2, webs))
     for b in range(2):
         (own,) = (basis == b).nonzero()
         if own.size == 1:

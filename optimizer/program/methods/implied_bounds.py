@@ -50,9 +50,10 @@ def _beyond(limits: Limits, natural: Real) -> np.ndarray:
 
 def within_reach(statement: Statement) -> Statement:
     """Programs (...) with a finite, proven limit wherever there is none, or one far beyond any need."""
-    far = np.asarray(far_limits(statement).any(axis=-1))
-    if not np.count_nonzero(far):
+    webs = far_limits(statement)
+    if not np.count_nonzero(webs):
         return statement
+    far = np.asarray(webs.any(axis=-1))
     most = statement.limits.max_mass.copy()
     for place in np.ndindex(far.shape):
         if far[place]:

@@ -91,7 +91,7 @@ def optima(statement: Statement, relative_gap: float, least_mass: bool) -> Optim
         found = optima(united(statement, alike), relative_gap, least_mass)
         return replace(found, unbalance=apart(found.unbalance, alike))
     carries = statement.limits.reach > 0
-    if carries.all():
+    if np.logical_and.reduce(carries, axis=None):
         return _optima(statement, relative_gap, least_mass)
     # webs that cannot carry anything are left out of their programs
     patterns, which = np.unique(carries, axis=0, return_inverse=True)
@@ -121,7 +121,7 @@ def _optima(statement: Statement, relative_gap: float, least_mass: bool) -> Opti
         program, asked = statement.chosen(n), Target(float(share[n]), float(demand[n]), least_mass)
         quick = interior_point(program, asked) if found is None else only(program, asked, found.chosen(np.array([n])))
         _put(answer, n, cascade(program, asked, quick))
-    if not answer.unreachable.any():
+    if not np.count_nonzero(answer.unreachable):
         leave_empty(statement, answer, share, least_mass)
         return answer
     # without any of the webs what comes closest to the ceilings is no closer

@@ -51,4 +51,4 @@ def dust(mass: Real) -> np.ndarray:
 
 def has_dust(limits: Limits, u: Complex) -> np.ndarray:
     """Whether some counterweights (..., K) kg m are next to nothing beside the largest of theirs (...)."""
-    return np.asarray(dust(np.abs(u) / limits.radius).any(axis=-1))
+    return np.asarray(np.logical_or.reduce(dust(np.abs(u) / limits.radius), axis=-1))

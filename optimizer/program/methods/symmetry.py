@@ -11,7 +11,7 @@ from types import ModuleType
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, plain
+from optimizer.numerics.arrays import Complex, in_order
 from optimizer.program.equal_unknowns import apart, united
 from optimizer.program.statement import Statement
 
@@ -31,16 +31,15 @@ def symmetric(statement: Statement, u: Complex, kinds: np.ndarray | None = None)
     if alike is not None:
         of_units = None if kinds is None else kinds[alike.first]
         return apart(symmetric(united(statement, alike), alike.means(u) * alike.count, of_units), alike)
-    influence = statement.every_influence
-    if u.shape[-1] < 2 or not u.size or np.iscomplexobj(influence):
+    if u.shape[-1] < 2 or not u.size or statement.norms.turned or statement.ceilings.norms.turned:
         return u
-    limits, kind = statement.limits, _symmetries().Alike
+    programs, region = statement.flat.programs, statement.flat.programs.region
     found: Complex = _symmetries().means(
-        plain(statement.every_constant),
-        plain(influence),
-        kind(*(plain(getattr(limits, name)) for name in kind._fields)),
+        programs.constant,
+        programs.influence,
+        _symmetries().Alike(region.radius, region.max_mass, region.free, region.centre, region.sine),
         np.zeros(u.shape[-1], np.int64) if kinds is None else kinds.astype(np.int64),
-        plain(u),
+        in_order(u),
     )
     return found
 
