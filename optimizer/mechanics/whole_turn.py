@@ -164,7 +164,10 @@ def whole_turn(rows: RowData, breaks: Real, means: Real | None = None) -> WholeT
     half = 0.5 * turn.width.reshape(-1, pieces)
     centre = turn.start.reshape(half.shape) + half
     half = np.where(half > 0.5 * SLIVER, half, 0.0)
-    shape = (rows.designs, pieces)
+    # where breaks of all designs coincide there is no piece
+    held = np.logical_or.reduce(half > 0.0, axis=0)
+    centre, half = centre[:, held], half[:, held]
+    shape = (rows.designs, half.shape[1])
     if means is not None:
         count = means.shape[-1]
         means = spread(means.reshape(math.prod(means.shape[:-1]), count), (rows.designs, count))
