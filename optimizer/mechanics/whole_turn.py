@@ -77,6 +77,7 @@ class WholeTurn:
     centre, half : (N, P) rad; half is 0 where breaks coincide.
     turns : of the shaft, after which all repeats.
     means : (N, R) N, of the tangential forces, where there is a closed form.
+    squared : whether mean squares are asked for: what bounds their quadratures bounds the pieces too.
     """
 
     rows: RowData
@@ -84,6 +85,7 @@ class WholeTurn:
     half: Real
     turns: int = 1
     means: Real | None = None
+    squared: bool = False
 
     def curves(self, reading: Reading, weights: Complex | Real, constant: Complex | Real | float = 0.0) -> "TurnCurves":
         """Sums of a force of the rows over weights (N, C, R), with constants (N, C): N C curves."""
@@ -93,7 +95,7 @@ class WholeTurn:
         """The turn of one of the designs alone."""
         one = slice(number, number + 1)
         means = None if self.means is None else self.means[one]
-        return WholeTurn(self.rows.of_design(number), self.centre[one], self.half[one], self.turns, means)
+        return WholeTurn(self.rows.of_design(number), self.centre[one], self.half[one], self.turns, means, self.squared)
 
     def of_rows(self, reading: Reading) -> "TurnCurves":
         """A force of every row by itself."""
@@ -133,7 +135,7 @@ class WholeTurn:
     @cached_property
     def bounds(self) -> RowSeries:
         """Series bounded over the pieces."""
-        return self._bounded(4)
+        return self.higher_bounds.of_order(4) if self.squared else self._bounded(4)
 
     @cached_property
     def higher_bounds(self) -> RowSeries:
@@ -151,12 +153,13 @@ class WholeTurn:
         return (centre, half) if len(centre) == len(half) else (self.centre, self.half)
 
 
-def whole_turn(rows: RowData, breaks: Real, means: Real | None = None) -> WholeTurn:
+def whole_turn(rows: RowData, breaks: Real, means: Real | None = None, squared: bool = False) -> WholeTurn:
     """The turn cut at breaks (..., B) rad and at regular angles; the leading axes become one.
 
     Parameters
     ----------
     means : (..., R) N, of the tangential forces, where there is a closed form.
+    squared : whether mean squares are asked for.
     """
     turns = turns_of(rows.traces)
     turn = panels(breaks, _WIDEST, turns=turns)
@@ -171,7 +174,7 @@ def whole_turn(rows: RowData, breaks: Real, means: Real | None = None) -> WholeT
     if means is not None:
         count = means.shape[-1]
         means = spread(means.reshape(math.prod(means.shape[:-1]), count), (rows.designs, count))
-    return WholeTurn(rows, spread(centre, shape), spread(half, shape), turns, means)
+    return WholeTurn(rows, spread(centre, shape), spread(half, shape), turns, means, squared)
 
 
 @dataclass(frozen=True)
