@@ -6,7 +6,7 @@ brackets peaks with.
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -17,7 +17,7 @@ from optimizer.mechanics.curve_series import CurveSeries, forces
 from optimizer.mechanics.indicated import SLIVER, TURN, Trace, entries, turns_of
 from optimizer.mechanics.kinematics import own_angle, steep_angles
 from optimizer.mechanics.layout import Layout
-from optimizer.mechanics.row_data import RowData, shared
+from optimizer.mechanics.row_data import RowData, compact, shared
 from optimizer.mechanics.row_parts import RowParts
 from optimizer.mechanics.row_series import Reading, RowSeries
 from optimizer.mechanics.turn import Turn, panels
@@ -307,9 +307,10 @@ class TurnCurves:
         """The curves at angles (m,) within pieces, ends included."""
         return self._series.values(curve, piece, angle)
 
-    def along(self, curve: Index, piece: Index) -> Callable[[Real], Complex]:
-        """The same as a function of the angles."""
-        return self._series.along(curve, piece)
+    def crossings(self, level: Real) -> tuple[Real, Real]:
+        """Shaft angles (N C, n) rad at which scalars cross levels (N C,), jumps included, and what the integral up to
+        there may be off by (N C,); where a curve has fewer than another its angles are 0."""
+        return self._series.crossings(self.pieces.cubics, compact(level))
 
     def search(self, cubics: "Cubics", members: "Members", best: "Best", motion: "Motion | None" = None) -> Complex:
         """Peaks of the curves, or of one of them in motion."""
