@@ -1,6 +1,6 @@
 """One physical effect: what it means, what it needs, how it is simulated."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,6 +21,7 @@ class Context:
     fidelity: Fidelity
     angle: Real  # (T,) shaft angles, or (..., T) others for each machine, rad
     results: Mapping[str, Any]
+    wanted: Collection[str] = ()  # effects whose results are read once all have run
 
 
 def _none(_machine: Machine) -> Iterator[Any]:

@@ -215,18 +215,11 @@ def _run(
     times: dict[str, float] = {}
     for name in names:
         start = time.perf_counter()
-        found[name] = EFFECTS[name].simulate(_context(machine, layout, fidelity, angle, name, found))
+        # an effect sees the results of those that it declares, and no others
+        visible = {need: found[need] for need in EFFECTS[name].needs if need in found}
+        found[name] = EFFECTS[name].simulate(Context(machine, layout, fidelity, angle, visible, needs))
         times[name] = (time.perf_counter() - start) * 1e3
         for need in done.get(name, ()):
             # what does not apply was never there
             found.pop(need, None)
     return found, times
-
-
-def _context(
-    machine: Machine, layout: Layout, fidelity: Fidelity, angle: Real, name: str, results: Mapping[str, Any]
-) -> Context:
-    """Context of one effect: it sees the results of the effects that it declares, and no others."""
-
-    visible = {need: results[need] for need in EFFECTS[name].needs if need in results}
-    return Context(machine, layout, fidelity, angle, visible)

@@ -1,7 +1,6 @@
 """Series of curves about angles within pieces of the turn: all rows are expanded about an angle once, whatever curves
 ask for it."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import repeat
 from typing import TYPE_CHECKING
@@ -39,12 +38,7 @@ class CurveSeries:
 
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
         """Values (m,) at angles (m,) rad within pieces, ends included."""
-        return self.along(curve, piece)(angle)
-
-    def along(self, curve: Index, piece: Index) -> Callable[[Real], Complex]:
-        """The same as a function of the angles, for what comes back to curves and pieces again and again."""
-        places = self._places(curve, piece)
-        return lambda angle: self._about(*places, angle, 0)[:, 0]
+        return self._about(*self._places(curve, piece), angle, 0)[:, 0]
 
     def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
         """Taylor polynomials (m, 4) about centres (m,) rad within pieces, in units of half widths (m,)."""
@@ -85,6 +79,13 @@ class CurveSeries:
         moving = STILL if motion is None else motion
         values: Complex = search(cubics, members, best, self.rows.packed, self.sums, self._within, moving)
         return values
+
+    def crossings(self, cubics: "Cubics", level: Real) -> tuple[Real, Real]:
+        """Angles at which the curves cross levels (J,), and what their integrals may be off by, from their pieces."""
+        from optimizer.mechanics.kernel.crossings import crossings
+
+        found: tuple[Real, Real] = crossings(cubics, level, self.rows.packed, self.sums, self._within)
+        return found
 
     def _places(self, curve: Index, piece: Index) -> tuple[Index, Index, Real]:
         """Curves (m,), their designs, and angles rad that say which process counts, as what is compiled takes them."""

@@ -6,14 +6,14 @@ Shapes: N designs or places, R rows, P angles.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from optimizer.mechanics.row_data import RowData, compact
-from optimizer.numerics.arrays import Real, spread
+from optimizer.numerics.arrays import Real, in_order, spread
 from optimizer.numerics.memoization import cached_property
 from optimizer.responses.piecewise_cubics import Index
 
@@ -37,6 +37,7 @@ class RowSeries:
 
     centre, half : (N, P) rad; half None for series at points.
     within : (N, P) rad, angles that say which process counts.
+    higher : the same to a higher order, of which these are the first coefficients.
     """
 
     data: RowData
@@ -44,6 +45,11 @@ class RowSeries:
     half: Real | None
     within: Real
     order: int
+    higher: "RowSeries | None" = None
+
+    def of_order(self, order: int) -> "RowSeries":
+        """The same to a lower order."""
+        return replace(self, order=order, higher=self)
 
     @cached_property
     def design(self) -> Index:
@@ -53,12 +59,21 @@ class RowSeries:
     def functions(self, pressed: bool) -> "Iterator[tuple[Functions, slice]]":
         """What forces are made of, with gas where it is pressed, of some angles after the other; kept where these are
         all."""
-        memo = self._memo(pressed)
-        return self._made(pressed) if memo is None else iter([(memo, slice(0, self.centre.shape[1]))])
+        # with gas they serve both
+        memo, every = self._memo.get(True) or self._memo.get(pressed), slice(0, self.centre.shape[1])
+        if memo is not None:
+            yield memo, every
+            return
+        made = self._made(pressed) if self.higher is None else self._lower(self.higher.functions(pressed))
+        for functions, place in made:
+            if place == every:
+                self._memo[pressed] = functions
+            yield functions, place
 
-    def _memo(self, pressed: bool) -> "Functions | None":
-        """With gas they serve both."""
-        return self._functions_by_pressure.get(True) or self._functions_by_pressure.get(pressed)
+    def _lower(self, higher: "Iterator[tuple[Functions, slice]]") -> "Iterator[tuple[Functions, slice]]":
+        for functions, place in higher:
+            middle, radius = (in_order(part[:, :, : self.order + 1]) for part in (functions.middle, functions.radius))
+            yield functions._replace(middle=middle, radius=radius), place
 
     def _made(self, pressed: bool) -> "Iterator[tuple[Functions, slice]]":
         from optimizer.mechanics.kernel.rows import ALL_ROWS, Places, row_functions
@@ -82,13 +97,10 @@ class RowSeries:
                 NO_WIDTHS if half is None else _flat(half[:, place]),
                 some if within is centre else _flat(within[:, place]),
             )
-            functions = row_functions(rows, places, self.order, pressed, ALL_ROWS)
-            if parts == 1:
-                self._functions_by_pressure[pressed] = functions
-            yield functions, place
+            yield row_functions(rows, places, self.order, pressed, ALL_ROWS), place
 
     @cached_property
-    def _functions_by_pressure(self) -> "dict[bool, Functions]":
+    def _memo(self) -> "dict[bool, Functions]":
         return {}
 
 

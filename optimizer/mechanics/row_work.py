@@ -15,14 +15,10 @@ from optimizer.mechanics.gas import Chambers, head_sides, indicated_work, log_ra
 from optimizer.mechanics.indicated import TURN
 from optimizer.mechanics.kinematics import motion
 from optimizer.mechanics.layout import Layout
-from optimizer.mechanics.row_data import compact
 from optimizer.mechanics.whole_turn import TurnCurves
 from optimizer.numerics.arrays import Real
 from optimizer.numerics.memoization import cached_property
-from optimizer.responses.piecewise_cubics import ROUNDING, Index
-
-#: of the secant method by the torque itself, from the roots and slopes of its cubics
-_EXACT_STEPS = 5
+from optimizer.responses.piecewise_cubics import ROUNDING
 
 
 class Range(NamedTuple):
@@ -80,7 +76,7 @@ class RowWork:
     def fluctuation(self, torque: TurnCurves) -> Range:
         """Range of the running integral of torque - mean, of the torque of all rows: it turns where they are equal."""
         leading, mean = self.layout.omega.shape, np.add.reduce(self.of_a_turn, axis=-1) / TURN
-        angle, error = _crossings(torque, np.reshape(mean, -1))
+        angle, error = torque.crossings(np.reshape(mean, -1))
         work = self.beside_mean(angle.reshape(*leading, -1))
         rounding = ROUNDING * np.maximum.reduce(np.abs(work), axis=-1)
         return Range(
@@ -140,51 +136,3 @@ def _growth(power: Real) -> Real:
     """(e^z - 1) / z, 1 at 0."""
     safe = np.where(power == 0.0, 1.0, power)
     return np.where(power == 0.0, 1.0, np.expm1(safe) / safe)
-
-
-def _crossings(torque: TurnCurves, mean: Real) -> tuple[Real, Real]:
-    """Shaft angles (N, n) rad at which one curve each crosses its mean (N,), jumps included, and what the integral up
-    to there may be off by (N,); where a design has fewer than another its angles are 0."""
-    from optimizer.mechanics.kernel.crossings import crossings
-
-    pieces = torque.pieces
-    where, place, between, (jumped, at) = crossings(pieces.cubics.cubic, pieces.cubics.half, compact(mean))
-    angle, off = _polished(torque, mean, where, place, between)
-    error = np.zeros(len(pieces.half))
-    np.maximum.at(error, where[0], off)
-    every = np.concatenate([where[0], jumped])
-    found = np.concatenate([angle, (pieces.centre - pieces.half)[jumped, at]])
-    return _by_design(every, found, len(pieces.half)), 2.0 * error
-
-
-def _polished(
-    torque: TurnCurves, mean: Real, where: tuple[Index, Index], place: Real, between: tuple[Real, Real]
-) -> tuple[Real, Real]:
-    """Angles (m,) where the curve itself is its mean, from places in pieces, and what the integral may be off by."""
-    (design, piece), (low, high) = where, between
-    centre, half = torque.pieces.centre[where], torque.pieces.half[where]
-    slope, step, before = _slope_at(torque.pieces.cubic[where].real, place), np.zeros(place.shape), None
-    curve, level = torque.along(design, piece), mean[design]
-    for _ in range(_EXACT_STEPS if design.size else 0):
-        value = curve(centre + half * place).real - level
-        if before is not None:
-            slope = np.where(step == 0.0, slope, (value - before) / np.where(step == 0.0, 1.0, step))
-        next_ = np.minimum(np.maximum(place - value / np.where(slope == 0.0, np.inf, slope), low), high)
-        place, step, before = next_, next_ - place, value
-    # the integral is flat there
-    return centre + half * place, np.zeros(place.shape) if before is None else np.abs(before * step * half)
-
-
-def _by_design(design: Index, values: Real, designs: int) -> Real:
-    """Values (m,) of some designs as rows (N, n), ended by zeros."""
-    order, count = np.argsort(design, kind="stable"), np.bincount(design, minlength=designs)
-    column = np.arange(design.size) - np.repeat(np.cumsum(count) - count, count)
-    # never a single angle, for which numpy would add the rows in another order
-    found = np.zeros((designs, int(np.max(count, initial=0)) + 2))
-    found[design[order], column] = values[order]
-    return found
-
-
-def _slope_at(cubic: Real, place: Real) -> Real:
-    value: Real = cubic[..., 1] + place * (2.0 * cubic[..., 2] + place * 3.0 * cubic[..., 3])
-    return value

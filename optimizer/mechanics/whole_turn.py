@@ -6,7 +6,7 @@ brackets peaks with.
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -17,7 +17,7 @@ from optimizer.mechanics.curve_series import CurveSeries, forces
 from optimizer.mechanics.indicated import SLIVER, TURN, Trace, entries, turns_of
 from optimizer.mechanics.kinematics import own_angle, steep_angles
 from optimizer.mechanics.layout import Layout
-from optimizer.mechanics.row_data import RowData, shared
+from optimizer.mechanics.row_data import RowData, compact, shared
 from optimizer.mechanics.row_parts import RowParts
 from optimizer.mechanics.row_series import Reading, RowSeries
 from optimizer.mechanics.turn import Turn, panels
@@ -77,6 +77,7 @@ class WholeTurn:
     centre, half : (N, P) rad; half is 0 where breaks coincide.
     turns : of the shaft, after which all repeats.
     means : (N, R) N, of the tangential forces, where there is a closed form.
+    squared : whether mean squares are asked for: what bounds their quadratures bounds the pieces too.
     """
 
     rows: RowData
@@ -84,6 +85,7 @@ class WholeTurn:
     half: Real
     turns: int = 1
     means: Real | None = None
+    squared: bool = False
 
     def curves(self, reading: Reading, weights: Complex | Real, constant: Complex | Real | float = 0.0) -> "TurnCurves":
         """Sums of a force of the rows over weights (N, C, R), with constants (N, C): N C curves."""
@@ -93,7 +95,7 @@ class WholeTurn:
         """The turn of one of the designs alone."""
         one = slice(number, number + 1)
         means = None if self.means is None else self.means[one]
-        return WholeTurn(self.rows.of_design(number), self.centre[one], self.half[one], self.turns, means)
+        return WholeTurn(self.rows.of_design(number), self.centre[one], self.half[one], self.turns, means, self.squared)
 
     def of_rows(self, reading: Reading) -> "TurnCurves":
         """A force of every row by itself."""
@@ -133,7 +135,7 @@ class WholeTurn:
     @cached_property
     def bounds(self) -> RowSeries:
         """Series bounded over the pieces."""
-        return self._bounded(4)
+        return self.higher_bounds.of_order(4) if self.squared else self._bounded(4)
 
     @cached_property
     def higher_bounds(self) -> RowSeries:
@@ -151,12 +153,13 @@ class WholeTurn:
         return (centre, half) if len(centre) == len(half) else (self.centre, self.half)
 
 
-def whole_turn(rows: RowData, breaks: Real, means: Real | None = None) -> WholeTurn:
+def whole_turn(rows: RowData, breaks: Real, means: Real | None = None, squared: bool = False) -> WholeTurn:
     """The turn cut at breaks (..., B) rad and at regular angles; the leading axes become one.
 
     Parameters
     ----------
     means : (..., R) N, of the tangential forces, where there is a closed form.
+    squared : whether mean squares are asked for.
     """
     turns = turns_of(rows.traces)
     turn = panels(breaks, _WIDEST, turns=turns)
@@ -164,11 +167,14 @@ def whole_turn(rows: RowData, breaks: Real, means: Real | None = None) -> WholeT
     half = 0.5 * turn.width.reshape(-1, pieces)
     centre = turn.start.reshape(half.shape) + half
     half = np.where(half > 0.5 * SLIVER, half, 0.0)
-    shape = (rows.designs, pieces)
+    # where breaks of all designs coincide there is no piece
+    held = np.logical_or.reduce(half > 0.0, axis=0)
+    centre, half = centre[:, held], half[:, held]
+    shape = (rows.designs, half.shape[1])
     if means is not None:
         count = means.shape[-1]
         means = spread(means.reshape(math.prod(means.shape[:-1]), count), (rows.designs, count))
-    return WholeTurn(rows, spread(centre, shape), spread(half, shape), turns, means)
+    return WholeTurn(rows, spread(centre, shape), spread(half, shape), turns, means, squared)
 
 
 @dataclass(frozen=True)
@@ -301,9 +307,10 @@ class TurnCurves:
         """The curves at angles (m,) within pieces, ends included."""
         return self._series.values(curve, piece, angle)
 
-    def along(self, curve: Index, piece: Index) -> Callable[[Real], Complex]:
-        """The same as a function of the angles."""
-        return self._series.along(curve, piece)
+    def crossings(self, level: Real) -> tuple[Real, Real]:
+        """Shaft angles (N C, n) rad at which scalars cross levels (N C,), jumps included, and what the integral up to
+        there may be off by (N C,); where a curve has fewer than another its angles are 0."""
+        return self._series.crossings(self.pieces.cubics, compact(level))
 
     def search(self, cubics: "Cubics", members: "Members", best: "Best", motion: "Motion | None" = None) -> Complex:
         """Peaks of the curves, or of one of them in motion."""

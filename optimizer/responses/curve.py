@@ -219,18 +219,18 @@ def floors(
     if not number.size:
         return []
     together = np.arange(number.size) if group is None else group
-    outline = outlines(every, number, np.flatnonzero(pieces.half[number[0]] > 0.0))
+    outline = outlines(every, number, np.flatnonzero(pieces.half[number[0]] > 0.0), together)
     rounding = _ROUNDING * outline.size
-    # the first points of a curve are those that hold its outline
-    of, (piece, place) = outline.curve, np.divmod(outline.place, PLACES.size)
-    piece = outline.piece[piece]
-    at = pieces.centre[number[of], piece] + pieces.half[number[of], piece] * PLACES[place]
-    points = _Points(number.size, of, at, pieces.source.values(number[of], piece, at))
     centre, radius, upper = outline.centre, outline.radius, outline.upper
     most = np.full(int(np.maximum.reduce(together)) + 1, -np.inf)
     np.maximum.at(most, together, outline.lower)
-    open_ = np.flatnonzero(upper >= most[together])
-    points.surround(np.flatnonzero(upper < most[together]))
+    sought = upper >= most[together]
+    # the first points of a curve are those that hold its outline
+    of, place = (part[sought[outline.curve]] for part in (outline.curve, outline.place))
+    piece, place = outline.piece[place // PLACES.size], place % PLACES.size
+    at = pieces.centre[number[of], piece] + pieces.half[number[of], piece] * PLACES[place]
+    points = _Points(outline.centre, outline.lower, of, at, pieces.source.values(number[of], piece, at))
+    open_ = np.flatnonzero(sought)
     for _ in range(_MOST_POINTS):
         # all points that may hold a circle about this centre, not only the farthest
         which, piece, near = farthest(every, number, outline, open_, centre[open_])
@@ -258,14 +258,15 @@ def floors(
 class _Points:
     """Points of curves, of each those that may hold its smallest circle, and the circles last found.
 
+    centre, radius : (J,) of circles that no points hold, as long as there are none.
     of, angle, value : (m,) which curve, rad, and the curve there.
     """
 
-    def __init__(self, curves: int, of: Index, angle: Real, value: Complex) -> None:
-        self._of, self._angle, self._value = of, angle, value
+    def __init__(self, centre: Complex, radius: Real, of: Index, angle: Real, value: Complex) -> None:
+        self._of, self._angle, self._value, curves = of, angle, value, len(centre)
         self._circles = (
-            np.empty(curves, complex),
-            np.empty(curves),
+            centre.copy(),
+            np.maximum(radius, 0.0),
             np.zeros((curves, 3), np.intp),
             np.zeros((curves, 3)),
             np.zeros(curves, np.intp),

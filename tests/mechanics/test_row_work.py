@@ -8,8 +8,9 @@ import pytest
 
 from optimizer.effects.registry import run
 from optimizer.mechanics.indicated import TURN
+from optimizer.mechanics.kernel.crossings import _slope
 from optimizer.mechanics.layout import layout
-from optimizer.mechanics.row_work import RowWork, _slope_at
+from optimizer.mechanics.row_work import RowWork
 from optimizer.mechanics.turn import Turn, fluctuation, mean, panels
 from optimizer.mechanics.whole_turn import WholeTurn, break_angles
 from optimizer.numerics.arrays import Real
@@ -104,5 +105,5 @@ def test_more_angles_change_no_bit() -> None:
 
 def test_the_slope_of_a_cubic_is_its_derivative() -> None:
     """Analytic: of 5 + 7 x - 2 x^2 + 3 x^3 at -1, 0 and 0.5."""
-    cubic = np.broadcast_to([5.0, 7.0, -2.0, 3.0], (3, 4))
-    assert _slope_at(cubic, np.array([-1.0, 0.0, 0.5])) == pytest.approx([20.0, 7.0, 7.25], rel=1e-14)
+    found = _slope.py_func([5.0, 7.0, -2.0, 3.0], np.array([-1.0, 0.0, 0.5]))
+    assert found == pytest.approx([20.0, 7.0, 7.25], rel=1e-14)

@@ -19,8 +19,8 @@ _MECHANICS: dict[str, str] = {
     "row_work.py beside_mean: own < 0.5 * TURN -> own <= 0.5 * TURN": _ALIKE,
     "friction.py reciprocating_friction: np.abs(motion.sine) < 1e-12 -> np.abs(motion.sine) <= 1e-12": _ALIKE,
     "layout.py _unbalances: angle + 180.0 -> angle - 180.0": "a whole turn",
-    "row_series.py _memo: self._functions_by_pressure.get(True) or self._functions_by_pressure.get(pressed)"
-    " -> self._functions_by_pressure.get(True) and self._functions_by_pressure.get(pressed)": _SPEED,
+    "row_series.py functions: self._memo.get(True) or self._memo.get(pressed)"
+    " -> self._memo.get(True) and self._memo.get(pressed)": _SPEED,
     "whole_turn.py _alone: self.rows.crank_radius.shape[-1] -> self.rows.crank_radius.shape[+1]": "it has two axes",
     "gas.py _above_start: np.minimum(exponent[..., None] * u, 1.0)"
     " -> np.minimum(exponent[..., None] * u, 1.011)": _LIMITED,

@@ -1,25 +1,77 @@
-"""Where curves over the turn cross a level, by the cubics of their pieces; compiled.
+"""Where curves over the turn cross a level: by the cubics of their pieces, and then by the curves; compiled.
 
 Shapes: N curves of P pieces each.
 """
 
 import numpy as np
 
-from optimizer.numerics.compiling import inner, kernel
+from optimizer.mechanics.kernel.curves import series_of_curves
+from optimizer.numerics.compiling import inner, inner_with_arrays, kernel
 
 #: halvings of an interval, between which Newton's method takes over
 _STEPS = 24
+#: of the secant method by the curves themselves, from the roots and slopes of their cubics
+_EXACT_STEPS = 5
+#: order of what is read of a curve, as numpy's integer like all else that is handed on
+_VALUE = np.int64(0)
 
 
 @kernel
-def crossings(cubic, half, level):  # type: ignore[no-untyped-def]
-    """Curves (m,), pieces, places from -1 to 1 and the bounds of these at which cubics (N, P, 4) are levels (N,).
+def crossings(cubics, level, rows, sums, middle):  # type: ignore[no-untyped-def]
+    """Angles (N, n) at which curves cross levels (N,), jumps included, and what their integrals up to there may be off
+    by (N,); where a curve has fewer crossings than another its angles are 0.
 
-    Then the curves and pieces at whose first ends they jump across. Pieces without half widths (N, P) are none.
+    Parameters
+    ----------
+    cubics : of the curves (N, P); pieces without half widths are none.
+    rows, sums, middle : what the curves are sums of.
+    """
+    curve, piece, place, between, jumped, at = _by_cubics(cubics.cubic, cubics.half, level)
+    centre, half = np.empty(curve.size), np.empty(curve.size)
+    for k in range(curve.size):
+        centre[k], half[k] = cubics.centre[curve[k], piece[k]], cubics.half[curve[k], piece[k]]
+    slope, step, before = np.empty(curve.size), np.zeros(curve.size), np.zeros(curve.size)
+    for number in range(_EXACT_STEPS if curve.size > 0 else 0):
+        angle = centre + half * place
+        value = series_of_curves(rows, sums, middle, curve, piece, angle, np.empty(0), _VALUE)[0]
+        for k in range(curve.size):
+            above = value[k, 0].real - level[curve[k]]
+            if number == 0:
+                slope[k] = _slope(cubics.cubic[curve[k], piece[k]].real, place[k])
+            elif step[k] != 0.0:
+                slope[k] = (above - before[k]) / step[k]
+            to = place[k] - above / (np.inf if slope[k] == 0.0 else slope[k])
+            to = min(max(to, between[0, k]), between[1, k])
+            step[k], place[k], before[k] = to - place[k], to, above
+    error, count = np.zeros(level.size), np.zeros(level.size, np.int64)
+    for k in range(curve.size):
+        # the integral is flat there
+        error[curve[k]] = max(error[curve[k]], 2.0 * abs(before[k] * step[k] * half[k]))
+        count[curve[k]] += 1
+    for k in range(jumped.size):
+        count[jumped[k]] += 1
+    # never a single angle, for which numpy would add the rows in another order
+    angles = np.zeros((level.size, count.max() + 2))
+    count[:] = 0
+    for k in range(curve.size):
+        angles[curve[k], count[curve[k]]] = centre[k] + half[k] * place[k]
+        count[curve[k]] += 1
+    for k in range(jumped.size):
+        n, p = jumped[k], at[k]
+        angles[n, count[n]] = cubics.centre[n, p] - cubics.half[n, p]
+        count[n] += 1
+    return angles, error
+
+
+@inner_with_arrays
+def _by_cubics(cubic, half, level):  # type: ignore[no-untyped-def]
+    """Curves (m,), pieces, places from -1 to 1 and the bounds of these (2, m) at which cubics (N, P, 4) are levels.
+
+    Then the curves and pieces at whose first ends they jump across.
     """
     number, pieces = half.shape
     curve, piece = np.empty(3 * number * pieces, np.int64), np.empty(3 * number * pieces, np.int64)
-    place, low, high = np.empty(curve.size), np.empty(curve.size), np.empty(curve.size)
+    place, between = np.empty(curve.size), np.empty((2, curve.size))
     jumped, at = np.empty(number * pieces, np.int64), np.empty(number * pieces, np.int64)
     ends, value, one = np.empty(4), np.empty(4), np.empty(4)
     count, jumps = 0, 0
@@ -44,15 +96,12 @@ def crossings(cubic, half, level):  # type: ignore[no-untyped-def]
             # between its ends and where it turns a cubic has at most one root
             for k in range(3):
                 if value[k] * value[k + 1] < 0.0:
-                    curve[count], piece[count], low[count], high[count] = n, p, ends[k], ends[k + 1]
+                    curve[count], piece[count] = n, p
+                    between[0, count], between[1, count] = ends[k], ends[k + 1]
                     place[count] = _root(one, ends[k], ends[k + 1], value[k])
                     count += 1
-    return (
-        (curve[:count].copy(), piece[:count].copy()),
-        place[:count].copy(),
-        (low[:count].copy(), high[:count].copy()),
-        (jumped[:jumps].copy(), at[:jumps].copy()),
-    )
+    jumped, at = jumped[:jumps].copy(), at[:jumps].copy()
+    return curve[:count].copy(), piece[:count].copy(), place[:count].copy(), between[:, :count].copy(), jumped, at
 
 
 @inner
@@ -66,6 +115,11 @@ def _shifted(cubic, level, out):  # type: ignore[no-untyped-def]
 @inner
 def _at(cubic, place):  # type: ignore[no-untyped-def]
     return cubic[0] + place * (cubic[1] + place * (cubic[2] + place * cubic[3]))
+
+
+@inner
+def _slope(cubic, place):  # type: ignore[no-untyped-def]
+    return cubic[1] + place * (2.0 * cubic[2] + place * 3.0 * cubic[3])
 
 
 @inner
@@ -91,7 +145,7 @@ def _root(cubic, low, high, at_low):  # type: ignore[no-untyped-def]
             low = place
         else:
             high = place
-        slope = cubic[1] + place * (2.0 * cubic[2] + place * 3.0 * cubic[3])
+        slope = _slope(cubic, place)
         step = place - value / (1.0 if slope == 0.0 else slope)
         place = step if low < step < high else 0.5 * (low + high)
     return place

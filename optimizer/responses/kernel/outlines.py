@@ -25,7 +25,7 @@ class Outlines(NamedTuple):
     """Of J curves.
 
     piece : (P',) those that have a width.
-    values : (J, P' S) of the cubics at the places.
+    values : (J, P' S) of the cubics at the places; of no meaning where a curve is known to be smaller than another.
     centre, radius : (J,) of the smallest circles around them.
     lower, upper : (J,) what the radius of the smallest circle around the curve is not below, and what none of its
         points is farther than from the centre.
@@ -45,19 +45,32 @@ class Outlines(NamedTuple):
 
 
 @kernel
-def outlines(cubics, number, held):  # type: ignore[no-untyped-def]
-    """Outlines of curves (J,), by their pieces that have a width (P',).
+def outlines(cubics, number, held, group):  # type: ignore[no-untyped-def]
+    """Outlines of curves (J,), by their pieces that have a width (P',); of each group (J,) only the largest counts.
 
     Between two places a cubic is no farther from its chord than an eighth of the square of their distance times its
-    largest second derivative.
+    largest second derivative. A curve in a box that is smaller than the circle of another of its group has the circle
+    around that box, and no places that hold it.
     """
     curves, share = number.size, PLACES.size
     values = np.empty((curves, held.size * share), np.complex128)
     centre, radius = np.empty(curves, np.complex128), np.empty(curves)
     lower, upper = np.empty(curves), np.empty(curves)
     curve, place, count = np.empty(3 * curves, np.int64), np.empty(3 * curves, np.int64), 0
-    size = np.empty(curves)
+    size = np.zeros(curves)
+    largest_of, known = np.full(curves, -1), np.full(curves, -np.inf)
     for j in range(curves):
+        centre[j], radius[j] = _box(cubics, number[j], held)
+        if largest_of[group[j]] < 0 or radius[j] > radius[largest_of[group[j]]]:
+            largest_of[group[j]] = j
+    # the largest of each group first
+    for n in range(2 * curves):
+        j = n % curves
+        if (largest_of[group[j]] == j) != (n < curves):
+            continue
+        if radius[j] < known[group[j]]:
+            radius[j], lower[j], upper[j] = 0.0, 0.0, radius[j]
+            continue
         for p in range(held.size):
             cubic = cubics.cubic[number[j], held[p]]
             for s in range(share):
@@ -82,7 +95,22 @@ def outlines(cubics, number, held):  # type: ignore[no-untyped-def]
             rest = max(rest, cubics.rest[number[j], held[p]])
             most = max(most, farthest + 0.125 * BETWEEN**2 * bend + cubics.rest[number[j], held[p]])
         lower[j], upper[j] = radius[j] - rest, most
+        known[group[j]] = max(known[group[j]], lower[j])
     return Outlines(held, values, centre, radius, lower, upper, curve[:count].copy(), place[:count].copy(), size)
+
+
+@inner
+def _box(cubics, curve, held):  # type: ignore[no-untyped-def]
+    """Middle of a box around a curve, by how far its pieces reach from their middles, and half of its diagonal."""
+    left, right, low, high = np.inf, -np.inf, np.inf, -np.inf
+    for p in range(held.size):
+        cubic, along, across = cubics.cubic[curve, held[p]], cubics.rest[curve, held[p]], cubics.rest[curve, held[p]]
+        for k in range(1, 4):
+            along += abs(cubic[k].real)
+            across += abs(cubic[k].imag)
+        left, right = min(left, cubic[0].real - along), max(right, cubic[0].real + along)
+        low, high = min(low, cubic[0].imag - across), max(high, cubic[0].imag + across)
+    return complex(0.5 * (left + right), 0.5 * (low + high)), 0.5 * np.hypot(right - left, high - low)
 
 
 @kernel
