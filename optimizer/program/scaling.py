@@ -69,7 +69,7 @@ def cancelling(statement: Statement, passes: int = 1) -> Complex:
     return least_change(statement.every_influence, statement.every_constant, passes)
 
 
-def least_change(influence: Real | Complex, constant: Complex, passes: int) -> Complex:
+def least_change(influence: Real | Complex, constant: Real | Complex, passes: int) -> Complex:
     """The least u (..., K) for which constant (..., J) + influence (..., J, K) u is 0, as far as it can be.
 
     One row after the other, each by the least change that leaves those before it alone.
@@ -80,10 +80,11 @@ def least_change(influence: Real | Complex, constant: Complex, passes: int) -> C
     """
     *leading, terms, webs = influence.shape
     shape = (math.prod(leading), terms, webs)
-    # real or complex, compiled once
+    # real or complex, both compiled once
     rows = np.array(influence, complex, order="C").reshape(shape)
+    constants = in_order(np.asarray(constant, complex)).reshape(shape[:-1])
     changes = np.zeros((shape[0], webs), complex)
-    _cancelling().least_changes(rows, in_order(constant).reshape(shape[:-1]), passes, changes)
+    _cancelling().least_changes(rows, constants, passes, changes)
     return changes.reshape(*leading, webs)
 
 

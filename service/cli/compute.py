@@ -1,8 +1,6 @@
 """The commands that compute, one for each entry of the table of computations whose answer a terminal can show."""
 
-import gc
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from inspect import Parameter, Signature
 from pathlib import Path
 from pkgutil import resolve_name
@@ -13,8 +11,6 @@ import typer
 from service.cli.terminal import WORKBOOK, AsJson, File, answer, fail, put, read_input, show
 from service.computations import Computation
 
-#: new objects before those are looked for that nothing holds any more
-_COLLECTED_AFTER = 50_000
 #: statuses that say that the answer is not what was asked for
 _UNMET = ("infeasible", "inaccurate")
 _OPTIONS: dict[str, Any] = {
@@ -49,7 +45,6 @@ _Workbook = Annotated[
 def command(computation: Computation) -> Callable[..., None]:
     """The command of a computation, with the options that its entry names."""
 
-    @_seldom_collected()
     def run(file: str, as_json: bool, picture: Path | None = None, to: Path | None = None, **fields: Any) -> None:
         if to is not None and to.suffix.lower() != WORKBOOK:
             fail(f"the name of the workbook must end in {WORKBOOK}")
@@ -90,17 +85,6 @@ def command(computation: Computation) -> Callable[..., None]:
         ]
     )
     return run
-
-
-@contextmanager
-def _seldom_collected() -> Iterator[None]:
-    """Modules and models that are loaded stay: looking for garbage among them is an eighth of a first answer."""
-    before = gc.get_threshold()
-    gc.set_threshold(_COLLECTED_AFTER, *before[1:])
-    try:
-        yield
-    finally:
-        gc.set_threshold(*before)
 
 
 def _read(entry: Any) -> Any:

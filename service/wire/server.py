@@ -27,10 +27,11 @@ _OTHER_FILES = 128
 _BACKLOG = 2048
 #: a thread that computes gives way to the event loop after so long; five times as long by default
 _SWITCH_S = 0.001
+#: new objects before a collection of the youngest garbage, which are fewer than of a command that computes once;
 #: collections of the youngest garbage before one of what is older, and of those before a full one. For each everything
 #: stops: 5 ms with a thousand connections after ten of the youngest, as by default, and 0.1 s for a full one. A request
 #: leaves nothing for it
-_OLDER_AFTER, _FULL_AFTER = 2, 250
+_YOUNGEST_AFTER, _OLDER_AFTER, _FULL_AFTER = 700, 2, 250
 
 
 def listen(settings: Settings) -> socket.socket:
@@ -70,7 +71,7 @@ def run(app: FastAPI, settings: Settings, listening: socket.socket) -> None:
     """Serve until SIGINT or SIGTERM; open requests get time to end."""
     sys.setswitchinterval(_SWITCH_S)
     _take_short_slices()
-    gc.set_threshold(gc.get_threshold()[0], _OLDER_AFTER, _FULL_AFTER)
+    gc.set_threshold(_YOUNGEST_AFTER, _OLDER_AFTER, _FULL_AFTER)
     most = max(1, _files() - _OTHER_FILES)
     if most < settings.max_connections:
         _LOG.warning("the system allows %d open connections, not %d", most, settings.max_connections)

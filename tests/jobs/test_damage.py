@@ -27,7 +27,7 @@ from service.jobs.piece import Unanswerable
 from service.jobs.retention import Retention
 from service.jobs.rows import Limits
 from service.jobs.store import QuotaExceeded, Store
-from tests.commands import ROOT
+from tests.commands import ROOT, run
 from tests.jobs import synthetic
 from tests.jobs.flips import flip
 from tests.jobs.house import House
@@ -45,8 +45,7 @@ def test_flips_are_refused_and_repaired(tmp_path: Path) -> None:
 @pytest.mark.parametrize(("name", "points"), [("crashes", 5), ("statements", 2)])
 def test_crashes_lose_nothing_and_leave_nothing(name: str, points: int) -> None:
     # a process of its own, as it forks; at all two thousand system calls and seven hundred statements: without --points
-    command = [sys.executable, "-m", f"tests.jobs.{name}", "--points", str(points)]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=900)
+    done = run(f"tests.jobs.{name}", "--points", str(points))
     if done.returncode == 2:
         pytest.skip(done.stderr)
     assert done.returncode == 0, done.stderr

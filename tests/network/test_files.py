@@ -3,7 +3,6 @@
 import asyncio
 import os
 import subprocess
-import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -11,14 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from tests.commands import ROOT
+from service.wire import server
+from tests.commands import Command
 from tests.network.serving import Reply, read, request
 from tests.night import but
-
-_LIMITED = "import resource, runpy, sys; resource.setrlimit(resource.RLIMIT_NOFILE, ({n}, {n})); sys.argv[1:] = "
-#: every file may be a connection, whatever else is open: as where large answers wait in files
-_ALL = "import service.wire.server as server; server._OTHER_FILES = 0; "
-_SERVE = "['serve', '--port', '0']; runpy.run_module('service', run_name='__main__')"
 
 
 async def _many(port: int, count: int) -> tuple[int, Reply]:
@@ -65,15 +60,13 @@ async def _ask(port: int, path: str = "/v1/examples", connection: str = "close")
 
 
 @contextmanager
-def _limited(files: int, before: str = "", **settings: str) -> Iterator[tuple[int, Path]]:
-    """The port and the log of a service that may open so many files."""
+def _limited(files: int, others: int = server._OTHER_FILES, **settings: str) -> Iterator[tuple[int, Path]]:
+    """The port and the log of a service that may open so many files, so many of them for others than connections."""
     with tempfile.TemporaryDirectory() as folder, open(f"{folder}/log", "w") as log:
         given = {"DATA_DIR": f"{folder}/data", "LOG_LEVEL": "warning", **settings}
         environment = {**os.environ, **{f"COUNTERWEIGHT_{name}": value for name, value in given.items()}}
-        command = [sys.executable, "-c", before + _LIMITED.format(n=files) + _SERVE]
-        with subprocess.Popen(
-            command, cwd=ROOT, env=environment, stdout=subprocess.PIPE, stderr=log, text=True
-        ) as process:
+        command = ("tests.network.limited", str(files), str(others), "serve", "--port", "0")
+        with Command(*command, environment=environment, stdout=subprocess.PIPE, stderr=log, text=True) as process:
             try:
                 assert process.stdout is not None
                 yield int(process.stdout.readline().split(" (")[0].rpartition(":")[2]), Path(log.name)
@@ -95,8 +88,9 @@ def test_a_service_without_files_says_so_once_and_goes_on(files: int) -> None:
 
 
 def test_a_service_without_files_answers_for_its_health() -> None:
+    # every file may be a connection, whatever else is open: as where large answers wait in files.
     # whoever says nothing is closed long after the test
-    with _limited(100, _ALL, HEADERS_TIMEOUT_S="600") as (port, log):
+    with _limited(100, others=0, HEADERS_TIMEOUT_S="600") as (port, log):
         alive, ready, refused, again, after = asyncio.run(_probed(port, 250))
         said = log.read_text()
     assert (alive.status, again.status, after.status) == (200, 200, 200)

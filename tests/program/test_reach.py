@@ -11,6 +11,7 @@ from optimizer.mechanics.angles import direction
 from optimizer.numerics.arrays import Complex
 from optimizer.program.ceilings import Ceilings
 from optimizer.program.equal_castings import Alike
+from optimizer.program.kernel.cancelling import least_changes
 from optimizer.program.limits import Limits
 from optimizer.program.methods.implied_bounds import (
     _masses_by_inverse,
@@ -25,7 +26,7 @@ from optimizer.program.methods.semicontinuous_bounds import _subset_mass, _subse
 from optimizer.program.norms import Norms
 from optimizer.program.reference.solver import _blended
 from optimizer.program.rows import combined, statement, weighted_peak
-from optimizer.program.scaling import natural_reach
+from optimizer.program.scaling import least_change, natural_reach
 from optimizer.program.solution import evaluated
 from optimizer.program.statement import Names, Statement, Term
 from optimizer.responses.response import Phasors, Response
@@ -291,3 +292,10 @@ def test_sets_of_webs_hold_one_that_changes_all_that_others_do(
     limits = Limits(0.5 * ones, ones, np.full(ones.size, free), ones + 0j, 0.0 * ones, ones, np.asarray(np.inf))
     found = [frozenset(each) for each in _subsets(np.array(rows), limits, np.array(scalar))]
     assert sorted(map(sorted, found)) == sorted([int(web) for web in one] for one in sets.split())
+
+
+def test_a_real_constant_is_cancelled_by_the_same_machine_code() -> None:
+    """Analytic: 2 u - 4 is 0 for u = 2. Another signature would be compiled while a client waits."""
+    for kind in (float, complex):
+        assert least_change(np.full((1, 1), 2.0), np.full(1, -4.0, kind)) == 2.0
+    assert len(least_changes.signatures) == 1
