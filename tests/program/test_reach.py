@@ -297,5 +297,5 @@ def test_sets_of_webs_hold_one_that_changes_all_that_others_do(
 def test_a_real_constant_is_cancelled_by_the_same_machine_code() -> None:
     """Analytic: 2 u - 4 is 0 for u = 2. Another signature would be compiled while a client waits."""
     for kind in (float, complex):
-        assert least_change(np.full((1, 1), 2.0), np.full(1, -4.0, kind)) == 2.0
+        assert least_change(np.full((1, 1), 2.0), np.full(1, -4.0, kind), 1) == 2.0
     assert len(least_changes.signatures) == 1
