@@ -15,10 +15,10 @@ import numpy as np
 
 from optimizer.formulation.simulation import Prepared
 from optimizer.numerics.arrays import Real
-from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.solve.prices import touched_limits
 from optimizer.solve.solution import Infeasible
 from optimizer.studies.pareto.choice_search import ChoiceSearch, ChosenPoint
+from optimizer.studies.pareto.measures import sizes
 from optimizer.studies.pareto.points import knee, undominated
 from optimizer.studies.pareto.trades import needed
 from schemas.base.responses import PAIR
@@ -79,8 +79,7 @@ class _Boxes(ChoiceSearch):
                 points=(),
                 infeasibility=moment.infeasibility if isinstance(moment, Infeasible) else None,
             )
-        edges = np.maximum(force.values, moment.values)
-        size = np.where(self.at_rest > OPTIMUM_SHARE * edges, self.at_rest, np.where(edges > 0, edges, self.square))
+        size = sizes(self.at_rest, np.maximum(self.gross(force), self.gross(moment)), self.square)
         bounds = force.corner[0], moment.corner[1]
         optima, reason = self._between(self._corner(force, 0, size), self._corner(moment, 1, size), size, count)
         first, last, points = optima[0].values, optima[-1].values, tuple(self._point(each, size) for each in optima)

@@ -10,7 +10,7 @@ from optimizer.formulation.goals import Case, formulate
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
 from optimizer.mechanics.shapes import closed
-from optimizer.numerics.arrays import SMALLEST, Complex, Real
+from optimizer.numerics.arrays import SMALLEST, Complex, Real, Reals
 from optimizer.numerics.memoization import cached_property
 from optimizer.program.cuts.dominance import Group, Weighed
 from optimizer.program.cuts.semi_infinite import Goal, Problem
@@ -131,15 +131,16 @@ def _traded(quantity: str) -> Traded:
     return _OF.get(kind, kind)
 
 
-def sizes(at_rest: Real, gross: Real) -> Real:
+def sizes(at_rest: Real, gross: Real, unit: Reals = 1.0) -> Real:
     """What gaps are relative to (D,): what is there without counterweights; where that is nothing, what they do.
 
     Parameters
     ----------
     gross : (D,) the most that counterweights do one by one, summed.
+    unit : (D,) what gaps are relative to where they do nothing either.
     """
     known = np.where(at_rest > OPTIMUM_SHARE * gross, at_rest, gross)
-    return np.where(known > SMALLEST, known, 1.0)
+    return np.where(known > SMALLEST, known, unit)
 
 
 def unit_of(name: Traded, objective: Objective) -> str:

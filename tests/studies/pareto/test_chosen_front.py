@@ -212,3 +212,17 @@ def test_of_moments_that_nothing_makes_a_unit_that_turns_is_the_scale() -> None:
         assert scale is not None
         assert scale.moment_Nm == pytest.approx(0.04)
         assert scale.force_N == pytest.approx(3.0 * 0.1 * 0.04)
+
+
+def test_of_moments_that_cancel_what_each_makes_is_the_scale() -> None:
+    """Analytic: two of 1 kg at 0.1 m, 0.05 m on either side; it was 1 kg m^2, or the rounding of their sum."""
+    throw = {"position_m": 0.0, "crank_radius_m": 0.1, "crank_angle_deg": 0.0, "rotating_mass_kg": 3.0, "rows": []}
+    web = {"counterweight_radius_m": 0.1, "max_mass_kg": 1.0}
+    webs = [web | {"name": str(z), "position_m": z} for z in (-0.05, 0.05)]
+    machine = {"kind": "reciprocating", "throws": [throw], "speed_rpm": 30.0 / np.pi * 0.2, "webs": webs}
+    catalogue = {"masses_kg": [1.0], "angle_step_deg": 90.0}
+    made = front({"machine": machine | {"catalogue": catalogue, "max_counterweights": 2}, "points": 2})
+    assert made.status == "optimal"
+    assert made.scale is not None
+    assert made.scale.moment_Nm == pytest.approx(2.0 * 0.1 * 0.05 * 0.04)
+    assert made.points[-1].force_peak_N == pytest.approx((3.0 - 2.0) * 0.1 * 0.04)
