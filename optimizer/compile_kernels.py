@@ -1,9 +1,9 @@
 """Compile the kernels, once for an installation: ``python -m optimizer.compile_kernels``.
 
 What budgets are spent by is compiled first, and with it what the compiler needs for any kernel. Three processes have
-that in common and do the rest beside one another: one what follows the turn, and what sums of options are compared by;
-one the interior point for any limits, what parts are matched by and what puts designs in order; and one the interior
-point for discs, and what proves and settles.
+that in common and do the rest beside one another: one what follows the turn; one the interior point for discs, and what
+proves and settles; and one the interior point for any limits, what parts are matched and sums of options compared by,
+what puts designs in order and what moves curves.
 """
 
 import gc
@@ -85,7 +85,7 @@ def main() -> None:
     link_first()
     budgets()
     # the longest first, and three at a time: where there are two cores, both are busy until the end
-    parts = (follow_a_turn, moving_curves, near_sums), (any_limits, match_parts, designs), (plain_discs, proofs)
+    parts = (follow_a_turn,), (plain_discs, proofs), (any_limits, match_parts, designs, moving_curves, near_sums)
     processes = [get_context("fork").Process(target=_in_turn, args=some) for some in parts]
     for process in processes:
         process.start()
