@@ -87,7 +87,7 @@ def farthest_scaled(vectors, middle, share, towards, ahead, order):  # type: ign
 
 @kernel
 def worst_turned(vectors, fixed, angle, worst):  # type: ignore[no-untyped-def]
-    """The first of many (M,), of vectors (M, K) beside fixed ones (M,)."""
+    """What :func:`farthest_turned` finds (M,) of vectors (M, K) beside fixed ones (M,)."""
     number, webs = vectors.shape
     numbers, turned, order = np.empty((2, 3 * webs)), np.empty(3 * webs, np.complex128), np.empty(3 * webs, np.int64)
     for m in range(number):
@@ -96,7 +96,7 @@ def worst_turned(vectors, fixed, angle, worst):  # type: ignore[no-untyped-def]
 
 @kernel
 def worst_scaled(vectors, middle, share, worst):  # type: ignore[no-untyped-def]
-    """The second of many (M,), of vectors (M, K) about middles (M,)."""
+    """What :func:`farthest_scaled` finds (M,) of vectors (M, K) about middles (M,)."""
     number, webs = vectors.shape
     ahead, towards, order = np.empty(webs, np.complex128), np.empty(webs), np.empty(webs, np.int64)
     for m in range(number):

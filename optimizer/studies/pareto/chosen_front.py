@@ -33,6 +33,8 @@ _SLACK = 0.1
 _SEARCHES = 4
 #: an optimum no nearer to its box than this leaves it empty
 _INSIDE = 1e-12
+#: of an optimum whose own yardstick is larger than the scale of the front
+_WIDE = "The gap to the bound is wider than requested, relative to the scale of the front."
 
 
 class _Box(NamedTuple):
@@ -150,9 +152,10 @@ class _Boxes(ChoiceSearch):
         shown, plain = best.shown, self.scene.first_order(best.shown.on_crank)
         # of the peak that the optimum leaves room in nothing is claimed
         gap = float(np.max((optimum.values - optimum.corner) / size))
+        wide = best.status == "optimal" and gap > self.gap
         return ParetoPoint(
-            status="optimal" if best.status == "optimal" else "inaccurate",
-            status_reason=best.reason,
+            status="optimal" if best.status == "optimal" and not wide else "inaccurate",
+            status_reason=_WIDE if wide else best.reason,
             force_peak_N=float(plain.force.peak),
             moment_peak_Nm=float(plain.moment.peak),
             weighted_force_peak_N=float(optimum.values[0]),

@@ -1,11 +1,13 @@
 """Fronts of force and moment where counterweights are chosen, heavy enough or cut from plates; all sets by hand."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 from pydantic import ValidationError
 
+from optimizer.studies.pareto.choice_search import ChoiceSearch, ChosenPoint
 from optimizer.studies.pareto.pareto import pareto
 from schemas.front.pareto import ParetoFront, ParetoRequest
 from tests.hard.cases.case import Body
@@ -226,3 +228,19 @@ def test_of_moments_that_cancel_what_each_makes_is_the_scale() -> None:
     assert made.scale is not None
     assert made.scale.moment_Nm == pytest.approx(2.0 * 0.1 * 0.05 * 0.04)
     assert made.points[-1].force_peak_N == pytest.approx((3.0 - 2.0) * 0.1 * 0.04)
+
+
+def test_a_gap_wider_than_requested_on_the_scale_of_the_front_is_no_optimum(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Regression: a point was optimal by its own yardstick, beside a gap of five times the request."""
+    search = ChoiceSearch.optimum
+
+    def wide(self: ChoiceSearch, *args: Any, **ceilings: float) -> Any:
+        best = search(self, *args, **ceilings)
+        return replace(best, corner=best.values - 0.1 * self.at_rest) if isinstance(best, ChosenPoint) else best
+
+    assert front(body(STEP_DEG, MASSES)).status == "optimal"
+    monkeypatch.setattr(ChoiceSearch, "optimum", wide)
+    made = front(body(STEP_DEG, MASSES))
+    assert made.status == "inaccurate"
+    assert {point.status for point in made.points} == {"inaccurate"}
+    assert all("wider than requested" in point.status_reason for point in made.points)
