@@ -32,6 +32,8 @@ class _Linked(JITCodeLibrary):  # type: ignore[misc]
     def get_pointer_to_function(self, name: str) -> int:
         self._ensure_finalized()
         if not self._made and name in {function.name for function in self.get_defined_functions()}:
+            # other kernels are linked with it as it was: loops that are written out would be written out once more
+            self._get_module_for_linking()
             self._made = True
             super()._optimize_final_module()
             self._final_module.verify()
