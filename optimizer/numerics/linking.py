@@ -2,10 +2,14 @@
 
 Numba optimises every function for itself, makes machine code of it, and optimises it again in all that it is linked
 into. Of most of ours nobody asks for machine code, so both wait until somebody does: a sixth of the time to compile.
+Another sixth is saved as loops are put into lanes, but not written out several times: webs, rows and coefficients are
+few.
 """
 
 from typing import Any
 
+from llvmlite.binding import PassBuilder, create_pass_builder, create_pipeline_tuning_options
+from numba import config
 from numba.core.codegen import JITCodeLibrary
 from numba.core.registry import cpu_target
 
@@ -44,7 +48,17 @@ class _Linked(JITCodeLibrary):  # type: ignore[misc]
 def link_first() -> None:
     """From now on, in this process."""
     codegen = cpu_target.target_context.codegen()
-    codegen._library_class = _Linked  # noqa: SLF001 - numba has no option for it
+
+    def short_loops(
+        opt: int = config.OPT, loop_vectorize: int = config.LOOP_VECTORIZE, slp_vectorize: int = config.SLP_VECTORIZE
+    ) -> PassBuilder:
+        options = create_pipeline_tuning_options(opt)
+        options.loop_vectorization, options.slp_vectorization = loop_vectorize, slp_vectorize
+        options.loop_unrolling = options.loop_interleaving = False
+        return create_pass_builder(codegen._tm, options)  # noqa: SLF001
+
+    # numba has no options for these
+    codegen._library_class, codegen._pass_builder = _Linked, short_loops  # noqa: SLF001
     set_env = codegen.set_env
 
     def set_where_made(name: str, env: Any) -> None:
