@@ -18,6 +18,7 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 os.environ["JE_ARROW_MALLOC_CONF"] = "background_thread:false"
 
 from service.workers.process import preload
+from tests.fork_server import fork_fork_servers
 from tests.verification.every import check_answers
 
 # with `-n 4`, or `--numprocesses 4`, in four processes
@@ -49,6 +50,7 @@ sys.modules["rfc3987_syntax"] = None  # type: ignore[assignment]
 
 # what processes that tests start are forked from, whichever of them is the first
 preload()
+fork_fork_servers()
 
 # a certificate that its own answer refutes fails the test that asked for it, whatever that looks at
 check_answers()
