@@ -18,7 +18,7 @@ import pyarrow.parquet as pq
 
 from tests.commands import Command
 from tests.jobs.serving import DELAY
-from tests.processes import fork_servers
+from tests.processes import all_children, fork_servers
 
 
 class Service:
@@ -54,7 +54,7 @@ class Service:
 
     def workers(self) -> list[psutil.Process]:
         """The processes that compute chunks, as no answer is asked for."""
-        return [worker for server in fork_servers(self.process.pid) for worker in server.children()]
+        return [worker for server in fork_servers(self.process.pid) for worker in all_children(server.pid)]
 
     def send(self, method: str, path: str, body: object = None, **headers: str) -> tuple[int, dict[str, str], bytes]:
         return send(self.where, method, path, body, **headers)
