@@ -23,7 +23,7 @@ def ready(folder: Path) -> Iterator[TestClient]:
         deadline = time.monotonic() + 180
         while client.get("/readyz").status_code != 200:
             assert time.monotonic() < deadline
-            time.sleep(0.02)
+            time.sleep(0.05)
         yield client
 
 
