@@ -67,7 +67,7 @@ class Service:
         deadline = time.monotonic() + timeout
         while (state := self.read(path))["state"] in ("queued", "running"):
             assert time.monotonic() < deadline, state
-            time.sleep(0.05)
+            time.sleep(0.1)
         return state
 
     def rows(self, path: str) -> pa.Table:
