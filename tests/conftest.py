@@ -17,7 +17,9 @@ from hypothesis.internal.conjecture import providers
 os.environ["OPENBLAS_NUM_THREADS"] = "1"
 os.environ["JE_ARROW_MALLOC_CONF"] = "background_thread:false"
 
+from optimizer.warm_up import warm_up
 from service.workers.process import preload
+from tests.fork_server import fork_fork_servers
 from tests.verification.every import check_answers
 
 # with `-n 4`, or `--numprocesses 4`, in four processes
@@ -47,8 +49,12 @@ providers.is_local_module_file = lambda _: False
 # asks for that format
 sys.modules["rfc3987_syntax"] = None  # type: ignore[assignment]
 
+#: tests for which kernels are loaded and models built before they are handed out to several processes
+_MANY = 1000
+
 # what processes that tests start are forked from, whichever of them is the first
 preload()
+fork_fork_servers()
 
 # a certificate that its own answer refutes fails the test that asked for it, whatever that looks at
 check_answers()
@@ -74,12 +80,21 @@ def pytest_collection() -> Generator[None, object, object]:
         gc.enable()
 
 
-def pytest_collection_finish() -> None:
+def pytest_collection_finish(session: pytest.Session) -> None:
     """What is loaded is loaded. Where there are tests of the service, its document is made once."""
+    served = "service.http.openapi" in sys.modules
+    if served:
+        importlib.import_module("tests.documents").keep_documents()
+    option = session.config.getoption
+    if option("numprocesses") and len(session.items) > _MANY and not option("collectonly"):
+        # as else each process would, with its first answer and its first document
+        warm_up()
+        if served:
+            importlib.import_module("tests.documents").make_documents()
+        gc.collect()
+        gc.freeze()
     for name in ("OPENBLAS_NUM_THREADS", "JE_ARROW_MALLOC_CONF"):
         os.environ.pop(name, None)
-    if "service.http.openapi" in sys.modules:
-        importlib.import_module("tests.documents").keep_documents()
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

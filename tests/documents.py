@@ -8,8 +8,10 @@ from collections.abc import Hashable
 from functools import wraps
 from typing import Any
 
+from service.app import create_app
 from service.computations import COMPUTATIONS
 from service.http.openapi import Documented
+from service.settings import Settings
 
 
 def keep_documents() -> None:
@@ -27,3 +29,11 @@ def keep_documents() -> None:
         return document
 
     Documented.openapi = openapi  # type: ignore[method-assign]
+
+
+def make_documents() -> None:
+    """Make those of services with and without keys, for all processes that are forked from this one."""
+    for keyed in (False, True):
+        app = create_app(Settings(), warm=False)
+        app._keyed = keyed
+        app.openapi()

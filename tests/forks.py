@@ -61,10 +61,14 @@ class Messages:
 
     def __init__(self, config: pytest.Config) -> None:
         self._config = config
+        # all say how long they took; of most tests that is all that two of three say
+        self._every = config.getoption("durations") is not None or config.getoption("xmlpath") is not None
         self._reports: list[dict[str, Any]] = []
         self._warnings: list[dict[str, Any]] = []
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        if report.passed and report.when != "call" and not self._every:
+            return
         data = self._config.hook.pytest_report_to_serializable(config=self._config, report=report)
         self._reports.append(data)
 

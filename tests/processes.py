@@ -1,19 +1,39 @@
 """Processes that one has started, told apart by their names and command lines."""
 
+from contextlib import suppress
+from pathlib import Path
+
 import psutil
 
 from tests.mould import FORK_SERVER
 
 
+def all_children(pid: int) -> list[psutil.Process]:
+    """The children of a process, as the system lists them: psutil looks through all processes there are."""
+    found = []
+    for listed in Path(f"/proc/{pid}/task").glob("*/children"):
+        with suppress(OSError):
+            for child in listed.read_text().split():
+                with suppress(psutil.NoSuchProcess):
+                    found.append(psutil.Process(int(child)))
+    return found
+
+
 def children(pid: int, text: str) -> list[psutil.Process]:
     """The living children of a process whose command line holds `text`."""
-    return [child for child in psutil.Process(pid).children() if text in _command(child)]
+    return [child for child in all_children(pid) if text in _command(child)]
 
 
 def fork_servers(pid: int) -> list[psutil.Process]:
     """The processes that a process forks its workers from; see tests/mould.py."""
-    named = [child for child in psutil.Process(pid).children() if child.name() == FORK_SERVER]
-    return [*named, *children(pid, "multiprocessing.forkserver")]
+    return [child for child in all_children(pid) if _forks(child)]
+
+
+def _forks(process: psutil.Process) -> bool:
+    try:
+        return process.name() == FORK_SERVER or "multiprocessing.forkserver" in _command(process)
+    except psutil.NoSuchProcess:
+        return False
 
 
 def _command(process: psutil.Process) -> str:

@@ -21,14 +21,14 @@ from service.jobs.desk import JobService
 from service.jobs.formats import FORMATS, Name
 from service.settings import Settings
 from tests.benchmarks.sweep_case import sweep
-from tests.processes import fork_servers
+from tests.processes import all_children, fork_servers
 
 _MB = 1e6
 
 
 def workers() -> list[psutil.Process]:
     """The processes that compute, not the one that tracks their semaphores."""
-    return [worker for server in fork_servers(os.getpid()) for worker in server.children()]
+    return [worker for server in fork_servers(os.getpid()) for worker in all_children(server.pid)]
 
 
 def measure(console: Console, request: SweepRequest, processes: int, formats: Iterable[Name], marks: int = 10) -> None:

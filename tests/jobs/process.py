@@ -18,7 +18,7 @@ import pyarrow.parquet as pq
 
 from tests.commands import Command
 from tests.jobs.serving import DELAY
-from tests.processes import fork_servers
+from tests.processes import all_children, fork_servers
 
 
 class Service:
@@ -54,7 +54,7 @@ class Service:
 
     def workers(self) -> list[psutil.Process]:
         """The processes that compute chunks, as no answer is asked for."""
-        return [worker for server in fork_servers(self.process.pid) for worker in server.children()]
+        return [worker for server in fork_servers(self.process.pid) for worker in all_children(server.pid)]
 
     def send(self, method: str, path: str, body: object = None, **headers: str) -> tuple[int, dict[str, str], bytes]:
         return send(self.where, method, path, body, **headers)
@@ -67,7 +67,7 @@ class Service:
         deadline = time.monotonic() + timeout
         while (state := self.read(path))["state"] in ("queued", "running"):
             assert time.monotonic() < deadline, state
-            time.sleep(0.05)
+            time.sleep(0.1)
         return state
 
     def rows(self, path: str) -> pa.Table:

@@ -23,7 +23,7 @@ def ready(folder: Path) -> Iterator[TestClient]:
         deadline = time.monotonic() + 180
         while client.get("/readyz").status_code != 200:
             assert time.monotonic() < deadline
-            time.sleep(0.02)
+            time.sleep(0.05)
         yield client
 
 
@@ -31,7 +31,7 @@ def ended(client: TestClient, path: str) -> dict[str, Any]:
     deadline = time.monotonic() + 180
     while (state := client.get(path).json())["state"] in ("queued", "running"):
         assert time.monotonic() < deadline
-        time.sleep(0.05)
+        time.sleep(0.1)
     return dict(state)
 
 

@@ -45,7 +45,7 @@ def test_a_killed_worker(tmp_path: Path) -> None:
                         killed += 1
                     time.sleep(0.5)
                     break
-            time.sleep(0.02)
+            time.sleep(0.1)
         assert killed == 2
         assert running.ended(path)["state"] == "done"
         assert running.rows(path).equals(expected())

@@ -15,7 +15,7 @@ from typing import IO
 import psutil
 
 from tests.commands import Command
-from tests.processes import fork_servers
+from tests.processes import all_children, fork_servers
 
 _MB = 1e6
 
@@ -49,7 +49,7 @@ class Service:
 
     def workers(self) -> list[psutil.Process]:
         """The processes that compute answers: children of the one that they are forked from."""
-        return [worker for server in fork_servers(self.process.pid) for worker in server.children()]
+        return [worker for server in fork_servers(self.process.pid) for worker in all_children(server.pid)]
 
     def memory_mb(self) -> tuple[float, float]:
         """Resident memory of the service, and of its largest worker [MB]."""

@@ -18,7 +18,7 @@ from tests.network.serving import Service, request, service
 #: closed at once, with what was not read
 _RESET = struct.pack("ii", 1, 0)
 _FORMATS = ("ndjson", "csv", "parquet", "arrow", "xlsx")
-_ROWS = 40_000
+_ROWS = 20_000
 
 
 @pytest.fixture(scope="module")

@@ -5,21 +5,23 @@ import signal
 import stat
 import time
 from dataclasses import replace
+from multiprocessing import forkserver
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import anyio
+import psutil
 import pytest
 
 from service.fairness.faults import Busy
 from service.workers.pool import Pool, TooSlow, WorkerDied
 from service.workers.process import WorkersFailed
 from service.workers.worker import Answer, Crashed, NoRoom, OutOfMemory, Refused
+from tests.mould import FORK_SERVER
 from tests.network import tasks
 from tests.network.pools import close, pool_of, run
 from tests.network.tasks import task
 from tests.network.test_length import SAMPLED
-from tests.processes import fork_servers
 
 
 def test_it_answers(pool: Pool) -> None:
@@ -277,8 +279,10 @@ def stopped(pid: int) -> None:
 
 
 def fork_server() -> int:
-    [found] = fork_servers(os.getpid())
-    return found.pid
+    # no child of this process: see tests/fork_server.py
+    pid: int = forkserver._forkserver._forkserver_pid  # type: ignore[attr-defined]
+    assert psutil.Process(pid).name() == FORK_SERVER
+    return pid
 
 
 def test_a_worker_that_has_stopped_is_given_up_at_the_time_limit(pool: Pool) -> None:

@@ -10,6 +10,8 @@ import os
 from collections import Counter
 from typing import Any
 
+import pytest
+
 from optimizer.optimize import optimize
 from schemas.answer.answers import OptimizeAnswer
 from schemas.request.requests import OptimizeRequest
@@ -80,6 +82,19 @@ def broken(request: Any, answer: Any) -> list[str]:
     """The claims of an answer, or of rows, that do not hold."""
     claims = checker().verify(request, answer)["claims"]
     return [f"{one['claim']} {one['margin']} {one['where']}" for one in claims if one["verdict"] == "broken"]
+
+
+def is_broken(request: Any, answer: Any) -> bool:
+    """Whether a claim does not hold: the first that does not is the last that is looked at."""
+    tools = checker()
+
+    def judged(claims: Any, _answer: Any) -> bool:
+        return any(room is not None and room.high < 0 for _, _, room, _ in claims)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(tools, "judged", judged)
+        found: bool = tools.verify(request, answer)
+    return found
 
 
 def verdict(request: Any, answer: Any) -> str:

@@ -11,7 +11,7 @@ from schemas.request.requests import OptimizeRequest
 from service.verification import checker
 from tests.pairs.asking import body_of
 from tests.verification.answers import answered, pair
-from tests.verification.checking import broken
+from tests.verification.checking import broken, is_broken
 from tests.verification.fabricated import KINDS, fabricated, verdict
 from tests.verification.kinds import SINGLE
 from tests.verification.recorded import records
@@ -52,7 +52,11 @@ _LONG = ("four strokes",)
 @pytest.mark.parametrize("name", [one for one in KINDS[::6] if one not in _LONG])
 def test_nothing_that_is_made_up_passes(name: str) -> None:
     for way, request, answer in fabricated(name):
-        assert verdict(request, answer) in ("broken", "refused", "not covered"), way
+        try:
+            refuted = is_broken(request, answer)
+        except checker().Unreadable:
+            continue
+        assert refuted or verdict(request, answer) == "not covered", way
 
 
 @pytest.mark.nightly
@@ -119,7 +123,7 @@ def test_the_best_of_the_machine_as_it_is_given_is_proven(name: str) -> None:
     ):
         value = price[field]
         price[field] = value * factor
-        assert broken(request, answer), field
+        assert is_broken(request, answer), field
         price[field] = value
     # a bound that is lower than was sought is no lie, and is named
     price["nominal_lower_bound"] *= 0.999
@@ -162,7 +166,7 @@ def test_scenarios_move_planes_of_their_own(path: str, orders: str) -> None:
     answer = json.loads(optimize(OptimizeRequest.model_validate(body)).model_dump_json())
     assert checker().verify(body, answer)["verdict"] == "held"
     moved["changes"] = []
-    assert broken(body, answer)
+    assert is_broken(body, answer)
 
 
 @pytest.mark.parametrize(
@@ -183,7 +187,7 @@ def test_floors_of_a_scenario_alone_are_those_of_its_machine(path: str, value: f
     for field in ("smallest_force_lower_bound_N", "smallest_moment_lower_bound_Nm"):
         wrong = copy.deepcopy(answer)
         wrong["infeasibility"][field] *= 1.0001
-        assert broken(body, wrong), field
+        assert is_broken(body, wrong), field
 
 
 @pytest.mark.parametrize("places", [(), (0,), (1,), (1, 0), (0, 0, 1), (0, 1, 1)])

@@ -15,7 +15,7 @@ from schemas.request.requests import OptimizeRequest
 from service.verification import checker
 from tests.pairs.asking import body_of
 from tests.verification.anything import JSON, judged, paths, replaced
-from tests.verification.checking import broken, optimized, verdict
+from tests.verification.checking import broken, is_broken, optimized, verdict
 from tests.verification.kinds import SINGLE
 from tests.verification.tampering import beyond_limits, tampered
 
@@ -42,9 +42,9 @@ def test_the_kinds_are_what_they_say() -> None:
 def test_what_is_falsified_is_caught(case: tuple[dict[str, Any], dict[str, Any]]) -> None:
     body, answer = case
     for name, wrong in tampered(answer):
-        assert broken(body, wrong), name
+        assert is_broken(body, wrong), name
     for name, tighter in beyond_limits(body, answer):
-        assert broken(tighter, answer), name
+        assert is_broken(tighter, answer), name
 
 
 @pytest.mark.parametrize("most", [None, 0, 1])

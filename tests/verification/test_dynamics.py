@@ -15,7 +15,7 @@ from service.verification import checker
 from tests.verification.answers import pair
 from tests.verification.anything import JSON, judged, paths
 from tests.verification.anything import replaced as replaced_anywhere
-from tests.verification.checking import broken
+from tests.verification.checking import broken, is_broken
 from tests.verification.falsified import numbers, replaced
 from tests.verification.test_curves import part
 
@@ -189,7 +189,7 @@ def test_both_ends_of_a_bracket_stand_in_their_order() -> None:
     # of bearings, of rods, and of bending moments
     for bracket in (every[0], every[len(every) // 2], answer["main_bearings"]["bending"]["peak_bracket_Nm"]):
         bracket.reverse()
-        assert broken(request, answer)
+        assert is_broken(request, answer)
         bracket.reverse()
     assert not broken(request, answer)
 

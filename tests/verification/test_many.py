@@ -14,7 +14,7 @@ from service.verification import checker
 from tests.night import every
 from tests.pairs.asking import body_of
 from tests.verification.answers import pair
-from tests.verification.checking import broken, verdict
+from tests.verification.checking import broken, is_broken, verdict
 from tests.verification.kinds import SINGLE
 
 FRONTS: dict[str, dict[str, Any]] = {
@@ -79,7 +79,7 @@ def test_falsified_points_are_caught(front: tuple[dict[str, Any], dict[str, Any]
         for name in ("force_peak_N", "weighted_moment_peak_Nm", "total_mass_kg"):
             right = one[name]
             one[name] = right * (1 + 1e-6)
-            assert not right or broken(body, answer), name
+            assert not right or is_broken(body, answer), name
             one[name] = right
 
 
@@ -105,7 +105,7 @@ def test_the_rows_of_a_sweep(name: str) -> None:
             # what is less than 1e-8 of the whole is seen in it by no double
             if right and (column != mass or right > 1e-6 * row["total_mass_kg"]):
                 row[column] = right * (1 + 1e-6)
-                assert broken(body, table), column
+                assert is_broken(body, table), column
                 row[column] = right
 
 
@@ -132,7 +132,7 @@ def test_what_multipliers_prove_of_rows_over_the_turn() -> None:
     for column in ("force_peak_N", "objective", "lower_bound", "total_mass_kg", "mass_kg.1a"):
         right = table[0][column]
         table[0][column] = right * 1.001
-        assert broken(body, table), column
+        assert is_broken(body, table), column
         table[0][column] = right
     without = [{name: value for name, value in row.items() if name != "multipliers"} for row in table]
     assert verdict(body, without) == "not covered"
@@ -152,7 +152,7 @@ def test_chosen_columns_are_checked_as_far_as_they_go() -> None:
     table = swept(body)
     assert not broken(body, table)
     table[0][webs[0]] *= 1.001
-    assert broken(body, table)
+    assert is_broken(body, table)
 
 
 def test_a_row_that_is_called_infeasible_is_not_covered_without_a_proof() -> None:

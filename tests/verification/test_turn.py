@@ -17,7 +17,7 @@ from schemas.request.requests import OptimizeRequest
 from service.verification import checker
 from tests.optimize.machines import machine, row, throw, web
 from tests.verification.anything import JSON, judged, paths, replaced
-from tests.verification.checking import broken
+from tests.verification.checking import broken, is_broken
 
 _BEARINGS = [
     {"name": name, "position_m": place, "diameter_m": 0.05, "length_m": 0.03 + 0.01 * k}
@@ -97,7 +97,7 @@ def test_what_cuts_prove_is_held_and_what_is_falsified_is_caught(name: str) -> N
     rise = 1.0 + 1e-6 + answer["certificate"]["gap"] / answer["certificate"]["objective"]
     wrong_by = {"lower_bound": [rise], "mass_lower_bound_kg": [1 + 1e-6], "objective": [1 - 1e-8, 1 + 1e-8]}
     for field, factor in ((field, factor) for field, factors in wrong_by.items() for factor in factors):
-        assert broken(body, _changed(answer, factor, "certificate", field)), field
+        assert is_broken(body, _changed(answer, factor, "certificate", field)), field
     heavier = copy.deepcopy(answer)
     for one in heavier["counterweights"]:
         one["mass_kg"] *= 1.01

@@ -1,6 +1,7 @@
 """POST /v1/accuracy and ``counterweight accuracy``: answers, tables, pictures, refusals."""
 
 import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -17,6 +18,8 @@ from tests.night import every
 from tests.studies.accuracy.problems import body
 
 Post = Callable[..., Any]
+#: why a method has no answer where time is short
+SLOW = re.compile(r"not solved within \d|the 60 s of the whole ladder were used up")
 SVG = "{http://www.w3.org/2000/svg}"
 
 
@@ -42,7 +45,12 @@ def test_the_route_answers_the_ladders(post: Post, answer: AccuracyAnswer) -> No
     assert found.headers["cache-control"] == "no-store"
     other = AccuracyAnswer.model_validate_json(found.content)
     assert [(row.method, row.setting) for row in other.ladder] == [(row.method, row.setting) for row in answer.ladder]
-    for one, two in zip(other.ladder, answer.ladder, strict=True):
+    pairs = [*zip(other.ladder, answer.ladder, strict=True)]
+    # on a machine that is busy a rival may have no answer in its time, and the service has
+    assert all(one.skipped is None or SLOW.search(one.skipped) for pair in pairs for one in pair)
+    both = [pair for pair in pairs if pair[0].skipped is pair[1].skipped is None]
+    assert {one.method for one, _ in both} >= {"service"}
+    for one, two in both:
         assert one.relative_error == pytest.approx(two.relative_error, rel=1e-3, abs=1e-12)
         assert one.certified_gap == pytest.approx(two.certified_gap, rel=1e-3, abs=1e-12)
     assert {row.quantity for row in other.effects_ladder} == {"mean_torque", "peak_torque", "fluctuation_energy"}
