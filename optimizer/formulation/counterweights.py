@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from optimizer.formulation.limits import limit_sizes, sectors
+from optimizer.formulation.limits import all_free, limit_sizes, sectors
 from optimizer.mechanics.angles import angle_deg, direction
 from optimizer.mechanics.crank_of_web import own_throws
 from optimizer.mechanics.fixed_weights import beside
@@ -44,7 +44,7 @@ def _within(machine: Machine, unbalance: Complex, limits: Limits) -> tuple[Real,
     mass, angle = np.abs(unbalance) / limits.radius, angle_deg(unbalance)
     mass = np.where(mass >= limits.max_mass * (1.0 - _ROUNDING), limits.max_mass, mass)
     free, centre, half_angle = sectors(machine)
-    if np.logical_and.reduce(free, axis=None):
+    if all_free(free):
         return mass, np.where(mass > 0, angle, 0.0)
     # reduced first, without which the edge of a sector at 1e6 degrees would be rounded to 1e-10
     centre = np.mod(centre, 360.0)

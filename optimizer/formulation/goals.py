@@ -23,6 +23,7 @@ from optimizer.mechanics.shapes import closed, plates
 from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.numerics.arrays import Real, Reals
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 from optimizer.program.cuts.cut import EXACT, Quantity, Scatter
 from optimizer.program.cuts.dominance import Group, Weighed
 from optimizer.program.cuts.semi_infinite import Goal, Problem
@@ -42,6 +43,7 @@ from schemas.request.scene import Fidelity
 _USUAL = Fidelity()
 
 
+@record
 @dataclass(frozen=True)
 class Case:
     """A machine that the counterweights are to suit: the one that is given, or that of a scenario."""
@@ -67,6 +69,7 @@ class Limited:
     scenario: str | None
 
 
+@record
 @dataclass(frozen=True)
 class Goals:
     """What is asked of the whole turn, or of several cases."""

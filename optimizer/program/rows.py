@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.numerics.arrays import SMALLEST, Real, Reals, total
+from optimizer.numerics.records import record
 from optimizer.program.ceilings import limited
 from optimizer.program.limits import Limits
 from optimizer.program.norms import Norms, join
@@ -14,6 +15,7 @@ from optimizer.program.statement import PARTS, Names, Statement, Term
 from optimizer.responses.response import Response
 
 
+@record
 @dataclass(frozen=True)
 class WeightedPeak:
     """One weighted peak over a turn, as a floor and norm terms.
@@ -42,7 +44,7 @@ def weighted_peak(response: Response, weight: Reals, weight_x: Reals = 1.0, weig
     q = np.asarray(0.5 * weight * (weight_x - weight_y))
     f, b = response.baseline.co, response.baseline.counter
     against = response.counter_influence
-    if not np.count_nonzero(q) and against is None:
+    if against is None and not q.any():
         alone = p * f
         # what is too small to divide by is none, as in `total`
         alone = (alone * (np.abs(alone) > SMALLEST))[..., None]

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, Reals, spread
+from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, ceiling_allowance
 from optimizer.program.points import points_at
@@ -37,6 +38,7 @@ CONTRADICTED = "Nothing is proven: a bound contradicts the answer, which is a fa
 INFEASIBLE = "Proven infeasible: no counterweights within the limits keep the ceilings."
 
 
+@record
 @dataclass(frozen=True)
 class Verdict:
     """What is proven of answers; NaN where nothing is."""
@@ -51,6 +53,7 @@ class Verdict:
     mass_yardstick: Real  # (...) kg
 
 
+@record
 @dataclass(frozen=True)
 class Claim:
     """Goals that were made small, with what is proven: nothing is below the bounds in all of them.

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from optimizer.formulation.balance_shafts import Fitted
 from optimizer.formulation.simulation import Prepared
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.records import record
 from optimizer.program.certificate import Multipliers as MultipliersOfProgram
 from optimizer.program.certificate import nothing_proven
 from optimizer.program.cuts.optimum import CertifiedOptimum
@@ -27,6 +28,7 @@ from schemas.answer.proof import BoundMultipliers
 from schemas.machine.machine import Machine
 
 
+@record
 @dataclass(frozen=True)
 class Solution:
     """Counterweights as they are fitted, and what is proven of them."""

@@ -197,6 +197,7 @@ def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, s
     )
 
 
+@record
 @dataclass(frozen=True)
 class _Solved:
     """Where the stages of N programs ended."""
