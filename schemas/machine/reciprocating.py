@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from functools import reduce
+from itertools import pairwise
 from operator import or_
 from typing import Annotated, Literal
 
@@ -182,14 +183,12 @@ def _bearing_rules(bearings: Sequence[Bearing]) -> Iterator[Rule]:
     highest, lowest = largest(places), -largest([-place for place in places])
     # nearer than this no arithmetic tells them apart
     near = largest([1e-8 * (highest - lowest), 1e-14 * largest([abs(highest), abs(lowest)])])
-    for k, place in enumerate(places):
-        for other in places[:k]:
-            coincides = abs(place - other) <= near
+    # of numbers neighbours tell whether any two coincide
+    order = sorted(places) if type(near) is float else places
+    if order is places or any(other - place <= near for place, other in pairwise(order)):
+        for k, place in enumerate(places):
+            coincides = reduce(or_, [abs(place - other) <= near for other in places[:k]], False)
             if coincides is not False:
-                break
-        else:
-            continue
-        coincides = reduce(or_, [abs(place - other) <= near for other in places[:k]])
-        yield Rule(coincides, ("bearings", k, "position_m"), "another bearing is in this plane")
+                yield Rule(coincides, ("bearings", k, "position_m"), "another bearing is in this plane")
     if len(places) == 1:
         yield Rule(True, ("bearings",), "a shaft needs at least two bearings")

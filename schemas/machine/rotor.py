@@ -126,7 +126,7 @@ class Rotor(Ruled):
             return "discrete"
         least = False
         for web in self.webs:
-            if not CHOSEN.isdisjoint(web.model_fields_set):
+            if not CHOSEN.isdisjoint(web.__pydantic_fields_set__):
                 if stated(web):
                     return "discrete"
                 least = least or web.min_fitted_mass_kg is not None
