@@ -36,27 +36,22 @@ def harmonic(fidelity: Fidelity) -> Callable[[int, Real], Real]:
 
 def second_order(layout: Layout, fidelity: Fidelity) -> Wrench:
     """Second order of the reciprocating masses over omega^2, of rows that have rods."""
-    if _known(layout) and fidelity.kinematics == "exact":
-        return _first_two(layout)[1]
-    return reciprocating(layout, 2, harmonic(fidelity))
+    both = _first_two(layout) if fidelity.kinematics == "exact" else None
+    return reciprocating(layout, 2, harmonic(fidelity)) if both is None else both[1]
 
 
 def _first_order(context: Context) -> Wrench:
     """The first order: of one machine with rods together with the second, which an answer shows beside it."""
-    if _known(context.layout) and context.fidelity.kinematics == "exact":
-        return _first_two(context.layout)[0]
-    return reciprocating(context.layout, 1)
+    both = _first_two(context.layout) if context.fidelity.kinematics == "exact" else None
+    return reciprocating(context.layout, 1) if both is None else both[0]
 
 
 @remembered
-def _known(layout: Layout) -> bool:
-    """Whether it is one machine, all rows of which have a rod."""
+def _first_two(layout: Layout) -> list[Wrench] | None:
+    """Both orders of one machine, all rows of which have a rod; None of others."""
     ratio = layout.reciprocating.rod_ratio
-    return ratio.ndim == 1 and not np.count_nonzero(np.isnan(ratio))
-
-
-@remembered
-def _first_two(layout: Layout) -> list[Wrench]:
+    if ratio.ndim > 1 or np.count_nonzero(np.isnan(ratio)):
+        return None
     return reciprocating_orders(layout, (1, 2))
 
 

@@ -6,6 +6,7 @@ the same formulas. Angles are unit vectors (complex), as drawn at shaft angle 0.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -221,12 +222,23 @@ def _reciprocating(machine: ReciprocatingMachine) -> tuple[list[Any], list[Any],
             ratio, rest = np.nan, 0.0
             if row.connecting_rod is not None:
                 rod = row.connecting_rod
-                ratio, rest = (0.0, 0.0) if rod.length_m is None else quotient(radius, rod.length_m)
+                ratio, rest = (0.0, 0.0) if rod.length_m is None else _rod_ratio(radius, rod.length_m)
             if row.connecting_rod is not None or row.parts:
                 # the big end turns in the plane of its own row, not in that of the throw
                 turning.append((row.rotating_kg, radius, angle, plane + row.offset_m))
             moving.append((row.reciprocating_kg, radius, angle, row.axis_deg, plane + row.offset_m, ratio, rest))
     return turning, moving, [throw.position_m for throw in machine.throws], throws
+
+
+def _rod_ratio(radius: Any, length: Any) -> tuple[Any, Any]:
+    """Crank radius over rod length, and its rest, as :func:`quotient`."""
+    if type(radius) is float and type(length) is float:
+        return _of_numbers(radius, length)
+    return quotient(radius, length)
+
+
+# most machines have one rod ratio
+_of_numbers = lru_cache(maxsize=256)(quotient)
 
 
 def _scroll(machine: ScrollMachine) -> tuple[list[Any], list[Any], list[float]]:
