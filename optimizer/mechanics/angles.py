@@ -33,7 +33,7 @@ def direction(angle_deg: Real) -> Complex:
     """
     angle = np.asarray(angle_deg, dtype=float)
     if angle.ndim == 1 and angle.size <= _FEW:
-        return np.array([_of_one(each) for each in angle.tolist()], complex)
+        return np.array([_vector(each) for each in angle.tolist()], complex)
     quarters = np.rint(angle / 90.0)
     rest = angle - 90.0 * quarters
     vector = np.asarray(np.exp(_DEGREE * rest))
@@ -47,7 +47,7 @@ def direction(angle_deg: Real) -> Complex:
 
 # cranks and axes of a machine have few angles, and most machines the same
 @lru_cache(maxsize=1024)
-def _of_one(angle_deg: float) -> complex:
+def _vector(angle_deg: float) -> complex:
     """The same of one angle."""
     quarters = round(angle_deg / 90.0)
     rest = angle_deg - 90.0 * quarters
