@@ -115,9 +115,10 @@ def verdict(claim: Claim, tolerance: float) -> Verdict:
     """
     over = claim.lower_bound - claim.value
     # of several goals the bound is a corner below which nothing is in all of them
-    false = np.logical_and.reduce(over > claim.rounding, axis=-1) | claim.contradicted
+    false = _conjunction(over > claim.rounding) | claim.contradicted
     bound, gap = np.minimum(claim.lower_bound, claim.value), np.maximum(-over, 0.0)
-    relative = np.maximum.reduce(relative_gap(gap, claim.yardstick), axis=-1)
+    relative = relative_gap(gap, claim.yardstick)
+    relative = relative[..., 0] if relative.shape[-1] == 1 else np.maximum.reduce(relative, axis=-1)
     mass_yardstick, kept = np.maximum(claim.mass, claim.mass_resolution), claim.excess <= CEILING_TOLERANCE
     if claim.mass_lower_bound is None:
         mass_bound, mass_gap, light = np.zeros_like(claim.mass), np.zeros_like(claim.mass), np.ones_like(false)
@@ -149,6 +150,11 @@ def verdict(claim: Claim, tolerance: float) -> Verdict:
         np.where(false, np.nan, mass_gap),
         mass_yardstick,
     )
+
+
+def _conjunction(of_goals: np.ndarray) -> np.ndarray:
+    """Whether something is so of all goals (...); mostly there is one."""
+    return of_goals[..., 0] if of_goals.shape[-1] == 1 else np.logical_and.reduce(of_goals, axis=-1)
 
 
 def relative_gap(gap: Real, yardstick: Real) -> Real:
