@@ -133,11 +133,14 @@ def formulate(
     limited = tuple(one for each in asked for one in each.limited())
     chosen = _in_order(objective, groups)
     # of all orders the ceilings are among what is limited over the turn
+    stated = objective.orders == "first" and objective_ceilings(objective)
     exact = tuple(
-        (each, allowed / case.omega_squared)
-        for case in (cases if objective.orders == "first" else ())
-        for responses in case.variants
-        for each, allowed in limited_responses(responses, objective)
+        [
+            (each, allowed / case.omega_squared)
+            for case in (cases if stated else ())
+            for responses in case.variants
+            for each, allowed in limited_responses(responses, objective)
+        ]
     )
     capped = tuple((each.quantity, each.ceiling / each.omega_squared) for each in limited)
     cut, most = plates(machine), limits(closed(machine), np.shape(omega_squared))

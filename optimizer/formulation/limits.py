@@ -33,7 +33,7 @@ _ALONG, _ACROSS = np.array([1.0 + 0.0j]), np.array([1j])
 _NO_CENTRE, _HALF = np.zeros(1), np.array([90.0])
 
 
-def _one(_: Machine) -> Reals:
+def _unit(_: Machine) -> Reals:
     """Kilograms of a kilogram."""
     return 1.0
 
@@ -78,7 +78,7 @@ class MassLimit:
     def mass(self, machine: Machine) -> Real:
         """Largest mass of every web, kg."""
         largest = self.largest(machine)
-        return largest if self.per_kg is _one else largest / self.per_kg(machine)
+        return largest if self.per_kg is _unit else largest / self.per_kg(machine)
 
     def size(self, machine: Machine) -> Real:
         return self.largest(machine)
@@ -158,7 +158,8 @@ WEB_LIMITS: dict[WebLimit, Limit] = {
         largest=remembered(
             lambda machine: stacked([np.inf if web.max_mass_kg is None else web.max_mass_kg for web in machine.webs])
         ),
-        per_kg=_one,
+        per_kg=_unit,
+        presence=lambda machine: any(web.max_mass_kg is not None for web in machine.webs),
     ),
     "envelope": MassLimit(
         "(kg m)",

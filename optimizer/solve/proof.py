@@ -91,9 +91,10 @@ def physical_bounds(
     for n, name in enumerate(bounds):
         priced[n] = name == "objective"
     statement.flat.printed(priced, factor, _INSIDE, found.parts)
+    spent, nothing = np.count_nonzero(ends), np.zeros(ends.shape)
     for n, (name, multipliers) in enumerate(bounds.items()):
-        if not np.count_nonzero(ends):
-            budget = np.zeros(ends.shape)
+        if not spent:
+            budget = nothing
         elif name == "objective":
             budget = budget_price(statement, found.chosen(n), 0.0) * omega_squared
         else:
