@@ -331,6 +331,8 @@ class _CaseQuantities:
 
 def _called(row: Row, scenario: str | None, variant: int | None = None) -> Row:
     """A row by the names of its scenario and of its variant of the masses."""
+    if scenario is None and not variant:
+        return row
     name = row.name if not variant else f"{row.name} {variant}"
     return row._replace(name=name if scenario is None else f"{name} in {scenario}")
 

@@ -216,9 +216,12 @@ def limits(machine: Machine, leading: tuple[int, ...] = ()) -> Limits:
         centre, edge = direction(towards), direction(half_angle)
     shape, alike = (*leading, len(webs)), alike_webs(machine)
     left = MACHINE_LIMITS["max_total_mass"].size(machine) - fixed_mass(machine)
+    radius, most = stacked([web.radius_m for web in webs]), largest_mass(machine)
+    if not leading:
+        return Limits(radius, most, free, centre, edge.real, edge.imag, left, alike)
     return Limits(
-        radius=spread(stacked([web.radius_m for web in webs]), shape),
-        max_mass=spread(largest_mass(machine), shape),
+        radius=spread(radius, shape),
+        max_mass=spread(most, shape),
         free=spread(free, shape),
         centre=spread(centre, shape),
         half_angle_cos=spread(edge.real, shape),

@@ -56,8 +56,8 @@ class _Cranks(NamedTuple):
     throws: tuple[int | None, ...]  # (webs,)
 
 
-# of a machine that is asked about again and again
-@lru_cache(maxsize=128)
+# of a machine that is asked about again and again; of few, for large ones are a third of a megabyte
+@lru_cache(maxsize=16)
 def _of_places(throws: tuple[float, ...], webs: tuple[float, ...], named: tuple[int | None, ...]) -> _Cranks:
     found, own = _shares(throws, webs, named), dict[int, int]()
     for throw, web in zip(*map(np.ndarray.tolist, (found == 1.0).nonzero()), strict=True):

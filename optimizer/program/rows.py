@@ -45,7 +45,7 @@ def weighted_peak(response: Response, weight: Reals, weight_x: Reals = 1.0, weig
     q = np.asarray(0.5 * weight * (weight_x - weight_y))
     f, b = response.baseline.co, response.baseline.counter
     against = response.counter_influence
-    if against is None and not q.any():
+    if against is None and not (np.count_nonzero(q) if q.ndim else q):
         alone = p * f
         # what is too small to divide by is none, as in `total`
         alone = (alone * (np.abs(alone) > SMALLEST))[..., None]
