@@ -6,12 +6,14 @@ from typing import Any
 
 from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.records import record
 from schemas.base.model import FieldProblem
 from schemas.base.rules import Rule
 from schemas.machine.machine import Machine
 from schemas.request.scene import Fidelity
 
 
+@record
 @dataclass(frozen=True)
 class Context:
     """What an effect may look at: the machines, the angles, and the results of the effects that it needs."""

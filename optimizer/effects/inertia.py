@@ -2,10 +2,14 @@
 
 from collections.abc import Callable, Iterator
 
-from optimizer.effects.effect import Effect
-from optimizer.mechanics.inertia import reciprocating, rotating
+import numpy as np
+
+from optimizer.effects.effect import Context, Effect
+from optimizer.mechanics.inertia import Wrench, reciprocating, reciprocating_orders, rotating
+from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic, acceleration_harmonic_order_2
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.memoization import remembered
 from schemas.base.model import FieldProblem
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import ReciprocatingMachine
@@ -30,17 +34,38 @@ def harmonic(fidelity: Fidelity) -> Callable[[int, Real], Real]:
     return acceleration_harmonic if fidelity.kinematics == "exact" else acceleration_harmonic_order_2
 
 
+def second_order(layout: Layout, fidelity: Fidelity) -> Wrench:
+    """Second order of the reciprocating masses over omega^2, of rows that have rods."""
+    both = _first_two(layout) if fidelity.kinematics == "exact" else None
+    return reciprocating(layout, 2, harmonic(fidelity)) if both is None else both[1]
+
+
+def _first_order(context: Context) -> Wrench:
+    """The first order: of one machine with rods together with the second, which an answer shows beside it."""
+    both = _first_two(context.layout) if context.fidelity.kinematics == "exact" else None
+    return reciprocating(context.layout, 1) if both is None else both[0]
+
+
+@remembered
+def _first_two(layout: Layout) -> list[Wrench] | None:
+    """Both orders of one machine, all rows of which have a rod; None of others."""
+    ratio = layout.reciprocating.rod_ratio
+    if ratio.ndim > 1 or np.count_nonzero(np.isnan(ratio)):
+        return None
+    return reciprocating_orders(layout, (1, 2))
+
+
 INERTIA = (
     Effect("rotating_inertia", "centrifugal forces of the rotating masses", lambda context: rotating(context.layout)),
     Effect(
         "reciprocating_inertia",
         "first-order forces of the reciprocating masses",
-        lambda context: reciprocating(context.layout, 1),
+        _first_order,
     ),
     Effect(
         "second_order",
         "second-order forces of the reciprocating masses",
-        lambda context: reciprocating(context.layout, 2, harmonic(context.fidelity)),
+        lambda context: second_order(context.layout, context.fidelity),
         inputs=RODS,
         problems=rod_problems,
     ),

@@ -205,21 +205,22 @@ def _run(
 
     A result over the turn of many designs is large, and memory that is used again is quicker than new memory.
     """
-    names = closure(machine, needs)
-    last = {need: name for name in names for need in (*EFFECTS[name].needs, name)}
-    done: dict[str, list[str]] = {}
-    for need, name in last.items():
-        if need not in needs:
-            done.setdefault(name, []).append(need)
     found: dict[str, Any] = {}
     times: dict[str, float] = {}
-    for name in names:
-        start = time.perf_counter()
+    for name, done in _plan(tuple(closure(machine, needs)), tuple(needs)):
+        effect, start = EFFECTS[name], time.perf_counter()
         # an effect sees the results of those that it declares, and no others
-        visible = {need: found[need] for need in EFFECTS[name].needs if need in found}
-        found[name] = EFFECTS[name].simulate(Context(machine, layout, fidelity, angle, visible, needs))
+        visible = {need: found[need] for need in effect.needs if need in found} if effect.needs else {}
+        found[name] = effect.simulate(Context(machine, layout, fidelity, angle, visible, needs))
         times[name] = (time.perf_counter() - start) * 1e3
-        for need in done.get(name, ()):
+        for need in done:
             # what does not apply was never there
             found.pop(need, None)
     return found, times
+
+
+@lru_cache(maxsize=256)
+def _plan(names: tuple[str, ...], needs: tuple[str, ...]) -> list[tuple[str, tuple[str, ...]]]:
+    """Effects in the order in which they run, each with those whose results are let go after it."""
+    last = {need: name for name in names for need in (*EFFECTS[name].needs, name)}
+    return [(name, tuple(need for need, user in last.items() if user == name and need not in needs)) for name in names]

@@ -1,10 +1,11 @@
 """Counterweights as masses and angles."""
 
 from collections.abc import Iterator, Sequence
+from itertools import compress
 
 import numpy as np
 
-from optimizer.formulation.limits import limit_sizes, sectors
+from optimizer.formulation.limits import all_free, limit_sizes, sectors
 from optimizer.mechanics.angles import angle_deg, direction
 from optimizer.mechanics.crank_of_web import own_throws
 from optimizer.mechanics.fixed_weights import beside
@@ -44,7 +45,7 @@ def _within(machine: Machine, unbalance: Complex, limits: Limits) -> tuple[Real,
     mass, angle = np.abs(unbalance) / limits.radius, angle_deg(unbalance)
     mass = np.where(mass >= limits.max_mass * (1.0 - _ROUNDING), limits.max_mass, mass)
     free, centre, half_angle = sectors(machine)
-    if np.logical_and.reduce(free, axis=None):
+    if all_free(free):
         return mass, np.where(mass > 0, angle, 0.0)
     # reduced first, without which the edge of a sector at 1e6 degrees would be rounded to 1e-10
     centre = np.mod(centre, 360.0)
@@ -133,37 +134,39 @@ def _placed(
     own : throw of each web.
     ratio : turns of the webs for one of the crankshaft.
     """
-    touched = {
-        name: limit.touched(machine, mass_kg, angles_deg).tolist() for name, (limit, _) in limit_sizes(machine).items()
-    }
+    limits = limit_sizes(machine)
+    touched = [limit.touched(machine, mass_kg, angles_deg).tolist() for limit, _ in limits.values()]
     if vectors is None:
         vectors = unbalance(mass_kg, angles_deg, stacked([web.radius_m for web in machine.webs]))
     throws, webs = machine.throws, machine.webs
+    active = [tuple(compress(limits, at)) for at in zip(*touched, strict=True)] or [()] * len(webs)
     shapes, radii = _shapes(machine, mass_kg), [web.radius_m for web in webs]
     square = (ratio * (machine.overspeed_rpm or machine.speed_rpm) * np.pi / 30.0) ** 2
     return tuple(
-        Counterweight(
-            web=web.name,
-            mass_kg=mass,
-            angle_deg=angle,
-            position_m=web.position_m,
-            radius_m=radius,
-            throw=throw,
-            # twice, because a hair below 0 comes to 360
-            angle_from_crank_deg=None
-            if throw is None or mass == 0.0
-            else (angle - throws[throw].crank_angle_deg) % 360.0 % 360.0,
-            mass_radius_kg_m=mass * radius,
-            x_kg_m=vector.real,
-            y_kg_m=vector.imag,
-            centrifugal_force_N=mass * radius * square,
-            active_limits=() if web.fixed else tuple([name for name, at in touched.items() if at[k]]),
-            fixed=web.fixed is not None,
-            shape=shapes.get(k) if mass > 0.0 else None,
-        )
-        for k, (web, radius, mass, angle, vector, throw) in enumerate(
-            zip(webs, radii, mass_kg.tolist(), angles_deg.tolist(), vectors.tolist(), own, strict=True)
-        )
+        [
+            Counterweight(
+                web=web.name,
+                mass_kg=mass,
+                angle_deg=angle,
+                position_m=web.position_m,
+                radius_m=radius,
+                throw=throw,
+                # twice, because a hair below 0 comes to 360
+                angle_from_crank_deg=None
+                if throw is None or mass == 0.0
+                else (angle - throws[throw].crank_angle_deg) % 360.0 % 360.0,
+                mass_radius_kg_m=mass * radius,
+                x_kg_m=vector.real,
+                y_kg_m=vector.imag,
+                centrifugal_force_N=mass * radius * square,
+                active_limits=() if web.fixed else active[k],
+                fixed=web.fixed is not None,
+                shape=shapes.get(k) if mass > 0.0 else None,
+            )
+            for k, (web, radius, mass, angle, vector, throw) in enumerate(
+                zip(webs, radii, mass_kg.tolist(), angles_deg.tolist(), vectors.tolist(), own, strict=True)
+            )
+        ]
     )
 
 

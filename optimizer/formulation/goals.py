@@ -23,6 +23,7 @@ from optimizer.mechanics.shapes import closed, plates
 from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.numerics.arrays import Real, Reals
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 from optimizer.program.cuts.cut import EXACT, Quantity, Scatter
 from optimizer.program.cuts.dominance import Group, Weighed
 from optimizer.program.cuts.semi_infinite import Goal, Problem
@@ -42,6 +43,7 @@ from schemas.request.scene import Fidelity
 _USUAL = Fidelity()
 
 
+@record
 @dataclass(frozen=True)
 class Case:
     """A machine that the counterweights are to suit: the one that is given, or that of a scenario."""
@@ -67,6 +69,7 @@ class Limited:
     scenario: str | None
 
 
+@record
 @dataclass(frozen=True)
 class Goals:
     """What is asked of the whole turn, or of several cases."""
@@ -130,11 +133,14 @@ def formulate(
     limited = tuple(one for each in asked for one in each.limited())
     chosen = _in_order(objective, groups)
     # of all orders the ceilings are among what is limited over the turn
+    stated = objective.orders == "first" and objective_ceilings(objective)
     exact = tuple(
-        (each, allowed / case.omega_squared)
-        for case in (cases if objective.orders == "first" else ())
-        for responses in case.variants
-        for each, allowed in limited_responses(responses, objective)
+        [
+            (each, allowed / case.omega_squared)
+            for case in (cases if stated else ())
+            for responses in case.variants
+            for each, allowed in limited_responses(responses, objective)
+        ]
     )
     capped = tuple((each.quantity, each.ceiling / each.omega_squared) for each in limited)
     cut, most = plates(machine), limits(closed(machine), np.shape(omega_squared))
@@ -325,6 +331,8 @@ class _CaseQuantities:
 
 def _called(row: Row, scenario: str | None, variant: int | None = None) -> Row:
     """A row by the names of its scenario and of its variant of the masses."""
+    if scenario is None and not variant:
+        return row
     name = row.name if not variant else f"{row.name} {variant}"
     return row._replace(name=name if scenario is None else f"{name} in {scenario}")
 

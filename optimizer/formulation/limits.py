@@ -6,7 +6,7 @@ Fields may hold columns, as in :func:`optimizer.mechanics.layout.layout`.
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import reduce
+from functools import lru_cache, reduce
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -31,6 +31,11 @@ _NO_LIMIT = 1e30
 #: the middle of no sector, and its edge
 _ALONG, _ACROSS = np.array([1.0 + 0.0j]), np.array([1j])
 _NO_CENTRE, _HALF = np.zeros(1), np.array([90.0])
+
+
+def _unit(_: Machine) -> Reals:
+    """Kilograms of a kilogram."""
+    return 1.0
 
 
 class Limit(Protocol):
@@ -72,7 +77,8 @@ class MassLimit:
 
     def mass(self, machine: Machine) -> Real:
         """Largest mass of every web, kg."""
-        return self.largest(machine) / self.per_kg(machine)
+        largest = self.largest(machine)
+        return largest if self.per_kg is _unit else largest / self.per_kg(machine)
 
     def size(self, machine: Machine) -> Real:
         return self.largest(machine)
@@ -91,7 +97,7 @@ class _Sector:
 
     def stated(self, machine: Machine) -> bool:
         free, _, _ = sectors(machine)
-        return not np.logical_and.reduce(free)
+        return not all_free(free)
 
     def size(self, machine: Machine) -> Real:
         free, _, half_angle = sectors(machine)
@@ -152,7 +158,8 @@ WEB_LIMITS: dict[WebLimit, Limit] = {
         largest=remembered(
             lambda machine: stacked([np.inf if web.max_mass_kg is None else web.max_mass_kg for web in machine.webs])
         ),
-        per_kg=lambda machine: 1.0,
+        per_kg=_unit,
+        presence=lambda machine: any(web.max_mass_kg is not None for web in machine.webs),
     ),
     "envelope": MassLimit(
         "(kg m)",
@@ -203,15 +210,18 @@ def limits(machine: Machine, leading: tuple[int, ...] = ()) -> Limits:
     """Limits of the counterweights on the webs of a machine, or of many (*leading, K)."""
     webs = machine.webs
     free, towards, half_angle = sectors(machine)
-    if np.logical_and.reduce(free):
+    if all_free(free):
         centre, edge = _ALONG.repeat(len(webs)), _ACROSS.repeat(len(webs))
     else:
         centre, edge = direction(towards), direction(half_angle)
     shape, alike = (*leading, len(webs)), alike_webs(machine)
     left = MACHINE_LIMITS["max_total_mass"].size(machine) - fixed_mass(machine)
+    radius, most = stacked([web.radius_m for web in webs]), largest_mass(machine)
+    if not leading:
+        return Limits(radius, most, free, centre, edge.real, edge.imag, left, alike)
     return Limits(
-        radius=spread(stacked([web.radius_m for web in webs]), shape),
-        max_mass=spread(largest_mass(machine), shape),
+        radius=spread(radius, shape),
+        max_mass=spread(most, shape),
         free=spread(free, shape),
         centre=spread(centre, shape),
         half_angle_cos=spread(edge.real, shape),
@@ -225,11 +235,22 @@ def limits(machine: Machine, leading: tuple[int, ...] = ()) -> Limits:
 def sectors(machine: Machine) -> tuple[np.ndarray, Real, Real]:
     """Which webs have no sector (K,); centres and half-angles [deg] (..., K), 0 and 90 where there is none."""
     webs = machine.webs
-    free = np.array([web.sector is None for web in webs], dtype=bool)
-    if np.logical_and.reduce(free):
-        return free, _NO_CENTRE.repeat(free.size), _HALF.repeat(free.size)
+    present = [web.sector is not None for web in webs]
+    if not any(present):
+        return _without(len(webs))
     return (
-        free,
+        ~np.array(present, dtype=bool),
         stacked([web.sector.centre_deg if web.sector else 0.0 for web in webs]),
         stacked([web.sector.half_angle_deg if web.sector else 90.0 for web in webs]),
     )
+
+
+def all_free(free: np.ndarray) -> bool:
+    """Whether no web has a sector, by the first of what :func:`sectors` has."""
+    return free is _without(free.size)[0] or bool(np.logical_and.reduce(free))
+
+
+@lru_cache(maxsize=32)
+def _without(count: int) -> tuple[np.ndarray, Real, Real]:
+    """What so many webs without sectors have; nobody writes to it."""
+    return np.ones(count, bool), _NO_CENTRE.repeat(count), _HALF.repeat(count)

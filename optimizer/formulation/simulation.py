@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from optimizer.effects.inertia import harmonic
+from optimizer.effects.inertia import second_order
 from optimizer.effects.registry import Simulated, closure, simulate
 from optimizer.formulation.formulate import added, responses
 from optimizer.mechanics.balance_shafts import of_balance_shafts
@@ -108,7 +108,7 @@ class Prepared:
         if "second_order" in self.results:
             wrench: Wrench = self.results["second_order"]
             return wrench
-        return reciprocating(self.layout, 2, harmonic(self.request.fidelity))
+        return second_order(self.layout, self.request.fidelity)
 
     @cached_property
     def _over_square(self) -> dict[int, Wrench]:

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 from optimizer.formulation.balance_shafts import DesignSpace, design_space
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 from schemas.base.rules import Path
 from schemas.machine.machine import Machine
 from schemas.machine.rotor import Choice
@@ -34,6 +35,7 @@ class ScenarioMachine(NamedTuple):
     changes: Path
 
 
+@record
 @dataclass(frozen=True)
 class Task:
     """Counterweights that are wanted of a machine.

@@ -1,12 +1,19 @@
 """Directions from angles in degrees, exact where they can be."""
 
+import cmath
+import math
+from functools import lru_cache
+
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
 
 _QUADRANTS = np.array([1, 1j, -1, -1j])
+_QUADRANT: tuple[complex, ...] = (1.0 + 0.0j, 1.0j, -1.0 + 0.0j, -1.0j)
 #: a degree in radians, as an exponent
 _DEGREE = 1j * np.pi / 180.0
+#: so many angles are quicker one by one, to the same last digit
+_FEW = 16
 
 
 def direction(angle_deg: Real) -> Complex:
@@ -25,6 +32,8 @@ def direction(angle_deg: Real) -> Complex:
     (...) complex, dimensionless.
     """
     angle = np.asarray(angle_deg, dtype=float)
+    if angle.ndim == 1 and angle.size <= _FEW:
+        return np.array([_vector(each) for each in angle.tolist()], complex)
     quarters = np.rint(angle / 90.0)
     rest = angle - 90.0 * quarters
     vector = np.asarray(np.exp(_DEGREE * rest))
@@ -34,6 +43,19 @@ def direction(angle_deg: Real) -> Complex:
         np.copysign(0.5, rest, out=vector.imag, where=size == 30.0)
         np.copysign(vector.real, rest, out=vector.imag, where=size == 45.0)
     return vector * _QUADRANTS.take(np.asarray(quarters).astype(np.int64), mode="wrap")
+
+
+# cranks and axes of a machine have few angles, and most machines the same
+@lru_cache(maxsize=1024)
+def _vector(angle_deg: float) -> complex:
+    """The same of one angle."""
+    quarters = round(angle_deg / 90.0)
+    rest = angle_deg - 90.0 * quarters
+    vector, size = cmath.exp(_DEGREE * rest), abs(rest)
+    if size >= 30.0:
+        across = 0.5 if size == 30.0 else vector.real if size == 45.0 else abs(vector.imag)
+        vector = complex(vector.real, math.copysign(across, rest))
+    return vector * _QUADRANT[quarters % 4]
 
 
 def turned(sense: Real, angle_rad: Real) -> Complex:

@@ -1,5 +1,10 @@
 """Whose crank each web belongs to: what angles from the own crank, balance rates and groups of webs refer to."""
 
+from collections.abc import Sequence
+from functools import lru_cache
+from itertools import chain
+from typing import Any, NamedTuple
+
 import numpy as np
 
 from optimizer.mechanics.balance_rate import web_shares
@@ -13,22 +18,52 @@ from schemas.machine.reciprocating import ReciprocatingMachine
 @remembered
 def shares(machine: ReciprocatingMachine) -> Real:
     """Which share of each web belongs to each throw, (..., throws, webs); fields of the machine may hold columns."""
-    throw, web = (stacked([one.position_m for one in which]) for which in (machine.throws, machine.webs))
-    if all(one.throw is None for one in machine.webs):
-        return web_shares(throw, web)
-    return web_shares(throw, web, stacked([np.nan if one.throw is None else one.throw for one in machine.webs]))
+    places = _places(machine)
+    if np.ndarray in map(type, chain(*places)):
+        return _shares(*places)
+    return _of_places(*places).shares
 
 
 @remembered
-def own_throws(machine: Machine) -> list[int | None]:
+def own_throws(machine: Machine) -> Sequence[int | None]:
     """Number of the throw whose crank each web of one machine belongs to; None where it is none alone."""
     if not isinstance(machine, ReciprocatingMachine) or not machine.webs:
         return [None] * len(machine.webs)
-    own: list[int | None] = [None] * len(machine.webs)
-    throws, webs = (shares(machine) == 1.0).nonzero()
-    for throw, web in zip(throws.tolist(), webs.tolist(), strict=True):
+    return _of_places(*_places(machine)).throws
+
+
+def _places(machine: ReciprocatingMachine) -> tuple[tuple[Any, ...], tuple[Any, ...], tuple[Any, ...]]:
+    """Places of throws and of webs, and the throws that webs name."""
+    webs = machine.webs
+    return (
+        tuple([throw.position_m for throw in machine.throws]),
+        tuple([web.position_m for web in webs]),
+        tuple([web.throw for web in webs]),
+    )
+
+
+def _shares(throws: Sequence[Any], webs: Sequence[Any], named: Sequence[Any]) -> Real:
+    if not any(throw is not None for throw in named):
+        return web_shares(stacked(throws), stacked(webs))
+    own = stacked([np.nan if throw is None else throw for throw in named])
+    return web_shares(stacked(throws), stacked(webs), own)
+
+
+class _Cranks(NamedTuple):
+    """Whose crank each web of one machine belongs to; nobody writes to it."""
+
+    shares: Real  # (throws, webs)
+    throws: tuple[int | None, ...]  # (webs,)
+
+
+# of a machine that is asked about again and again; of few, for large ones are a third of a megabyte
+@lru_cache(maxsize=16)
+def _of_places(throws: tuple[float, ...], webs: tuple[float, ...], named: tuple[int | None, ...]) -> _Cranks:
+    found, own = _shares(throws, webs, named), dict[int, int]()
+    for throw, web in zip(*map(np.ndarray.tolist, (found == 1.0).nonzero()), strict=True):
         own[web] = throw
-    return own
+    found.flags.writeable = False
+    return _Cranks(found, tuple(own.get(web) for web in range(len(webs))))
 
 
 def crank_angles(machine: Machine) -> list[float | None]:

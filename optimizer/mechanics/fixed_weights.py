@@ -25,6 +25,8 @@ def fixed_masses(machine: Machine) -> Real:
 @remembered
 def fixed_mass(machine: Machine) -> Real:
     """Their sum (...) kg."""
+    if all(web.fixed is None for web in machine.webs):
+        return np.zeros(())
     return np.asarray(np.add.reduce(fixed_masses(machine), axis=-1))
 
 

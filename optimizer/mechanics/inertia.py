@@ -4,7 +4,7 @@ Everything is divided by omega^2: forces are kg m, couples kg m^2. Couples C = s
 in the plane of the forces; the moment vector is j C.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -57,12 +57,27 @@ def reciprocating(layout: Layout, order: int, harmonic: Callable[[int, Real], Re
     order : k >= 1.
     harmonic : (order, rod ratio) -> A_k; exact by default.
     """
-    forces = reciprocating_forces(layout, order, harmonic)
-    *leading, rows = forces.co.shape
-    both = np.empty((*leading, 2, rows), complex)
-    both[..., 0, :], both[..., 1, :] = forces.co, forces.counter
-    force, couple = _summed(layout, both, layout.reciprocating.position)
-    return Wrench(*(Phasors(pair[..., 0], pair[..., 1]) for pair in (force, couple)))
+    (alone,) = reciprocating_orders(layout, (order,), harmonic)
+    return alone
+
+
+def reciprocating_orders(
+    layout: Layout, orders: Sequence[int], harmonic: Callable[[int, Real], Real] = acceleration_harmonic
+) -> list[Wrench]:
+    """The same of several orders, summed at once: small sums cost by their number."""
+    forces = [reciprocating_forces(layout, order, harmonic) for order in orders]
+    *leading, rows = forces[0].co.shape
+    every = np.empty((*leading, 2 * len(forces), rows), complex)
+    for n, each in enumerate(forces):
+        every[..., 2 * n, :], every[..., 2 * n + 1, :] = each.co, each.counter
+    force, couple = _summed(layout, every, layout.reciprocating.position)
+    return [
+        Wrench(
+            Phasors(force[..., n], force[..., n + 1]),
+            Phasors(couple[..., n], couple[..., n + 1]),
+        )
+        for n in range(0, 2 * len(forces), 2)
+    ]
 
 
 def reciprocating_forces(
@@ -71,10 +86,10 @@ def reciprocating_forces(
     """The same row by row (..., n)."""
     rows = layout.reciprocating
     # A_1 = 1 whatever the rod, so that the first order needs no rod
-    size = 0.5 * rows.mass * rows.crank_radius
-    if order > 1:
-        size = size * harmonic(order, rows.rod_ratio)
-    crank, axis = rows.crank_direction**order, rows.axis
+    size, axis = 0.5 * rows.mass * rows.crank_radius, rows.axis
+    if order == 1:
+        return Phasors(size * rows.crank_direction, size * np.conj(rows.crank_direction) * axis**2)
+    size, crank = size * harmonic(order, rows.rod_ratio), rows.crank_direction**order
     co = size * crank * np.conj(axis) ** (order - 1)
     return Phasors(co, size * np.conj(crank) * axis ** (order + 1))
 

@@ -6,7 +6,7 @@ the same formulas. Angles are unit vectors (complex), as drawn at shaft angle 0.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
-from itertools import accumulate, chain
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -14,11 +14,16 @@ import numpy as np
 from optimizer.mechanics.angles import direction
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.memoization import remembered
+from optimizer.numerics.records import record
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.machine.rotor import Rotor
 from schemas.machine.scroll_machine import ScrollMachine
 
+#: axes of parts of rows side by side, where no part is a column
+_TABLE, _NO_TABLE = 2, np.empty(0)
 
+
+@record
 @dataclass(frozen=True)
 class Rotating:
     """Masses that turn with the shaft: (..., n)."""
@@ -29,6 +34,7 @@ class Rotating:
     position: Real  # m
 
 
+@record
 @dataclass(frozen=True)
 class Reciprocating:
     """Masses that move along an axis, driven by a crank: (..., n)."""
@@ -49,6 +55,7 @@ class Reciprocating:
         return margin if self.rod_ratio_rest is None else margin - self.rod_ratio_rest
 
 
+@record
 @dataclass(frozen=True)
 class Webs:
     """Places for counterweights: (..., n)."""
@@ -57,6 +64,7 @@ class Webs:
     radius: Real  # m
 
 
+@record
 @dataclass(frozen=True)
 class BalanceWebs:
     """Places for unbalances on balance shafts, one shaft after the other: (..., n)."""
@@ -68,6 +76,7 @@ class BalanceWebs:
     y: Real  # m
 
 
+@record
 @dataclass(frozen=True)
 class Layout:
     """A machine as arrays."""
@@ -103,10 +112,8 @@ def layout(machine: ReciprocatingMachine | ScrollMachine) -> Layout:
         turning, moving, planes, throws = _reciprocating(machine)
     turning_mass, turning_radius, angle, place = _table([*turning, *_unbalances(machine)], 4)
     mass, radius, crank_angle, axis_angle, position, ratio, rest = _table(moving, 7)
-    towards, crank, axis = _directions(angle, crank_angle, axis_angle)
-    places = stacked(planes)
-    centre = np.asarray(0.5 * (np.minimum.reduce(places, axis=-1) + np.maximum.reduce(places, axis=-1)))
-    given = machine.reference_plane_m
+    towards, crank, axis = direction(angle), direction(crank_angle), direction(axis_angle)
+    centre, given = _middle(planes), machine.reference_plane_m
     return Layout(
         omega=np.asarray(machine.speed_rpm * np.pi / 30.0),
         sense=np.asarray(1.0 if machine.rotation == "ccw" else -1.0),
@@ -215,12 +222,23 @@ def _reciprocating(machine: ReciprocatingMachine) -> tuple[list[Any], list[Any],
             ratio, rest = np.nan, 0.0
             if row.connecting_rod is not None:
                 rod = row.connecting_rod
-                ratio, rest = (0.0, 0.0) if rod.length_m is None else quotient(radius, rod.length_m)
+                ratio, rest = (0.0, 0.0) if rod.length_m is None else _rod_ratio(radius, rod.length_m)
             if row.connecting_rod is not None or row.parts:
                 # the big end turns in the plane of its own row, not in that of the throw
                 turning.append((row.rotating_kg, radius, angle, plane + row.offset_m))
             moving.append((row.reciprocating_kg, radius, angle, row.axis_deg, plane + row.offset_m, ratio, rest))
     return turning, moving, [throw.position_m for throw in machine.throws], throws
+
+
+def _rod_ratio(radius: Any, length: Any) -> tuple[Any, Any]:
+    """Crank radius over rod length, and its rest, as :func:`quotient`."""
+    if type(radius) is float and type(length) is float:
+        return _of_numbers(radius, length)
+    return quotient(radius, length)
+
+
+# most machines have one rod ratio
+_of_numbers = lru_cache(maxsize=256)(quotient)
 
 
 def _scroll(machine: ScrollMachine) -> tuple[list[Any], list[Any], list[float]]:
@@ -238,15 +256,17 @@ def _scroll(machine: ScrollMachine) -> tuple[list[Any], list[Any], list[float]]:
 def _table(rows: Sequence[Any], parts: int) -> Sequence[Real]:
     """The parts of rows side by side, each (..., rows), as :func:`stacked`."""
     every = list(zip(*rows, strict=True)) if rows else [()] * parts
-    if np.ndarray in map(type, chain(*every)):
-        return [stacked(part) for part in every]
-    return [*np.array(every, dtype=float)]
+    try:
+        table = np.array(every, dtype=float)
+    except ValueError:
+        # numbers beside columns make no array
+        table = _NO_TABLE
+    return [*table] if table.ndim == _TABLE else [stacked(part) for part in every]
 
 
-def _directions(*angles_deg: Real) -> Sequence[Complex]:
-    """Directions of several angles (..., n), at once where they have no leading axes: few cost by their number."""
-    if any(each.ndim > 1 for each in angles_deg):
-        return [direction(each) for each in angles_deg]
-    ends = list(accumulate(each.size for each in angles_deg))
-    every = direction(np.concatenate(angles_deg))
-    return [every[first:last] for first, last in zip([0, *ends], ends, strict=False)]
+def _middle(planes: Sequence[Any]) -> Real:
+    """Middle between the outermost of planes (...) m."""
+    if set(map(type, planes)) == {float}:
+        return np.asarray(0.5 * (min(planes) + max(planes)))
+    places = stacked(planes)
+    return np.asarray(0.5 * (np.minimum.reduce(places, axis=-1) + np.maximum.reduce(places, axis=-1)))

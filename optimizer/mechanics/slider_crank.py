@@ -5,7 +5,7 @@ x = r (cos phi + sqrt(1 - lam^2 sin^2 phi) / lam) from the shaft, and the force 
 -m x'' = m r omega^2 sum_k A_k cos(k phi).
 """
 
-from functools import cache
+from functools import cache, lru_cache
 from itertools import accumulate
 from math import prod
 from operator import mul
@@ -17,6 +17,8 @@ from optimizer.numerics.arrays import Real
 #: up to which square of q, that is for rods of more than 1.52 crank radii, these powers of it leave out less of the
 #: hypergeometric function than rounding does
 _NEAR, _POWERS = 0.02, np.arange(9.0)
+#: rows of which the harmonics are kept
+_FEW = 16
 
 
 def acceleration_harmonic(order: int, rod_ratio: Real) -> Real:
@@ -41,6 +43,21 @@ def acceleration_harmonic(order: int, rod_ratio: Real) -> Real:
         return np.ones_like(lam)
     if order % 2:
         return np.zeros_like(lam)
+    if lam.ndim == 1 and lam.size <= _FEW:
+        return _of_machine(order, tuple(lam.tolist()))
+    return _even_harmonic(order, lam)
+
+
+# of a machine that is asked about again and again
+@lru_cache(maxsize=256)
+def _of_machine(order: int, rod_ratios: tuple[float, ...]) -> Real:
+    """The same of the rows of one machine, of an even order; nobody writes to it."""
+    found = _even_harmonic(order, np.array(rod_ratios))
+    found.flags.writeable = False
+    return found
+
+
+def _even_harmonic(order: int, lam: Real) -> Real:
     n = order // 2
     complement = np.sqrt((1.0 - lam) * (1.0 + lam))
     # q / lam, without the division that an infinite rod would not survive

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import Any, TypeVar
 
 import numpy as np
@@ -62,6 +63,15 @@ def merged(leading: tuple[int, ...], array: NDArray[Any], own: int) -> NDArray[A
     if array.shape != (*leading, *last):
         array = spread(array, (*leading, *last))
     return in_order(array).reshape(math.prod(leading), *last)
+
+
+def of_programs_of(leading: tuple[int, ...]) -> Callable[[NDArray[Any], int], NDArray[Any]]:
+    """:func:`merged` of these leading axes; of one program alone, which has dozens of arrays, in half the time."""
+    return partial(merged, leading) if leading else _alone
+
+
+def _alone(array: NDArray[Any], own: int) -> NDArray[Any]:
+    return array[None] if array.ndim == own and array.flags.carray else merged((), array, own)
 
 
 def plain(array: NDArray[Any]) -> NDArray[Any]:

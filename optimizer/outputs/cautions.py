@@ -12,6 +12,7 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.cylinders import without_gas
 from optimizer.numerics.arrays import Complex
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 from optimizer.outputs.balance_rate import cranks
 from optimizer.outputs.peaks import of_customary
 from schemas.answer.answers import BalanceRate, Certificate
@@ -42,6 +43,7 @@ _FRAGILE = 0.5
 _CANCELLED = 1e-9
 
 
+@record
 @dataclass(frozen=True)
 class Evidence:
     """What there is to look at."""

@@ -13,7 +13,7 @@ from optimizer.mechanics.inertia import Wrench
 from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.output import Columns, Output
-from optimizer.outputs.phasors import Polar, orders_of, vectors_of
+from optimizer.outputs.phasors import Polars, orders_of, vectors_of
 from optimizer.responses.response import Phasors
 from schemas.answer.first_order import FirstOrder, Floor, Residual, ResponseChange, ResponsePeak
 from schemas.answer.outputs import Hodograph, Hodographs
@@ -44,7 +44,7 @@ FIRST_ORDER_EFFECTS = ("rotating_inertia", "reciprocating_inertia")
 def first_order(wrench: Wrench) -> FirstOrder:
     """Ellipses of force [N] and moment [N m] of one machine."""
     vectors = vectors_of([wrench])
-    return FirstOrder.model_validate(_ellipses(vectors, Polar.of(vectors))[0])
+    return FirstOrder.model_validate(_ellipses(Polars.of(vectors))[0])
 
 
 def floor(layout: Layout, wrench: Wrench) -> Floor:
@@ -121,10 +121,9 @@ def residual(scene: Prepared, unbalance: Complex | None) -> Residual:
     """First order of one machine without and with counterweights, and the second beside it."""
     shown = [scene.first_order()] if unbalance is None else [scene.first_order(), scene.first_order(unbalance)]
     second = _second_order(scene, [False] if unbalance is None or scene.shafts is None else [False, True])
-    vectors = vectors_of([*shown, *second])
-    polars, count = Polar.of(vectors), len(shown)
+    polars, count = Polars.of(vectors_of([*shown, *second])), len(shown)
     told = orders_of([1] * count + [2] * len(second), polars)
-    first, twice, ellipses = told[:count], told[count:], _ellipses(vectors[:count], polars[:count])
+    first, twice, ellipses = told[:count], told[count:], _ellipses(polars.first(count))
     # one validation of the whole takes a third of the time of one of each part
     return Residual.model_validate(
         {
@@ -172,26 +171,29 @@ def _hodograph(force: Complex, moment: Complex) -> Hodograph:
     )
 
 
-def _ellipses(vectors: Complex, polars: Sequence[Sequence[Polar]]) -> list[dict[str, dict[str, float]]]:
-    """Fields of the ellipses (:class:`schemas.answer.first_order.FirstOrder`) of the phasors of wrenches (n, 2, 2).
+def _ellipses(polars: Polars) -> list[dict[str, dict[str, float]]]:
+    """Fields of the ellipses (:class:`schemas.answer.first_order.FirstOrder`) of n wrenches.
 
     Each figure is that of :class:`optimizer.responses.response.Phasors`, from parts that several figures share.
     """
+    vectors = polars.vectors
     along = np.abs(vectors[..., 0] + _SQUARES * np.conj(vectors[..., 1])).tolist()
     return [
         {name: _ellipse(fields, *figures) for (name, fields), *figures in zip(_FIELDS, *of_wrench, strict=True)}
-        for of_wrench in zip(polars, *along, strict=True)
+        for of_wrench in zip(polars.sizes.tolist(), polars.phases.tolist(), *along, strict=True)
     ]
 
 
-def _ellipse(fields: Sequence[str], polar: Polar, along_x: float, along_y: float) -> dict[str, float]:
-    (co, counter), (of_co, of_counter) = polar.sizes, polar.phases
+def _ellipse(
+    fields: Sequence[str], sizes: Sequence[float], phases: Sequence[float], along_x: float, along_y: float
+) -> dict[str, float]:
+    co, counter = sizes
     # as :attr:`optimizer.responses.response.Phasors.major_axis_deg`
-    axis = math.degrees(0.5 * (of_co + of_counter)) % 180.0
+    axis = math.degrees(0.5 * (phases[0] + phases[1])) % 180.0
     figures = (
         co + counter,
         abs(co - counter),
-        axis if polar.co and polar.counter and axis < 180.0 else 0.0,
+        axis if co and counter and axis < 180.0 else 0.0,
         along_x,
         along_y,
         co,

@@ -4,7 +4,7 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.first_order import FIRST_ORDER_EFFECTS
 from optimizer.outputs.output import Columns, Output
-from optimizer.outputs.phasors import Polar, orders_of, vectors_of
+from optimizer.outputs.phasors import Polars, orders_of, vectors_of
 from schemas.answer.outputs import OrdersComparison
 
 
@@ -12,7 +12,7 @@ def orders(scene: Prepared, unbalance: Complex | None) -> OrdersComparison:
     """Orders 1, 2, 4 and 6 of one machine."""
     sets = [scene.orders(None)] if unbalance is None else [scene.orders(None), scene.orders(unbalance)]
     numbers, wrenches = zip(*(pair for wrenches in sets for pair in wrenches.items()), strict=True)
-    every, count = orders_of(numbers, Polar.of(vectors_of(wrenches))), len(sets[0])
+    every, count = orders_of(numbers, Polars.of(vectors_of(wrenches))), len(sets[0])
     return OrdersComparison.model_validate(
         {"before": tuple(every[:count]), "after": None if unbalance is None else tuple(every[count:])}
     )

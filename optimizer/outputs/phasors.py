@@ -1,6 +1,5 @@
 """Co- and counter-rotating phasors of one order as an answer holds them."""
 
-import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
@@ -9,33 +8,25 @@ import numpy as np
 from optimizer.mechanics.inertia import Wrench
 from optimizer.numerics.arrays import Complex, Real
 
-#: of an order: its vectors, what their phasors are told by, and their peak
-_FIELDS = tuple(
-    (name, (f"real_{unit}", f"imag_{unit}", f"magnitude_{unit}", "phase_deg"), f"peak_{unit}")
-    for name, unit in (("force", "N"), ("moment", "Nm"))
-)
+#: what the phasors of a force [N] and of a moment [N m] are told by
+_OF_FORCE, _OF_MOMENT = ((f"real_{unit}", f"imag_{unit}", f"magnitude_{unit}", "phase_deg") for unit in ("N", "Nm"))
 
 
-class Polar(NamedTuple):
-    """A pair of phasors of a force [N] or a moment [N m], with what every figure of them is made of."""
+class Polars(NamedTuple):
+    """Phasors of n wrenches as :func:`vectors_of`, with what every figure of them is made of."""
 
-    co: complex
-    counter: complex
-    sizes: Sequence[float]  # of both
-    phases: Sequence[float]  # of both, rad
+    vectors: Complex  # (n, 2, 2) of force [N] and moment [N m] that which turns with the shaft, and the other
+    sizes: Real  # (n, 2, 2) of these, as are the next
+    phases: Real  # rad
 
     @classmethod
-    def of(cls, vectors: Complex) -> "list[list[Polar]]":
-        """Force and moment of each of n wrenches, of phasors (n, 2, 2) as :func:`vectors_of`."""
-        parts = zip(vectors.tolist(), np.abs(vectors).tolist(), _phases(vectors).tolist(), strict=True)
-        return [
-            [cls(co, counter, sizes, phases) for (co, counter), sizes, phases in zip(*of_wrench, strict=True)]
-            for of_wrench in parts
-        ]
+    def of(cls, vectors: Complex) -> "Polars":
+        """Those of some phasors."""
+        return cls(vectors, np.abs(vectors), np.arctan2(vectors.imag, vectors.real))
 
-
-def _phases(vectors: Complex) -> Real:
-    return np.arctan2(vectors.imag, vectors.real)
+    def first(self, count: int) -> "Polars":
+        """Those of the first wrenches."""
+        return Polars(self.vectors[:count], self.sizes[:count], self.phases[:count])
 
 
 def vectors_of(wrenches: Sequence[Wrench]) -> Complex:
@@ -44,37 +35,33 @@ def vectors_of(wrenches: Sequence[Wrench]) -> Complex:
     return np.array(vectors, dtype=complex).reshape(-1, 2, 2)
 
 
-def orders_of(numbers: Sequence[int], polars: Sequence[Sequence[Polar]]) -> list[dict[str, Any]]:
+def orders_of(numbers: Sequence[int], polars: Polars) -> list[dict[str, Any]]:
     """Fields of orders (:class:`schemas.answer.outputs.Order`) of force [N] and moment [N m] of one machine.
 
     Parameters
     ----------
     polars : of the wrenches of these orders.
     """
+    vectors, sizes, phases = polars
+    figures = np.empty((*vectors.shape, 4))
+    figures[..., 0], figures[..., 1] = vectors.real, vectors.imag
+    figures[..., 2], figures[..., 3] = np.hypot(vectors.real, vectors.imag), np.rad2deg(phases)
+    # nothing has no direction
+    figures[..., 3][vectors == 0] = 0.0
+    peaks = (sizes[..., 0] + sizes[..., 1]).tolist()
     return [
-        {"order": number}
-        | {
-            name: _order(polar, of_phasor, of_peak)
-            for (name, of_phasor, of_peak), polar in zip(_FIELDS, both, strict=True)
+        {
+            "order": number,
+            "force": {
+                "co_rotating": dict(zip(_OF_FORCE, force[0], strict=True)),
+                "counter_rotating": dict(zip(_OF_FORCE, force[1], strict=True)),
+                "peak_N": peak_force,
+            },
+            "moment": {
+                "co_rotating": dict(zip(_OF_MOMENT, moment[0], strict=True)),
+                "counter_rotating": dict(zip(_OF_MOMENT, moment[1], strict=True)),
+                "peak_Nm": peak_moment,
+            },
         }
-        for number, both in zip(numbers, polars, strict=True)
+        for number, (force, moment), (peak_force, peak_moment) in zip(numbers, figures.tolist(), peaks, strict=True)
     ]
-
-
-def _order(polar: Polar, of_phasor: tuple[str, str, str, str], of_peak: str) -> dict[str, Any]:
-    of_co, of_counter = polar.phases
-    return {
-        "co_rotating": _phasor(polar.co, of_co, of_phasor),
-        "counter_rotating": _phasor(polar.counter, of_counter, of_phasor),
-        of_peak: polar.sizes[0] + polar.sizes[1],
-    }
-
-
-def _phasor(vector: complex, phase: float, fields: tuple[str, str, str, str]) -> dict[str, float]:
-    real, imag, magnitude, phase_deg = fields
-    return {
-        real: vector.real,
-        imag: vector.imag,
-        magnitude: abs(vector),
-        phase_deg: math.degrees(phase) if vector else 0.0,
-    }

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -55,9 +56,9 @@ class Ceilings:
 def limited(ceilings: Sequence[tuple[Response, Reals]], objective: Norms, webs: int) -> Ceilings:
     """Ceilings on responses beside an objective."""
     leading = objective.constant.shape[:-1]
-    none = Norms(np.zeros((*leading, 0), complex), np.zeros((*leading, 0, webs)))
     if not ceilings:
-        return Ceilings((), none, np.zeros((*leading, 0)), np.zeros((*leading, 0)), scenarios=())
+        return no_ceilings(leading, webs)
+    none = no_ceilings(leading, webs).norms
     terms = [Norms(response.baseline.co[..., None], response.influence[..., None, :]) for response, _ in ceilings]
     norms = join([none, *terms])
     # Peak = |f| + |b| <= ceiling is |f| <= ceiling - |b|
@@ -74,3 +75,11 @@ def limited(ceilings: Sequence[tuple[Response, Reals]], objective: Norms, webs: 
     size = np.where(size > SMALLEST, size, norms.largest_influence * called_for[..., None])
     size, scenarios = np.where(size > SMALLEST, size, 1.0), tuple(response.scenario for response, _ in ceilings)
     return Ceilings(tuple(response.name for response, _ in ceilings), norms, cap, size, scenarios=scenarios)
+
+
+# of no numbers, so that nobody can write to any
+@lru_cache(maxsize=128)
+def no_ceilings(leading: tuple[int, ...], webs: int) -> Ceilings:
+    """None on programs of these axes."""
+    norms = Norms(np.zeros((*leading, 0), complex), np.zeros((*leading, 0, webs)))
+    return Ceilings((), norms, np.zeros((*leading, 0)), np.zeros((*leading, 0)), scenarios=())

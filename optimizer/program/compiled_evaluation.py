@@ -5,14 +5,14 @@ An answer asks for a handful of numbers many times: a loop of simple operations 
 
 import math
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import cache
 from itertools import dropwhile
 from types import ModuleType
 from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, in_order, merged, spread
+from optimizer.numerics.arrays import Complex, Real, in_order, merged, of_programs_of, spread
 from optimizer.numerics.records import record
 from optimizer.program.limits import Limits, Region
 
@@ -284,7 +284,7 @@ def flat(
     if others != (leading, leading, leading):
         leading = np.broadcast_shapes(leading, *others)
     (terms, webs), rows = influence.shape[-2:], floor.shape[-1]
-    of_programs, none = partial(merged, leading), np.empty((math.prod(leading), terms, 0))
+    of_programs, none = of_programs_of(leading), np.empty((math.prod(leading), terms, 0))
     plain = influence.dtype == float
     cap = of_programs(ceilings[0], 1)
     return Flat(

@@ -3,13 +3,13 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import cache
 from types import ModuleType
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, columns, mapped, merged, plain, spread
+from optimizer.numerics.arrays import Complex, Real, columns, mapped, of_programs_of, plain, spread
 from optimizer.numerics.records import record
 from optimizer.program.equal_castings import Alike
 
@@ -103,7 +103,7 @@ class Limits:
 
     def region(self, leading: tuple[int, ...]) -> Region:
         """The same of programs of these axes, for compiled loops."""
-        of_programs, alike = partial(merged, leading), self.alike
+        of_programs, alike = of_programs_of(leading), self.alike
         if alike is None:
             own: tuple[np.ndarray, ...] = np.empty((math.prod(leading), 0), complex), *_NONE_ALIKE
         else:

@@ -2,11 +2,13 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
 from optimizer.numerics.arrays import SMALLEST, Real, Reals, total
+from optimizer.numerics.records import record
 from optimizer.program.ceilings import limited
 from optimizer.program.limits import Limits
 from optimizer.program.norms import Norms, join
@@ -14,6 +16,7 @@ from optimizer.program.statement import PARTS, Names, Statement, Term
 from optimizer.responses.response import Response
 
 
+@record
 @dataclass(frozen=True)
 class WeightedPeak:
     """One weighted peak over a turn, as a floor and norm terms.
@@ -42,7 +45,7 @@ def weighted_peak(response: Response, weight: Reals, weight_x: Reals = 1.0, weig
     q = np.asarray(0.5 * weight * (weight_x - weight_y))
     f, b = response.baseline.co, response.baseline.counter
     against = response.counter_influence
-    if not np.count_nonzero(q) and against is None:
+    if against is None and not (np.count_nonzero(q) if q.ndim else q):
         alone = p * f
         # what is too small to divide by is none, as in `total`
         alone = (alone * (np.abs(alone) > SMALLEST))[..., None]
@@ -80,29 +83,60 @@ def statement(groups: Sequence[Sequence[Row]], ceilings: Sequence[tuple[Response
     ceilings : responses with the largest peak allowed (...), in the units of the response.
     """
     rows = [row for group in groups for row in group]
-    peaks = [peak for row in rows for peak in row.peaks]
-    terms = [peak.norms.constant.shape[-1] for peak in peaks]
-    owner = [number for number, row in enumerate(rows) for _ in row.peaks]
-    norms = join([peak.norms for peak in peaks])
+    norms = join([peak.norms for row in rows for peak in row.peaks])
     leading = norms.constant.shape[:-1]
     floor = np.empty((*leading, len(rows)))
     for number, row in enumerate(rows):
-        floor[..., number] = sum(peak.floor for peak in row.peaks)
+        floor[..., number] = sum([peak.floor for peak in row.peaks])
+    places = _places(
+        tuple([len(group) for group in groups]),
+        tuple(
+            [
+                (row.name, tuple([(peak.name, peak.scenario, peak.norms.constant.shape[-1]) for peak in row.peaks]))
+                for row in rows
+            ]
+        ),
+    )
     return Statement(
         norms=norms,
-        row=np.array([number for number, count in zip(owner, terms, strict=True) for _ in range(count)], dtype=int),
-        group=np.array([number for number, group in enumerate(groups) for _ in group], dtype=int),
+        row=places.row,
+        group=places.group,
         floor=floor,
         ceilings=limited(ceilings, norms, limits.radius.shape[-1]),
         limits=limits,
-        names=Names(
-            tuple(
-                Term(peak.name, part, None, peak.scenario)
-                for peak, count in zip(peaks, terms, strict=True)
-                for part in PARTS[:count]
-            ),
-            tuple(row.name for row in rows),
-        ),
+        names=places.names,
+    )
+
+
+class _Places(NamedTuple):
+    """Where terms and rows of a program belong, and what they are called; nobody writes to it."""
+
+    row: np.ndarray  # (J,) of each term
+    group: np.ndarray  # (rows,)
+    names: Names
+
+
+# of the few shapes that are asked for again and again
+@lru_cache(maxsize=128)
+def _places(groups: tuple[int, ...], rows: tuple[tuple[str, tuple[tuple[str, str | None, int], ...]], ...]) -> _Places:
+    """Those of one shape.
+
+    Parameters
+    ----------
+    groups : rows of each.
+    rows : their names, and the name, the scenario and the number of terms of each of their peaks.
+    """
+    owner = [number for number, (_, peaks) in enumerate(rows) for _, _, count in peaks for _ in range(count)]
+    terms = (
+        Term(name, part, None, scenario)
+        for _, peaks in rows
+        for name, scenario, count in peaks
+        for part in PARTS[:count]
+    )
+    return _Places(
+        np.array(owner, dtype=int),
+        np.repeat(np.arange(len(groups)), groups),
+        Names(tuple(terms), tuple(name for name, _ in rows)),
     )
 
 

@@ -10,10 +10,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.records import record
 from optimizer.program.certificate import Multipliers
 from optimizer.program.statement import Statement
 
 
+@record
 @dataclass(frozen=True)
 class ShadowPrices:
     """Fall of the smallest objective per unit of each limit, >= 0; 0 where a limit does not hold it up."""

@@ -10,10 +10,10 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, variant
+from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
-from optimizer.program.ceilings import Ceilings
+from optimizer.program.ceilings import Ceilings, no_ceilings
 from optimizer.program.compiled_evaluation import Flat, flat
 from optimizer.program.limits import Limits
 from optimizer.program.norms import Norms, scalars
@@ -221,10 +221,21 @@ class Statement:
 
     def alone(self) -> "Statement":
         """One program as the only one of a leading axis (1,)."""
-        found = self._mapped(lambda array: array[None])
+        webs = self.limits.radius.shape[-1]
+        none = self.ceilings is no_ceilings((), webs)
+        found = Statement(
+            self.norms.mapped(_first),
+            self.row,
+            self.group,
+            self.floor[None],
+            no_ceilings((1,), webs) if none else self.ceilings.mapped(_first),
+            self.limits.mapped(_first),
+            self.names,
+        )
         # what is known of it is not found out again
-        known = {"at_rest": self.at_rest[None], "single_reach": self.single_reach[None]}
-        vars(found).update(known, flat=variant(self.flat, leading=(1,)))
+        known = vars(found)
+        known["at_rest"], known["single_reach"] = self.at_rest[None], self.single_reach[None]
+        known["flat"] = Flat((1,), self.flat.programs)
         return found
 
     def chosen(self, programs: "int | tuple[int, ...] | np.ndarray") -> "Statement":
@@ -248,3 +259,8 @@ class Statement:
             self.limits.mapped(function),
             self.names,
         )
+
+
+def _first(array: np.ndarray) -> np.ndarray:
+    """The same numbers as the first of a leading axis (1,)."""
+    return array[None]

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, Reals, spread
+from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, ceiling_allowance
 from optimizer.program.points import points_at
@@ -37,6 +38,7 @@ CONTRADICTED = "Nothing is proven: a bound contradicts the answer, which is a fa
 INFEASIBLE = "Proven infeasible: no counterweights within the limits keep the ceilings."
 
 
+@record
 @dataclass(frozen=True)
 class Verdict:
     """What is proven of answers; NaN where nothing is."""
@@ -51,6 +53,7 @@ class Verdict:
     mass_yardstick: Real  # (...) kg
 
 
+@record
 @dataclass(frozen=True)
 class Claim:
     """Goals that were made small, with what is proven: nothing is below the bounds in all of them.
@@ -112,9 +115,10 @@ def verdict(claim: Claim, tolerance: float) -> Verdict:
     """
     over = claim.lower_bound - claim.value
     # of several goals the bound is a corner below which nothing is in all of them
-    false = np.logical_and.reduce(over > claim.rounding, axis=-1) | claim.contradicted
+    false = _conjunction(over > claim.rounding) | claim.contradicted
     bound, gap = np.minimum(claim.lower_bound, claim.value), np.maximum(-over, 0.0)
-    relative = np.maximum.reduce(relative_gap(gap, claim.yardstick), axis=-1)
+    relative = relative_gap(gap, claim.yardstick)
+    relative = relative[..., 0] if relative.shape[-1] == 1 else np.maximum.reduce(relative, axis=-1)
     mass_yardstick, kept = np.maximum(claim.mass, claim.mass_resolution), claim.excess <= CEILING_TOLERANCE
     if claim.mass_lower_bound is None:
         mass_bound, mass_gap, light = np.zeros_like(claim.mass), np.zeros_like(claim.mass), np.ones_like(false)
@@ -146,6 +150,11 @@ def verdict(claim: Claim, tolerance: float) -> Verdict:
         np.where(false, np.nan, mass_gap),
         mass_yardstick,
     )
+
+
+def _conjunction(of_goals: np.ndarray) -> np.ndarray:
+    """Whether something is so of all goals (...); mostly there is one."""
+    return of_goals[..., 0] if of_goals.shape[-1] == 1 else np.logical_and.reduce(of_goals, axis=-1)
 
 
 def relative_gap(gap: Real, yardstick: Real) -> Real:

@@ -114,17 +114,17 @@ def shadow_prices(
         *_of_limited(objective, cuts, prices.ceiling[first:]),
     )
     return tuple(
-        ShadowPrice(
-            limit=limit.limit,
-            web=limit.web,
-            # where a whole limit is worth less than the gap its price cannot be told from 0; a limit of 0 has a price
-            value=limit.price * omega_squared / quantity.weight
-            if limit.size == 0.0 or limit.price * limit.size > gap
-            else 0.0,
-            unit=_UNITS[f"{quantity.unit}/{limit.unit}"],
-        )
-        for limit in limits
-        if limit.limit in active[limit.web] or limit.price * limit.size > _WORTH * at_rest
+        [
+            ShadowPrice(
+                limit=limit,
+                web=web,
+                # where a whole limit is worth less than the gap its price cannot be told from 0; a limit of 0 has one
+                value=price * omega_squared / quantity.weight if size == 0.0 or price * size > gap else 0.0,
+                unit=_UNITS[f"{quantity.unit}/{unit}"],
+            )
+            for limit, web, price, size, unit in limits
+            if limit in active[web] or price * size > _WORTH * at_rest
+        ]
     )
 
 

@@ -14,6 +14,7 @@ import numpy as np
 
 from optimizer.formulation.limits import largest_mass
 from optimizer.numerics.arrays import Complex, Real, Reals
+from optimizer.numerics.records import record
 from optimizer.program.certificate import Multipliers, budget_price, normalised, nothing_proven, together
 from optimizer.program.statement import Statement
 from schemas.answer.proof import BoundMultipliers
@@ -25,6 +26,7 @@ _INSIDE = 1.0 - 4 * np.finfo(float).eps
 Bounded = Literal["objective", "mass", "parameter"]
 
 
+@record
 @dataclass(frozen=True)
 class PhysicalMultipliers:
     """Multipliers in N, N m and kg; leading axes are programs."""
@@ -89,9 +91,10 @@ def physical_bounds(
     for n, name in enumerate(bounds):
         priced[n] = name == "objective"
     statement.flat.printed(priced, factor, _INSIDE, found.parts)
+    spent, nothing = np.count_nonzero(ends), np.zeros(ends.shape)
     for n, (name, multipliers) in enumerate(bounds.items()):
-        if not np.count_nonzero(ends):
-            budget = np.zeros(ends.shape)
+        if not spent:
+            budget = nothing
         elif name == "objective":
             budget = budget_price(statement, found.chosen(n), 0.0) * omega_squared
         else:

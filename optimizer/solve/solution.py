@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from optimizer.formulation.balance_shafts import Fitted
 from optimizer.formulation.simulation import Prepared
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.records import record
 from optimizer.program.certificate import Multipliers as MultipliersOfProgram
 from optimizer.program.certificate import nothing_proven
 from optimizer.program.cuts.optimum import CertifiedOptimum
@@ -27,6 +28,7 @@ from schemas.answer.proof import BoundMultipliers
 from schemas.machine.machine import Machine
 
 
+@record
 @dataclass(frozen=True)
 class Solution:
     """Counterweights as they are fitted, and what is proven of them."""
@@ -149,7 +151,14 @@ def certificate(
     multipliers : as of :meth:`Proofs.named`.
     """
     return Certificate.model_validate(
-        {name: value if isinstance(value, str) else finite_or_null(value) for name, value in figures.items()}
+        {
+            name: value
+            if value is None or isinstance(value, str)
+            else number
+            if math.isfinite(number := float(value))
+            else None
+            for name, value in figures.items()
+        }
         | {
             "implied_max_mass_kg": implied_max_mass(machine, most[None])[0],
             "multipliers": multipliers,

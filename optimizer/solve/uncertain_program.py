@@ -24,6 +24,7 @@ from optimizer.mechanics.shapes import plates
 from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 from optimizer.outputs.registry import prepare
 from optimizer.outputs.requirements import effects_of_objective, missing
 from optimizer.program.cuts.cut import EXACT, Scatter
@@ -62,6 +63,7 @@ def scatter_of(tolerances: Tolerances | None) -> Scatter:
     return Scatter(float(max(ends)), tolerances.unbalance_kg_m)
 
 
+@record
 @dataclass(frozen=True)
 class MachineOfCase:
     """The machine as it is given, or that of a scenario, with reciprocating masses that scatter."""

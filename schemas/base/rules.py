@@ -44,7 +44,10 @@ class Ruled(Model):
         PydanticCustomError
             type ``cross_field``, context ``{"problems": [...]}``.
         """
-        found = [FieldProblem(path, message) for broken, path, message in self.rules() if broken]
+        found: list[FieldProblem] = []
+        for broken, path, message in self.rules():
+            if broken:
+                found.append(FieldProblem(path, message))
         if found:
             raise PydanticCustomError("cross_field", "{summary}", {"summary": found[0].message, "problems": found})
         return self

@@ -6,6 +6,7 @@ Strings are read with a table and exact decimal arithmetic, never with an evalua
 import re
 from dataclasses import dataclass
 from decimal import Context, Decimal
+from functools import lru_cache
 from typing import Any
 
 from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler
@@ -56,6 +57,8 @@ _SPACE = r"[ \t\r\n\f\v]*"
 _QUANTITY = re.compile(rf"{_SPACE}({_NUMBER}){_SPACE}([A-Za-z][A-Za-z/ ]*?){_SPACE}")
 
 
+# of one crank radius on all throws the text is read once
+@lru_cache(maxsize=1024)
 def parse_quantity(text: str, unit: str) -> float:
     """Value of ``text`` such as ``"140 mm"`` in ``unit``, correctly rounded.
 

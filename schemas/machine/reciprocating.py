@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from functools import reduce
+from itertools import pairwise
 from operator import or_
 from typing import Annotated, Literal
 
@@ -98,7 +99,8 @@ class ReciprocatingMachine(Rotor):
             yield Rule(True, ("throws",), f"all throws together must hold at most {MAX_ROWS_TOGETHER} rows")
         yield from unique_names(("throws",), [throw.name for throw in self.throws])
         for t, throw in enumerate(self.throws):
-            yield from _throw_rules(("throws", t), throw, 1.0 if self.rotation == "ccw" else -1.0)
+            if throw.rows:
+                yield from _throw_rules(("throws", t), throw, 1.0 if self.rotation == "ccw" else -1.0)
         for k, web in enumerate(self.webs):
             beyond = web.throw is not None and web.throw >= len(self.throws)
             if beyond is not False:
@@ -106,16 +108,21 @@ class ReciprocatingMachine(Rotor):
         if self.friction is not None:
             yield from self.friction.row_rules(rows)
         if self.balance_shafts:
-            yield from self.no_envelopes("not beside balance shafts")
+            yield from self._envelope_rules()
+        if self.bearings:
+            yield from _bearing_rules(self.bearings)
+        if self.shaft_parts:
+            yield from unique_names(("shaft_parts",), [part.name for part in self.shaft_parts])
+        if self.balance_shafts:
+            yield from self._shaft_rules()
+
+    def _envelope_rules(self) -> Iterator[Rule]:
+        """Beside balance shafts nothing is cut from a plate."""
+        yield from self.no_envelopes("not beside balance shafts")
         for n, shaft in enumerate(self.balance_shafts):
             for k, web in enumerate(shaft.webs):
                 path = ("balance_shafts", n, "webs", k, "envelope")
                 yield Rule(web.envelope is not None, path, "a balance shaft's weights have a known radius")
-        if self.bearings:
-            yield from _bearing_rules(self.bearings)
-        yield from unique_names(("shaft_parts",), [part.name for part in self.shaft_parts])
-        if self.balance_shafts:
-            yield from self._shaft_rules()
 
     def _shaft_rules(self) -> Iterator[Rule]:
         """Rules of the balance shafts."""
@@ -144,14 +151,16 @@ def no_balance_shafts(machine: Rotor, path: Path, what: str) -> Iterator[Rule]:
 
 
 def _throw_rules(path: Path, throw: Throw, sense: float) -> Iterator[Rule]:
-    yield from unique_names((*path, "rows"), [row.name for row in throw.rows])
+    if len(throw.rows) > 1:
+        yield from unique_names((*path, "rows"), [row.name for row in throw.rows])
     for i, row in enumerate(throw.rows):
-        if row.connecting_rod is not None and row.connecting_rod.length_m is not None:
-            short = row.connecting_rod.length_m <= throw.crank_radius_m
+        rod, cylinder = row.connecting_rod, row.cylinder
+        if rod is not None and rod.length_m is not None:
+            short = rod.length_m <= throw.crank_radius_m
             if short is not False:
                 message = "the connecting rod must be longer than the crank radius"
                 yield Rule(short, (*path, "rows", i, "connecting_rod", "length_m"), message)
-        if row.cylinder is not None or row.cylinders:
+        if row.cylinders or (cylinder is not None and cylinder.pressure is not None):
             yield from _cylinder_rules((*path, "rows", i), throw, row, sense)
 
 
@@ -171,12 +180,15 @@ def _cylinder_rules(path: Path, throw: Throw, row: Row, sense: float) -> Iterato
 def _bearing_rules(bearings: Sequence[Bearing]) -> Iterator[Rule]:
     yield from unique_names(("bearings",), [bearing.name for bearing in bearings])
     places = [bearing.position_m for bearing in bearings]
-    extent = largest(places) + largest([-place for place in places])
+    highest, lowest = largest(places), -largest([-place for place in places])
     # nearer than this no arithmetic tells them apart
-    near = largest([1e-8 * extent, 1e-14 * largest([abs(place) for place in places])])
-    for k, place in enumerate(places):
-        coincides = reduce(or_, [abs(place - other) <= near for other in places[:k]], False)
-        if coincides is not False:
-            yield Rule(coincides, ("bearings", k, "position_m"), "another bearing is in this plane")
+    near = largest([1e-8 * (highest - lowest), 1e-14 * largest([abs(highest), abs(lowest)])])
+    # of numbers neighbours tell whether any two coincide
+    order = sorted(places) if type(near) is float else places
+    if order is places or any(other - place <= near for place, other in pairwise(order)):
+        for k, place in enumerate(places):
+            coincides = reduce(or_, [abs(place - other) <= near for other in places[:k]], False)
+            if coincides is not False:
+                yield Rule(coincides, ("bearings", k, "position_m"), "another bearing is in this plane")
     if len(places) == 1:
         yield Rule(True, ("bearings",), "a shaft needs at least two bearings")

@@ -124,10 +124,13 @@ class Rotor(Ruled):
         """What counterweights are chosen from; None is any mass at any angle."""
         if self.catalogue is not None or self.max_counterweights is not None:
             return "discrete"
-        webs = [web for web in self.webs if not CHOSEN.isdisjoint(web.model_fields_set)]
-        if any(map(stated, webs)):
-            return "discrete"
-        return "semicontinuous" if any(web.min_fitted_mass_kg is not None for web in webs) else None
+        least = False
+        for web in self.webs:
+            if not CHOSEN.isdisjoint(web.__pydantic_fields_set__):
+                if stated(web):
+                    return "discrete"
+                least = least or web.min_fitted_mass_kg is not None
+        return "semicontinuous" if least else None
 
     @property
     def discrete(self) -> bool:
@@ -141,7 +144,8 @@ class Rotor(Ruled):
 
     def rules(self) -> Iterator[Rule]:
         yield from unique_names(("webs",), [web.name for web in self.webs])
-        yield from unique_names(("unbalances",), [unbalance.name for unbalance in self.unbalances])
+        if self.unbalances:
+            yield from unique_names(("unbalances",), [unbalance.name for unbalance in self.unbalances])
         if self.overspeed_rpm is not None:
             slower = self.overspeed_rpm < self.speed_rpm
             yield Rule(slower, ("overspeed_rpm",), "must be at least speed_rpm")

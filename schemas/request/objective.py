@@ -165,7 +165,8 @@ class Objective(Ruled):
     @property
     def of_the_shaft(self) -> bool:
         """Whether bearing loads or bending moments count."""
-        return of_the_shaft(self.over_the_turn)
+        names = self.over_the_turn
+        return bool(names) and of_the_shaft(names)
 
     @property
     def over_the_turn(self) -> tuple[str, ...]:
@@ -178,7 +179,8 @@ class Objective(Ruled):
     @property
     def of_the_revolution(self) -> tuple[str, ...]:
         """Those of them that need the motion of the rods: goals of the first order in their order need none."""
-        return tuple(name for name in self.over_the_turn if name != "priorities")
+        names = self.over_the_turn
+        return tuple(name for name in names if name != "priorities") if names else names
 
     def rules(self) -> Iterator[Rule]:
         external = self.roll_weight != 0

@@ -67,3 +67,10 @@ def test_angle_of_a_direction_analytic(angle: float) -> None:
 def test_angle_of_special_vectors() -> None:
     vectors = np.array([0, 1, 1j, -1, -1j, complex(1.0, -1e-300), complex(-1.0, -0.0)])
     assert np.array_equal(angle_deg(vectors), [0.0, 0.0, 90.0, 180.0, 270.0, 0.0, 180.0])
+
+
+@given(st.lists(st.floats(-1e6, 1e6) | st.sampled_from([30.0, 45.0, -45.0, 90.0, 150.0]), min_size=1, max_size=16))
+def test_few_angles_have_the_directions_of_many_to_the_last_bit(angles: list[float]) -> None:
+    """Independent: few are turned one by one, in plain numbers, many as an array."""
+    many = direction(np.array([angles]))[0]
+    assert direction(np.array(angles)).tobytes() == many.tobytes()

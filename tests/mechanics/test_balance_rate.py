@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
+from optimizer.mechanics import crank_of_web
 from optimizer.mechanics.balance_rate import balance_rates, customary, web_shares
+from tests.builders import inline, machine, web
 
 
 def test_a_published_crank() -> None:
@@ -48,3 +50,12 @@ def test_next_to_nothing_has_no_rate() -> None:
     rates = balance_rates(np.array([0.0, 2.8e-314, 1e-200]), np.ones((3, 1)) / 3.0, np.array([-3e-200 + 0j]))
     assert np.isnan(rates[:2]).all()
     assert rates[2] == pytest.approx(1.0)
+
+
+def test_machines_that_differ_in_a_place_have_webs_of_their_own() -> None:
+    """Analytic: what is kept of one machine is not that of another."""
+    throws = inline([0, 180], [0.3, -0.3])
+    for place, own, shares in ((0.25, 0, [1, 0]), (-0.25, 1, [0, 1]), (0.0, None, [0.5, 0.5])):
+        one = machine(*throws, webs=[web("a", place)])
+        assert crank_of_web.own_throws(one) == (own,)
+        assert crank_of_web.shares(one)[:, 0].tolist() == shares

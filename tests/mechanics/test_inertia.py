@@ -10,6 +10,7 @@ from optimizer.mechanics.inertia import (
     first_order_responses,
     reciprocating,
     reciprocating_forces,
+    reciprocating_orders,
     rotating,
 )
 from optimizer.mechanics.layout import layout
@@ -232,3 +233,12 @@ def test_phasors_of_a_row_turn_by_its_crank_and_its_axis(seed: int, order: int) 
     size = 0.5 * rows.mass * rows.crank_radius * acceleration_harmonic(order, rows.rod_ratio)
     np.testing.assert_allclose(found.co, size * np.exp(1j * (order * crank - (order - 1) * axis)), atol=1e-12)
     np.testing.assert_allclose(found.counter, size * np.exp(1j * ((order + 1) * axis - order * crank)), atol=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_orders_summed_together_are_those_of_each_alone_to_the_last_bit(seed: int) -> None:
+    """Independent: an answer sums the first and the second at once."""
+    plan = layout(random_machine(np.random.default_rng(seed)))
+    for order, together in zip((1, 2), reciprocating_orders(plan, (1, 2)), strict=True):
+        for pair, alone in zip(together, reciprocating(plan, order), strict=True):
+            assert pair.co.tobytes() + pair.counter.tobytes() == alone.co.tobytes() + alone.counter.tobytes()

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.records import record
 from optimizer.program.cuts.cut import Pool
 from optimizer.program.cuts.empty_webs import EmptyWebs
 from optimizer.program.cuts.proof import Proof, times
@@ -58,6 +59,7 @@ class GoalLevel(NamedTuple):
         return self.proof.bound
 
 
+@record
 @dataclass(frozen=True)
 class CertifiedOptimum:
     """Counterweights with their proof; the last goal is the objective."""

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.cuts.attempts import FREELY, WITHIN, Attempt
 from optimizer.program.cuts.cut import Evaluation, Pool
@@ -61,6 +62,7 @@ class Levels:
     counted: Real  # that the bound counts with
 
 
+@record
 @dataclass(frozen=True)
 class Point:
     """Counterweights and what they come to."""

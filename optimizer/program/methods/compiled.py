@@ -197,6 +197,7 @@ def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, s
     )
 
 
+@record
 @dataclass(frozen=True)
 class _Solved:
     """Where the stages of N programs ended."""
@@ -236,8 +237,9 @@ def _solve(
     found = (method or _by_interior_point)(
         statement, reach, unit, tolerances.ceilings, least_mass, *asked, tolerances.mass
     )
-    points, dual = _physical(statement, (reach, unit), *found)
-    return _Solved(points[0], points[1], *(Multipliers(*(part[stage] for part in dual)) for stage in range(2)))
+    points, (term, row, ceiling) = _physical(statement, (reach, unit), *found)
+    proofs = Multipliers(term[0], row[0], ceiling[0]), Multipliers(term[1], row[1], ceiling[1])
+    return _Solved(points[0], points[1], *proofs)
 
 
 def _physical(

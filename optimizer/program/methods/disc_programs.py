@@ -30,7 +30,8 @@ def suits_discs(statement: Statement, least_mass: bool = True) -> np.ndarray:
     """
     norms, ceilings, limits = statement.norms, statement.ceilings.norms, statement.limits
     terms, webs = norms.constant.shape[-1], limits.radius.shape[-1]
-    simple = not any(part.scatter or any(part.scalar) or part.turned for part in (norms, ceilings))
+    simple = not (norms.scatter or ceilings.scatter or any(norms.scalar) or any(ceilings.scalar))
+    simple = simple and not (norms.turned or ceilings.turned)
     vectors = terms + ceilings.constant.shape[-1]
     if not (statement.floor.shape[-1] == 1 and simple and 0 < terms <= vectors <= _VECTORS and webs > 0):
         return np.zeros(statement.floor.shape[:-1], bool)
