@@ -73,19 +73,21 @@ class CurveSeries:
 
     def search(self, cubics: "Cubics", members: "Members", best: "Best", motion: "Motion | None") -> Complex:
         """Peaks of the curves, or of one of them in motion, from their pieces, and the curves there, at rest."""
-        from optimizer.mechanics.kernel.search import search
+        from optimizer.mechanics.kernel.whole_turn import NO_LEVELS, peaks_or_crossings
         from optimizer.responses.kernel.motion import STILL
 
-        moving = STILL if motion is None else motion
-        values: Complex = search(cubics, members, best, self.rows.packed, self.sums, self._within, moving)
+        of = self.rows.packed, self.sums, self._within, STILL if motion is None else motion
+        values: Complex = peaks_or_crossings(cubics, members, best, NO_LEVELS, *of)[0]
         return values
 
     def crossings(self, cubics: "Cubics", level: Real) -> tuple[Real, Real]:
         """Angles at which the curves cross levels (J,), and what their integrals may be off by, from their pieces."""
-        from optimizer.mechanics.kernel.crossings import crossings
+        from optimizer.mechanics.kernel.whole_turn import NO_BEST, NO_MEMBERS, peaks_or_crossings
+        from optimizer.responses.kernel.motion import STILL
 
-        found: tuple[Real, Real] = crossings(cubics, level, self.rows.packed, self.sums, self._within)
-        return found
+        of = self.rows.packed, self.sums, self._within, STILL
+        _, angle, error = peaks_or_crossings(cubics, NO_MEMBERS, NO_BEST, level, *of)
+        return angle, error
 
     def _places(self, curve: Index, piece: Index) -> tuple[Index, Index, Real]:
         """Curves (m,), their designs, and angles rad that say which process counts, as what is compiled takes them."""

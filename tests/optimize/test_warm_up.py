@@ -10,7 +10,7 @@ import pytest
 from optimizer.choices.discrete.kernel import near_sums
 from optimizer.compile_kernels import any_limits, budgets, moving_curves, proofs
 from optimizer.compile_kernels import near_sums as sums
-from optimizer.mechanics.kernel import crossings, curves, rows, search
+from optimizer.mechanics.kernel import curves, rows, whole_turn
 from optimizer.numerics.kernel import circle, knapsack, meeting
 from optimizer.program.kernel import (
     bounds,
@@ -75,9 +75,8 @@ def test_what_is_compiled_is_what_answers_need() -> None:
         cancelling: ("least_changes",),
         disc_forms: ("forms", "scales"),
         rows: ("row_functions",),
-        crossings: ("crossings",),
         curves: ("sums_of_rows",),
-        search: ("search",),
+        whole_turn: ("peaks_or_crossings",),
         knapsack: ("filled",),
         circle: ("smallest",),
         of_curves: ("circles", "farthest", "nearer", "outlines"),
