@@ -51,10 +51,10 @@ class CurveSeries:
 
         nothing = repeat((NOTHING, None))
         each = (nothing if one is None else one.functions(self._pressed) for one in (points, bounds))
-        found = []
+        found, order = [], -1 if bounds is None else bounds.order
         for (at, place), (over, other) in zip(*each, strict=False):
             wide = compact(half[:, place or other])
-            of = self._every, at, over, np.arange(len(wide)), wide.shape[1], wide
+            of = self._every, at, over, order, np.arange(len(wide)), wide.shape[1], wide
             found.append(sums_of_rows(self.rows.packed, self.sums, *of))
         if len(found) == 1:
             return found[0]
@@ -114,7 +114,7 @@ class CurveSeries:
         functions = row_functions(rows, places, order, self._pressed, ALL_ROWS)
         wide = np.empty((curve.size, 1))
         wide.fill(1.0)
-        found: Complex = sums_of_rows(rows, self.sums, curve, functions, NOTHING, design, 1, wide)[0][:, 0]
+        found: Complex = sums_of_rows(rows, self.sums, curve, functions, NOTHING, -1, design, 1, wide)[0][:, 0]
         return found
 
     @cached_property
