@@ -73,7 +73,8 @@ class RowSeries:
             yield functions, place
 
     def _made(self, pressed: bool) -> "Iterator[tuple[Functions, slice]]":
-        from optimizer.mechanics.kernel.rows import ALL_ROWS, Places, row_functions
+        from optimizer.mechanics.kernel.entry import FUNCTIONS, over_turn
+        from optimizer.mechanics.kernel.rows import Functions, Places
 
         rows, angles = self.data.packed, self.centre.shape[1]
         # the pressures may differ between designs that have all else in common
@@ -94,7 +95,8 @@ class RowSeries:
                 NO_WIDTHS if half is None else _flat(half[:, place]),
                 some if within is centre else _flat(within[:, place]),
             )
-            yield row_functions(rows, places, self.order, pressed, ALL_ROWS), place
+            made = over_turn(FUNCTIONS, rows, places=places, order=self.order, pressed=pressed)[0]
+            yield Functions(*made), place
 
     @cached_property
     def _memo(self) -> "dict[bool, Functions]":

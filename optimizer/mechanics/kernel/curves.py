@@ -10,7 +10,7 @@ import numpy as np
 from optimizer.mechanics.kernel.readings import READINGS, WITHOUT_GAS, row_series
 from optimizer.mechanics.kernel.rows import Functions, Places, row_functions
 from optimizer.numerics.arrays import Complex
-from optimizer.numerics.compiling import inner, inner_with_arrays, kernel
+from optimizer.numerics.compiling import inner, inner_with_arrays
 
 #: of each reading
 _WITHOUT_GAS = np.array([reading in WITHOUT_GAS for reading in READINGS])
@@ -38,7 +38,7 @@ class Sums(NamedTuple):
     constant: Complex
 
 
-@kernel
+@inner_with_arrays
 def sums_of_rows(rows, sums, curve, points, bounds, order, design, angles, half):  # type: ignore[no-untyped-def]
     """Some curves (m,) over P angles of each of N designs (N,), m / N of each: coefficients (m, P, order + 1) in units
     of half widths (N, P); and beside bounds what these leave out (m, P), and the size (m,) of what is added up.

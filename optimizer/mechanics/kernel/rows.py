@@ -34,7 +34,7 @@ from optimizer.mechanics.kernel.row_numbers import (
 )
 from optimizer.mechanics.kernel.taylor import LANES, Series, copied
 from optimizer.numerics.arrays import Real
-from optimizer.numerics.compiling import inner_with_arrays, kernel
+from optimizer.numerics.compiling import inner_with_arrays
 
 
 class Tables(NamedTuple):
@@ -91,10 +91,6 @@ class Places(NamedTuple):
     within: Real
 
 
-#: which rows count where all do
-ALL_ROWS = np.zeros((0, 0), np.bool_)
-
-
 class Functions(NamedTuple):
     """What the forces of designs are made of: those that differ in masses, speed, friction and areas alone have them
     once.
@@ -110,7 +106,7 @@ class Functions(NamedTuple):
     way: Real
 
 
-@kernel
+@inner_with_arrays
 def row_functions(rows, places, order, pressed, counted):  # type: ignore[no-untyped-def]
     """What all readings of the rows are made of; without pressures where it is not pressed.
 
