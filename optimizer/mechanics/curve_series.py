@@ -47,15 +47,16 @@ class CurveSeries:
     def over(self, points: RowSeries | None, bounds: RowSeries | None, half: Real) -> tuple[Complex, Real, Real]:
         """Coefficients (J, P, order + 1) over the angles of series, in units of half widths (N, P); by bounds what they
         leave out (J, P), and of both the size (J,) of what is added up. Nothing of what is not given."""
-        from optimizer.mechanics.kernel.curves import NOTHING, sums_of_rows
+        from optimizer.mechanics.kernel.curves import NOTHING
+        from optimizer.mechanics.kernel.entry import SUMS, Reading, over_turn
 
-        nothing = repeat((NOTHING, None))
+        rows, nothing = self.rows.packed, repeat((NOTHING, None))
         each = (nothing if one is None else one.functions(self._pressed) for one in (points, bounds))
-        found = []
+        found, order = [], -1 if bounds is None else bounds.order
         for (at, place), (over, other) in zip(*each, strict=False):
             wide = compact(half[:, place or other])
-            of = self._every, at, over, np.arange(len(wide)), wide.shape[1], wide
-            found.append(sums_of_rows(self.rows.packed, self.sums, *of))
+            reading = Reading(self._every, np.arange(len(wide)), wide, order, wide.shape[1])
+            found.append(over_turn(SUMS, rows, self.sums, reading=reading, points=at, bounds=over)[1:])
         if len(found) == 1:
             return found[0]
         cubic, rest, size = zip(*found, strict=True)
@@ -73,19 +74,20 @@ class CurveSeries:
 
     def search(self, cubics: "Cubics", members: "Members", best: "Best", motion: "Motion | None") -> Complex:
         """Peaks of the curves, or of one of them in motion, from their pieces, and the curves there, at rest."""
-        from optimizer.mechanics.kernel.search import search
+        from optimizer.mechanics.kernel.entry import NO_LEVELS, PEAKS, Sought, over_turn
         from optimizer.responses.kernel.motion import STILL
 
         moving = STILL if motion is None else motion
-        values: Complex = search(cubics, members, best, self.rows.packed, self.sums, self._within, moving)
-        return values
+        sought = Sought(cubics, members, best, NO_LEVELS, self._within, moving)
+        return over_turn(PEAKS, self.rows.packed, self.sums, sought=sought)[1][:, 0, 0]
 
     def crossings(self, cubics: "Cubics", level: Real) -> tuple[Real, Real]:
         """Angles at which the curves cross levels (J,), and what their integrals may be off by, from their pieces."""
-        from optimizer.mechanics.kernel.crossings import crossings
+        from optimizer.mechanics.kernel.entry import CROSSINGS, NO_BEST, NO_MEMBERS, Sought, over_turn
+        from optimizer.responses.kernel.motion import STILL
 
-        found: tuple[Real, Real] = crossings(cubics, level, self.rows.packed, self.sums, self._within)
-        return found
+        sought = Sought(cubics, NO_MEMBERS, NO_BEST, level, self._within, STILL)
+        return over_turn(CROSSINGS, self.rows.packed, self.sums, sought=sought)[2:]
 
     def _places(self, curve: Index, piece: Index) -> tuple[Index, Index, Real]:
         """Curves (m,), their designs, and angles rad that say which process counts, as what is compiled takes them."""
@@ -104,16 +106,14 @@ class CurveSeries:
         )
 
     def _at(self, curve: Index, design: Index, angle: Real, within: Real, order: int) -> Complex:
-        from optimizer.mechanics.kernel.curves import NOTHING, sums_of_rows
-        from optimizer.mechanics.kernel.rows import ALL_ROWS, Places, row_functions
+        from optimizer.mechanics.kernel.entry import BOTH, Reading, over_turn
+        from optimizer.mechanics.kernel.rows import Places
 
-        rows = self.rows.packed
         places = Places(design, angle, NO_WIDTHS, within)
-        functions = row_functions(rows, places, order, self._pressed, ALL_ROWS)
         wide = np.empty((curve.size, 1))
         wide.fill(1.0)
-        found: Complex = sums_of_rows(rows, self.sums, curve, functions, NOTHING, design, 1, wide)[0][:, 0]
-        return found
+        reading = Reading(curve, design, wide, -1, 1)
+        return over_turn(BOTH, self.rows.packed, self.sums, places, order, self._pressed, reading)[1][:, 0]
 
     @cached_property
     def _pressed(self) -> bool:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from optimizer.mechanics.row_data import RowData, compact
-from optimizer.numerics.arrays import Real, in_order, spread
+from optimizer.numerics.arrays import Real, spread
 from optimizer.numerics.memoization import cached_property
 from optimizer.responses.piecewise_cubics import Index
 
@@ -57,26 +57,24 @@ class RowSeries:
         return np.arange(self.data.designs)
 
     def functions(self, pressed: bool) -> "Iterator[tuple[Functions, slice]]":
-        """What forces are made of, with gas where it is pressed, of some angles after the other; kept where these are
-        all."""
+        """What forces are made of, with gas where it is pressed, of some angles after the other, to the order or a
+        higher one; kept where these are all."""
+        if self.higher is not None:
+            yield from self.higher.functions(pressed)
+            return
         # with gas they serve both
         memo, every = self._memo.get(True) or self._memo.get(pressed), slice(0, self.centre.shape[1])
         if memo is not None:
             yield memo, every
             return
-        made = self._made(pressed) if self.higher is None else self._lower(self.higher.functions(pressed))
-        for functions, place in made:
+        for functions, place in self._made(pressed):
             if place == every:
                 self._memo[pressed] = functions
             yield functions, place
 
-    def _lower(self, higher: "Iterator[tuple[Functions, slice]]") -> "Iterator[tuple[Functions, slice]]":
-        for functions, place in higher:
-            middle, radius = (in_order(part[:, :, : self.order + 1]) for part in (functions.middle, functions.radius))
-            yield functions._replace(middle=middle, radius=radius), place
-
     def _made(self, pressed: bool) -> "Iterator[tuple[Functions, slice]]":
-        from optimizer.mechanics.kernel.rows import ALL_ROWS, Places, row_functions
+        from optimizer.mechanics.kernel.entry import FUNCTIONS, over_turn
+        from optimizer.mechanics.kernel.rows import Functions, Places
 
         rows, angles = self.data.packed, self.centre.shape[1]
         # the pressures may differ between designs that have all else in common
@@ -97,7 +95,8 @@ class RowSeries:
                 NO_WIDTHS if half is None else _flat(half[:, place]),
                 some if within is centre else _flat(within[:, place]),
             )
-            yield row_functions(rows, places, self.order, pressed, ALL_ROWS), place
+            made = over_turn(FUNCTIONS, rows, places=places, order=self.order, pressed=pressed)[0]
+            yield Functions(*made), place
 
     @cached_property
     def _memo(self) -> "dict[bool, Functions]":

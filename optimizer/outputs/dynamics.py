@@ -139,11 +139,11 @@ def rod_loads(scene: Prepared, _fitted: Complex | None = None) -> RodLoads:
     """Forces in the mechanism, and the load cases of every rod."""
     result = scene.results["rod_forces"]
     rod, side, tangential, radial = result.rod, result.side, result.tangential, result.radial
-    by_case = {case: of_rows(scene, reading) for case, reading in CASES.items()}
+    by_case = [_cases(case, of_rows(scene, reading)) for case, reading in CASES.items()]
     on_guide = of_rows(scene, "side").magnitude
     rows = []
     for k, labels in rows_of(scene):
-        cases = tuple(_case(case, peaks, k) for case, peaks in by_case.items())
+        cases = tuple(each[k] for each in by_case)
         worst = max(cases, key=_largest)
         rows.append(
             RowRodLoads(
@@ -238,16 +238,21 @@ def _series(values: Real) -> Any:
     return values.tolist()
 
 
-def _case(case: Case, peaks: Extremes, k: int) -> LoadCase:
-    return LoadCase(
-        case=case,
-        tension_N=max(float(peaks.high.lower[k]), 0.0),
-        tension_bracket_N=_pull(bracket(peaks.high, k)),
-        tension_deg=float(np.rad2deg(peaks.high.angle[k])),
-        compression_N=0.0 - max(float(peaks.low.lower[k]), 0.0),
-        compression_bracket_N=_negated(_pull(bracket(peaks.low, k))),
-        compression_deg=float(np.rad2deg(peaks.low.angle[k])),
-    )
+def _cases(case: Case, peaks: Extremes) -> list[LoadCase]:
+    """A load case of every row."""
+    parts = (part for way in peaks for part in (way.lower, way.upper, np.rad2deg(way.angle)))
+    return [
+        LoadCase(
+            case=case,
+            tension_N=max(high, 0.0),
+            tension_bracket_N=_pull((high, most)),
+            tension_deg=at,
+            compression_N=0.0 - max(low, 0.0),
+            compression_bracket_N=_negated(_pull((low, deepest))),
+            compression_deg=there,
+        )
+        for high, most, at, low, deepest, there in zip(*(part.tolist() for part in parts), strict=True)
+    ]
 
 
 def _pull(extremes: tuple[float, float]) -> tuple[float, float]:

@@ -32,10 +32,9 @@ AXES: dict[str, tuple[str, float, float]] = {
 _ELSE = "table, everything else"
 #: part of the work -> functions that do it; what they call belongs to the innermost part
 PARTS: dict[str, tuple[str, ...]] = {
-    "what forces are made of": ("optimizer.mechanics.kernel.rows:row_functions",),
-    "readings, curves": ("optimizer.mechanics.kernel.curves:sums_of_rows",),
+    "forces, curves, peaks": ("optimizer.mechanics.kernel.entry:over_turn",),
     "effects, integrals": ("optimizer.outputs.registry:simulated",),
-    "brackets": ("optimizer.responses.piecewise_cubics:_bracketed",),
+    "rest of the brackets": ("optimizer.responses.piecewise_cubics:_bracketed",),
 }
 
 

@@ -44,11 +44,8 @@ _ELSE = "input, mechanics, and the making of the answer"
 PARTS: dict[str, tuple[str, ...]] = {
     "rounds": ("optimizer.solve.uncertain_program:optimum",),
     "cone programs": ("optimizer.program.cuts.stage:solved",),
-    "series of the rows": (
-        "optimizer.mechanics.kernel.rows:row_functions",
-        "optimizer.mechanics.kernel.readings:row_series",
-    ),
-    "brackets": ("optimizer.responses.piecewise_cubics:_bracketed",),
+    "series of the rows, peaks": ("optimizer.mechanics.kernel.entry:over_turn",),
+    "rest of the brackets": ("optimizer.responses.piecewise_cubics:_bracketed",),
     "smallest circles": ("optimizer.outputs.bearings:floors", "optimizer.program.cuts.samples:smallest_circle"),
     "rest of the proofs": ("optimizer.solve.solve:best_of_any_mass",),
     "figures, warnings": ("optimizer.optimize:fields",),

@@ -10,7 +10,7 @@ import pytest
 from optimizer.choices.discrete.kernel import near_sums
 from optimizer.compile_kernels import any_limits, budgets, moving_curves, proofs
 from optimizer.compile_kernels import near_sums as sums
-from optimizer.mechanics.kernel import crossings, curves, rows, search
+from optimizer.mechanics.kernel import entry
 from optimizer.numerics.kernel import circle, knapsack, meeting
 from optimizer.program.kernel import (
     bounds,
@@ -74,10 +74,7 @@ def test_what_is_compiled_is_what_answers_need() -> None:
         outlines: ("worst_scaled", "worst_turned"),
         cancelling: ("least_changes",),
         disc_forms: ("forms", "scales"),
-        rows: ("row_functions",),
-        crossings: ("crossings",),
-        curves: ("sums_of_rows",),
-        search: ("search",),
+        entry: ("_over_turn",),
         knapsack: ("filled",),
         circle: ("smallest",),
         of_curves: ("circles", "farthest", "nearer", "outlines"),

@@ -6,7 +6,7 @@ Shapes: N curves of P pieces each.
 import numpy as np
 
 from optimizer.mechanics.kernel.curves import series_of_curves
-from optimizer.numerics.compiling import inner, inner_with_arrays, kernel
+from optimizer.numerics.compiling import inner, inner_with_arrays
 
 #: halvings of an interval, between which Newton's method takes over
 _STEPS = 24
@@ -16,7 +16,7 @@ _EXACT_STEPS = 5
 _VALUE = np.int64(0)
 
 
-@kernel
+@inner_with_arrays
 def crossings(cubics, level, rows, sums, middle):  # type: ignore[no-untyped-def]
     """Angles (N, n) at which curves cross levels (N,), jumps included, and what their integrals up to there may be off
     by (N,); where a curve has fewer crossings than another its angles are 0.

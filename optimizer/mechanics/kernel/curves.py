@@ -10,7 +10,7 @@ import numpy as np
 from optimizer.mechanics.kernel.readings import READINGS, WITHOUT_GAS, row_series
 from optimizer.mechanics.kernel.rows import Functions, Places, row_functions
 from optimizer.numerics.arrays import Complex
-from optimizer.numerics.compiling import inner, inner_with_arrays, kernel
+from optimizer.numerics.compiling import inner, inner_with_arrays
 
 #: of each reading
 _WITHOUT_GAS = np.array([reading in WITHOUT_GAS for reading in READINGS])
@@ -38,8 +38,8 @@ class Sums(NamedTuple):
     constant: Complex
 
 
-@kernel
-def sums_of_rows(rows, sums, curve, points, bounds, design, angles, half):  # type: ignore[no-untyped-def]
+@inner_with_arrays
+def sums_of_rows(rows, sums, curve, points, bounds, order, design, angles, half):  # type: ignore[no-untyped-def]
     """Some curves (m,) over P angles of each of N designs (N,), m / N of each: coefficients (m, P, order + 1) in units
     of half widths (N, P); and beside bounds what these leave out (m, P), and the size (m,) of what is added up.
 
@@ -47,9 +47,10 @@ def sums_of_rows(rows, sums, curve, points, bounds, design, angles, half):  # ty
     ----------
     curve : (m,) which of the curves that are sums.
     points : what forces are made of, to one order.
-    bounds : the same bounded, to an order above it. Of either there may be none, :data:`NOTHING`.
+    bounds : the same bounded, to an order above it or more. Of either there may be none, :data:`NOTHING`.
+    order : up to which bounds count, -1 where there are none.
     """
-    count, terms, order = sums.weights.shape[1], points.middle.shape[2], bounds.middle.shape[2] - 1
+    count, terms = sums.weights.shape[1], points.middle.shape[2]
     curves, share = curve.size, max(curve.size // max(design.size, 1), 1)
     cubic = np.empty((curves, angles, terms), np.complex128)
     sized = terms > 0 and order >= 0
@@ -62,8 +63,8 @@ def sums_of_rows(rows, sums, curve, points, bounds, design, angles, half):  # ty
     for reading in range(wanted.size):
         if not wanted[reading]:
             continue
-        series, _ = row_series(rows, points, design, angles, reading)
-        bound, radius = row_series(rows, bounds, design, angles, reading)
+        series, _ = row_series(rows, points, design, angles, reading, terms)
+        bound, radius = row_series(rows, bounds, design, angles, reading, order + 1)
         parts, of_lengths = max(series.shape[0], bound.shape[0]), -1
         for j in range(curves):
             if sums.reading[curve[j]] != reading:
@@ -179,7 +180,7 @@ def series_of_curves(rows, sums, middle, curve, piece, angle, half, order):  # t
         for reading in range(wanted.size):
             if not wanted[reading]:
                 continue
-            series, radius = row_series(rows, functions, design, _SINGLE, reading)
+            series, radius = row_series(rows, functions, design, _SINGLE, reading, order + 1)
             for n in range(count):
                 q = number[n] - start
                 if sums.reading[curve[n]] != reading or q < 0 or q >= stop - start:

@@ -7,10 +7,12 @@ from optimizer.mechanics.kernel.row_numbers import (
     COS,
     COS_BETA,
     COSINE,
+    CRANK_TRAVEL,
     EXPONENT,
     FALL,
     FIRST,
     FULL,
+    HEAD_TRAVEL,
     INSIDE,
     LAST,
     OVER,
@@ -21,8 +23,8 @@ from optimizer.mechanics.kernel.row_numbers import (
     SIN_SQUARED,
     SINE,
     START,
-    TRAVEL,
     UNIT,
+    VOLUME,
     WITHIN,
     ZERO,
     A,
@@ -81,8 +83,13 @@ def decide(chamber, lane, exact, side, inside, process, p):  # type: ignore[no-u
 
 
 @inner
-def cycle(series, lane, exact, process, side, cranks, out, lanes):  # type: ignore[no-untyped-def]
-    """Pressure of the four processes, Pa: constant, or a power of the volume in units of the crank radius."""
+def cycle(series, lane, exact, process, side, cranks, out, lanes, travels):  # type: ignore[no-untyped-def]
+    """Pressure of the four processes, Pa: constant, or a power of the volume in units of the crank radius.
+
+    Parameters
+    ----------
+    travels : sum of 1 and 2, whether the travel of head and crank sides is made; what it is afterwards is returned.
+    """
     start, exponent, clear, full = process[START], process[EXPONENT], process[CLEAR], process[FULL]
     f, g = lane[F], lane[G]
     moving = False
@@ -90,19 +97,23 @@ def cycle(series, lane, exact, process, side, cranks, out, lanes):  # type: igno
         moving = moving or exponent[p] > 0.0
     if not moving:
         constant(series, start, out, lanes)
-        return
-    _travel(series, lane, exact, side, cranks, lanes)
+        return travels
+    travel = HEAD_TRAVEL if side == 0 else CRANK_TRAVEL
+    if not travels & (1 + side):
+        # chambers of all rows that move alike share it
+        _travel(series, lane, exact, side, cranks, travel, lanes)
     for p in range(lanes):
         f[p], g[p] = 1.0 / full[p], clear[p] / full[p]
-    scaled(series, TRAVEL, f, g, TRAVEL, lanes)
+    scaled(series, travel, f, g, VOLUME, lanes)
     for p in range(lanes):
         f[p] = -exponent[p]
-    power(series, TRAVEL, f, out, lanes)
+    power(series, VOLUME, f, out, lanes)
     scaled(series, out, start, lane[ZERO], out, lanes)
+    return travels | (1 + side)
 
 
 @inner
-def _travel(series, lane, exact, side, cranks, lanes):  # type: ignore[no-untyped-def]
+def _travel(series, lane, exact, side, cranks, out, lanes):  # type: ignore[no-untyped-def]
     """Own travel of a chamber of one side over the crank radius."""
     middle, _, bounded = series
     ratio, short, one, f, g, h = lane[RATIO], lane[SHORT], lane[UNIT], lane[F], lane[G], lane[H]
@@ -111,15 +122,15 @@ def _travel(series, lane, exact, side, cranks, lanes):  # type: ignore[no-untype
             sign = 1.0 if side == 0 else -1.0
             for p in range(lanes):
                 f[p], g[p] = sign * 0.5 * ratio[p], -sign
-            scaled(series, SIN_SQUARED, f, one, TRAVEL, lanes)
-            summed(series, TRAVEL, COS, g, TRAVEL, lanes)
+            scaled(series, SIN_SQUARED, f, one, out, lanes)
+            summed(series, out, COS, g, out, lanes)
         elif side == 0:
             # (1 - cos beta) / lam = lam sin^2 phi / (1 + cos beta)
             scaled(series, COS_BETA, one, one, A, lanes)
             power(series, A, lane[OVER], B, lanes)
             product(series, SIN_SQUARED, B, C, lanes, ALL)
-            scaled(series, C, ratio, one, TRAVEL, lanes)
-            summed(series, TRAVEL, COS, lane[OVER], TRAVEL, lanes)
+            scaled(series, C, ratio, one, out, lanes)
+            summed(series, out, COS, lane[OVER], out, lanes)
         else:
             # what motion() leaves to the inner dead centre: nothing cancels, however near lam is to 1
             for p in range(lanes):
@@ -138,17 +149,17 @@ def _travel(series, lane, exact, side, cranks, lanes):  # type: ignore[no-untype
                 f[p] = 1.0 + ratio[p]
             scaled(series, A, one, f, A, lanes)
             power(series, A, lane[OVER], B, lanes)
-            product(series, C, B, TRAVEL, lanes, ALL)
+            product(series, C, B, out, lanes, ALL)
             for p in range(lanes):
                 f[p] = 2.0
-            scaled(series, TRAVEL, f, lane[ZERO], TRAVEL, lanes)
-    first, last, there = cranks[FIRST], cranks[LAST], middle[TRAVEL, 0]
+            scaled(series, out, f, lane[ZERO], out, lanes)
+    first, last, there = cranks[FIRST], cranks[LAST], middle[out, 0]
     if bounded:
         # a row moves one way within a piece
         for p in range(lanes):
             g[p], h[p] = _travelled(lane, exact, side, first, p), _travelled(lane, exact, side, last, p)
             g[p], h[p] = min(g[p], h[p]), max(g[p], h[p])
-        between(series, TRAVEL, g, h, lanes)
+        between(series, out, g, h, lanes)
     else:
         # where 1 - cos would cancel
         for p in range(lanes):

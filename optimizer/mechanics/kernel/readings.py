@@ -49,15 +49,15 @@ _NUMBER, _ANGLE, _DESIGN = np.arange(3)
 
 
 @inner_with_arrays
-def row_series(rows, functions, design, angles, reading):  # type: ignore[no-untyped-def]
-    """Coefficients of a force of the rows: (2, order + 1, N, R, P) at points; of enclosures the middles (2, 1, N, R, P)
-    and radii (N, R, P) of the last; P angles of each of designs (N,).
+def row_series(rows, functions, design, angles, reading, terms):  # type: ignore[no-untyped-def]
+    """The first coefficients of a force of the rows: (2, terms, N, R, P) at points; of enclosures the middles
+    (2, 1, N, R, P) and radii (N, R, P) of the last of these; P angles of each of designs (N,).
 
     The first part is along the crank, or all of a scalar; the second across it, against the sense of rotation.
     A force is the acceleration times m r omega^2, the friction and the gas, each times one function of the motion.
     Where the functions of a row are not made its numbers mean nothing.
     """
-    count, kept, terms, places = functions.middle.shape
+    count, kept, _, places = functions.middle.shape
     bounded, parts = functions.radius.shape[1] > 0, 2 if reading in (ON_SHAFT, ON_FRAME) else 1
     number, first = design.size, terms - 1 if bounded else 0
     middle = np.empty((parts, terms - first, number, count, angles))

@@ -6,8 +6,9 @@ import numpy as np
 #: all that takes it is compiled anew. The first are what readings are made of, and after them the pressures
 INERTIA, COS, SIN, TURNING, OUTWARD, SECANT = np.arange(6)
 FUNCTIONS = 6
-SIN_2, SIN_SQUARED, COS_2, COS_4, SIN_4, UPRIGHT, COS_BETA, TRAVEL, A, B, C = np.arange(FUNCTIONS, FUNCTIONS + 11)
-PRESSURES = FUNCTIONS + 11
+SIN_2, SIN_SQUARED, COS_2, COS_4, SIN_4, UPRIGHT, COS_BETA = np.arange(FUNCTIONS, FUNCTIONS + 7)
+HEAD_TRAVEL, CRANK_TRAVEL, VOLUME, A, B, C = np.arange(FUNCTIONS + 7, FUNCTIONS + 13)
+PRESSURES = FUNCTIONS + 13
 #: where cranks stand: at the angle that says which process counts, at the place or the first end of the interval, and
 #: at its other end
 INSIDE, FIRST, LAST = np.arange(3)

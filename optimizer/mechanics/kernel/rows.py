@@ -34,7 +34,7 @@ from optimizer.mechanics.kernel.row_numbers import (
 )
 from optimizer.mechanics.kernel.taylor import LANES, Series, copied
 from optimizer.numerics.arrays import Real
-from optimizer.numerics.compiling import kernel
+from optimizer.numerics.compiling import inner_with_arrays
 
 
 class Tables(NamedTuple):
@@ -91,10 +91,6 @@ class Places(NamedTuple):
     within: Real
 
 
-#: which rows count where all do
-ALL_ROWS = np.zeros((0, 0), np.bool_)
-
-
 class Functions(NamedTuple):
     """What the forces of designs are made of: those that differ in masses, speed, friction and areas alone have them
     once.
@@ -110,7 +106,7 @@ class Functions(NamedTuple):
     way: Real
 
 
-@kernel
+@inner_with_arrays
 def row_functions(rows, places, order, pressed, counted):  # type: ignore[no-untyped-def]
     """What all readings of the rows are made of; without pressures where it is not pressed.
 
@@ -128,13 +124,19 @@ def row_functions(rows, places, order, pressed, counted):  # type: ignore[no-unt
     shape = (PRESSURES + chambers, order + 1, LANES)
     series = Series(np.zeros(shape), np.zeros(shape), bounded)
     cranks, lane, process = np.zeros((3, 4, LANES)), np.zeros((NUMBERS, LANES)), np.zeros((4, LANES))
-    trig = np.zeros((8, LANES))
+    trig, repeats = np.zeros((8, LANES)), np.zeros(LANES, np.bool_)
+    alike = _alike(rows.motion)
     lane[UNIT], lane[ROOT], lane[OVER], lane[OVER_ROOT], lane[OVER_CUBE] = 1.0, 0.5, -1.0, -0.5, -1.5
     for r in range(count):
+        if alike[r] != r:
+            continue
         for first in range(0, number, LANES):
-            lanes = min(LANES, number - first)
-            if counted.size > 0 and not np.any(counted[r, first : first + lanes]):
-                way[r, first : first + lanes] = np.nan
+            lanes, some = min(LANES, number - first), counted.size == 0
+            for t in range(r, count):
+                if counted.size > 0 and alike[t] == r:
+                    some = some or np.any(counted[t, first : first + lanes])
+                    way[t, first : first + lanes] = np.nan
+            if not some:
                 continue
             for p in range(lanes):
                 q = first + p
@@ -142,8 +144,9 @@ def row_functions(rows, places, order, pressed, counted):  # type: ignore[no-unt
                 angle, within = places.centre[q] + motion[0], places.within[q] + motion[0]
                 lane[RATIO, p], lane[SHORT, p] = motion[1], motion[2] * (1.0 + motion[1])
                 lane[OWN, p], lane[WITHIN, p] = angle, within
-                if p > 0 and places.within[q] == places.within[q - 1] and designs == 1:
-                    # many places of one piece stand side by side
+                # many places of one piece stand side by side
+                repeats[p] = p > 0 and places.within[q] == places.within[q - 1] and designs == 1
+                if repeats[p]:
                     for f in range(4):
                         cranks[INSIDE, f, p] = cranks[INSIDE, f, p - 1]
                 else:
@@ -156,23 +159,51 @@ def row_functions(rows, places, order, pressed, counted):  # type: ignore[no-unt
                         cranks[FIRST, f, p] = cranks[INSIDE, f, p]
                 else:
                     crank_at(cranks[FIRST], p, angle)
-                way[r, q] = np.sign(cranks[INSIDE, SINE, p])
             move(series, lane, cranks, trig, lanes)
             accelerate(series, lane, rows.exact, lanes)
             carry(series, lane, lanes)
-            for c in range(chambers):
-                out, trace = PRESSURES + c, rows.trace[r, c]
-                if trace < 0:
-                    for p in range(lanes):
-                        one = places.design[first + p] if designs > 1 else 0
-                        decide(rows.gas[one, r, c], lane, rows.exact, c % 2, cranks[INSIDE], process, p)
-                    cycle(series, lane, rows.exact, process, c % 2, cranks, out, lanes)
-                else:
-                    indicated(series, rows.traces, places, trace, first, lane, out, lanes)
-            for f in range(FUNCTIONS + chambers):
-                made = f if f < FUNCTIONS else f - FUNCTIONS + PRESSURES
-                for k in range(order + 1):
-                    copied(series.middle[made, k], middle[r, f, k, first:], lanes)
-                    if bounded:
-                        copied(series.radius[made, k], radius[r, f, k, first:], lanes)
+            travels = 0
+            for t in range(r, count):
+                if alike[t] != r or (counted.size > 0 and not np.any(counted[t, first : first + lanes])):
+                    continue
+                for p in range(lanes):
+                    way[t, first + p] = np.sign(cranks[INSIDE, SINE, p])
+                for c in range(chambers):
+                    out, trace = PRESSURES + c, rows.trace[t, c]
+                    if trace < 0:
+                        for p in range(lanes):
+                            if repeats[p]:
+                                for f in range(4):
+                                    process[f, p] = process[f, p - 1]
+                                continue
+                            one = places.design[first + p] if designs > 1 else 0
+                            decide(rows.gas[one, t, c], lane, rows.exact, c % 2, cranks[INSIDE], process, p)
+                        travels = cycle(series, lane, rows.exact, process, c % 2, cranks, out, lanes, travels)
+                    else:
+                        indicated(series, rows.traces, places, trace, first, lane, out, lanes)
+                for f in range(FUNCTIONS + chambers):
+                    made = f if f < FUNCTIONS else f - FUNCTIONS + PRESSURES
+                    for k in range(order + 1):
+                        copied(series.middle[made, k], middle[t, f, k, first:], lanes)
+                        if bounded:
+                            copied(series.radius[made, k], radius[t, f, k, first:], lanes)
     return Functions(middle, radius, way)
+
+
+@inner_with_arrays
+def _alike(motion):  # type: ignore[no-untyped-def]
+    """Of rows of D designs (D, R, 4) the first that moves as each does in all of them, as two on opposite throws do:
+    what their motion is made of is made once."""
+    designs, count, _ = motion.shape
+    first = np.arange(count)
+    for r in range(count):
+        for t in range(r):
+            same = first[r] == r
+            for n in range(designs):
+                for k in range(4):
+                    same = same and motion[n, r, k] == motion[n, t, k]
+                if not same:
+                    break
+            if same:
+                first[r] = t
+    return first

@@ -3,7 +3,7 @@
 import numpy as np
 
 from optimizer.mechanics.kernel.curves import series_of_curves
-from optimizer.numerics.compiling import inner_with_arrays, kernel
+from optimizer.numerics.compiling import inner_with_arrays
 from optimizer.responses.kernel.motion import moved
 from optimizer.responses.kernel.parts import (
     ENOUGH,
@@ -20,7 +20,7 @@ _CENTRE, _HALF, _REST, _FOURTH = range(4)
 _VALUE, _CUBIC, _BOUND, _NONE = np.int64(0), np.int64(3), np.int64(4), np.int64(0)
 
 
-@kernel
+@inner_with_arrays
 def search(cubics, members, best, rows, sums, middle, motion):  # type: ignore[no-untyped-def]
     """Narrow all peaks until each is cubics; the curves (G,) where they are best, without offsets and at rest."""
     parts, cuts = first_open(cubics, members, best), np.int64(0)
