@@ -50,15 +50,6 @@ def opened(browser: Browser, made: Make, tmp_path: Path) -> Iterator[Callable[..
     assert seen == []
 
 
-# colours are looked at once, which is half of the time: they are the same at every width
-@pytest.mark.parametrize(("width", "contrast"), [(390, False), (1280, True)])
-def test_nothing_keeps_anybody_from_reading_it(opened: Callable[..., Page], width: int, contrast: bool) -> None:
-    page = opened("2d12", width, outputs=["torque", "main_bearings"])
-    assert page.evaluate("document.documentElement.scrollWidth") <= width
-    options = {"resultTypes": ["violations"], "rules": {"color-contrast": {"enabled": contrast}}}
-    assert Axe().run(page, options=options).response["violations"] == []
-
-
 @pytest.mark.parametrize("example", ["v8-cross-plane", "scroll-three-pins"])
 def test_it_prints_on_a4_and_light(opened: Callable[..., Page], example: str) -> None:
     page = opened(example, 1280)
@@ -71,3 +62,12 @@ def test_it_prints_on_a4_and_light(opened: Callable[..., Page], example: str) ->
     assert "Appendix: request" in "".join(sheet.extract_text() for sheet in printed.pages)
     page.emulate_media(media="print", color_scheme="dark")
     assert page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
+
+
+# colours are looked at once, which is half of the time: they are the same at every width
+@pytest.mark.parametrize(("width", "contrast"), [(390, False), (1280, True)])
+def test_nothing_keeps_anybody_from_reading_it(opened: Callable[..., Page], width: int, contrast: bool) -> None:
+    page = opened("2d12", width, outputs=["torque", "main_bearings"])
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+    options = {"resultTypes": ["violations"], "rules": {"color-contrast": {"enabled": contrast}}}
+    assert Axe().run(page, options=options).response["violations"] == []

@@ -121,11 +121,11 @@ def variants(name: str, request: Any, answer: Any) -> Iterator[tuple[Any, Any]]:
     yield _with_another_form(request, random), answer
 
 
-def judgements(name: str, request: Any, answer: Any) -> list[dict[str, Any]]:
-    """Of an answer, and of what is made up of it where that costs little."""
+def submissions(name: str, request: Any, answer: Any) -> list[tuple[Any, Any]]:
+    """An answer, and what is made up of it where that costs little; each with its request."""
     others = () if name in _DEAR else variants(name, request, answer)
     most = None if len(json.dumps(answer)) < _SHORT else _OF_LONG
-    return [judgement(request, answer), *(judgement(*each) for each in islice(others, most))]
+    return [(request, answer), *islice(others, most)]
 
 
 def _rounded(number: Any) -> float | None:
@@ -139,7 +139,11 @@ def main() -> None:
     known = {} if parser.parse_args().answers else records()
     pairs = {name: known[name] if name in known else _asked(body) for name, body in _bodies().items()}
     found = {
-        name: {**one, "judgements": judgements(name, one["request"], one["answer"])} for name, one in pairs.items()
+        name: {
+            **one,
+            "judgements": [judgement(*each) for each in submissions(name, one["request"], one["answer"])],
+        }
+        for name, one in pairs.items()
     }
     text = json.dumps(found, separators=(",", ":"))
     FILE.write_bytes(lzma.compress(text.encode(), preset=9 | lzma.PRESET_EXTREME))

@@ -4,6 +4,7 @@ Independent: the checker shares no code with what computed the answers.
 """
 
 import json
+from itertools import islice
 from typing import Any
 
 import pytest
@@ -15,7 +16,7 @@ from schemas.request.requests import OptimizeRequest
 from service.verification import checker
 from tests.pairs.asking import body_of
 from tests.verification.anything import JSON, judged, paths, replaced
-from tests.verification.checking import broken, is_broken, optimized, verdict
+from tests.verification.checking import ALL, broken, is_broken, optimized, verdict
 from tests.verification.kinds import SINGLE
 from tests.verification.tampering import beyond_limits, tampered
 
@@ -41,9 +42,11 @@ def test_the_kinds_are_what_they_say() -> None:
 
 def test_what_is_falsified_is_caught(case: tuple[dict[str, Any], dict[str, Any]]) -> None:
     body, answer = case
-    for name, wrong in tampered(answer):
+    # by day a third, of the next kind another; at night and under mutants all
+    start, step = (0, 1) if ALL else ([*SINGLE.values()].index(body) % 3, 3)
+    for name, wrong in islice(tampered(answer), start, None, step):
         assert is_broken(body, wrong), name
-    for name, tighter in beyond_limits(body, answer):
+    for name, tighter in islice(beyond_limits(body, answer), start, None, step):
         assert is_broken(tighter, answer), name
 
 

@@ -4,17 +4,22 @@ import math
 
 import pytest
 
-from tests.verification.recorded import Line, judgements, records
+from tests.verification.checking import ALL
+from tests.verification.recorded import Line, judgement, records, submissions
 
 #: a claim may be so much wider or narrower: other machines round their sines in another way
 _CLOSE = 0.004
 
 
-@pytest.mark.parametrize("name", records())
-def test_claims_are_as_wide_as_they_were(name: str) -> None:
+@pytest.mark.parametrize(("number", "name"), [*enumerate(records())], ids=[*records()])
+def test_claims_are_as_wide_as_they_were(number: int, name: str) -> None:
     record = records()[name]
-    judged = judgements(name, record["request"], record["answer"])
-    for found, recorded in zip(judged, record["judgements"], strict=True):
+    # of what is made up of an answer by day one, of the next answer the next; at night and under mutants all
+    sent = submissions(name, record["request"], record["answer"])
+    for place, (one, recorded) in enumerate(zip(sent, record["judgements"], strict=True)):
+        if place and not ALL and place != 1 + number % (len(sent) - 1):
+            continue
+        found = judgement(*one)
         differ = [pair for pair in zip(found["claims"], recorded["claims"], strict=False) if not _alike(*pair)]
         assert not differ, differ[:4]
         assert found["whole"] == recorded["whole"]
