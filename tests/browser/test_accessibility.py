@@ -15,6 +15,12 @@ PANELS = ("counterweights", "hodographs", "orders", "pareto", "torque", "main-be
 WIDE, NARROW = Look(1280, "light"), Look(390, "dark")
 
 
+@pytest.fixture
+def portal(visit: Portal) -> Portal:
+    """Nothing of another test is in what axe looks at."""
+    return visit
+
+
 @pytest.mark.parametrize(
     ("example", "options"),
     [

@@ -43,6 +43,12 @@ def _begun(portal: Portal, hand: Hand) -> Any:
     return portal.bodies("/v1/optimize")[-1]
 
 
+@pytest.fixture
+def portal(visit: Portal) -> Portal:
+    """An engineer comes for the first time."""
+    return visit
+
+
 @pytest.mark.parametrize(
     "within", [pytest.param("#answer .document, #form [data-pointer='/machine/catalogue']", id="its own"), whole]
 )
