@@ -13,6 +13,8 @@ from urllib.parse import urlsplit
 from playwright.sync_api import ConsoleMessage, Locator, Page, Request
 
 ARTEFACTS = Path(__file__).parents[2] / "artefacts" / "portal"
+#: ``SCREENSHOTS=1``: a picture of the whole page costs as much as to draw it
+PICTURES = bool(os.environ.get("SCREENSHOTS"))
 ALL_PANELS = (
     "counterweights",
     "foundation",
@@ -46,6 +48,17 @@ _DRAWN = """(before) => {
   const { asked, drawn } = document.getElementById("results").dataset;
   return asked !== (before ?? undefined) && drawn === asked;
 }"""
+#: in the page: a link is followed, even to the place that one is at; what was begun for another machine is left
+_FOLLOW = """(link) => {
+  document.getElementById("paste").open = false;
+  document.querySelector("dialog")?.remove();
+  location.hash = `${link}&visit=${performance.now()}`;
+}"""
+#: in the page: whether a panel shows the answer that stands there
+_SHOWN = """(name) => {
+  const { drawn } = document.getElementById(`panel-${name}`).dataset;
+  return drawn && drawn === document.getElementById("results").dataset.drawn;
+}"""
 #: in the page: whether the part is there, which it opens with the folds of its own fields
 _UNFOLD = """(pointer) => {
   const part = document.querySelector(`#form details[data-pointer="${CSS.escape(pointer)}"]`);
@@ -60,10 +73,11 @@ _UNFOLD = """(pointer) => {
 
 @dataclass(frozen=True)
 class Look:
-    """Width of the window, px, and the colours that the system has."""
+    """The window, px, as high as that of a laptop, and the colours that the system has."""
 
     width: int = 1280
     scheme: Literal["light", "dark"] = "light"
+    height: int = 600
 
 
 @dataclass
@@ -93,8 +107,18 @@ class Portal:
         asked = (urlsplit(request.url) for request in self.requests)
         return {url.geturl() for url in asked if url.scheme not in ("data", "blob") and url.netloc != home}
 
+    def clear(self) -> None:
+        """Forget what was seen, before the page is another test's."""
+        self.refusals, self.troubles, self.requests = set(), [], []
+
     def open(self, example: str = "2d12", panels: tuple[str, ...] = ("counterweights",)) -> None:
-        self.page.goto(f"{self.url}/#example={example}&open={','.join(panels)}")
+        """An example with some panels, by a link: from the page itself where it is there already."""
+        link = f"#example={example}&open={','.join(panels)}"
+        if self.page.url.startswith(f"{self.url}/"):
+            with self.asking():
+                self.page.evaluate(_FOLLOW, link)
+            return
+        self.page.goto(f"{self.url}/{link}")
         self.drawn(1)
         # the form comes after the result
         self.page.wait_for_selector("#form [data-pointer='/machine']")
@@ -124,8 +148,12 @@ class Portal:
     def open_panel(self, name: str) -> Locator:
         panel = self.panel(name)
         panel.locator("> summary").click()
-        self.page.wait_for_selector(f"#panel-{name}[data-drawn]")
+        self.shown(name)
         return panel
+
+    def shown(self, name: str) -> None:
+        """Wait until a panel shows the answer that stands there."""
+        self.page.wait_for_function(_SHOWN, arg=name, polling=POLLING_MS)
 
     def unfold(self, *pointers: str) -> None:
         """Open parts of the form, from the outside inwards, with all their fields.
@@ -158,8 +186,8 @@ class Portal:
 
 
 def screenshot(page: Page, name: str) -> None:
-    """For those who look (``SCREENSHOTS=1``): a picture of the whole page costs as much as to draw it."""
-    if not os.environ.get("SCREENSHOTS"):
+    """For those who look."""
+    if not PICTURES:
         return
     ARTEFACTS.mkdir(parents=True, exist_ok=True)
     page.screenshot(path=ARTEFACTS / f"{name}.png", full_page=True)
@@ -175,7 +203,10 @@ def ask(url: str, path: str, body: Any = None) -> Any:
 
 def cells(table: Locator) -> list[list[str]]:
     """The texts of a table, row by row, without its heads."""
-    return [row.locator("th, td").all_inner_texts() for row in table.locator("tbody tr").all()]
+    texts: list[list[str]] = table.locator("tbody tr").evaluate_all(
+        "rows => rows.map((row) => [...row.querySelectorAll('th, td')].map((cell) => cell.innerText))"
+    )
+    return texts
 
 
 def number(text: str) -> float:

@@ -1,11 +1,18 @@
 """A service with keys: the page asks once, keeps the key in its tab, and shows it to nobody."""
 
+import pytest
 from playwright.sync_api import Route, expect
 
 from tests.browser.portal import Portal
 
 KEY = "cw_something-secret"
 PROBLEM = '{"type": "/problems/unauthorized", "title": "Unauthorized", "status": 401, "detail": "Give a key."}'
+
+
+@pytest.fixture
+def portal(visit: Portal) -> Portal:
+    """A tab without a key."""
+    return visit
 
 
 def _guard(route: Route) -> None:

@@ -67,6 +67,12 @@ def until_asked(portal: Portal, routes: list[Route]) -> None:
 
 
 @pytest.fixture
+def portal(visit: Portal) -> Portal:
+    """A history of its own, whose functions are replaced."""
+    return visit
+
+
+@pytest.fixture
 def two_places(portal: Portal) -> Portal:
     """A page that has been at two examples, of which the second is shown."""
     portal.open(GONE_TO)

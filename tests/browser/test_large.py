@@ -67,7 +67,8 @@ def _typed(portal: Portal, webs: int) -> dict[str, int]:
     return {name: sum(cost[name] for cost in costs) for name in ("large", "steps")}
 
 
-def test_a_key_stroke_costs_the_same_on_a_large_machine(portal: Portal) -> None:
+def test_a_key_stroke_costs_the_same_on_a_large_machine(visit: Portal) -> None:
+    portal = visit
     # an unknown field, as long as a trace of a sensor: the service refuses it at once, and need not compute
     portal.refusals = {422}
     portal.open("single-vertical")

@@ -55,7 +55,8 @@ def test_no_column_is_cut_off_on_a_phone(portal: Portal) -> None:
     assert first.evaluate("one => getComputedStyle(one, '::before').content") == '"mass, kg"'
 
 
-def test_nothing_overlaps_on_paper(portal: Portal) -> None:
+def test_nothing_overlaps_on_paper(visit: Portal) -> None:
+    portal = visit
     portal.open("2d12", PANELS)
     portal.page.emulate_media(media="print")
     count, pairs, wide = portal.page.evaluate(_OVER)
@@ -99,8 +100,9 @@ def test_what_has_no_ceiling_is_not_named_where_another_cannot_be_met(portal: Po
 
 
 @pytest.mark.parametrize("theme", ["system", "chosen"])
-def test_paper_is_light_whatever_the_screen_is(portal: Portal, theme: str) -> None:
+def test_paper_is_light_whatever_the_screen_is(visit: Portal, theme: str) -> None:
     """In the colours of a dark screen nobody could read what is printed."""
+    portal = visit
     portal.page.emulate_media(color_scheme="dark" if theme == "system" else "light")
     portal.open("2d12", ("hodographs",))
     if theme == "chosen":

@@ -2,9 +2,16 @@
 
 from pathlib import Path
 
+import pytest
 from playwright.sync_api import expect
 
 from tests.browser.portal import Portal
+
+
+@pytest.fixture
+def portal(visit: Portal) -> Portal:
+    """A tab that has no head yet, which it keeps."""
+    return visit
 
 
 def test_the_head_and_the_versions_are_given_on_the_page(portal: Portal) -> None:

@@ -22,7 +22,8 @@ def test_a_reload_keeps_what_was_typed(portal: Portal) -> None:
     assert portal.input(RADIUS).input_value() == "99 mm"
 
 
-def test_everything_is_undone_and_done_again(portal: Portal) -> None:
+def test_everything_is_undone_and_done_again(visit: Portal) -> None:
+    portal = visit
     portal.open("two-rows-180")
     before = portal.input(SPEED).input_value()
     portal.input(SPEED).press("End")
@@ -75,7 +76,8 @@ def test_a_machine_is_saved_and_opened(portal: Portal) -> None:
     expect(portal.input("/machine/name")).to_have_value("Nr. 7/b")
 
 
-def test_leaving_with_unanswered_edits_is_asked_about(portal: Portal) -> None:
+def test_leaving_with_unanswered_edits_is_asked_about(visit: Portal) -> None:
+    portal = visit
     portal.open("two-rows-180")
     portal.input(SPEED).fill("777")
     with portal.page.expect_event("dialog") as asked:
@@ -86,7 +88,8 @@ def test_leaving_with_unanswered_edits_is_asked_about(portal: Portal) -> None:
     assert portal.bodies("/v1/optimize")[-1]["machine"]["speed_rpm"] == 777
 
 
-def test_unfinished_work_is_offered_in_another_tab(portal: Portal) -> None:
+def test_unfinished_work_is_offered_in_another_tab(visit: Portal) -> None:
+    portal = visit
     portal.open("two-rows-180")
     portal.input("/machine/name").fill("unfinished")
     # kept with the link

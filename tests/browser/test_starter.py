@@ -64,7 +64,8 @@ def _four(portal: Portal, before: int) -> None:
     assert " %" in portal.page.locator("#answer h2").inner_text()
 
 
-def test_tables_are_pasted_on_a_first_visit(portal: Portal) -> None:
+def test_tables_are_pasted_on_a_first_visit(visit: Portal) -> None:
+    portal = visit
     portal.page.goto(f"{portal.url}/")
     portal.page.get_by_role("heading", name="Begin with your machine").wait_for()
     assert portal.page.locator("#panels").is_hidden()
@@ -121,7 +122,8 @@ def test_a_machine_as_text_is_pasted_anywhere(portal: Portal) -> None:
     expect(portal.page.locator("#form .grid-row tbody tr")).to_have_count(3)
 
 
-def test_examples_without_gas_data_come_first(portal: Portal) -> None:
+def test_examples_without_gas_data_come_first(visit: Portal) -> None:
+    portal = visit
     portal.page.goto(f"{portal.url}/")
     groups = portal.page.locator("#example optgroup")
     groups.nth(1).wait_for(state="attached")
@@ -181,7 +183,7 @@ def test_arrangements(portal: Portal) -> None:
 
 def _begin(portal: Portal, arrangement: str, answers: dict[str, str]) -> Any:
     """The request that the page makes of some answers."""
-    portal.page.goto(f"{portal.url}/")
+    portal.open("single-vertical")
     portal.page.click("#new")
     portal.page.check(f".starter input[value={arrangement}]")
     for name, value in answers.items():
@@ -190,8 +192,8 @@ def _begin(portal: Portal, arrangement: str, answers: dict[str, str]) -> Any:
             field.select_option(value)
         else:
             field.fill(value)
-    portal.page.click(".starter button[value=begin]")
-    portal.page.wait_for_selector("#results[data-drawn]")
+    with portal.asking():
+        portal.page.click(".starter button[value=begin]")
     return portal.bodies("/v1/optimize")[-1]
 
 
@@ -219,7 +221,7 @@ def test_an_engine_with_balance_shafts_and_a_mass_for_each_row(portal: Portal) -
 
 
 def test_masses_that_may_be_one_or_several_are_asked_about(portal: Portal) -> None:
-    portal.page.goto(f"{portal.url}/")
+    portal.open("single-vertical")
     portal.page.click("#new")
     for name, value in (SIX | {"throws": "2", "reciprocating": "1 575", "radius": "60 mm"}).items():
         portal.page.fill(f"#start-{name}", value)

@@ -8,6 +8,12 @@ from playwright.sync_api import expect
 from tests.browser.portal import Portal, ask, number
 
 
+@pytest.fixture
+def portal(visit: Portal) -> Portal:
+    """A panel that has not swept yet, nor holds what was typed for a sweep."""
+    return visit
+
+
 def _count(portal: Portal, *counts: str) -> None:
     for index, count in enumerate(counts):
         portal.page.fill(f"#axis-{index}-count", count)

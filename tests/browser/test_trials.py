@@ -11,28 +11,34 @@ from playwright.sync_api import expect
 from pypdf import PdfReader
 
 from tests.browser.hand import Hand
-from tests.browser.portal import ARTEFACTS, Portal, ask
-from tests.browser.test_accessibility import _serious
+from tests.browser.portal import ARTEFACTS, PICTURES, Portal, ask
+from tests.browser.test_accessibility import serious
 from tests.browser.test_gas import COLUMNS
 
 #: axe takes seconds for the whole page of a trial: by day it looks at what no page of another test shows
 whole = pytest.param(None, marks=pytest.mark.nightly, id="whole")
 
 
+def _come(portal: Portal, within: str | None) -> Hand:
+    """The first visit, with the panels that it opens where the whole page is looked at."""
+    portal.page.goto(f"{portal.url}/" if within is None else f"{portal.url}/#open=counterweights")
+    return Hand(portal)
+
+
 def _look(portal: Portal, name: str, within: str | None = None) -> None:
     """Screenshots, and what axe finds in the page or in the elements of a selector: wide and light, narrow and dark."""
-    wide = _serious(portal, within)
+    wide = serious(portal, within)
     portal.screenshot(f"{name}-1280")
     portal.page.set_viewport_size({"width": 390, "height": 844})
     portal.page.emulate_media(color_scheme="dark")
-    narrow = _serious(portal, within)
+    narrow = serious(portal, within)
     # nothing is wider than the window, once plots have the width that there is
     portal.page.wait_for_function("() => document.documentElement.scrollWidth <= 390")
     portal.screenshot(f"{name}-390-dark")
-    portal.page.set_viewport_size({"width": 1280, "height": 900})
-    portal.page.emulate_media(color_scheme="light", media="print")
-    portal.screenshot(f"{name}-print")
-    portal.page.emulate_media(media="screen")
+    if PICTURES:
+        portal.page.set_viewport_size({"width": 1280, "height": 900})
+        portal.page.emulate_media(color_scheme="light", media="print")
+        portal.screenshot(f"{name}-print")
     assert (wide, narrow) == ([], [])
 
 
@@ -43,12 +49,17 @@ def _begun(portal: Portal, hand: Hand) -> Any:
     return portal.bodies("/v1/optimize")[-1]
 
 
+@pytest.fixture
+def portal(visit: Portal) -> Portal:
+    """An engineer comes for the first time."""
+    return visit
+
+
 @pytest.mark.parametrize(
     "within", [pytest.param("#answer .document, #form [data-pointer='/machine/catalogue']", id="its own"), whole]
 )
 def test_a_compressor_becomes_a_filed_report_with_castings(portal: Portal, within: str | None) -> None:
-    portal.page.goto(f"{portal.url}/")
-    hand = Hand(portal)
+    hand = _come(portal, within)
     hand.click("#new")
     hand.click(".starter input[value=opposed]")
     masses = {"reciprocating": "185; 190; 210; 205", "rotating": "55"}
@@ -93,8 +104,7 @@ def test_a_compressor_becomes_a_filed_report_with_castings(portal: Portal, withi
 
 @pytest.mark.parametrize("within", [pytest.param("#form .gas", id="its own"), whole])
 def test_a_v_six_gets_bearings_and_gas(portal: Portal, within: str | None) -> None:
-    portal.page.goto(f"{portal.url}/")
-    hand = Hand(portal)
+    hand = _come(portal, within)
     hand.click("#new")
     hand.click(".starter input[value=v]")
     form = {"throws": "3", "angle": "60", "split": "60", "offset": "30 mm", "pitch": "110 mm", "stroke": "86 mm"}
@@ -129,8 +139,7 @@ def test_a_v_six_gets_bearings_and_gas(portal: Portal, within: str | None) -> No
 
 
 def test_a_scroll_is_begun_from_nothing(portal: Portal) -> None:
-    portal.page.goto(f"{portal.url}/")
-    hand = Hand(portal)
+    hand = _come(portal, "#answer")
     hand.click("#new")
     hand.click(".starter input[value=scroll]")
     hand.answer({"scrollSpeed": "3600", "orbit": "5 mm", "orbiting": "1,2", "plane": "90 mm", "device": "crank_pins"})

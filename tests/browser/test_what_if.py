@@ -54,8 +54,8 @@ def test_limits_and_speed_are_moved(portal: Portal, url: str) -> None:
     answer = ask(url, "/v1/optimize", request)
     force = f"{answer['residual']['after']['force']['peak_N']:,.1f}".replace(",", "\u202f")
     panel.locator(".moved").get_by_text(force).wait_for()
-    panel.get_by_role("button", name="Take these limits").click()
-    portal.drawn(2)
+    with portal.asking():
+        panel.get_by_role("button", name="Take these limits").click()
     machine = portal.bodies("/v1/optimize")[-1]["machine"]
     assert (machine["speed_rpm"], machine["webs"][0]["max_mass_kg"]) == (550, 48)
     assert portal.input("/machine/speed_rpm").input_value() == "550"
@@ -85,6 +85,6 @@ def test_versions_stand_side_by_side(portal: Portal) -> None:
     expect(panel.locator(".versions li")).to_have_count(1)
     panel.locator("#version-file").set_input_files(Path(download.value.path()))
     expect(panel.locator(".versions li")).to_have_count(2)
-    panel.get_by_role("button", name="Open slow").click()
-    portal.drawn(4)
+    with portal.asking():
+        panel.get_by_role("button", name="Open slow").click()
     assert portal.bodies("/v1/optimize")[-1]["machine"]["speed_rpm"] == 600
