@@ -7,15 +7,19 @@ what puts designs in order and what moves curves.
 """
 
 import gc
+import os
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from multiprocessing import get_context
 
 import numpy as np
 
 from optimizer.numerics.linking import link_first
 from optimizer.warm_up import follow_a_turn, match_parts, plain_discs
+
+#: by so much the shorter parts are nicer than the longest: a third of its share of a core
+_BEHIND = 5
 
 
 def any_limits() -> None:
@@ -84,9 +88,10 @@ def main() -> None:
     gc.disable()
     link_first()
     budgets()
-    # the longest first, and three at a time: where there are two cores, both are busy until the end
-    parts = (follow_a_turn,), (plain_discs, proofs), (any_limits, match_parts, designs, moving_curves, near_sums)
-    processes = [get_context("fork").Process(target=_in_turn, args=some) for some in parts]
+    # three at a time; the longest has a core of its own where there are two, so that both are busy until the end
+    parts = (plain_discs, proofs), (follow_a_turn,), (any_limits, match_parts, designs, moving_curves, near_sums)
+    niceness = 0, _BEHIND, _BEHIND
+    processes = [get_context("fork").Process(target=_in_turn, args=some) for some in zip(niceness, parts, strict=True)]
     for process in processes:
         process.start()
     for process in processes:
@@ -96,8 +101,9 @@ def main() -> None:
     _say(f"compiled in {time.perf_counter() - begun:.0f} s")
 
 
-def _in_turn(*parts: Callable[[], object]) -> None:
-    """In a process that ends thereafter."""
+def _in_turn(behind: int, parts: Sequence[Callable[[], object]]) -> None:
+    """In a process that ends thereafter, with so much less of a core than others have."""
+    os.nice(behind)
     for left, part in zip(range(len(parts) - 1, -1, -1), parts, strict=True):
         begun = time.perf_counter()
         part()
