@@ -1,9 +1,9 @@
 """Compile the kernels, once for an installation: ``python -m optimizer.compile_kernels``.
 
 What budgets are spent by is compiled first, and with it what the compiler needs for any kernel. Three processes have
-that in common and do the rest beside one another: one what follows the turn; one the interior point for discs, and what
-proves and settles; and one the interior point for any limits, what parts are matched and sums of options compared by,
-what puts designs in order and what moves curves.
+that in common and do the rest beside one another: one the interior point for discs, and what proves and settles; one
+what follows the turn; and one the interior point for any limits, what parts are matched and sums of options compared
+by, what puts designs in order and what moves curves.
 """
 
 import gc
