@@ -220,7 +220,9 @@ def _run(
 
 
 @lru_cache(maxsize=256)
-def _plan(names: tuple[str, ...], needs: tuple[str, ...]) -> list[tuple[str, tuple[str, ...]]]:
+def _plan(names: tuple[str, ...], needs: tuple[str, ...]) -> tuple[tuple[str, tuple[str, ...]], ...]:
     """Effects in the order in which they run, each with those whose results are let go after it."""
     last = {need: name for name in names for need in (*EFFECTS[name].needs, name)}
-    return [(name, tuple(need for need, user in last.items() if user == name and need not in needs)) for name in names]
+    return tuple(
+        (name, tuple(need for need, user in last.items() if user == name and need not in needs)) for name in names
+    )

@@ -151,14 +151,7 @@ def certificate(
     multipliers : as of :meth:`Proofs.named`.
     """
     return Certificate.model_validate(
-        {
-            name: value
-            if value is None or isinstance(value, str)
-            else number
-            if math.isfinite(number := float(value))
-            else None
-            for name, value in figures.items()
-        }
+        {name: value if isinstance(value, str) else finite_or_null(value) for name, value in figures.items()}
         | {
             "implied_max_mass_kg": implied_max_mass(machine, most[None])[0],
             "multipliers": multipliers,

@@ -96,6 +96,8 @@ def over_turn(
 def _over_turn(  # type: ignore[no-untyped-def]
     task, order, pressed, exact, bound, angles, moved, unit, sense, scalar, *parts
 ):
+    # 0 to 11 rows, to 14 sums, to 18 places, to 21 readings, to 24 points, to 27 bounds, to 31 cubics, to 37 members,
+    # to 42 the best, 43 levels, 44 middles, 45 and 46 of the motion
     rows = Rows(parts[0], parts[1], parts[2], parts[3], parts[4], exact, Tables(*parts[5:12]))
     sums, places, points, bounds = Sums(*parts[12:15]), Places(*parts[15:19]), parts[22:25], parts[25:28]
     functions = Functions(np.empty((0, 0, 0, 0)), np.empty((0, 0, 0, 0)), np.empty((0, 0)))

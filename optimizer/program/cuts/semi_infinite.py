@@ -19,7 +19,6 @@ import numpy as np
 
 from optimizer.numerics.arrays import SMALLEST, Complex, Real, Reals
 from optimizer.numerics.memoization import cached_property
-from optimizer.numerics.records import record
 from optimizer.program.ceilings import Ceilings, limited
 from optimizer.program.cuts.brackets import Brackets
 from optimizer.program.cuts.cut import EXACT, Cut, Evaluation, Quantity, Scatter
@@ -73,7 +72,6 @@ class Values(NamedTuple):
         return float(np.maximum.reduce(self.over, initial=-np.inf))
 
 
-@record
 @dataclass(frozen=True)
 class Problem:
     """What is to be small, in order, and under which ceilings and limits; it knows no request.
