@@ -12,7 +12,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import SMALLEST, Complex, Real
 from optimizer.program.ceilings import CEILING_TOLERANCE
-from optimizer.program.certificate import Multipliers, ceiling_allowance, normalised
+from optimizer.program.certificate import Multipliers, ceiling_allowance, normalised, nothing_proven
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import Optima, optima
 from optimizer.program.methods.rounding import has_dust
@@ -55,6 +55,14 @@ class FrontPoint:
     proof: Multipliers  # of the corner, one row for each peak, of which the corner is what they weigh
     mass_proof: Multipliers | None  # of the mass likewise; None where the least mass was not asked for
     mass_limit: Real  # (2,) largest peaks that the bound of the mass allows
+
+    def counting(self, trade: Trade, u: Complex) -> "FrontPoint":
+        """Where the peaks of u (K,) are beyond those largest, nothing is proven of their mass: 0 kg."""
+        peaks = trade.peaks(u)
+        if self.mass_proof is None or np.all(peaks <= self.mass_limit + trade.rounding(u)):
+            return self
+        solution, limit = replace(self.solution, mass_lower_bound=0.0), np.maximum(self.mass_limit, peaks)
+        return replace(self, solution=solution, mass_proof=nothing_proven(trade.both), mass_limit=limit)
 
 
 @dataclass(frozen=True)

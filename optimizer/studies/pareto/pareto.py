@@ -158,13 +158,14 @@ def _certified(request: ParetoRequest, machine: Machine, scene: Prepared, curve:
 
 
 def _point(request: ParetoRequest, machine: Machine, scene: Prepared, curve: Front, point: FrontPoint) -> ParetoPoint:
-    solution, square, traded = point.solution, scene.omega_squared, curve.trade
+    square, traded = scene.omega_squared, curve.trade
     limits = traded.both.limits
-    unbalance_there = solution.unbalance
+    unbalance_there = point.solution.unbalance
     if request.objective.symmetric:
         unbalance_there = symmetric(traded.both.alone(), unbalance_there[None])[0]
     masses, angles = masses_and_angles(machine, unbalance_there, limits)
     u = unbalance(masses, angles, limits.radius)
+    point = point.counting(traded, u)
     on_crank = beside(machine, masses, angles)
     fitted, together = counterweights(machine, *on_crank), unbalance(*on_crank, limits.radius)
     peaks = traded.peaks(u)
@@ -178,7 +179,7 @@ def _point(request: ParetoRequest, machine: Machine, scene: Prepared, curve: Fro
             excess=np.max(traded.both.ceilings.excess(u), axis=-1, initial=-np.inf),
             mass=np.asarray(np.sum(masses)),
             mass_resolution=mass_resolution(traded.both, curve.size),
-            mass_lower_bound=np.asarray(solution.mass_lower_bound) if request.objective.least_mass else None,
+            mass_lower_bound=np.asarray(point.solution.mass_lower_bound) if request.objective.least_mass else None,
         ),
         request.accuracy.relative_gap,
     )
@@ -209,7 +210,7 @@ def _point(request: ParetoRequest, machine: Machine, scene: Prepared, curve: Fro
             mass_force_limit_N=limit[0],
             mass_moment_limit_Nm=limit[1],
             implied_max_mass_kg=implied_max_mass(machine, limits.max_mass[None])[0],
-            method=solution.method,
+            method=point.solution.method,
         ),
         multipliers=_of_point(traded, point, square) if request.multipliers else None,
     )

@@ -89,3 +89,23 @@ def test_the_reach_of_a_trade_grows_with_its_peaks() -> None:
     near, far = (given.reach(factor * given.at_rest) for factor in (1.0, 3.0))
     assert np.all(near <= far)
     assert np.all(far[1:] < LARGEST)
+
+
+def test_of_the_mass_of_what_is_beyond_the_limit_nothing_is_proven() -> None:
+    """A mass is proven for peaks up to its limit: beyond it 0 kg for all, multipliers 0 (analytic)."""
+    found = front(traded(without_limits(None)), POINTS, 1e-6, True)
+    assert isinstance(found, Front)
+    for point in found.points:
+        there = point.solution.unbalance
+        assert point.solution.mass_lower_bound > 0.0
+        assert point.counting(found.trade, there) is point
+        far = there + 1e3 * (1.0 + np.abs(there))
+        peaks = found.trade.peaks(far)
+        assert np.any(peaks > point.mass_limit)
+        beyond = point.counting(found.trade, far)
+        assert beyond.solution.mass_lower_bound == 0.0
+        assert np.array_equal(beyond.mass_limit, np.maximum(point.mass_limit, peaks))
+        assert beyond.mass_proof is not None
+        assert not any(
+            part.any() for part in (beyond.mass_proof.term, beyond.mass_proof.row, beyond.mass_proof.ceiling)
+        )
