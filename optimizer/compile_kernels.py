@@ -48,8 +48,8 @@ def proofs() -> None:
     """Compile what proves bounds of single proofs, and settles by itself: one web, one term, one row."""
     from optimizer.program.ceilings import Ceilings
     from optimizer.program.certificate import affine_minorant, nothing_proven, objective_lower_bound
-    from optimizer.program.compiled_evaluation import near_limits
     from optimizer.program.limits import Limits
+    from optimizer.program.methods.compensation import near_limits
     from optimizer.program.methods.rounding import settled
     from optimizer.program.norms import Norms
     from optimizer.program.points import points_at
