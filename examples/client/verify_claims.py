@@ -47,6 +47,11 @@ def same(claim: str, place: Place, value: Any) -> Claim:
     return claim, place, ONE if there == value else -ONE, ONE
 
 
+def is_contradiction(room: Number) -> bool:
+    """Whether a claim with this room left is broken: not even its largest reading leaves any."""
+    return room.high < 0
+
+
 def judged(claims: Iterable[Claim], answer: Place) -> Dict[str, Any]:
     """What becomes of every kind of claim, of several of one kind the worst, of every leaf, and the verdict.
 
@@ -62,7 +67,7 @@ def judged(claims: Iterable[Claim], answer: Place) -> Dict[str, Any]:
             evidence.add(place.path)
             continue
         share = None if room is None else _share(room, size)
-        rank = 1 if room is None else 0 if room.high >= 0 else 2
+        rank = 1 if room is None else 2 if is_contradiction(room) else 0
         if rank != 1:
             visits.add(place.path)
         elif not place and place.path[:1] == ("answer",):
