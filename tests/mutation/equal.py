@@ -131,6 +131,7 @@ _VERIFY: dict[str, str] = {
     " -> size.low < real(NEXT_TO_NOTHING).high": "nothing is 1e-280 kg m to the bit",
     "verify_program.py bound: price.high > 0 -> price.high >= 0": "without a price what is free gains the smallest"
     " steps of numbers at most",
+    "verify_cases.py cases: path[1:2] -> path[1:3]": "beside balance shafts the service takes no scenarios",
     "verify_weights.py shafts: ratio > 0 -> ratio >= 0": "no shaft stands still",
     "verify_weights.py listed: room <= TOUCHED - UNSURE -> room < TOUCHED - UNSURE": "no room is that to the bit",
     "verify_shafts.py power: times > 0 -> times >= 0": "0 times nothing is multiplied",
