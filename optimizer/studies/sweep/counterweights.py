@@ -8,7 +8,7 @@ from optimizer.formulation.counterweights import mass_and_angle, unbalance
 from optimizer.formulation.formulate import responses, shape_facts
 from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import beside, laden
-from optimizer.mechanics.inertia import reciprocating, rotating
+from optimizer.mechanics.inertia import first_order
 from optimizer.mechanics.layout import layout as layout_of
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex
@@ -35,7 +35,8 @@ def optimal(request: OptimizeRequest, count: int, multipliers: bool = False) -> 
     multipliers : whether the proofs are wanted, as text.
     """
     layout = laden(layout_of(request.machine), request.machine)
-    baseline = rotating(layout).plus(reciprocating(layout, 1))
+    turning, moving = first_order(layout)
+    baseline = turning.plus(moving)
     square = np.broadcast_to(layout.omega**2, (count,))
     machine, objective, every = request.machine, request.objective, responses(layout, baseline, request.objective)
     best = certified(machine, objective, every, square, Task.of(request).demand)
