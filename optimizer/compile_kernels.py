@@ -3,7 +3,7 @@
 What budgets are spent by is compiled first, and with it what the compiler needs for any kernel. Three processes have
 that in common and do the rest beside one another: one the interior point for discs, and what proves and settles; one
 what follows the turn; and one the interior point for any limits, what parts are matched and sums of options compared
-by, what puts designs in order and what moves curves.
+by, what puts designs in order and sums their forces, and what moves curves.
 """
 
 import gc
@@ -38,10 +38,12 @@ def budgets() -> None:
 
 
 def designs() -> None:
-    """Compile what puts the designs of a Latin hypercube in their order: one of one."""
+    """Compile what puts the designs of a Latin hypercube in their order, and what sums their forces."""
+    from optimizer.numerics.sums import MANY, force_and_couple
     from optimizer.studies.sweep.designs import permuted
 
     permuted(np.zeros(1, np.int64), 1, 0, 0)
+    force_and_couple(np.zeros((MANY, 1), complex), np.zeros((MANY, 1)))
 
 
 def proofs() -> None:
