@@ -22,7 +22,7 @@ from optimizer.outputs.internal_moment import INTERNAL_MOMENT
 from optimizer.outputs.loads import LOADS
 from optimizer.outputs.orders import ORDERS
 from optimizer.outputs.output import Columns, Output
-from optimizer.outputs.peaks import searched
+from optimizer.outputs.peaks import search
 from optimizer.outputs.pins import PIN_LOADS
 from optimizer.outputs.roll import ROLL
 from optimizer.outputs.stages import STAGES
@@ -95,11 +95,8 @@ def fields(
     proven : fields of the answer that tell what is proven of counterweights that were chosen.
     """
     outputs = tuple(dict.fromkeys(outputs))
-    searches = (search for name in outputs for search in OUTPUTS[name].searches(scene, unbalance))
-    found = searched(scene, searches)
-    # of other counterweights there may be some
-    scene.brackets.clear()
-    scene.brackets.update(found)
+    scene.peaks.clear()
+    search(scene, (each for name in outputs for each in OUTPUTS[name].searches(scene, unbalance)))
     results = {name: OUTPUTS[name].figure(scene, unbalance) for name in outputs}
     if all(effect in scene.results for effect in FIRST_ORDER_EFFECTS):
         results["balance_quality"] = balance_quality(scene, unbalance)
