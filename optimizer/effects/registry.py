@@ -3,7 +3,7 @@
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache, lru_cache
+from functools import lru_cache
 from types import MappingProxyType
 from typing import Any
 
@@ -32,10 +32,12 @@ _UNUSED = EffectUse(simulated=False, needed_by=(), time_ms=0.0)
 
 def closure(machine: Machine, needs: Sequence[str]) -> list[str]:
     """Effects that have to run for these, in the order in which they can; those that do not apply left out."""
-    names = effects_of(needs)
-    if _universal(names):
-        return [*names]
-    return [*_present(names, _absent(machine))]
+    return [*_present(effects_of(needs), absent_effects(machine, needs))]
+
+
+def absent_effects(machine: Machine, needs: Sequence[str]) -> frozenset[str]:
+    """Effects that a machine does not have; none where every machine has these and all that they need."""
+    return frozenset() if _universal(effects_of(needs)) else _every_absent(machine)
 
 
 def effects_of(needs: Sequence[str]) -> tuple[str, ...]:
@@ -53,7 +55,7 @@ def _effects_of(needs: tuple[str, ...]) -> tuple[str, ...]:
 
 
 @remembered
-def _absent(machine: Machine) -> frozenset[str]:
+def _every_absent(machine: Machine) -> frozenset[str]:
     """Effects that a machine does not have."""
     return frozenset(name for name, effect in EFFECTS.items() if not effect.applies(machine))
 
@@ -68,12 +70,6 @@ def _present(names: tuple[str, ...], absent: frozenset[str]) -> tuple[str, ...]:
 def _universal(names: tuple[str, ...]) -> bool:
     """Whether every machine has these effects."""
     return all(EFFECTS[name].universal for name in names)
-
-
-@cache
-def _demanding(name: str) -> bool:
-    """Whether an effect, or one that it needs, asks anything of a machine."""
-    return any(EFFECTS[each].demanding for each in effects_of((name,)))
 
 
 def problems_of(machine: Machine, needs: Sequence[str]) -> Iterator[FieldProblem]:
@@ -105,7 +101,7 @@ def rules_of(machine: Machine, name: str) -> Iterator[Rule]:
     ----------
     machine : its fields may hold columns (n,); a verdict is then one for all, or one for each.
     """
-    if not _demanding(name):
+    if not EFFECTS[name].demanding:
         return
     for path, message in _problems(machine)[name]:
         yield Rule(True, path, message)
@@ -186,14 +182,21 @@ def simulate(
     results : of effects that need not run, by name.
     """
     samples = np.zeros(0) if angle is None else angle
-    closures = {purpose: closure(machine, needs) for purpose, needs in demands.items()}
-    wanted = [need for needs in demands.values() for need in needs]
+    wanted = tuple(need for needs in demands.values() for need in needs)
     found, times = _run(machine, layout, wanted, fidelity, samples, results)
-    needed_by: dict[str, tuple[str, ...]] = dict.fromkeys(times, ())
-    for purpose, names in closures.items():
-        for name in names:
-            needed_by[name] += (purpose,)
-    return Simulated(machine, layout, fidelity, found, times, needed_by)
+    purposes = tuple((purpose, tuple(needs)) for purpose, needs in demands.items())
+    users = _users(purposes, absent_effects(machine, wanted))
+    return Simulated(machine, layout, fidelity, found, times, users.copy())
+
+
+@lru_cache(maxsize=256)
+def _users(purposes: tuple[tuple[str, tuple[str, ...]], ...], absent: frozenset[str]) -> dict[str, tuple[str, ...]]:
+    """Effects that run for outputs and other purposes, each with those of these for which it does."""
+    users: dict[str, tuple[str, ...]] = {}
+    for purpose, needs in purposes:
+        for name in _present(effects_of(needs), absent):
+            users[name] = (*users.get(name, ()), purpose)
+    return users
 
 
 def run(machine: Machine, layout: Layout, needs: Sequence[str], fidelity: Fidelity, angle: Real) -> dict[str, Any]:

@@ -24,7 +24,7 @@ from optimizer.numerics.arrays import Complex, Real, variant
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
 from optimizer.responses.curve import TurnResponse
-from optimizer.responses.piecewise_cubics import Bracket
+from optimizer.responses.peak_table import PeakTable
 from optimizer.responses.response import Response
 from schemas.base.responses import ResponseFields
 from schemas.machine.machine import Machine
@@ -56,7 +56,7 @@ class Prepared:
     mechanics_ms: float
     shafts: Complex | None = None  # (S,) kg m, unbalances of the balance shafts that go with counterweights
     turns: int = 1  # over which the samples go: 2 where gas takes so long
-    brackets: dict[Any, Bracket] = field(default_factory=dict)  # peaks over the turn, searched before outputs show them
+    peaks: PeakTable = field(default_factory=PeakTable)  # over the turn, searched before outputs show them
 
     @property
     def results(self) -> Mapping[str, Any]:

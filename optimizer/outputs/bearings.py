@@ -14,15 +14,14 @@ from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.peaks import (
     FLOOR_TOLERANCE,
     Search,
-    bracket,
     customary_search,
     of_shaft,
-    of_shaft_sets,
     separate_groups,
+    shaft_peaks,
     shaft_search,
 )
 from optimizer.responses.curve import floors
-from optimizer.responses.piecewise_cubics import Bracket
+from optimizer.responses.peak_table import PeakList
 from schemas.answer.dynamics import BearingLoad, BendingMoment, MainBearing, MainBearings
 from schemas.answer.outputs import labels
 from schemas.machine.drive import Bearing
@@ -32,39 +31,34 @@ from schemas.machine.reciprocating import ReciprocatingMachine
 def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
     """Loads of the main bearings of one machine, and the bending moments of its shaft."""
     machine = scene.machine
-    planes = scene.stations
+    planes = scene.stations.tolist()
     curves = scene.shaft_curves
     count = len(machine.bearings)
     # every bearing's, and the largest of all bending moments
     circles = [
-        floor.circle for floor in floors(curves.curves, FLOOR_TOLERANCE, None, separate_groups(count, planes.size))
+        floor.circle for floor in floors(curves.curves, FLOOR_TOLERANCE, None, separate_groups(count, len(planes)))
     ]
     sets = _sets(unbalance)
-    peaks = of_shaft_sets(scene, curves, sets)
-    loads, *fitted = _loads(scene, curves.first(count), peaks, circles, sets)
-    before, *others = peaks
-    after = others[0] if others else None
-    shown = peaks[-1]
-    worst = int(np.argmax(shown.lower[count:]))
+    peaks = shaft_peaks(scene, sets)
+    before, *fitted = _loads(scene, curves.first(count), peaks, circles, sets)
+    after: Sequence[BearingLoad | None] = fitted[0] if fitted else [None] * count
+    moments = [peak.part(slice(count, None)) for peak in peaks]
+    shown = moments[-1]
+    worst = shown.lower.index(max(shown.lower))
     return MainBearings(
         angle_deg=scene.angles,
         shaft=scene.request.fidelity.shaft,
         bearings=tuple(
-            MainBearing(
-                name=bearing.name,
-                position_m=bearing.position_m,
-                before=loads[k],
-                after=fitted[0][k] if fitted else None,
-            )
-            for k, bearing in enumerate(machine.bearings)
+            MainBearing(name=bearing.name, position_m=bearing.position_m, before=bare, after=loaded)
+            for bearing, bare, loaded in zip(machine.bearings, before, after, strict=True)
         ),
         bending=BendingMoment(
-            position_m=tuple(planes.tolist()),
-            before_Nm=tuple(before.lower[count:].tolist()),
-            after_Nm=None if after is None else tuple(after.lower[count:].tolist()),
-            peak_Nm=float(shown.lower[count + worst]),
-            peak_bracket_Nm=(float(shown.lower[count + worst]), float(np.max(shown.upper[count:]))),
-            peak_position_m=float(planes[worst]),
+            position_m=planes,
+            before_Nm=moments[0].lower,
+            after_Nm=shown.lower if fitted else None,
+            peak_Nm=shown.lower[worst],
+            peak_bracket_Nm=(shown.lower[worst], max(shown.upper)),
+            peak_position_m=planes[worst],
             floor_Nm=max(circle.radius for circle in circles[count:]) * scene.omega_squared,
         ),
     )
@@ -76,7 +70,7 @@ def _sets(unbalance: Complex | None) -> list[Complex | None]:
 
 
 def _searches(scene: Prepared, unbalance: Complex | None) -> Iterator[Search]:
-    yield shaft_search(scene.shaft_curves, _sets(unbalance))
+    yield shaft_search(scene, _sets(unbalance))
     machine = scene.machine
     if unbalance is not None and isinstance(machine, ReciprocatingMachine) and machine.webs:
         # a warning compares with them
@@ -94,10 +88,10 @@ def _samples(scene: Prepared) -> Complex:
 def _loads(
     scene: Prepared,
     curves: ShaftCurves,
-    peaks: Sequence[Bracket],
+    peaks: Sequence[PeakList],
     circles: Sequence[Circle],
     sets: Sequence[Complex | None],
-) -> list[tuple[BearingLoad, ...]]:
+) -> list[list[BearingLoad]]:
     """Loads of the bearings of one machine, by their curves and peaks, with sets of counterweights (webs,) kg m or
     without."""
     bearings, square, turn = scene.machine.bearings, scene.omega_squared, np.deg2rad(scene.angle_deg)
@@ -106,36 +100,25 @@ def _loads(
     centre = (np.array([circle.centre for circle in circles[: len(bearings)]]) + offset) * square
     rms = np.sqrt(curves.curves.variance + np.abs(curves.curves.mean + offset) ** 2) * square
     figures = samples.real.tolist(), samples.imag.tolist(), rms.tolist(), centre.tolist()
-    return [_of_set(bearings, circles, square, peak, *own) for peak, *own in zip(peaks, *figures, strict=True)]
-
-
-def _of_set(
-    bearings: Sequence[Bearing],
-    circles: Sequence[Circle],
-    square: float,
-    peak: Bracket,
-    along_x: Sequence[Sequence[float]],
-    along_y: Sequence[Sequence[float]],
-    rms: Sequence[float],
-    centre: Sequence[complex],
-) -> tuple[BearingLoad, ...]:
-    """Loads of the bearings with one set of counterweights, from what is known of all sets."""
-    angles = np.rad2deg(peak.angle[: len(bearings)]).tolist()
-    return tuple(
-        BearingLoad(
-            force_x_N=x,
-            force_y_N=y,
-            peak_N=float(peak.lower[k]),
-            peak_bracket_N=bracket(peak, k),
-            peak_angle_deg=angle,
-            specific_load_Pa=_over_area(float(peak.lower[k]), bearings[k]),
-            rms_N=of_rms,
-            floor_N=float(circles[k].radius * square),
-            circle_x_N=middle.real,
-            circle_y_N=middle.imag,
-        )
-        for k, (x, y, angle, of_rms, middle) in enumerate(zip(along_x, along_y, angles, rms, centre, strict=True))
-    )
+    return [
+        [
+            BearingLoad(
+                force_x_N=x,
+                force_y_N=y,
+                peak_N=peak.lower[k],
+                peak_bracket_N=peak.bracket(k),
+                peak_angle_deg=peak.angle_deg[k],
+                specific_load_Pa=_over_area(peak.lower[k], bearing),
+                rms_N=of_rms,
+                floor_N=circle.radius * square,
+                circle_x_N=middle.real,
+                circle_y_N=middle.imag,
+            )
+            # of what the bending moments have too nothing is taken
+            for k, (bearing, circle, x, y, of_rms, middle) in enumerate(zip(bearings, circles, *own, strict=False))
+        ]
+        for peak, *own in zip(peaks, *figures, strict=True)
+    ]
 
 
 def _over_area(load: float, bearing: Bearing) -> float | None:

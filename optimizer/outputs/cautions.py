@@ -14,7 +14,7 @@ from optimizer.numerics.arrays import Complex
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
 from optimizer.outputs.balance_rate import cranks
-from optimizer.outputs.peaks import of_customary
+from optimizer.outputs.peaks import customary_peaks
 from schemas.answer.answers import BalanceRate, Certificate
 from schemas.answer.caution import Caution, CautionCode
 from schemas.answer.dynamics import MainBearings
@@ -217,8 +217,8 @@ def _loads_grow(evidence: Evidence) -> Iterator[Caution]:
         ("bending_moment_grows", "bending moment", "N m", slice(count, None)),
     )
     largest = [tuple(float(np.max(peaks[some])) for *_, some in kinds) for peaks in (after, before)]
-    usual = of_customary(scene, lambda: cranks(machine).customary)
-    for (code, what, unit, _), now, bare, of_usual in zip(kinds, *largest, usual.tolist(), strict=True):
+    usual = customary_peaks(scene, lambda: cranks(machine).customary)
+    for (code, what, unit, _), now, bare, of_usual in zip(kinds, *largest, usual, strict=True):
         for than, of in ((bare, "without counterweights"), (of_usual, "of a crank balanced throw by throw")):
             if now > than * (1.0 + _ALIKE):
                 yield Caution(
@@ -230,6 +230,8 @@ def _loads_grow(evidence: Evidence) -> Iterator[Caution]:
 
 def _not_closed(evidence: Evidence) -> Iterator[Caution]:
     """Peaks over the turn of which less is proven than a designer takes for granted."""
+    if evidence.scene.peaks.is_closed(_ALIKE):
+        return
     force, moment = evidence.sizes
     for output, field in evidence.fields.items():
         if not isinstance(field, Model) or not any(_bracketed(field.__class__)):

@@ -11,14 +11,15 @@ from optimizer.mechanics.row_series import Reading
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.peaks import (
-    Extremes,
-    bracket,
     largest_of_rows,
     of_rows,
     of_torque,
+    row_peaks,
     rows_search,
+    torque_peak,
     torque_search,
 )
+from optimizer.responses.peak_table import PeakList
 from schemas.answer.dynamics import (
     Chamber,
     Flywheel,
@@ -111,7 +112,7 @@ def gas(scene: Prepared, _fitted: Complex | None = None) -> Gas:
 
 def piston_force(scene: Prepared, _fitted: Complex | None = None) -> PistonForce:
     """Gas, inertia and friction on every piston."""
-    result, peaks = scene.results["piston_force"], of_rows(scene, "piston")
+    result, (high, low) = scene.results["piston_force"], row_peaks(scene, "piston")
     return PistonForce(
         angle_deg=scene.angles,
         rows=tuple(
@@ -121,10 +122,10 @@ def piston_force(scene: Prepared, _fitted: Complex | None = None) -> PistonForce
                 inertia_N=_series(result.inertia[k]),
                 friction_N=_series(result.friction[k]),
                 total_N=_series(result.total[k]),
-                peak_tension_N=float(peaks.high.lower[k]),
-                peak_tension_bracket_N=bracket(peaks.high, k),
-                peak_compression_N=-float(peaks.low.lower[k]),
-                peak_compression_bracket_N=_negated(bracket(peaks.low, k)),
+                peak_tension_N=high.lower[k],
+                peak_tension_bracket_N=high.bracket(k),
+                peak_compression_N=-low.lower[k],
+                peak_compression_bracket_N=_negated(low.bracket(k)),
             )
             for k, labels in rows_of(scene)
         ),
@@ -139,8 +140,8 @@ def rod_loads(scene: Prepared, _fitted: Complex | None = None) -> RodLoads:
     """Forces in the mechanism, and the load cases of every rod."""
     result = scene.results["rod_forces"]
     rod, side, tangential, radial = result.rod, result.side, result.tangential, result.radial
-    by_case = [_cases(case, of_rows(scene, reading)) for case, reading in CASES.items()]
-    on_guide = of_rows(scene, "side").magnitude
+    by_case = [_cases(case, *row_peaks(scene, reading)) for case, reading in CASES.items()]
+    least, most = (part.tolist() for part in of_rows(scene, "side").magnitude[2:])
     rows = []
     for k, labels in rows_of(scene):
         cases = tuple(each[k] for each in by_case)
@@ -152,8 +153,8 @@ def rod_loads(scene: Prepared, _fitted: Complex | None = None) -> RodLoads:
                 side_N=_series(side[k]),
                 tangential_N=_series(tangential[k]),
                 radial_N=_series(radial[k]),
-                peak_side_N=float(on_guide.lower[k]),
-                peak_side_bracket_N=bracket(on_guide, k),
+                peak_side_N=least[k],
+                peak_side_bracket_N=(least[k], most[k]),
                 cases=cases,
                 governing_case=worst.case,
                 governing_load_N=_largest(worst),
@@ -175,7 +176,7 @@ def torque(scene: Prepared, _fitted: Complex | None = None) -> Torque:
     """Torque over the turn and its integrals."""
     result, integrals = scene.results["torque"], scene.results["torque_integrals"]
     errors, shaft_power = scene.results["torque_errors"], _shaft_power(scene)
-    peak = of_torque(scene, result.rotating_friction)
+    peak = torque_peak(scene, result.rotating_friction)
     radius = scene.layout.reciprocating.crank_radius
     one_radius = radius.size > 0 and bool(np.all(radius == radius[0]))
     return Torque(
@@ -187,9 +188,9 @@ def torque(scene: Prepared, _fitted: Complex | None = None) -> Torque:
         rotating_friction_Nm=float(result.rotating_friction),
         torque_Nm=_series(result.total),
         tangential_N=_series(result.total / radius[0]) if one_radius else None,
-        peak_Nm=float(peak.lower),
-        peak_bracket_Nm=bracket(peak),
-        peak_angle_deg=float(np.rad2deg(peak.angle)),
+        peak_Nm=peak.lower[0],
+        peak_bracket_Nm=peak.bracket(),
+        peak_angle_deg=peak.angle_deg[0],
         mean_torque_Nm=float(integrals.mean),
         mean_torque_error_Nm=float(errors.mean),
         indicated_power_W=float(integrals.indicated_power),
@@ -214,14 +215,14 @@ def flywheel(scene: Prepared, _fitted: Complex | None = None) -> Flywheel:
 def overturning(scene: Prepared, _fitted: Complex | None = None) -> Overturning:
     """Overturning couple on the frame."""
     rows = scene.results["rod_forces"].overturning
-    total, peak = np.add.reduce(rows, axis=-2), of_torque(scene)
+    total, peak = np.add.reduce(rows, axis=-2), torque_peak(scene)
     return Overturning(
         angle_deg=scene.angles,
         rows=tuple(RowOverturning(**labels, couple_Nm=_series(rows[k])) for k, labels in rows_of(scene)),
         couple_Nm=_series(total),
-        peak_Nm=float(peak.lower),
-        peak_bracket_Nm=bracket(peak),
-        peak_angle_deg=float(np.rad2deg(peak.angle)),
+        peak_Nm=peak.lower[0],
+        peak_bracket_Nm=peak.bracket(),
+        peak_angle_deg=peak.angle_deg[0],
     )
 
 
@@ -238,9 +239,8 @@ def _series(values: Real) -> Any:
     return values.tolist()
 
 
-def _cases(case: Case, peaks: Extremes) -> list[LoadCase]:
+def _cases(case: Case, tension: PeakList, compression: PeakList) -> list[LoadCase]:
     """A load case of every row."""
-    parts = (part for way in peaks for part in (way.lower, way.upper, np.rad2deg(way.angle)))
     return [
         LoadCase(
             case=case,
@@ -251,7 +251,7 @@ def _cases(case: Case, peaks: Extremes) -> list[LoadCase]:
             compression_bracket_N=_negated(_pull((low, deepest))),
             compression_deg=there,
         )
-        for high, most, at, low, deepest, there in zip(*(part.tolist() for part in parts), strict=True)
+        for high, most, at, low, deepest, there in zip(*tension, *compression, strict=True)
     ]
 
 
@@ -285,7 +285,7 @@ def _torque_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
     integrals, friction = scene.results["torque_integrals"], scene.results.get("friction")
     return {
         "mean_torque_Nm": integrals.mean,
-        "peak_torque_Nm": of_torque(scene, 0.0 if friction is None else friction.torque).lower,
+        "peak_torque_Nm": of_torque(scene, 0.0 if friction is None else friction.torque),
         "fluctuation_energy_J": integrals.fluctuation,
         "shaft_power_W": _shaft_power(scene),
         "indicated_power_W": integrals.indicated_power,
@@ -299,7 +299,7 @@ def _flywheel_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
 
 
 def _overturning_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
-    return {"peak_overturning_Nm": of_torque(scene).lower}
+    return {"peak_overturning_Nm": of_torque(scene)}
 
 
 OVER_THE_TURN = (

@@ -18,7 +18,15 @@ from optimizer.mechanics.weight import GRAVITY, along_axis, on_guide
 from optimizer.numerics.arrays import Complex, Real, spread
 from optimizer.outputs.dynamics import rows_of
 from optimizer.outputs.output import Columns, Output
-from optimizer.outputs.peaks import Search, largest_of_rows, of_rows, of_torque, rows_search, torque_search
+from optimizer.outputs.peaks import (
+    Search,
+    largest_of_rows,
+    of_rows,
+    of_torque,
+    rows_search,
+    torque_peak,
+    torque_search,
+)
 from schemas.answer.loads import BearingWeight, CoverLoad, FrameLoad, GuideLoad, Loads, RowLoad, ThrowMass
 from schemas.answer.outputs import labels
 from schemas.machine.reciprocating import ReciprocatingMachine
@@ -42,8 +50,8 @@ def _figure(scene: Prepared, fitted: Complex | None) -> Loads:
         ),
         driver_Nm=float(integrals.mean),
         shared_base_Nm=beyond.tolist(),
-        own_base_peak_Nm=float(of_torque(scene, result.rotating_friction).lower),
-        shared_base_peak_Nm=float(of_torque(scene, result.rotating_friction - integrals.mean).lower),
+        own_base_peak_Nm=torque_peak(scene, result.rotating_friction).lower[0],
+        shared_base_peak_Nm=torque_peak(scene, result.rotating_friction - integrals.mean).lower[0],
         # J eps is what the constant torque of the driver leaves over
         angular_acceleration_rad_s2=None if inertia is None else (-beyond / inertia).tolist(),
         bearing_weights=tuple(_weights(scene, machine, fitted)),
@@ -68,13 +76,13 @@ def _inertia(scene: Prepared, machine: ReciprocatingMachine) -> float | None:
 
 def _rows(scene: Prepared, machine: ReciprocatingMachine) -> Iterator[RowLoad]:
     forces, masses = scene.results["piston_force"], scene.layout.reciprocating.mass
-    piston, rod, stopped = (of_rows(scene, reading).magnitude for reading in _READINGS)
+    piston, rod, stopped = (of_rows(scene, reading).magnitude.lower.tolist() for reading in _READINGS)
     at_centres = at_dead_centres(scene)
     guides, frames, covers = _guides(scene, machine), _frames(forces.gas), _covers(scene)
     rows = [row for throw in machine.throws for row in throw.rows]
     largest_gas, largest_inertia = (_ends(np.abs(force))[1] for force in (forces.gas, forces.inertia))
     for k, place in rows_of(scene):
-        three = {"gas": largest_gas[k], "inertia": largest_inertia[k], "running": float(piston.lower[k])}
+        three = {"gas": largest_gas[k], "inertia": largest_inertia[k], "running": piston[k]}
         link = rows[k].connecting_rod
         worst = max(three, key=lambda name: three[name])
         yield RowLoad(
@@ -87,10 +95,10 @@ def _rows(scene: Prepared, machine: ReciprocatingMachine) -> Iterator[RowLoad]:
             largest_piston_force_N=three["running"],
             piston_rod_N=three[worst],
             piston_rod_governed_by=worst,
-            crosshead_pin_N=float(rod.lower[k]),
+            crosshead_pin_N=rod[k],
             stop_at_outer_dead_centre_N=float(at_centres[k, 0]),
             stop_at_inner_dead_centre_N=float(at_centres[k, 1]),
-            stop_over_the_turn_N=float(stopped.lower[k]),
+            stop_over_the_turn_N=stopped[k],
             covers=tuple(covers[k][: 2 * sum(1 for _ in row_cylinders(rows[k]))]) if covers else (),
             frame=frames[k],
             guide=None if guides is None else guides[k],
@@ -238,8 +246,8 @@ def _columns(scene: Prepared, fitted: Complex) -> dict[str, Real]:
     results = {
         "peak_crosshead_pin_N": largest_of_rows(scene, "rod").lower,
         "peak_sudden_stop_N": largest_of_rows(scene, "rod_at_rest").lower,
-        "own_base_peak_Nm": of_torque(scene, constant).lower,
-        "shared_base_peak_Nm": of_torque(scene, constant - mean).lower,
+        "own_base_peak_Nm": of_torque(scene, constant),
+        "shared_base_peak_Nm": of_torque(scene, constant - mean),
     }
     if machine.bearings:
         weights = np.abs(on_bearings(scene, machine, fitted))

@@ -1,7 +1,7 @@
 """Peaks over the whole turn: bracketed whatever the samples, of one machine and of many designs."""
 
 import math
-from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import lru_cache
 from itertools import accumulate, pairwise
 from typing import NamedTuple
@@ -15,6 +15,7 @@ from optimizer.mechanics.row_series import Reading
 from optimizer.mechanics.shaft_curves import ShaftCurves
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
 from optimizer.numerics.arrays import Complex, Real, spread
+from optimizer.responses.peak_table import Name, PeakList
 from optimizer.responses.piecewise_cubics import Bracket, Index
 
 #: of a bracket, relative to the peak; and of a floor
@@ -42,61 +43,57 @@ class Extremes(NamedTuple):
         )
 
 
-def bracket(peak: Bracket, *index: int) -> tuple[float, float]:
-    """One bracket as an answer holds it: at least and at most."""
-    return float(peak.lower[index]), float(peak.upper[index])
-
-
 class Search(NamedTuple):
     """Peaks of curves that an output shows.
 
     name : what says which they are, among all searches of one scene.
     """
 
-    name: tuple[Hashable, ...]
+    name: Name
     curves: TurnCurves
     number: Index  # (m,) which of the curves
     offset: Complex | Real  # (m,) what is added to each
     sign: Real | float = 0.0  # (m,) as in :meth:`Pieces.peaks`
     group: Index | None = None  # (m,) from 0, where only the largest of each group is shown
+    scale: float = 1.0  # of the peaks shown in units of the curves
 
     @property
     def peak_count(self) -> int:
         """How many peaks are found."""
         return self.number.size if self.group is None else int(np.max(self.group, initial=-1)) + 1
 
-    @property
-    def peaks(self) -> Bracket:
-        """What is found of it alone."""
-        return self.curves.pieces.peaks(self.offset, TOLERANCE, self.number, self.group, self.sign)
 
-
-def searched(scene: Prepared, searches: Iterable[Search]) -> dict[tuple[Hashable, ...], Bracket]:
-    """Brackets (m,), or (groups,), of all searches of one machine, each as if it were alone."""
-    every = list({search.name: search for search in searches}.values())
+def search(scene: Prepared, searches: Iterable[Search]) -> None:
+    """Bracket the peaks of all searches of one machine at once, each as if it were alone, for its outputs to show."""
+    every = list({one.name: one for one in searches}.values())
     if not every:
-        return {}
+        return
     # what several outputs have in common stands there once
-    curves = list({id(search.curves): search.curves for search in every}.values())
+    curves = list({id(one.curves): one.curves for one in every}.values())
     batch = CurveBatch(tuple(curves))
-    first = {id(search): number for search, number in zip(curves, batch.first.tolist(), strict=False)}
-    number = np.concatenate([search.number + first[id(search.curves)] for search in every])
-    offset = np.concatenate([search.offset for search in every])
-    sign = np.concatenate([np.zeros(search.number.size) + search.sign for search in every])
-    groups = [np.arange(search.number.size) if search.group is None else search.group for search in every]
-    ends = [0, *accumulate(search.peak_count for search in every)]
-    group = np.concatenate([part + end for part, end in zip(groups, ends, strict=False)])
-    peaks = _reshaped(scene, batch.pieces.peaks(offset, TOLERANCE, number, group, sign))
-    return {
-        search.name: Bracket._make(part[slice(*own)] for part in peaks)
-        for search, own in zip(every, pairwise(ends), strict=True)
-    }
+    first = {id(some): number for some, number in zip(curves, batch.first.tolist(), strict=False)}
+    counts = [one.peak_count for one in every]
+    ends = [0, *accumulate(counts)]
+    number = np.concatenate([one.number + first[id(one.curves)] for one in every])
+    offset = np.concatenate([one.offset for one in every])
+    sign = np.concatenate([np.zeros(one.number.size) + one.sign for one in every])
+    group = np.concatenate(
+        [
+            end + (np.arange(one.number.size) if one.group is None else one.group)
+            for one, end in zip(every, ends, strict=False)
+        ]
+    )
+    angle, value, lower, upper = batch.pieces.peaks(offset, TOLERANCE, number, group, sign)
+    scale = np.repeat([one.scale for one in every], counts)
+    rows = {one.name: slice(*own) for one, own in zip(every, pairwise(ends), strict=True)}
+    scene.peaks.add(rows, Bracket(_within_turns(scene, angle), value, lower * scale, upper * scale))
 
 
-def peaks_of(scene: Prepared, search: Search) -> Bracket:
-    """What has been searched together with all else, or else is searched now."""
-    peaks = scene.brackets.get(search.name)
-    return _reshaped(scene, search.peaks) if peaks is None else peaks
+def peak_list(scene: Prepared, name: Name, curves: Callable[[], Search]) -> PeakList:
+    """Peaks of one machine in plain numbers; searched now where they were not together with all else."""
+    if name not in scene.peaks:
+        search(scene, (curves(),))
+    return scene.peaks.plain(name)
 
 
 def rows_search(scene: Prepared, reading: Reading) -> Search:
@@ -115,16 +112,23 @@ def _both_ways(count: int) -> tuple[Index, Real, Real]:
     return number, np.zeros(2 * count), sign
 
 
-def _rows_name(reading: Reading) -> tuple[Hashable, ...]:
+def _rows_name(reading: Reading) -> Name:
     return "rows", reading
 
 
 def of_rows(scene: Prepared, reading: Reading) -> Extremes:
     """Of a force of every row, (..., rows)."""
-    peaks = scene.brackets.get(_rows_name(reading))
-    if peaks is not None:
-        return Extremes(*_parts(peaks, 2))
-    return Extremes(*(_reshaped(scene, part) for part in _parts(rows_search(scene, reading).peaks, 2)))
+    name = _rows_name(reading)
+    if name in scene.peaks:
+        return Extremes(*_halves(scene.peaks.brackets(name)))
+    _, curves, number, offset, sign, *_ = rows_search(scene, reading)
+    peaks = curves.pieces.peaks(offset, TOLERANCE, number, None, sign)
+    return Extremes(*(_reshaped(scene, part) for part in _halves(peaks)))
+
+
+def row_peaks(scene: Prepared, reading: Reading) -> list[PeakList]:
+    """Largest values of a force of every row of one machine, and its smallest values negated."""
+    return peak_list(scene, _rows_name(reading), lambda: rows_search(scene, reading)).split(2)
 
 
 def largest_of_rows(scene: Prepared, reading: Reading) -> Bracket:
@@ -140,15 +144,25 @@ def largest_of_rows(scene: Prepared, reading: Reading) -> Bracket:
 
 
 def torque_search(scene: Prepared, constant: Real | float = 0.0) -> Search:
-    """Largest torque of all rows with a constant (...), N m, magnitude."""
+    """Largest torque of all rows of one machine with a constant () N m, magnitude."""
+    whole: WholeTurn = scene.results["whole_turn"]
+    return Search(_torque_name(constant), whole.torque, np.zeros(1, np.intp), np.full(1, constant, float))
+
+
+def _torque_name(constant: Real | float) -> Name:
+    return "torque", float(constant)
+
+
+def torque_peak(scene: Prepared, constant: Real | float = 0.0) -> PeakList:
+    """The same in plain numbers."""
+    return peak_list(scene, _torque_name(constant), lambda: torque_search(scene, constant))
+
+
+def of_torque(scene: Prepared, constant: Real | float = 0.0) -> Real:
+    """Largest torque of all rows with a constant (...) N m, magnitude: (...)."""
     whole: WholeTurn = scene.results["whole_turn"]
     offset = spread(np.reshape(constant, -1), (len(whole.centre),))
-    return Search(("torque", offset.tobytes()), whole.torque, np.arange(offset.size), offset)
-
-
-def of_torque(scene: Prepared, constant: Real | float = 0.0) -> Bracket:
-    """The same: (...)."""
-    return _single(peaks_of(scene, torque_search(scene, constant)))
+    return whole.torque.pieces.peaks(offset, TOLERANCE).lower.reshape(scene.layout.omega.shape)
 
 
 def of_shaft(scene: Prepared, curves: ShaftCurves, unbalance: Complex | None, group: Index | None = None) -> Bracket:
@@ -165,44 +179,47 @@ def of_shaft(scene: Prepared, curves: ShaftCurves, unbalance: Complex | None, gr
     return _times_square(scene, _reshaped(scene, pieces.peaks(curves.offsets(unbalance), TOLERANCE, None, group)))
 
 
-def shaft_search(curves: ShaftCurves, unbalances: Sequence[Complex | None]) -> Search:
-    """Peaks of loads and moments of one machine with several sets of counterweights."""
-    count, sets = curves.curves.weights.shape[1], len(unbalances)
-    offset = np.concatenate([curves.offsets(unbalance) for unbalance in unbalances])
-    return Search(_SHAFT, curves.curves, np.tile(np.arange(count), sets), offset)
+def shaft_search(scene: Prepared, unbalances: Sequence[Complex | None]) -> Search:
+    """Peaks of loads [N] and moments [N m] of one machine with several sets of counterweights."""
+    found = scene.shaft_curves
+    count, sets = found.curves.weights.shape[1], len(unbalances)
+    offset = np.concatenate([found.offsets(unbalance) for unbalance in unbalances])
+    return Search(_SHAFT, found.curves, np.tile(np.arange(count), sets), offset, scale=scene.omega_squared)
 
 
-def of_shaft_sets(scene: Prepared, curves: ShaftCurves, unbalances: Sequence[Complex | None]) -> tuple[Bracket, ...]:
-    """The same as :func:`of_shaft` with several sets of counterweights, all peaks searched together."""
-    known = scene.brackets.get(_SHAFT)
-    every = peaks_of(scene, shaft_search(curves, unbalances)) if known is None else known
-    return tuple(_times_square(scene, part) for part in _parts(every, len(unbalances)))
-
-
-def _parts(peaks: Bracket, number: int) -> Iterator[Bracket]:
-    """So many parts of equal size, one after the other."""
-    size = peaks.angle.size // number
-    for k in range(number):
-        yield Bracket._make(part[k * size : (k + 1) * size] for part in peaks)
+def shaft_peaks(scene: Prepared, unbalances: Sequence[Complex | None]) -> list[PeakList]:
+    """The same in plain numbers, set by set."""
+    return peak_list(scene, _SHAFT, lambda: shaft_search(scene, unbalances)).split(len(unbalances))
 
 
 def customary_search(scene: Prepared, customary: Complex) -> Search:
     """The largest load of a bearing, and the largest bending moment, of one machine with customary counterweights."""
     found, bearings = scene.shaft_curves, len(scene.machine.bearings)
     kind = np.minimum(np.arange(found.curves.weights.shape[1]) // bearings, 1)
-    return Search(_CUSTOMARY, found.curves, np.arange(kind.size), found.offsets(customary), group=kind)
+    return Search(
+        _CUSTOMARY,
+        found.curves,
+        np.arange(kind.size),
+        found.offsets(customary),
+        group=kind,
+        scale=scene.omega_squared,
+    )
 
 
-def of_customary(scene: Prepared, customary: Callable[[], Complex]) -> Real:
-    """The same (2,) N, N m, of counterweights that are worked out where nothing was searched before."""
-    known = scene.brackets.get(_CUSTOMARY)
-    peaks = peaks_of(scene, customary_search(scene, customary())) if known is None else known
-    return _times_square(scene, peaks).lower
+def customary_peaks(scene: Prepared, customary: Callable[[], Complex]) -> list[float]:
+    """The same [N, N m], of counterweights that are worked out where nothing was searched before."""
+    return peak_list(scene, _CUSTOMARY, lambda: customary_search(scene, customary())).lower
 
 
 def separate_groups(alone: int, together: int) -> Index:
     """Groups of curves of which some stand alone, and of the others only the largest counts."""
     return np.minimum(np.arange(alone + together), alone)
+
+
+def _halves(peaks: Bracket) -> Iterator[Bracket]:
+    """The first half and the second."""
+    half = peaks.angle.size // 2
+    return (Bracket._make(part[some] for part in peaks) for some in (slice(half), slice(half, None)))
 
 
 def _times_square(scene: Prepared, peaks: Bracket) -> Bracket:
@@ -223,8 +240,13 @@ def _reshaped(scene: Prepared, peaks: Bracket) -> Bracket:
     leading = scene.layout.omega.shape
     count = peaks.angle.size // max(math.prod(leading), 1)
     shape = (*leading, count)
-    whole: WholeTurn = scene.results["whole_turn"]
-    angle = np.mod(peaks.angle, TURN * whole.turns)
+    angle = _within_turns(scene, peaks.angle)
     return Bracket(
         angle.reshape(shape), peaks.value.reshape(shape), peaks.lower.reshape(shape), peaks.upper.reshape(shape)
     )
+
+
+def _within_turns(scene: Prepared, angle: Real) -> Real:
+    """Angles [rad] within the turns after which all repeats."""
+    whole: WholeTurn = scene.results["whole_turn"]
+    return np.mod(angle, TURN * whole.turns)

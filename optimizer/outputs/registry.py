@@ -2,10 +2,11 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import lru_cache
 from types import MappingProxyType
 from typing import Any
 
-from optimizer.effects.registry import EFFECTS, closure, effects_of, rules_of
+from optimizer.effects.registry import EFFECTS, absent_effects, effects_of, rules_of
 from optimizer.errors import MissingInput
 from optimizer.formulation.simulation import Prepared, simulated, turns_over
 from optimizer.numerics.arrays import Complex, Real
@@ -21,7 +22,7 @@ from optimizer.outputs.internal_moment import INTERNAL_MOMENT
 from optimizer.outputs.loads import LOADS
 from optimizer.outputs.orders import ORDERS
 from optimizer.outputs.output import Columns, Output
-from optimizer.outputs.peaks import searched
+from optimizer.outputs.peaks import search
 from optimizer.outputs.pins import PIN_LOADS
 from optimizer.outputs.roll import ROLL
 from optimizer.outputs.stages import STAGES
@@ -94,11 +95,8 @@ def fields(
     proven : fields of the answer that tell what is proven of counterweights that were chosen.
     """
     outputs = tuple(dict.fromkeys(outputs))
-    searches = (search for name in outputs for search in OUTPUTS[name].searches(scene, unbalance))
-    found = searched(scene, searches)
-    # of other counterweights there may be some
-    scene.brackets.clear()
-    scene.brackets.update(found)
+    scene.peaks.clear()
+    search(scene, (each for name in outputs for each in OUTPUTS[name].searches(scene, unbalance)))
     results = {name: OUTPUTS[name].figure(scene, unbalance) for name in outputs}
     if all(effect in scene.results for effect in FIRST_ORDER_EFFECTS):
         results["balance_quality"] = balance_quality(scene, unbalance)
@@ -155,10 +153,13 @@ def require_inputs(machine: Machine, outputs: Sequence[str], samples: int = 1) -
         naming every missing field and an output that needs it.
     """
     problems: dict[Path, FieldProblem] = {}
-    for broken, path, message in input_rules(machine, outputs):
-        if broken:
-            problems.setdefault(path, FieldProblem(path, message))
-    needs = [need for output in outputs for need in OUTPUTS[output].needs]
+    for output, effect in _demands(machine, outputs):
+        for rule in rules_of(machine, effect):
+            # of all that is kept nothing is worded
+            if rule.broken:
+                _, path, message = _of_output(rule, output)
+                problems.setdefault(path, FieldProblem(path, message))
+    needs = _needs(tuple(outputs))
     if "kinematics" in effects_of(needs) and _series(machine) * samples * turns_over(machine, needs) > MAX_SAMPLES:
         path = ("angles", "step_deg")
         message = f"rows and bearings times samples must be at most {MAX_SAMPLES}"
@@ -169,25 +170,45 @@ def require_inputs(machine: Machine, outputs: Sequence[str], samples: int = 1) -
 
 def input_rules(machine: Machine, outputs: Sequence[str]) -> Iterator[Rule]:
     """What the outputs ask of a machine, whose fields may hold columns (n,); paths from the root of the request."""
-    for output, effect in _reached(machine, outputs):
-        for broken, path, message in rules_of(machine, effect):
-            yield Rule(broken, ("machine", *path), f"{message}; needed by output '{output}'")
+    for output, effect in _demands(machine, outputs):
+        for rule in rules_of(machine, effect):
+            yield _of_output(rule, output)
+
+
+def _of_output(rule: Rule, output: str) -> Rule:
+    """A rule of a machine as one of a request, in the name of an output."""
+    broken, path, message = rule
+    return Rule(broken, ("machine", *path), f"{message}; needed by output '{output}'")
 
 
 def missing_inputs(machine: Machine, outputs: Sequence[str]) -> Iterator[FieldProblem]:
     """Fields that the outputs need and the machine does not give, whatever the numbers in the others."""
-    for output, effect in _reached(machine, outputs):
+    for output, effect in _demands(machine, outputs):
         for path, message in EFFECTS[effect].problems(machine):
             yield FieldProblem(("machine", *path), f"{message}; needed by output '{output}'")
 
 
-def _reached(machine: Machine, outputs: Sequence[str]) -> Iterator[tuple[str, str]]:
-    """Every effect that the outputs need, once, with the first that needs it."""
+def _demands(machine: Machine, outputs: Sequence[str]) -> tuple[tuple[str, str], ...]:
+    """Every effect that the outputs need and that asks anything of a machine, once, after the first that needs it."""
+    names = tuple(outputs)
+    return _first_users(names, absent_effects(machine, _needs(names)))
+
+
+@lru_cache(maxsize=256)
+def _first_users(outputs: tuple[str, ...], absent: frozenset[str]) -> tuple[tuple[str, str], ...]:
     first: dict[str, str] = {}
     for output in outputs:
-        for effect in closure(machine, OUTPUTS[output].needs):
-            if first.setdefault(effect, output) is output:
-                yield output, effect
+        for effect in effects_of(OUTPUTS[output].needs):
+            first.setdefault(effect, output)
+    return tuple(
+        (output, effect) for effect, output in first.items() if effect not in absent and EFFECTS[effect].demanding
+    )
+
+
+@lru_cache(maxsize=256)
+def _needs(outputs: tuple[str, ...]) -> tuple[str, ...]:
+    """Effects whose results the outputs read."""
+    return tuple(need for output in outputs for need in OUTPUTS[output].needs)
 
 
 def _series(machine: Machine) -> int:

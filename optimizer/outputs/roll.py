@@ -8,31 +8,36 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.whole_turn import TurnCurves
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.output import Columns, Output
-from optimizer.outputs.peaks import TOLERANCE, Search, bracket, of_torque, peaks_of
+from optimizer.outputs.peaks import TOLERANCE, Search, of_torque, peak_list
 from optimizer.responses.curve import peaks
+from optimizer.responses.peak_table import PeakList
 from optimizer.responses.piecewise_cubics import Bracket
 from schemas.answer.roll import Roll, RollMoment
+
+#: names of the peaks without and with balance shafts
+_BARE, _FITTED = ("roll",), ("roll", "shafts")
 
 
 def _figure(scene: Prepared, unbalance: Complex | None) -> Roll:
     angle, square = np.deg2rad(scene.angle_deg), scene.omega_squared
     bare: Real = np.real(scene.roll.at(angle))
-    before = after = _moment(scene, bare * square, peaks_of(scene, _bare(scene)))
+    before = after = _moment(scene, bare * square, peak_list(scene, _BARE, lambda: _bare(scene)))
     fitted = None if unbalance is None or scene.shafts is None else np.concatenate([unbalance, scene.shafts])
     if fitted is not None:
         # what turns with the crankshaft has no lever: of all counterweights only those of balance shafts count
         moment = bare + np.asarray(scene.roll.added(fitted, angle)).real
-        after = _moment(scene, moment * square, peaks([scene.roll], fitted, TOLERANCE))
+        at, value, lower, upper = peaks([scene.roll], fitted, TOLERANCE)
+        scene.peaks.add({_FITTED: slice(None)}, Bracket(at, value, lower * square, upper * square))
+        after = _moment(scene, moment * square, scene.peaks.plain(_FITTED))
     return Roll(angle_deg=scene.angles, before=before, after=None if unbalance is None else after)
 
 
-def _moment(scene: Prepared, samples: Real, peak: Bracket) -> RollMoment:
-    square = scene.omega_squared
+def _moment(scene: Prepared, samples: Real, peak: PeakList) -> RollMoment:
     return RollMoment(
         moment_Nm=samples.tolist(),
-        peak_Nm=float(peak.lower[0]) * square,
-        peak_bracket_Nm=bracket(peak._replace(lower=peak.lower * square, upper=peak.upper * square), 0),
-        peak_angle_deg=float(np.mod(np.rad2deg(peak.angle[0]), scene.roll.period_deg)),
+        peak_Nm=peak.lower[0],
+        peak_bracket_Nm=peak.bracket(),
+        peak_angle_deg=peak.angle_deg[0] % scene.roll.period_deg,
     )
 
 
@@ -44,13 +49,13 @@ def _bare(scene: Prepared) -> Search:
     """The moment without balance shafts."""
     curves = scene.roll.curves
     assert isinstance(curves, TurnCurves)  # of the rows
-    return Search(("roll",), curves, np.zeros(1, np.intp), np.zeros(1))
+    return Search(_BARE, curves, np.zeros(1, np.intp), np.zeros(1), scale=scene.omega_squared)
 
 
 def _columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
     # friction of the shaft does not reach the frame
     mean = np.sum(scene.results["torque_integrals"].row_mean, axis=-1)
-    return {"peak_roll_Nm": of_torque(scene, -mean).lower}
+    return {"peak_roll_Nm": of_torque(scene, -mean)}
 
 
 ROLL = Output(

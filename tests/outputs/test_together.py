@@ -1,7 +1,6 @@
 """Peaks of all outputs of an answer are searched together: each as if it were searched alone."""
 
 import json
-from dataclasses import replace
 from itertools import chain
 from pathlib import Path
 from typing import Any
@@ -10,7 +9,7 @@ import numpy as np
 import pytest
 
 from optimizer.mechanics import curve_batch
-from optimizer.outputs.peaks import peaks_of, searched
+from optimizer.outputs.peaks import TOLERANCE, search
 from optimizer.outputs.registry import OUTPUTS, fields, prepare
 from optimizer.responses import piecewise_cubics
 from schemas.request.requests import AnalyzeRequest
@@ -46,11 +45,17 @@ def test_a_peak_does_not_depend_on_what_is_searched_beside_it(name: str) -> None
     scene = prepare(request, request.outputs)
     unbalance = np.full(len(machine["webs"]), 0.3 - 0.2j)
     searches = list(chain.from_iterable(OUTPUTS[each].searches(scene, unbalance) for each in shown))
-    together = searched(scene, searches)
-    for search in searches:
-        alone = peaks_of(replace(scene, brackets={}), search)
-        for part, other in zip(together[search.name], alone, strict=True):
-            np.testing.assert_array_equal(part, other, err_msg=str(search.name))
+    search(scene, searches)
+    for one in searches:
+        alone = one.curves.pieces.peaks(one.offset, TOLERANCE, one.number, one.group, one.sign)
+        together = scene.peaks.brackets(one.name)
+        shown = scene.peaks.plain(one.name)
+        angle = np.mod(alone.angle, np.deg2rad(360.0) * scene.results["whole_turn"].turns)
+        np.testing.assert_array_equal(together.angle, angle, err_msg=str(one.name))
+        np.testing.assert_array_equal(shown.angle_deg, np.rad2deg(angle), err_msg=str(one.name))
+        np.testing.assert_array_equal(together.value, alone.value, err_msg=str(one.name))
+        np.testing.assert_array_equal(shown.lower, alone.lower * one.scale, err_msg=str(one.name))
+        np.testing.assert_array_equal(shown.upper, alone.upper * one.scale, err_msg=str(one.name))
 
 
 def test_outputs_without_floors_need_one_search(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -71,7 +76,8 @@ def test_outputs_without_floors_need_one_search(monkeypatch: pytest.MonkeyPatch)
 
 def test_nothing_is_searched_where_no_output_shows_a_peak() -> None:
     scene = prepare(AnalyzeRequest.model_validate({"machine": _example("2d12")}), ())
-    assert searched(scene, ()) == {}
+    search(scene, ())
+    assert scene.peaks.is_closed(0.0)
 
 
 def test_orders_are_those_of_the_counterweights_asked_for() -> None:
