@@ -125,10 +125,10 @@ def _piece(table: "pa.Table") -> ChunkResult:
 def _answer(computation: Computation) -> Callable[[bytes, int, int, Proceed], ChunkResult]:
     def answer(request: bytes, start: int, stop: int, proceed: Proceed) -> ChunkResult:
         from optimizer.errors import NotComputable
-        from service.common.validation import check, pointer, read_json
+        from service.common.validation import pointer, read_request
 
         try:
-            result = computation.function(check(computation.asks, read_json(request)))
+            result = computation.function(read_request(computation.asks, request))
         except NotComputable as error:
             raise Unanswerable("; ".join(f"{pointer(path)}: {message}" for path, message in error.problems)) from None
         return ChunkResult(json_bytes(result), 0)
