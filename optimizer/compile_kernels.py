@@ -16,6 +16,7 @@ from multiprocessing import get_context
 import numpy as np
 
 from optimizer.numerics.linking import link_first
+from optimizer.numerics.shortcuts import take_shortcuts
 from optimizer.warm_up import follow_a_turn, match_parts, plain_discs
 
 #: by so much the shorter parts are nicer than the longest: a third of its share of a core
@@ -89,6 +90,7 @@ def main() -> None:
     # the compiler makes millions of objects and lets few go: looking for those is a sixth of its time
     gc.disable()
     link_first()
+    take_shortcuts()
     budgets()
     # three at a time; the longest has a core of its own where there are two, so that both are busy until the end
     parts = (plain_discs, proofs), (follow_a_turn,), (any_limits, match_parts, designs, moving_curves, near_sums)
