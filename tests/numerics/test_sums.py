@@ -47,7 +47,7 @@ def test_arms_of_all_machines_may_be_the_same() -> None:
 @pytest.mark.parametrize("size", [1e-8, 1.0, 1e300, 1e-300])
 def test_what_cancels_up_to_rounding_is_nothing(size: float) -> None:
     """Analytic: 0.1 + 0.2 - 0.3 is no force, whatever the unit, and with arms it is a couple."""
-    forces = np.broadcast_to(size * np.array([0.1, 0.2, -0.3], complex), (_MACHINES, 3))
+    forces = np.tile(np.array([0.1 * size, 0.2 * size, -0.3 * size], complex), (_MACHINES, 1))
     force, couple = force_and_couple(forces, np.broadcast_to([1.0, 2.0, 3.0], (_MACHINES, 3)))
     np.testing.assert_array_equal(force, 0.0)
     np.testing.assert_allclose(couple, 0.0 if size < 1e-250 else -0.4 * size, rtol=1e-12)
