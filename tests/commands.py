@@ -19,7 +19,7 @@ from inspect import signature
 from pathlib import Path
 from typing import Any
 
-from tests.mould import LARGEST
+from tests.mould import DOCUMENTS, LARGEST
 
 ROOT = Path(__file__).parents[1]
 #: read when a process starts or a library is imported, not when a command runs
@@ -165,5 +165,7 @@ def _mould(root: Path) -> _Mould:
 
 
 def _environment(root: Path) -> dict[str, str]:
-    """That of the tests; what is imported is that of a copy, if it is one."""
-    return dict(os.environ) if root == ROOT else {**os.environ, "PYTHONPATH": str(root)}
+    """That of the tests; what is imported is that of a copy, if it is one, and documents are its own."""
+    if root == ROOT:
+        return dict(os.environ)
+    return {name: value for name, value in os.environ.items() if name != DOCUMENTS} | {"PYTHONPATH": str(root)}

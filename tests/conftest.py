@@ -8,6 +8,7 @@ import sys
 import tempfile
 from collections import Counter
 from collections.abc import Generator, Iterator
+from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -20,6 +21,7 @@ os.environ["JE_ARROW_MALLOC_CONF"] = "background_thread:false"
 from optimizer.warm_up import warm_up
 from service.workers.process import preload
 from tests.fork_server import fork_fork_servers
+from tests.mould import DOCUMENTS
 from tests.verification.every import check_answers
 
 # with `-n 4`, or `--numprocesses 4`, in four processes
@@ -90,7 +92,12 @@ def pytest_collection_finish(session: pytest.Session) -> None:
         # as else each process would, with its first answer and its first document
         warm_up()
         if served:
-            importlib.import_module("tests.documents").make_documents()
+            documents = importlib.import_module("tests.documents")
+            documents.make_documents()
+            file = Path(_DATA.name) / "documents"
+            documents.write_documents(file)
+            # for the process that services are forked from, until it has started
+            os.environ[DOCUMENTS] = str(file)
         gc.collect()
         gc.freeze()
     for name in ("OPENBLAS_NUM_THREADS", "JE_ARROW_MALLOC_CONF"):

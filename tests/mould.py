@@ -20,6 +20,7 @@ import sys
 import threading
 from contextlib import suppress
 from multiprocessing import forkserver
+from pathlib import Path
 
 #: by the service and by its commands, beside what its workers load
 _LOADED = (
@@ -45,6 +46,8 @@ _LOADED = (
 LARGEST = 1 << 17
 #: of linux/prctl.h
 PR_SET_PDEATHSIG, PR_SET_NAME = 1, 15
+#: names a file with what tests/documents.py has made in the first process of a run
+DOCUMENTS = "TESTS_DOCUMENTS"
 #: name of the process that workers are forked from, as its command line is that of the mould
 FORK_SERVER = "fork server"
 
@@ -73,6 +76,8 @@ def load() -> None:
     assert failure is None, failure
     for name in _LOADED:
         importlib.import_module(name)
+    if DOCUMENTS in os.environ:
+        importlib.import_module("tests.documents").read_documents(Path(os.environ[DOCUMENTS]))
     # which ignores them, as what is forked from it does
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     signal.signal(signal.SIGINT, signal.default_int_handler)

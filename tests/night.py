@@ -1,14 +1,27 @@
 """What is tried by night alone: ``make nightly``, or ``pytest tests/folder/test_file.py`` for all of one file."""
 
+import os
 from collections.abc import Container, Iterable
 from typing import Any
 
 import pytest
+from _pytest.mark.structures import ParameterSet
+
+#: whether nothing is left to the night: as at night itself, and under mutants
+ALL = os.environ.get("CHECKED_ANSWERS") == "every"
 
 
 def every(count: int, values: Iterable[Any]) -> list[Any]:
     """Parameters of a test: by day the first of so many, and so on; all by night."""
     return [value if place % count == 0 else _by_night(value) for place, value in enumerate(values)]
+
+
+def part(count: int, values: Iterable[Any], rows: bool = False) -> list[Any]:
+    """Parameters of a test of one property: by day the first of so many, and so on; all by night and under mutants.
+
+    ``rows`` is whether each of the values is a tuple of several parameters.
+    """
+    return [*values] if ALL else every(count, (pytest.param(*one) for one in values) if rows else values)
 
 
 def but(day: Container[Any], values: Iterable[Any]) -> list[Any]:
@@ -17,4 +30,6 @@ def but(day: Container[Any], values: Iterable[Any]) -> list[Any]:
 
 
 def _by_night(value: Any) -> Any:
+    if isinstance(value, ParameterSet):
+        return value._replace(marks=[*value.marks, pytest.mark.nightly])
     return pytest.param(value, marks=pytest.mark.nightly)

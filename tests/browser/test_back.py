@@ -6,7 +6,7 @@ from contextlib import contextmanager
 import pytest
 from playwright.sync_api import Route, expect
 
-from tests.browser.portal import Portal
+from tests.browser.portal import POLLING_MS, Portal
 
 SPEED = "/machine/speed_rpm"
 LEFT, GONE_TO, LATE = "w60", "two-rows-180", "v60"
@@ -91,7 +91,7 @@ def back(portal: Portal) -> None:
 def expect_nothing_else(portal: Portal) -> None:
     """What one went to is there, and nothing was written into its place; forward leads to where one was."""
     expect(portal.page.locator("#example")).to_have_value(GONE_TO)
-    portal.page.wait_for_function(_DRAWN)
+    portal.page.wait_for_function(_DRAWN, polling=POLLING_MS)
     here = portal.page.evaluate("location.hash")
     assert here.startswith(f"#example={GONE_TO}&")
     assert [one for one in portal.page.evaluate("written") if one[1] == here] == []
@@ -123,7 +123,7 @@ def test_a_link_that_is_packed_when_one_leaves(two_places: Portal) -> None:
     portal = two_places
     portal.page.evaluate(_HOLD_LINKS)
     portal.input(SPEED).fill("777")
-    portal.page.wait_for_function("() => packing > 0")
+    portal.page.wait_for_function("() => packing > 0", polling=POLLING_MS)
     portal.page.evaluate(_WATCH)
     back(portal)
     expect_nothing_else(portal)
@@ -146,13 +146,13 @@ def test_an_example_that_waits_for_a_link_when_one_leaves(two_places: Portal) ->
     portal = two_places
     portal.page.evaluate(_HOLD_LINKS)
     portal.input(SPEED).fill("777")
-    portal.page.wait_for_function("() => packing > 0")
+    portal.page.wait_for_function("() => packing > 0", polling=POLLING_MS)
     before = portal.page.evaluate("packing")
     portal.page.evaluate(_WATCH)
     with portal.page.expect_response(f"**/v1/examples/{LATE}"):
         portal.page.select_option("#example", LATE)
     # what is left is kept before it is left
-    portal.page.wait_for_function("before => packing > before", arg=before)
+    portal.page.wait_for_function("before => packing > before", arg=before, polling=POLLING_MS)
     back(portal)
     expect_nothing_else(portal)
     expect(portal.page.locator("#example")).to_have_value(LEFT)

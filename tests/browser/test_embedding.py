@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import BrowserContext, Page
 
-from tests.browser.portal import ask, screenshot
+from tests.browser.portal import POLLING_MS, ask, screenshot
 from tests.browser.serving import serving
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "portal"
@@ -63,8 +63,8 @@ def test_a_portal_gives_a_machine_and_takes_answer_and_picture(page: Page, sites
     page.on("console", lambda said: troubles.append(said.text) if said.type in ("error", "warning") else None)
     _open(page, known, url)
     page.click("#send")
-    page.wait_for_function("document.getElementById('verdict').textContent.startsWith('optimal')")
-    page.wait_for_function("document.getElementById('picture').naturalWidth > 0")
+    page.wait_for_function("document.getElementById('verdict').textContent.startsWith('optimal')", polling=POLLING_MS)
+    page.wait_for_function("document.getElementById('picture').naturalWidth > 0", polling=POLLING_MS)
     frame = page.frame_locator("#service")
     assert frame.locator("body > header").is_hidden()
     frame.locator("#results[data-drawn]").wait_for()
@@ -88,7 +88,8 @@ def test_a_portal_gives_a_machine_and_takes_answer_and_picture(page: Page, sites
     # the frame is as high as the page in it, which scrolls no more
     page.wait_for_function(
         "() => Math.abs(document.getElementById('service').clientHeight - "
-        "parseFloat(document.getElementById('service').style.height)) <= 2"
+        "parseFloat(document.getElementById('service').style.height)) <= 2",
+        polling=POLLING_MS,
     )
     screenshot(page, "embedded")
     assert troubles == []
@@ -99,7 +100,7 @@ def test_what_is_wrong_with_the_machine_is_said_to_the_portal(page: Page, sites:
     _open(page, known, url)
     page.fill("#speed", "-1")
     page.click("#send")
-    page.wait_for_function("document.getElementById('verdict').textContent.startsWith('Refused: ')")
+    page.wait_for_function("document.getElementById('verdict').textContent.startsWith('Refused: ')", polling=POLLING_MS)
 
 
 def test_the_page_hears_nobody_but_its_portal(page: Page, sites: tuple[str, str, str]) -> None:
@@ -111,7 +112,7 @@ def test_the_page_hears_nobody_but_its_portal(page: Page, sites: tuple[str, str,
     frame.evaluate("() => postMessage({type: 'counterweight.machine', machine: {kind: 'scroll'}}, location.origin)")
     # the next message comes after it, and is answered
     page.click("#send")
-    page.wait_for_function("document.getElementById('verdict').textContent.startsWith('optimal')")
+    page.wait_for_function("document.getElementById('verdict').textContent.startsWith('optimal')", polling=POLLING_MS)
     # the beginning is the first, the portal's machine the second
     frame.wait_for_selector("#results[data-drawn='2']")
     assert frame.locator("#problem").inner_text() == ""
@@ -196,4 +197,4 @@ def test_a_message_that_is_no_machine_is_answered_and_the_next_one_is_heard(
     assert [answer for answer in answers if not answer.startswith("error ")] == []
     assert troubles == []
     page.click("#send")
-    page.wait_for_function("document.getElementById('verdict').textContent.startsWith('optimal')")
+    page.wait_for_function("document.getElementById('verdict').textContent.startsWith('optimal')", polling=POLLING_MS)

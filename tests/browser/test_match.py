@@ -3,7 +3,7 @@
 import pytest
 from playwright.sync_api import Locator, expect
 
-from tests.browser.portal import Look, Portal, ask, cells, number
+from tests.browser.portal import POLLING_MS, Look, Portal, ask, cells, number
 from tests.browser.test_accessibility import serious
 
 _PASTED = """kind\tname\tmass (g)
@@ -100,7 +100,9 @@ def test_chosen_counterweights_on_a_phone_and_after_a_reload(portal: Portal) -> 
     assert portal.page.evaluate("document.documentElement.scrollWidth") <= 390
     portal.screenshot("match-390")
     # the link is written a moment after the last key stroke
-    portal.page.wait_for_function("location.hash.includes('89.6') && location.hash.includes('chosen')")
+    portal.page.wait_for_function(
+        "location.hash.includes('89.6') && location.hash.includes('chosen')", polling=POLLING_MS
+    )
     portal.page.reload()
     portal.drawn(1)
     expect(portal.panel("match").locator("#match-mass-1")).to_have_value("89.6")

@@ -11,7 +11,7 @@ from playwright.sync_api import expect
 from pypdf import PdfReader
 
 from tests.browser.hand import Hand
-from tests.browser.portal import ARTEFACTS, PICTURES, Portal, ask
+from tests.browser.portal import ARTEFACTS, PICTURES, POLLING_MS, Portal, ask
 from tests.browser.test_accessibility import serious
 from tests.browser.test_gas import COLUMNS
 
@@ -33,7 +33,7 @@ def _look(portal: Portal, name: str, within: str | None = None) -> None:
     portal.page.emulate_media(color_scheme="dark")
     narrow = serious(portal, within)
     # nothing is wider than the window, once plots have the width that there is
-    portal.page.wait_for_function("() => document.documentElement.scrollWidth <= 390")
+    portal.page.wait_for_function("() => document.documentElement.scrollWidth <= 390", polling=POLLING_MS)
     portal.screenshot(f"{name}-390-dark")
     if PICTURES:
         portal.page.set_viewport_size({"width": 1280, "height": 900})

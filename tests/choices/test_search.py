@@ -17,6 +17,7 @@ from optimizer.program.statement import Statement
 from optimizer.program.verdict import yardstick
 from optimizer.responses.response import Phasors, Response
 from tests.choices.sets import every_set, options_of
+from tests.night import part
 from tests.program.cases import COMBINATIONS, random_statement
 
 _LONG = 3600.0
@@ -71,7 +72,7 @@ def check(problem: Statement, options: Options, method: str) -> None:
     assert np.sum(np.abs(u) ** 2) <= np.min(squares) * (1.0 + 1e-8) + 1e-300
 
 
-@pytest.mark.parametrize("number", range(0, len(COMBINATIONS), 2))
+@pytest.mark.parametrize("number", part(2, range(0, len(COMBINATIONS), 2)))
 def test_every_combination_of_limits(number: int, method: str) -> None:
     """Independent: three webs, three masses at six angles, of them all that keep the limits."""
     combine, weights, sectors, budget, ceilings = COMBINATIONS[number]
@@ -116,7 +117,7 @@ def test_half_a_million_sets() -> None:
 
 
 @pytest.mark.nightly
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", part(3, range(3)))
 def test_ten_million_sets(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Independent: four webs, eleven masses at five angles, 9,834,496 sets one web after the other."""
     problem = random_statement(seed, "sum", (1.0, 1.0), False, False, False, webs=4)

@@ -14,6 +14,7 @@ from service.common.validation import check
 from tests.dust.judgement import body_of, judgement, seeds
 from tests.dust.modes import MODES
 from tests.dust.need import is_needed, is_needed_at
+from tests.night import part
 
 _MACHINES = 2_000
 
@@ -35,7 +36,7 @@ _REGRESSIONS = (
 )  # fmt: skip
 
 
-@pytest.mark.parametrize(("mode", "seed"), _REGRESSIONS)
+@pytest.mark.parametrize(("mode", "seed"), part(2, _REGRESSIONS, rows=True))
 def test_dust_stays_away(mode: str, seed: int) -> None:
     """Regression: webs left empty that no optimum needs, and plates of one size."""
     found = judgement(mode, seed)

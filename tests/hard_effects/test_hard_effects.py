@@ -11,16 +11,18 @@ from tests.hard_effects.cases_inertia import harmonic
 from tests.hard_effects.exact import State, mp
 from tests.hard_effects.exact_turn import Machine
 from tests.hard_effects.machines import MACHINES
-from tests.night import every
+from tests.night import ALL, every, part
 
 #: what is compared at many angles, each of which takes milliseconds at 50 digits
 _LONG = ("motion", "turn", "pins")
+#: by day one of so many of these
+_STEP = 3 if ALL else 6
 
 
 @pytest.mark.parametrize(
     "case",
-    [case for case in CASES if case.subject not in _LONG]
-    + [one for subject in _LONG for one in every(3, (case for case in CASES if case.subject == subject))],
+    part(2, (case for case in CASES if case.subject not in _LONG))
+    + [one for subject in _LONG for one in every(_STEP, (case for case in CASES if case.subject == subject))],
     ids=lambda case: case.id,
 )
 def test_errors_against_fifty_digits(case: Case) -> None:

@@ -5,6 +5,7 @@ import pytest
 from tests.hard_turn.case import Case
 from tests.hard_turn.cases import all_cases
 from tests.hard_turn.judge import run
+from tests.night import part
 
 _CASES = all_cases()
 #: what once ended inaccurate: masses so steep that a share of 1e-8 of the goal counts, and goals that conflict; and
@@ -30,7 +31,7 @@ _NAMED = (
 )
 
 
-@pytest.mark.parametrize("case", [case for case in _CASES if case.name in _NAMED], ids=lambda case: case.name)
+@pytest.mark.parametrize("case", part(2, (case for case in _CASES if case.name in _NAMED)), ids=lambda case: case.name)
 def test_case(case: Case) -> None:
     """Independent: loads at many angles, which no bound is above."""
     verdict = run(case)

@@ -13,9 +13,10 @@ _EVERY = {
     "no numbers": 101,
     "lone surrogates": 101,
     "lone surrogates, half-typed": 37,
-    "wrong types": 137,
-    # of the three bodies at each route the first and the last, or the second
-    "duplicate keys": 2,
+    "wrong types": 211,
+    "nesting": 5,
+    # of the three bodies at each route one, at the next the next
+    "duplicate keys": 4,
     "pointers into nowhere": 5,
     "paths astray": 7,
 }
@@ -25,7 +26,7 @@ _EVERY = {
 def test_nothing_that_means_ill_does_harm(target: Service, attack: Attack) -> None:
     outcome = asyncio.run(run(target, attack, every=_EVERY.get(attack.name, 1)))
     assert outcome.wrong == []
-    assert outcome.statuses.total() >= 10
+    assert outcome.statuses.total() >= 9
     own, worker = outcome.memory_mb
     assert own < CEILING_MB[0]
     assert worker < CEILING_MB[1]

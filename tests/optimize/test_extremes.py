@@ -12,6 +12,7 @@ from tests.hard.bodies import checked, drawn, strictly, tried
 from tests.hard.cases.case import Body, four_webs, machine, row, throw, v_twin, web
 from tests.hard.random_bodies import body
 from tests.hard.random_features import FEATURES
+from tests.night import part
 from tests.studies.sweep.single import sweep
 from tests.verification.checking import optimized
 
@@ -41,7 +42,9 @@ def test_weights_of_every_size(weights: tuple[float, float], combine: str) -> No
     assert found.status == "optimal"
 
 
-@pytest.mark.parametrize("number", [*range(60), *(pytest.param(n, marks=pytest.mark.nightly) for n in range(60, 200))])
+@pytest.mark.parametrize(
+    "number", [*part(3, range(60)), *(pytest.param(n, marks=pytest.mark.nightly) for n in range(60, 200))]
+)
 def test_random_bodies_raise_nothing(number: int) -> None:
     tried(number)
 

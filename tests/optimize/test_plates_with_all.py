@@ -23,6 +23,7 @@ from optimizer.studies.sweep.table import result_schema, result_table
 from schemas.front.pareto import ParetoRequest
 from schemas.request.requests import OptimizeRequest
 from schemas.sweep.request import SweepRequest
+from tests.night import part
 from tests.verification.checking import optimized
 
 Real = NDArray[np.float64]
@@ -199,7 +200,7 @@ CASES: Mapping[str, Case] = {
 
 
 @pytest.mark.parametrize("budget", [None, 2.4])
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", part(2, CASES))
 def test_no_opening_beats_what_is_proven(name: str, budget: float | None) -> None:
     body, objective, kept = CASES[name]
     body = copy.deepcopy(body)

@@ -8,6 +8,7 @@ import pytest
 
 from schemas.answer.answers import OptimizeAnswer
 from schemas.request.requests import OptimizeRequest
+from tests.night import part
 from tests.optimize import by_hand
 from tests.optimize.machines import machine, random_machine, row, throw, web
 from tests.verification.checking import optimized
@@ -66,7 +67,7 @@ def peaks(answer: OptimizeAnswer) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize("objective", OBJECTIVES.values(), ids=OBJECTIVES)
-@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", part(2, EXAMPLES), ids=lambda path: path.stem)
 def test_every_example_carries_the_proof_of_its_bounds(path: Path, objective: dict[str, Any]) -> None:
     body = json.loads(path.read_text())["machine"]
     assert proven({"machine": body, "objective": objective}).status == "optimal"

@@ -6,7 +6,7 @@ counterweights within their limits, figures that agree, and no claim that the in
 
 import pytest
 
-from tests.night import but, every
+from tests.night import ALL, but
 from tests.pairs.asking import Outcome, ask
 from tests.pairs.combinations import Combination, all_pairs, random_triples, some_pairs
 from tests.pairs.features import FEATURES
@@ -43,11 +43,11 @@ def test_every_feature_is_legal_somewhere(base: str) -> None:
         assert len(answered) > len(FEATURES) // 2
 
 
-@pytest.mark.parametrize("half", every(2, range(2)))
-def test_some_pairs(half: int) -> None:
-    outcomes = [ask(base, pair) for base, pair in some_pairs()[half::2]]
+@pytest.mark.parametrize("quarter", but((0, 2) if ALL else (0,), range(4)))
+def test_some_pairs(quarter: int) -> None:
+    outcomes = [ask(base, pair) for base, pair in some_pairs()[quarter::4]]
     assert not _faults(outcomes)
-    assert sum(each.kind == "answered" for each in outcomes) >= 55
+    assert sum(each.kind == "answered" for each in outcomes) >= 27
 
 
 @pytest.mark.parametrize("combination", some_pairs()[::9], ids=_short)

@@ -33,7 +33,7 @@ from tests.report_document.follow import (
 
 FOLLOWS = stored()
 #: every day one of so many, and those that once were printed in the place of others
-_STEP = 6
+_STEP = 12
 _ALWAYS = {
     "gas.rows[].chambers[].pressure_Pa[] above",
     "gas.rows[].chambers[].pressure_Pa[] below",

@@ -17,6 +17,10 @@ from tests.browser import chromium
 Make = Callable[..., Document]
 
 
+#: rows of tables that are made as those before
+_ALIKE = "tbody tr:nth-child(n + 5)"
+
+
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
     path = chromium.find()
@@ -70,4 +74,5 @@ def test_nothing_keeps_anybody_from_reading_it(opened: Callable[..., Page], widt
     page = opened("2d12", width, outputs=["torque", "main_bearings"])
     assert page.evaluate("document.documentElement.scrollWidth") <= width
     options = {"resultTypes": ["violations"], "rules": {"color-contrast": {"enabled": contrast}}}
-    assert Axe().run(page, options=options).response["violations"] == []
+    assert page.locator(_ALIKE).count() > 0
+    assert Axe().run(page, {"exclude": [_ALIKE]}, options).response["violations"] == []

@@ -8,6 +8,7 @@ import re
 
 import pytest
 
+from tests.night import part
 from tests.report_document.follow import stored
 from tests.report_document.subjects import NAMES, TABLE, made
 from tests.report_document.test_follows import SAID
@@ -20,7 +21,7 @@ def of(name: str) -> dict[str, list[str]]:
     return {leaf.removeprefix(f"{name}: "): places for leaf, places in PLACES.items() if leaf.startswith(f"{name}: ")}
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", part(2, NAMES))
 def test_chapters_change_where_a_figure_stands_and_nowhere_else(name: str) -> None:
     places, subject = of(name), made(name)
     found = {one.name: subject.follows(one) for one in subject.changes if one.name in places}

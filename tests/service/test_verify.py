@@ -93,10 +93,8 @@ def test_a_broken_claim_has_an_exit_code(files: tuple[Path, Path], answer: dict[
 )
 def test_what_cannot_be_read_is_said(files: tuple[Path, Path], text: str, said: str) -> None:
     files[1].write_text(text)
-    for code, told in (
-        (alone(files[0].parent, *map(str, files)).returncode, alone(files[0].parent, *map(str, files)).stderr),
-        (command(*map(str, files)).exit_code, command(*map(str, files)).stderr),
-    ):
+    by_itself, by_command = alone(files[0].parent, *map(str, files)), command(*map(str, files))
+    for code, told in ((by_itself.returncode, by_itself.stderr), (by_command.exit_code, by_command.stderr)):
         assert code == 2
         assert said in told
         assert "Traceback" not in told

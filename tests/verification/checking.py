@@ -17,13 +17,10 @@ from optimizer.optimize import optimize
 from schemas.answer.answers import OptimizeAnswer
 from schemas.request.requests import OptimizeRequest
 from service.verification import checker
+from tests.night import ALL
 
 #: of a file, so many answers are checked whatever there are, then one of so many
 _FIRST, _STEP = 1, 20
-
-
-#: whether nothing is left to the night
-ALL = os.environ.get("CHECKED_ANSWERS") == "every"
 
 
 class Spread:

@@ -9,6 +9,7 @@ import pytest
 from optimizer.optimize import optimize
 from schemas.request.requests import OptimizeRequest
 from service.verification import checker
+from tests.night import part
 from tests.pairs.asking import body_of
 from tests.verification.answers import answered, pair
 from tests.verification.checking import broken, is_broken
@@ -26,7 +27,7 @@ def _claims(request: Any, answer: Any) -> dict[str, str]:
     return {one["claim"]: one["verdict"] for one in checker().verify(request, answer)["claims"]}
 
 
-@pytest.mark.parametrize("name", SEVERAL)
+@pytest.mark.parametrize("name", part(2, SEVERAL))
 def test_what_multipliers_prove_is_held_and_no_more(name: str) -> None:
     request, answer = pair(name)
     found = _claims(request, answer)
@@ -49,7 +50,7 @@ def test_values_of_the_first_order_are_evaluated_anew(name: str) -> None:
 _LONG = ("four strokes",)
 
 
-@pytest.mark.parametrize("name", [one for one in KINDS[::6] if one not in _LONG])
+@pytest.mark.parametrize("name", part(2, (one for one in KINDS[::6] if one not in _LONG)))
 def test_nothing_that_is_made_up_passes(name: str) -> None:
     for way, request, answer in fabricated(name):
         try:
@@ -149,8 +150,7 @@ def test_what_is_fixed_is_not_off(base: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "path",
-    ["throws/0/position_m", "webs/1/position_m", "reference_plane_m", "throws/1/rows/0/offset_m"],
+    "path", part(2, ["throws/0/position_m", "webs/1/position_m", "reference_plane_m", "throws/1/rows/0/offset_m"])
 )
 @pytest.mark.parametrize("orders", ["first", "all"])
 def test_scenarios_move_planes_of_their_own(path: str, orders: str) -> None:

@@ -11,7 +11,7 @@ from optimizer.studies.sweep.table import result_schema, result_table
 from schemas.front.pareto import ParetoRequest
 from schemas.sweep.request import SweepRequest
 from service.verification import checker
-from tests.night import every
+from tests.night import every, part
 from tests.pairs.asking import body_of
 from tests.verification.answers import pair
 from tests.verification.checking import broken, is_broken, verdict
@@ -112,7 +112,7 @@ def test_the_rows_of_a_sweep(name: str) -> None:
 _SPEEDS = [{"path": "/machine/speed_rpm", "values": [500, 700]}]
 
 
-@pytest.mark.parametrize("more", [{"multipliers": True}, {}, {"details": True}])
+@pytest.mark.parametrize("more", part(2, [{"multipliers": True}, {}, {"details": True}]))
 @pytest.mark.parametrize(
     "features", [("bearing weight",), ("plates, sectors",), ("ceilings out of reach",), ("priorities", "orders all")]
 )

@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from optimizer.optimize import optimize
 from schemas.request.requests import OptimizeRequest
 from service.verification import checker
+from tests.night import part
 from tests.optimize.machines import machine, row, throw, web
 from tests.verification.anything import JSON, judged, paths, replaced
 from tests.verification.checking import broken, is_broken
@@ -84,7 +85,7 @@ def _changed(answer: dict[str, Any], factor: float, *path: str) -> dict[str, Any
     return found
 
 
-@pytest.mark.parametrize("name", _KINDS)
+@pytest.mark.parametrize("name", part(2, _KINDS))
 def test_what_cuts_prove_is_held_and_what_is_falsified_is_caught(name: str) -> None:
     body, answer = _KINDS[name], json.loads(_told(name))
     assert answer["status"] == "optimal"

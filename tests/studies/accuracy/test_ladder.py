@@ -18,12 +18,13 @@ from optimizer.studies.accuracy.measure import _judged, accuracy
 from optimizer.studies.accuracy.methods import GAPS, POSITIONS, LadderProgram, Method, MethodResult, Run, methods
 from schemas.request.accuracy import AccuracyAnswer, AccuracyRequest
 from schemas.request.requests import OptimizeRequest
+from tests.night import part
 from tests.studies.accuracy.problems import body, random_task, request, single
 
 NAMES = ("single-horizontal", "2d12", "v8-cross-plane", "m-type-four")
 
 
-@pytest.fixture(scope="module", params=NAMES)
+@pytest.fixture(scope="module", params=part(2, NAMES))
 def answer(request: pytest.FixtureRequest) -> AccuracyAnswer:
     return accuracy(AccuracyRequest.model_validate({**body(request.param), "repeats": 1}))
 

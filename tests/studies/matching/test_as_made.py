@@ -14,6 +14,7 @@ from optimizer.studies.matching.match import match
 from schemas.match.answer import MatchAnswer
 from schemas.match.request import MatchRequest
 from service.common.validation import InvalidRequest, check, pointer
+from tests.night import part
 
 Machine = dict[str, Any]
 #: asked of the match and of every assignment by itself, of the yardstick
@@ -101,7 +102,7 @@ LONG = ("minimum masses", "plates in groups, under a budget")
 
 
 @pytest.mark.parametrize(
-    "kind", [pytest.param(kind, marks=pytest.mark.nightly) if kind in LONG else kind for kind in KINDS]
+    "kind", part(2, (pytest.param(kind, marks=pytest.mark.nightly) if kind in LONG else kind for kind in KINDS))
 )
 def test_the_best_of_all_assignments(kind: str) -> None:
     """Brute force: every assignment optimised by itself (independent of the search and of its minorants)."""

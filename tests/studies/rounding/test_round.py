@@ -16,7 +16,7 @@ from schemas.base.target import pointer as pointer_of
 from schemas.request.requests import OptimizeRequest
 from schemas.request.rounding import RoundAnswer, RoundRequest
 from service.common.validation import InvalidRequest, check
-from tests.night import every
+from tests.night import ALL, every
 
 EXAMPLE = json.loads((Path(__file__).parents[3] / "examples/round/four-throws.json").read_bytes())
 Body = dict[str, Any]
@@ -146,7 +146,7 @@ ASKED = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", every(2, ASKED))
+@pytest.mark.parametrize("name", every(2 if ALL else 4, ASKED))
 def test_the_best_of_all_roundings(name: str) -> None:
     asked = ASKED[name]
     found = on_steps(asked)

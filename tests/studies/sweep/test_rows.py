@@ -8,6 +8,7 @@ import pytest
 from schemas.answer.outputs import OUTPUT_COLUMNS
 from schemas.base.target import find_target
 from schemas.sweep.request import SweepRequest
+from tests import night
 from tests.analyze.driven import STYLES, random_driven
 from tests.analyze.engines import UNEVEN, cylinder, engine, trace
 from tests.studies.sweep.single import assert_row_is_the_single_answer, example, numeric_paths, sweep, table
@@ -90,7 +91,7 @@ def assert_rows(request: SweepRequest, rng: np.random.Generator, most: int) -> s
 
 
 @pytest.mark.parametrize("task", ["optimize", "analyze"])
-@pytest.mark.parametrize("design", ["grid", "paired", "latin_hypercube"])
+@pytest.mark.parametrize("design", night.part(2, ["grid", "paired", "latin_hypercube"]))
 @pytest.mark.parametrize("sweeps", [1, pytest.param(3, marks=pytest.mark.nightly)])
 def test_rows_are_the_single_answers(task: str, design: str, sweeps: int) -> None:
     # property: for every machine so many sweeps over random fields
