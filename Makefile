@@ -6,6 +6,7 @@ export PORT
 
 bin := .venv/bin
 kernels := optimizer/program/kernel/__pycache__/kernels
+loaded := service.app, service.cli, service.wire.server, service.workers.worker
 pip := $(bin)/pip --quiet --disable-pip-version-check
 
 .PHONY: install run test tests quick bytecode chromium freecad mono lint bench hard validate nightly lock settings map pictures docs package image image-check smoke sbom licences audit clean
@@ -40,11 +41,13 @@ quick: .venv/development $(kernels)
 bytecode: .venv/runtime
 	$(bin)/python -m compileall -q schemas optimizer service
 
-# compiled once, in less than half a minute, not by every process that needs them;
+# compiled once, in half a minute, not by every process that needs them; while one core compiles what all of them need,
+# the other one makes bytecode of the packages that a service loads;
 # numba looks for changes in the file of a kernel only, not in the files of those that it calls
 $(kernels): optimizer/numerics/compiling.py $(wildcard optimizer/*/kernel/*.py optimizer/*/*/kernel/*.py) .venv/runtime | bytecode
 	rm -f optimizer/*/kernel/__pycache__/*.nb[ic] optimizer/*/*/kernel/__pycache__/*.nb[ic]
-	$(bin)/python -m optimizer.compile_kernels
+	PYTHONDONTWRITEBYTECODE= $(bin)/python -c "import $(loaded)" & loads=$$!; \
+	$(bin)/python -m optimizer.compile_kernels && wait $$loads
 	mkdir -p $(@D) && touch $@
 
 # the tests of the page need a browser: Debian's package, where it may be installed; else it says what is not tested

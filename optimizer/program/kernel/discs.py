@@ -131,13 +131,13 @@ def _save(webs, t, web, peak, own, where):  # type: ignore[no-untyped-def]
 
 
 @inner_with_arrays
-def run(least_mass, budgeted, programs, first, edge, cost, most, tolerance, middle, starts, ends, reached):  # type: ignore[no-untyped-def]
+def run(least_mass, budgeted, edged, programs, first, edge, cost, most, tolerance, middle, starts, ends, reached):  # type: ignore[no-untyped-def]
     """A stage of N programs, from the first one on.
 
     Parameters
     ----------
     budgeted : whether cost is a share of the budget, that of the first stage.
-    edge : memory for the edges of the webs, None where no program has any.
+    edged, edge : whether webs have edges, and memory for those.
     cost, most : (N, K) of each web, and (N,) largest sum of the sizes, in the second stage.
     tolerance : (N,) gap at which the stage ends.
     middle : (N,) where it is above 0, the state with a gap below it for the first time is left in ``starts``.
@@ -151,7 +151,7 @@ def run(least_mass, budgeted, programs, first, edge, cost, most, tolerance, midd
     program, steps, wanted = np.zeros(LANES, np.int64) - 1, np.zeros(LANES, np.int64), np.zeros(LANES)
     degree, before, held = np.ones(LANES), np.zeros(LANES), np.zeros(LANES, np.int64)
     # with edges or a budget limits are of very different size, and less is sure of steps to all of them at once
-    longest = 1.0 if edge is None and not budgeted else _LONGEST
+    longest = _LONGEST if edged or budgeted else 1.0
     loosest = _LOOSEST_MASS if least_mass else _LOOSEST
     waiting, solved = 0, 0
     while True:
@@ -160,14 +160,17 @@ def run(least_mass, budgeted, programs, first, edge, cost, most, tolerance, midd
                 n = waiting
                 program[t], steps[t], held[t], wanted[t] = n, 0, 0, middle[n]
                 _load(programs, first + n, cost[n], starts[n], t, web, peak, own)
-                if edge is not None:
+                if edged:
                     _load_edges(programs.normals[first + n], starts[n], vectors, t, edge)
                 own[MOST + t], own[BOTH + t], before[t] = most[n], 1.0, np.inf
                 degree[t] = 2.0 * webs + vectors + 1.0 if sized else 1.0 * (webs + vectors)
                 for k in range(programs.normals.shape[2]):
                     degree[t] += 2.0 * programs.normals[first + n, 4, k]
                 waiting += 1
-        look_at_webs(sized, webs, web, edge, own)
+        if edged:
+            look_at_webs(sized, webs, web, edge, own)
+        else:
+            look_at_webs(sized, webs, web, None, own)
         look_at_peaks(least_mass, budgeted, terms, basis, peak, own)
         for t in range(LANES):
             n, gap = program[t], own[GAP + t]
@@ -179,7 +182,7 @@ def run(least_mass, budgeted, programs, first, edge, cost, most, tolerance, midd
             if wanted[t] > 0.0 and gap + over <= wanted[t]:
                 wanted[t] = 0.0
                 _save(webs, t, web, peak, own, starts[n])
-                if edge is not None:
+                if edged:
                     _save_edges(webs, vectors, t, edge, starts[n])
             if least_mass:
                 gap /= max(own[MASS + t], 1e-3)
@@ -194,7 +197,10 @@ def run(least_mass, budgeted, programs, first, edge, cost, most, tolerance, midd
         if solved == number:
             return
         if budgeted:
-            share_budget(webs, web, edge, own)
+            if edged:
+                share_budget(webs, web, edge, own)
+            else:
+                share_budget(webs, web, None, own)
         eliminate(least_mass, budgeted, terms, basis, peak, own, matrix)
         for t in range(LANES):
             own[KEEP + t] = 1.0
@@ -212,10 +218,16 @@ def run(least_mass, budgeted, programs, first, edge, cost, most, tolerance, midd
                     if own[BOTH + t] == 0.0:
                         sigma = max(sigma, _CAUTIOUS)
                     own[AIM + t], own[KEEP + t] = sigma * gap / degree[t], 1.0 - sigma
-                correct_webs(sized, webs, web, edge, own)
+                if edged:
+                    correct_webs(sized, webs, web, edge, own)
+                else:
+                    correct_webs(sized, webs, web, None, own)
                 correct_peaks(least_mass, budgeted, peak, own)
             solve_peaks(least_mass, budgeted, terms, basis, peak, own, matrix, step)
-            step_webs(sized, webs, web, edge, own)
+            if edged:
+                step_webs(sized, webs, web, edge, own)
+            else:
+                step_webs(sized, webs, web, None, own)
             step_peaks(least_mass, budgeted, terms, basis, peak, own)
         for t in range(LANES):
             share = min(max(_STEP, 1.0 - own[GAP + t]), longest)
@@ -226,7 +238,7 @@ def run(least_mass, budgeted, programs, first, edge, cost, most, tolerance, midd
             own[BOTH + t], held[t] = (1.0, 0) if well else (0.0, held[t] + 1)
             before[t] = own[GAP + t]
         move_webs(webs, web, own)
-        if edge is not None:
+        if edged:
             move_edges(webs, edge, own)
         move_peaks(terms, peak, own)
 
@@ -272,10 +284,7 @@ def solve(programs, budgeted, least_mass, share, tolerance, mass_tolerance):  # 
                     )
                     ending[n], middle[n] = mass_tolerance, 0.0
             own = budgeted and stage == 0
-            if edged:
-                run(stage > 0, own, programs, begin, edge, cost, most, ending, middle, starts, ends, reached)
-            else:
-                run(stage > 0, own, programs, begin, None, cost, most, ending, middle, starts, ends, reached)
+            run(stage > 0, own, edged, programs, begin, edge, cost, most, ending, middle, starts, ends, reached)
             for n in range(count):
                 if np.isfinite(reached[n]):
                     _keep(ends[n], v[stage, begin + n], p[stage, begin + n], prices[stage, begin + n])
