@@ -3,7 +3,7 @@
 What budgets are spent by is compiled first, and with it what the compiler needs for any kernel. Three processes have
 that in common and do the rest beside one another: one the interior point for discs, and what proves and settles; one
 what follows the turn; and one the interior point for any limits, what parts are matched and sums of options compared
-by, what puts designs in order and what moves curves.
+by, what puts designs in order and sums their forces, and what moves curves.
 """
 
 import gc
@@ -16,6 +16,7 @@ from multiprocessing import get_context
 import numpy as np
 
 from optimizer.numerics.linking import link_first
+from optimizer.numerics.shortcuts import take_shortcuts
 from optimizer.warm_up import follow_a_turn, match_parts, plain_discs
 
 #: by so much the shorter parts are nicer than the longest: a third of its share of a core
@@ -38,18 +39,20 @@ def budgets() -> None:
 
 
 def designs() -> None:
-    """Compile what puts the designs of a Latin hypercube in their order: one of one."""
+    """Compile what puts the designs of a Latin hypercube in their order, and what sums their forces."""
+    from optimizer.numerics.sums import MANY, force_and_couple
     from optimizer.studies.sweep.designs import permuted
 
     permuted(np.zeros(1, np.int64), 1, 0, 0)
+    force_and_couple(np.zeros((MANY, 1), complex), np.zeros((MANY, 1)))
 
 
 def proofs() -> None:
     """Compile what proves bounds of single proofs, and settles by itself: one web, one term, one row."""
     from optimizer.program.ceilings import Ceilings
     from optimizer.program.certificate import affine_minorant, nothing_proven, objective_lower_bound
-    from optimizer.program.compiled_evaluation import near_limits
     from optimizer.program.limits import Limits
+    from optimizer.program.methods.compensation import near_limits
     from optimizer.program.methods.rounding import settled
     from optimizer.program.norms import Norms
     from optimizer.program.points import points_at
@@ -87,6 +90,7 @@ def main() -> None:
     # the compiler makes millions of objects and lets few go: looking for those is a sixth of its time
     gc.disable()
     link_first()
+    take_shortcuts()
     budgets()
     # three at a time; the longest has a core of its own where there are two, so that both are busy until the end
     parts = (plain_discs, proofs), (follow_a_turn,), (any_limits, match_parts, designs, moving_curves, near_sums)

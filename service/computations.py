@@ -38,7 +38,7 @@ class Form:
     suffix : of a file that holds it.
     headers : what a client is told about it beyond its media type.
     compressed : in itself, so that no coding makes it smaller.
-    asked : whether the function takes the request too, before the answer.
+    needs_request : whether the function takes the request too, before the answer.
     """
 
     media_type: str

@@ -41,16 +41,16 @@ def verify(request: Any, answer: Any, most: float = inf) -> Dict[str, Any]:
     Unreadable
         naming the field that is not what the service takes or gives.
     """
-    asked, given = Place(request, "request"), Place(answer, "answer")
+    question, reply = Place(request, "request"), Place(answer, "answer")
     many = "base" in request if isinstance(request, dict) else False
     work = leaves(answer) + leaves(request) * (len(answer) if many and isinstance(answer, list) else 1)
     if work > most:
-        raise Unreadable(given.path, f"holds more than is checked at a time: {work} of {most} numbers and texts")
+        raise Unreadable(reply.path, f"holds more than is checked at a time: {work} of {most} numbers and texts")
     parts = isinstance(request, dict) and "parts" in request
     kind = (
         matching if parts else sweep if many else front if isinstance(answer, dict) and "fronts" in answer else single
     )
-    return judged(covered(kind(asked, given)), given)
+    return judged(covered(kind(question, reply)), reply)
 
 
 if __name__ == "__main__":

@@ -21,26 +21,26 @@ def alternatives(request: Place, answer: Place, machine: Machine, statement: Sta
     best = (answer / "certificate" / "objective").number()
     rest = (answer / "certificate" / "objective_without_counterweights").number()
     own = costs(request / "machine", answer / "counterweights", (answer / "total_mass_kg").number())
-    stated = [one.double() for one in request / "alternatives"]
-    for one in answer / "alternatives":
-        minimised, allowance = (one / "minimised").text("mass", "pieces", "sizes"), one / "allowance"
-        yield "alternatives", one / "minimised", ONE, ONE
+    stated = [entry.double() for entry in request / "alternatives"]
+    for entry in answer / "alternatives":
+        minimised, allowance = (entry / "minimised").text("mass", "pieces", "sizes"), entry / "allowance"
+        yield "alternatives", entry / "minimised", ONE, ONE
         yield "alternatives", allowance, ONE if allowance.double() in stated else -ONE, ONE
-        turning, mass = yield from counterweights(machine, one / "counterweights", request / "machine")
-        yield from catalogue(request / "machine", one / "counterweights")
+        turning, mass = yield from counterweights(machine, entry / "counterweights", request / "machine")
+        yield from catalogue(request / "machine", entry / "counterweights")
         after = machine.responses(turning)
         value, most = largest(ZERO, *statement.values(after).values()), best * (ONE + allowance.number())
-        yield near("alternatives", one / "objective", value)
-        yield "alternatives", one / "objective", most + rest * real(SAME) - value, most
+        yield near("alternatives", entry / "objective", value)
+        yield "alternatives", entry / "objective", most + rest * real(SAME) - value, most
         for name, cap in statement.caps.items():
             room = cap + statement.sizes[name] * real(CEILING) - abs(phasors(after, name)[0])
-            yield "ceilings", one / "counterweights", room, statement.sizes[name]
-        cost = costs(request / "machine", one / "counterweights", mass)
-        yield near("alternatives", one / "total_mass_kg", cost["mass"])
+            yield "ceilings", entry / "counterweights", room, statement.sizes[name]
+        cost = costs(request / "machine", entry / "counterweights", mass)
+        yield near("alternatives", entry / "total_mass_kg", cost["mass"])
         for counted in ("pieces", "sizes"):
-            yield same("alternatives", one / counted, round(float(cost[counted])))
-        yield "alternatives", one / "minimised", own[minimised] - cost[minimised], ONE
-        lowest = one / "lower_bound"
+            yield same("alternatives", entry / counted, round(float(cost[counted])))
+        yield "alternatives", entry / "minimised", own[minimised] - cost[minimised], ONE
+        lowest = entry / "lower_bound"
         if lowest:
             yield "alternatives", lowest, cost[minimised] * real(1 + SAME) - lowest.number(), ONE
             yield "alternatives", lowest, None, ONE

@@ -57,12 +57,12 @@ def before(request: Place, machine: Machine, answer: Place) -> Claims:
 
 def beside(claim: str, place: Place, field: str, responses: Responses) -> Claims:
     """First-order peaks of the responses that count beside force and moment."""
-    for one in place:
-        name = (one / "response").text(*ON_FRAME)
-        yield claim, one / "response", ONE, ONE
-        yield near(claim, one / field, total(map(abs, responses[name])))
-        if one / "unit":
-            yield same(claim, one / "unit", ON_FRAME[name].unit.replace("Nm", "N m"))
+    for entry in place:
+        name = (entry / "response").text(*ON_FRAME)
+        yield claim, entry / "response", ONE, ONE
+        yield near(claim, entry / field, total(map(abs, responses[name])))
+        if entry / "unit":
+            yield same(claim, entry / "unit", ON_FRAME[name].unit.replace("Nm", "N m"))
 
 
 def after(request: Place, machine: Machine, answer: Place, there: Fitted) -> Claims:
@@ -110,9 +110,9 @@ def touched(request: Place, machine: Machine, left: Responses, mass: Number) -> 
     if machine.budget is not None:
         rooms["max_total_mass"] = _room(float(mass), float(machine.budget))
     elsewhere = (goal / "orders").value == "all" or scenarios(request) or request / "tolerances"
-    for name, one in ON_FRAME.items():
+    for name, response in ON_FRAME.items():
         for axis in ("", "_x", "_y"):
-            most = goal / f"{name}_ceiling{axis}_{one.unit}"
+            most = goal / f"{name}_ceiling{axis}_{response.unit}"
             if most and elsewhere:
                 return None
             if most:
@@ -141,7 +141,7 @@ def gaps(request: Place, answer: Place, mass: Number, chosen: bool = False) -> C
         yield near("relative_gap", proof / "relative_gap", (gap + noise) * ABOUT_ONE / size if size.low > 0 else ZERO)
         wide = (request / "accuracy" / "relative_gap").number(usual_gap(request / "machine"), least=0)
         order = list(request / "objective" / "priorities")
-        last = max((n for n, one in enumerate(order) if (one / "goal").text() not in COSTS), default=0)
+        last = max((n for n, priority in enumerate(order) if (priority / "goal").text() not in COSTS), default=0)
         if last < len(order) - 1:
             # what castings cost is made small within this
             wide = wide + (order[last] / "allowance").number(0.0, least=0)

@@ -29,10 +29,10 @@ def within(claim: str, place: Place, low: float, high: float, off: float) -> Cla
 
 def peak_of(curve: Periodic, place: Place, enough: float = 0.0) -> Peak:
     """The largest length of a curve, where it can be enclosed."""
-    found = curve.peak(enough)
-    if found is None:
+    peak = curve.peak(enough)
+    if peak is None:
         raise NotCovered(place)
-    return found
+    return peak
 
 
 def largest(claim: str, place: Place, curve: Periodic, unit: str, size: float = 0.0) -> Claims:
@@ -40,10 +40,10 @@ def largest(claim: str, place: Place, curve: Periodic, unit: str, size: float = 
 
     ``size``: of what is added up to the curve, where that may cancel.
     """
-    found = peak_of(curve, place)
+    peak = peak_of(curve, place)
     off = SAMPLE * max(curve.size, size)
-    yield from magnitude(claim, place, "peak", unit, found, off)
-    return found
+    yield from magnitude(claim, place, "peak", unit, peak, off)
+    return peak
 
 
 def magnitude(claim: str, place: Place, name: str, unit: str, peak: Peak, off: float) -> Claims:
@@ -59,7 +59,7 @@ def magnitude(claim: str, place: Place, name: str, unit: str, peak: Peak, off: f
 
 def rising(claim: str, bracket: Place) -> Claim:
     """A bracket has a lower end and then an upper one."""
-    ends = [one.double() for one in bracket]
+    ends = [end.double() for end in bracket]
     return claim, bracket, ONE if len(ends) == 2 and ends[0] <= ends[1] else -ONE, ONE
 
 
@@ -81,9 +81,9 @@ def sampled(claim: str, angles: Place, request: Place, turns: int = 1) -> Claims
     places = list(angles)
     count = round(360 / step)
     yield claim, angles, ONE if len(places) in (count, count * turns) else -ONE, ONE
-    for n, one in enumerate(places):
-        yield within(claim, one, n * step, n * step, 1e-9 * (n + 1) * step)
-    return [one.double() for one in places]
+    for n, place in enumerate(places):
+        yield within(claim, place, n * step, n * step, 1e-9 * (n + 1) * step)
+    return [place.double() for place in places]
 
 
 def curves(request: Place, machine: Machine, answer: Place, fitted: Optional[Fitted]) -> Claims:
@@ -112,48 +112,48 @@ def roll(request: Place, loads: Loads, shown: Place, fitted: Optional[Fitted]) -
         samples = list(shown / side / "moment_Nm")
         yield "roll", shown / side, ONE if len(samples) == len(angles) else -ONE, ONE
         off = SAMPLE * (curve.size + loads.curve("roll").size)
-        for degrees, one in zip(angles, samples):
+        for degrees, sample in zip(angles, samples):
             value = curve.at(turned(loads, degrees)).real
-            yield within("roll", one, value, value, off)
+            yield within("roll", sample, value, value, off)
         peak = yield from largest("roll", shown / side, curve, "Nm")
         yield where("roll", shown / side / "peak_angle_deg", loads, curve, peak)
 
 
 def main_bearings(request: Place, loads: Loads, answer: Place, fitted: Optional[Fitted]) -> Claims:
     """Without and with counterweights."""
-    shown, asked = answer / "main_bearings", {(one / "name").text(): one for one in request / "machine" / "bearings"}
+    shown, seats = answer / "main_bearings", {(item / "name").text(): item for item in request / "machine" / "bearings"}
     angles = yield from sampled("main_bearings", shown / "angle_deg", request, loads.turns)
     shaft = (request / "fidelity" / "shaft").text(default="simple_spans")
     yield same("main_bearings", shown / "shaft", shaft)
     rows = list(shown / "bearings")
-    names = [(one / "name").text() for one in rows]
-    if names != [*asked]:
+    names = [(item / "name").text() for item in rows]
+    if names != [*seats]:
         yield "main_bearings", shown / "bearings", -ONE, ONE
         return
-    for name, one in zip(names, rows):
-        own = asked[name]
-        yield "main_bearings", one / "name", ONE, ONE
+    for name, item in zip(names, rows):
+        own = seats[name]
+        yield "main_bearings", item / "name", ONE, ONE
         yield within(
-            "main_bearings", one / "position_m", (own / "position_m").double(), (own / "position_m").double(), 0.0
+            "main_bearings", item / "position_m", (own / "position_m").double(), (own / "position_m").double(), 0.0
         )
         before = loads.curve(f"bearing:{name}")
-        circle = circle_of(before, one)
-        yield from _load(loads, own, before, one / "before", circle, angles)
+        circle = circle_of(before, item)
+        yield from _load(loads, own, before, item / "before", circle, angles)
         if fitted is None:
-            yield "main_bearings", one / "after", -ONE if one / "after" else ONE, ONE
+            yield "main_bearings", item / "after", -ONE if item / "after" else ONE, ONE
             continue
         by = loads.added(f"bearing:{name}", fitted.turning)
         moved = circle._replace(middle=circle.middle + by)
-        yield from _load(loads, own, before.moved(by), one / "after", moved, angles)
+        yield from _load(loads, own, before.moved(by), item / "after", moved, angles)
     yield from _bending(loads, shown / "bending", fitted)
 
 
 def circle_of(curve: Periodic, place: Place, enough: float = 0.0) -> Circle:
     """The smallest circle around a curve, where it can be enclosed."""
-    found = smallest(curve, enough)
-    if found is None:
+    circle = smallest(curve, enough)
+    if circle is None:
         raise NotCovered(place)
-    return found
+    return circle
 
 
 def _load(loads: Loads, own: Place, curve: Periodic, place: Place, circle: Circle, angles: Sequence[float]) -> Claims:
@@ -162,10 +162,10 @@ def _load(loads: Loads, own: Place, curve: Periodic, place: Place, circle: Circl
     off = SAMPLE * size
     x, y = list(place / "force_x_N"), list(place / "force_y_N")
     yield "main_bearings", place, ONE if len(x) == len(y) == len(angles) else -ONE, ONE
-    for degrees, one, other in zip(angles, x, y):
+    for degrees, component, other in zip(angles, x, y):
         angle = turned(loads, degrees)
         value = curve.at(angle) * complex(cos(angle), sin(angle))
-        yield within("main_bearings", one, value.real, value.real, off)
+        yield within("main_bearings", component, value.real, value.real, off)
         yield within("main_bearings", other, value.imag, value.imag, off)
     peak = yield from largest("main_bearings", place, curve, "N", size)
     yield where("main_bearings", place / "peak_angle_deg", loads, curve, peak)
@@ -194,28 +194,28 @@ def _bending(loads: Loads, place: Place, fitted: Optional[Fitted]) -> Claims:
     """Of all planes."""
     planes = loads.planes
     places = list(place / "position_m")
-    if [one.double() for one in places] != planes:
+    if [item.double() for item in places] != planes:
         yield "main_bearings", place / "position_m", -ONE, ONE
         return
-    yield from (("main_bearings", one, ONE, ONE) for one in places)
+    yield from (("main_bearings", item, ONE, ONE) for item in places)
     curves = [loads.curve(f"bending:{plane!r}") for plane in planes]
     after = [] if fitted is None else [loads.with_weights(f"bending:{plane!r}", fitted.turning) for plane in planes]
     yield same("main_bearings", Place(len(list(place / "after_Nm")), *(place / "after_Nm").path), len(after))
-    found: List[Peak] = []
-    for of_planes, said in ((curves, place / "before_Nm"), (after, place / "after_Nm")):
-        found = [peak_of(curve, said) for curve in of_planes] or found
-        yield "main_bearings", said, ONE if len(list(said)) == len(of_planes) else -ONE, ONE
-        for peak, one in zip(found, said):
-            yield within("main_bearings", one, peak.low * (1 - PEAK), peak.high, SAMPLE * loads.size_of("bending"))
+    peaks: List[Peak] = []
+    for of_planes, samples in ((curves, place / "before_Nm"), (after, place / "after_Nm")):
+        peaks = [peak_of(curve, samples) for curve in of_planes] or peaks
+        yield "main_bearings", samples, ONE if len(list(samples)) == len(of_planes) else -ONE, ONE
+        for peak, item in zip(peaks, samples):
+            yield within("main_bearings", item, peak.low * (1 - PEAK), peak.high, SAMPLE * loads.size_of("bending"))
     off = SAMPLE * loads.size_of("bending")
-    low, high = max(one.low for one in found), max(one.high for one in found)
+    low, high = max(item.low for item in peaks), max(item.high for item in peaks)
     yield within("main_bearings", place / "peak_Nm", low * (1 - PEAK), high, off)
     ends = list(place / "peak_bracket_Nm")
     yield rising("main_bearings", place / "peak_bracket_Nm")
     if len(ends) == 2:
         yield within("main_bearings", ends[0], low * (1 - PEAK), high, off)
         yield within("main_bearings", ends[1], low, high * (1 + PEAK), off)
-    worst = dict(zip(planes, found)).get((place / "peak_position_m").double())
+    worst = dict(zip(planes, peaks)).get((place / "peak_position_m").double())
     yield (
         "main_bearings",
         place / "peak_position_m",
@@ -239,7 +239,7 @@ def all_orders(loads: Loads, answer: Place, fitted: Optional[Fitted]) -> Claims:
         else:
             sides.append(("after", loads.with_weights(name, fitted.turning, fitted.on_shafts)))
         for side, curve in sides:
-            found = peak_of(curve, shown)
+            peak = peak_of(curve, shown)
             # what weights add may be all that there is
-            off = SAMPLE * (loads.size_of(name) + found.high)
-            yield within("turn", shown / side / f"{name}_peak_{unit}", found.low * (1 - 2e-8), found.high, off)
+            off = SAMPLE * (loads.size_of(name) + peak.high)
+            yield within("turn", shown / side / f"{name}_peak_{unit}", peak.low * (1 - 2e-8), peak.high, off)

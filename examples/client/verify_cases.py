@@ -25,7 +25,7 @@ CASES: Dict[str, Stated] = {
 }
 #: fields of a request that are known here
 FIELDS = " tolerances mass_relative unbalance_kg_m reciprocating_mass_relative priorities goal allowance " + "".join(
-    f" {name} {one.fields} " for name, one in CASES.items()
+    f" {name} {case.fields} " for name, case in CASES.items()
 )
 #: rows whose masses are off one way or the other, all ways of them
 MOST_ROWS = 8
@@ -37,7 +37,7 @@ GOALS = {"bearing": "bearings", "bending": "bending"}
 
 def scenarios(request: Place) -> List[Place]:
     """The cases of a request, as scenarios."""
-    return [one for each in CASES.values() for one in each.scenarios(request)]
+    return [scenario for kind in CASES.values() for scenario in kind.scenarios(request)]
 
 
 def without_cases(request: Place) -> Place:
@@ -53,20 +53,20 @@ class Scatter(NamedTuple):
 
     def of(self, factors: Sequence[Number], sizes: Sequence[Number]) -> Number:
         """What |start + sum of factors times unbalances| grows by at most."""
-        return total(abs(one) * (self.share * size + self.besides) for one, size in zip(factors, sizes))
+        return total(abs(factor) * (self.share * size + self.besides) for factor, size in zip(factors, sizes))
 
 
 def scatter(request: Place) -> Scatter:
     """A mass off by up to d and an angle by up to a move an unbalance by max |(1 + d) e^{ja} - 1| of itself."""
-    said = request / "tolerances"
-    mass, angle = (said / "mass_relative").double(0.0, least=0), (said / "angle_deg").double(0.0, least=0)
+    tolerances = request / "tolerances"
+    mass, angle = (tolerances / "mass_relative").double(0.0, least=0), (tolerances / "angle_deg").double(0.0, least=0)
     if mass == 0 and angle == 0:
-        return Scatter(ZERO, (said / "unbalance_kg_m").number(0.0, least=0))
+        return Scatter(ZERO, (tolerances / "unbalance_kg_m").number(0.0, least=0))
     if (request / "machine" / "web_groups").value:
         # equal castings are off each in its own way, which bounds of one pull for all do not tell
         raise NotCovered(request / "machine" / "web_groups")
     share = sqrt(mass**2 + 4 * (1 + mass) * sin(radians(min(angle, 180.0) / 2)) ** 2)
-    return Scatter(real(share) * ABOUT_ONE, (said / "unbalance_kg_m").number(0.0, least=0))
+    return Scatter(real(share) * ABOUT_ONE, (tolerances / "unbalance_kg_m").number(0.0, least=0))
 
 
 def corners(request: Place, machine: Machine) -> List[Machine]:
@@ -94,12 +94,12 @@ class Case(NamedTuple):
 
 def cases(request: Place, machine: Machine, plane: Place) -> Iterator[Case]:
     """One of every scenario, or the machine as it is."""
-    given = scenarios(request)
-    if not given:
+    places = scenarios(request)
+    if not places:
         yield Case(request, machine, ONE, None)
-    for one in given:
+    for scenario in places:
         body, moved = request.value, False
-        for change in one / "changes":
+        for change in scenario / "changes":
             path = (change / "path").text().split("/")[1:]
             of_shafts = path[1:2] == ["balance_shafts"] and path[-1:][0] not in ("x_m", "y_m")
             if of_shafts or path[:1] != ["machine"]:
@@ -111,12 +111,12 @@ def cases(request: Place, machine: Machine, plane: Place) -> Iterator[Case]:
         budget = changed / "machine" / "max_total_mass_kg"
         # with other planes the moments of a case may be about another one
         own = Machine(changed / "machine", changed / "objective", Place(None) if moved else plane, budget)
-        yield Case(changed, own, (one / "weight").number(1.0, least=0), (one / "name").text())
+        yield Case(changed, own, (scenario / "weight").number(1.0, least=0), (scenario / "name").text())
 
 
 def goals(request: Place) -> List[str]:
     """Goals that are met one after the other but for costs; one name for all of them where they are weighed."""
-    named = [(one / "goal").text() for one in request / "objective" / "priorities"]
+    named = [(priority / "goal").text() for priority in request / "objective" / "priorities"]
     return [name for name in named if name not in COSTS] or ["all"]
 
 

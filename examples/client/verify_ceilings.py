@@ -72,6 +72,6 @@ def margins(place: Place, there: Sequence[Value], rest: Sequence[Value], optimal
 
 def _tighter(first: float, second: float) -> float:
     """The smaller room; where one of them is not told, the other only if it is none."""
-    known = [room for room in (first, second) if not isnan(room)]
-    least = min(known, default=nan)
-    return least if len(known) == 2 or least <= TOUCHED - UNSURE else nan
+    rooms = [room for room in (first, second) if not isnan(room)]
+    least = min(rooms, default=nan)
+    return least if len(rooms) == 2 or least <= TOUCHED - UNSURE else nan

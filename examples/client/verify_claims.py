@@ -47,6 +47,11 @@ def same(claim: str, place: Place, value: Any) -> Claim:
     return claim, place, ONE if there == value else -ONE, ONE
 
 
+def is_contradiction(room: Number) -> bool:
+    """Whether a claim with this room left is broken: not even its largest reading leaves any."""
+    return room.high < 0
+
+
 def judged(claims: Iterable[Claim], answer: Place) -> Dict[str, Any]:
     """What becomes of every kind of claim, of several of one kind the worst, of every leaf, and the verdict.
 
@@ -55,27 +60,27 @@ def judged(claims: Iterable[Claim], answer: Place) -> Dict[str, Any]:
     Unreadable
         where a leaf of the answer is no finite number.
     """
-    found: Dict[str, Tuple[int, float, Dict[str, Any]]] = {}
+    kinds: Dict[str, Tuple[int, float, Dict[str, Any]]] = {}
     visits, evidence = set(), set()
     for claim, place, room, size in claims:
         if claim == EVIDENCE:
             evidence.add(place.path)
             continue
         share = None if room is None else _share(room, size)
-        rank = 1 if room is None else 0 if room.high >= 0 else 2
+        rank = 1 if room is None else 2 if is_contradiction(room) else 0
         if rank != 1:
             visits.add(place.path)
         elif not place and place.path[:1] == ("answer",):
             # nothing is claimed
             continue
         worse = rank, -(share or 0.0)
-        if claim not in found or worse > found[claim][:2]:
-            told = {"claim": claim, "verdict": VERDICTS[rank], "margin": share, "where": pointer(place.path)}
-            found[claim] = *worse, told
+        if claim not in kinds or worse > kinds[claim][:2]:
+            entry = {"claim": claim, "verdict": VERDICTS[rank], "margin": share, "where": pointer(place.path)}
+            kinds[claim] = *worse, entry
     leaves = account(answer, visits, evidence)
-    worst = max([rank for rank, _, _ in found.values()], default=1)
+    worst = max([rank for rank, _, _ in kinds.values()], default=1)
     rank = max(worst, 1 if leaves["not_covered"] else 0)
-    return {"claims": [told for _, _, told in found.values()], **leaves, "verdict": VERDICTS[rank]}
+    return {"claims": [entry for _, _, entry in kinds.values()], **leaves, "verdict": VERDICTS[rank]}
 
 
 def _share(room: Number, size: Number) -> float:
@@ -90,8 +95,8 @@ def covered(claims: Iterator[Claim]) -> Iterator[Claim]:
     """The claims as far as what they stand on is known."""
     try:
         yield from claims
-    except NotCovered as found:
-        (place,) = found.args
+    except NotCovered as error:
+        (place,) = error.args
         yield "request", place, None, ONE
     except Unreadable:
         raise
@@ -106,14 +111,14 @@ def main(check: Callable[[Any, Any], Dict[str, Any]], usage: Optional[str], argu
         print(usage, file=sys.stderr)
         return 2
     try:
-        found = check(*map(read, arguments))
+        report = check(*map(read, arguments))
     except (OSError, ValueError) as error:
         print(error, file=sys.stderr)
         return 2
-    for one in found["claims"]:
-        margin = "" if one["margin"] is None else f"{one['margin']:.1e}"
-        print(f"{one['claim']:<18} {one['verdict']:<12} {margin:>9}  {one['where']}")
-    for name in found["not_covered"]:
+    for claim in report["claims"]:
+        margin = "" if claim["margin"] is None else f"{claim['margin']:.1e}"
+        print(f"{claim['claim']:<18} {claim['verdict']:<12} {margin:>9}  {claim['where']}")
+    for name in report["not_covered"]:
         print(f"{'':<18} {'not covered':<12} {'':>9}  {name}")
-    print(f"{found['verdict']}: {found['checked']} of {found['leaves']} claims are checked")
-    return CODES[found["verdict"]]
+    print(f"{report['verdict']}: {report['checked']} of {report['leaves']} claims are checked")
+    return CODES[report["verdict"]]

@@ -21,7 +21,7 @@ def costs(
 ) -> Claims:
     """Of one goal without tolerances and scenarios; ``slopes``: what the bound rises by per kg m on each web."""
     place, goal, proof = answer / "shadow_prices", request / "objective", answer / "certificate"
-    off = any(one != 0 for one in (request / "tolerances").read((dict,), "an object", {}).values() if one is not None)
+    off = any(v != 0 for v in (request / "tolerances").read((dict,), "an object", {}).values() if v is not None)
     several = scenarios(request) or off or list(goal / "priorities")
     if several or machine.groups or proof / "continuous_lower_bound" or not proof / "gap":
         yield "shadow_prices", place, -ONE if list(place) else ONE, ONE
@@ -32,10 +32,10 @@ def costs(
             raise NotCovered(place)
         return
     weight, unit = _measure(part, goal)
-    touched = {one.text() for one in answer / "active_limits"}
+    touched = {v.text() for v in answer / "active_limits"}
     multipliers = proof / "multipliers" / "objective"
     budget = "max_total_mass" in touched
-    pulls = [-one.middle() for one in slopes]
+    pulls = [-v.middle() for v in slopes]
     stated = list(stated_limits(machine, answer / "counterweights", pulls, multipliers, budget))
     for field, length in _lengths(part, multipliers).items():
         per = LOADED.get(field) or ("N" if field.endswith("_N") else "(N m)")
@@ -43,7 +43,7 @@ def costs(
         stated.append(Priced(limit, "", length, (goal / field).double(), per, limit in touched))
     rest = (proof / "objective_without_counterweights").double(0.0)
     # what cancels in the pulls
-    sizes = [sum(abs(one.factors[k].middle()) * abs(one.y.middle()) for one in terms) for k in range(len(pulls))]
+    sizes = [sum(abs(v.factors[k].middle()) * abs(v.y.middle()) for v in terms) for k in range(len(pulls))]
     dust = 1e-11 * max((size * web.radius.middle().real for size, web in zip(sizes, machine.webs)), default=0.0)
     yield from listed_prices(place, stated, weight, unit, (proof / "gap").double(), rest, dust)
 
@@ -64,17 +64,17 @@ def _lengths(part: Part, multipliers: Place) -> Dict[str, float]:
     """Of every ceiling that is stated, the lengths of the multipliers of its cuts; of specific loads times the area."""
     goal = part.goal
     fields = [field for field in (*CEILINGS.values(), *LOADED) if goal / field]
-    found = dict.fromkeys(fields, 0.0)
-    for one in multipliers / "ceilings":
-        response, length = (one / "response").text(), abs(complex((one / "x").double(), (one / "y").double()))
+    lengths = dict.fromkeys(fields, 0.0)
+    for cut in multipliers / "ceilings":
+        response, length = (cut / "response").text(), abs(complex((cut / "x").double(), (cut / "y").double()))
         kind, _, name = response.partition(":")
         field = CEILINGS.get(response) or {"bearing": "bearing_ceiling_N"}.get(kind, "bending_ceiling_Nm")
         if kind == "bearing" and goal / "specific_load_ceiling_Pa":
             if goal / "bearing_ceiling_N" and length > 0:
                 # of both it is not told whose cut it is
-                raise NotCovered(one)
+                raise NotCovered(cut)
             field, length = "specific_load_ceiling_Pa", length * part.area[name].middle().real
-        if field not in found:
-            raise NotCovered(one)
-        found[field] += length
-    return found
+        if field not in lengths:
+            raise NotCovered(cut)
+        lengths[field] += length
+    return lengths

@@ -34,7 +34,7 @@ class Turn:
         #: names of the bearings, and what they carry, in rising places
         self.bearings = {name: n for n, (_, name) in enumerate(bearings)}
         self.places = [float(place) for place, _ in bearings]
-        apart = all(one < other for (one, _), (other, _) in zip(bearings, bearings[1:]))
+        apart = all(position < other for (position, _), (other, _) in zip(bearings, bearings[1:]))
         self.spans = Spans([place for place, _ in bearings], continuous) if len(bearings) > 1 and apart else None
         self._factors: Dict[Tuple[str, int], Number] = {}
 
@@ -42,7 +42,7 @@ class Turn:
         """A response without counterweights but those that are fixed, at a shaft angle, as the shaft sees it."""
         machine, on_shaft = self.machine, response.partition(":")[0] in ("bearing", "bending")
         turn = self.turned(degrees)
-        found = ZERO
+        value = ZERO
         pushes = self._pushes(degrees) if on_shaft or response == "roll" else []
         for k, row in enumerate(self.rows):
             own = row.crank * row.axis.conjugate() * turn
@@ -57,20 +57,20 @@ class Turn:
             pull = row.product * machine.wide * outward
             pull = pull + pushes[k] if pushes else pull
             if response == "roll":
-                found = found + pull * row.radius * (sine + cosine * tangent)
+                value = value + pull * row.radius * (sine + cosine * tangent)
                 continue
             force = pull * row.axis * turn.conjugate()
             if on_shaft:
                 force = force * (ONE - J * tangent)
-            found = found + force * self.factor(response, row.position)
+            value = value + force * self.factor(response, row.position)
         for mass in (*self.turning, *machine.there) if response != "roll" else ():
             size = mass.product * machine.wide * self.factor(response, mass.position)
-            found = found + (mass.co + machine.blur) * size
+            value = value + (mass.co + machine.blur) * size
         if response == "roll" and self.pistons is not None:
             # what machine and driver take up all the time does not shake
             mean, off = self.pistons.mean_torque
-            found = found - self._over_square(mean, off) * self.sense
-        return found * machine.square
+            value = value - self._over_square(mean, off) * self.sense
+        return value * machine.square
 
     def _pushes(self, degrees: float) -> List[Number]:
         """Gas and friction on every piston over omega^2, in doubles."""
@@ -79,8 +79,8 @@ class Turn:
         return [self._over_square(force, off) for force, off in self.pistons.pushes(radians(degrees))]
 
     def _over_square(self, value: float, off: float) -> Number:
-        found = Number(real(value - off).low, real(value + off).high)
-        return over(found, self.machine.square, self.place)
+        number = Number(real(value - off).low, real(value + off).high)
+        return over(number, self.machine.square, self.place)
 
     def turned(self, degrees: float) -> Number:
         """A unit vector that turns with the shaft."""

@@ -56,8 +56,8 @@ class Part:
         self.mean = (goal / "bearing_measure").value == "rms"
         self.area, self.specific = {}, (goal / "bearing_measure").value == "specific"
         if self.specific or goal / "specific_load_ceiling_Pa":
-            for one in request / "machine" / "bearings":
-                self.area[(one / "name").text()] = (one / "diameter_m").number() * (one / "length_m").number()
+            for entry in request / "machine" / "bearings":
+                self.area[(entry / "name").text()] = (entry / "diameter_m").number() * (entry / "length_m").number()
         names = FIELDS.split()[1:]
         loads = any((goal / name).value not in (None, 0) for name in names)
         rolls = weights["roll"].high > 0
@@ -73,7 +73,7 @@ class Part:
         external = {name: self.weights[name] for name in ON_FRAME if name in self.weights and not self.all}
         self.rows = {"sum": external} if self.apart else {name: {name: weight} for name, weight in external.items()}
         self.geared = geared(request / "machine", machine, mirrored=not self.all)
-        backwards = any(one.ratio == -1 for one in self.geared)
+        backwards = any(entry.ratio == -1 for entry in self.geared)
         self.exact = Statement(machine, goal, self.rows if external else {}, not self.all, backwards)
         #: where reciprocating masses are off: every peak has a corner of its own, and so has a row of its own
         self.corners = corners(request, machine)
@@ -81,7 +81,7 @@ class Part:
             raise NotCovered(request / "tolerances" / "reciprocating_mass_relative")
         self.machines = self.corners or [machine]
         rows = {name: {name: weight} for name, weight in external.items()}
-        at_corners = [Statement(each, goal, rows, False, backwards) for each in self.corners]
+        at_corners = [Statement(corner, goal, rows, False, backwards) for corner in self.corners]
         self.statements = at_corners or [self.exact]
 
     @cached_property
@@ -92,7 +92,7 @@ class Part:
     def placed(self, fitted: Fitted) -> Fitted:
         """Counterweights where this machine has its webs."""
         webs = zip(fitted.turning, self.machine.webs)
-        return fitted._replace(turning=[one._replace(position=web.position) for one, web in webs])
+        return fitted._replace(turning=[mass._replace(position=web.position) for mass, web in webs])
 
     def worst(self, cuts: Sequence[Place], allowed: Number) -> Statement:
         """The statement in which the cuts of one row of the first order prove most: any of its corners proves it."""
@@ -108,9 +108,9 @@ class Part:
 
         def proves(statement: Statement) -> float:
             terms = {key: statement.terms[key] for key in y}
-            floors = {each.row: statement.floor[each.row] for each in terms.values()}
+            floors = {term.row: statement.floor[term.row] for term in terms.values()}
             of_floors = total(floors.values()) * allowed
-            return float(of_floors + total(y[key].along(each.start) for key, each in terms.items()))
+            return float(of_floors + total(y[key].along(term.start) for key, term in terms.items()))
 
         return max(self.statements, key=proves)
 
@@ -154,12 +154,12 @@ class Part:
 
     def _fixed(self, response: str) -> Number:
         """What weights that are there already add."""
-        fixed = ((self.turn.factor(response, one.position) * one.product, one) for one in self.machine.there)
-        return total(size * (one.co + self.machine.blur) for size, one in fixed) * self.machine.square
+        fixed = ((self.turn.factor(response, mass.position) * mass.product, mass) for mass in self.machine.there)
+        return total(size * (mass.co + self.machine.blur) for size, mass in fixed) * self.machine.square
 
     def of_first_order(self, term: Length) -> List[Number]:
         """Factors of a length of the first order."""
-        back = [one.first(term.factor, term.backwards) * self._arm(term.moves, one) for one in self.geared]
+        back = [gear.first(term.factor, term.backwards) * self._arm(term.moves, gear) for gear in self.geared]
         return [*self._factors(term.moves, term.factor), *back]
 
     def of_ceiling(self, response: str) -> List[Number]:
@@ -171,12 +171,12 @@ class Part:
         """Factors of a response at a shaft angle."""
         unit, square = self.turn.turned(degrees), self.machine.square
         if response == "roll":
-            on_shafts = [one.roll(unit) * square for one in self.geared]
+            on_shafts = [item.roll(unit) * square for item in self.geared]
         else:
             # those on balance shafts do not load the crankshaft
             moves = response in ON_FRAME
-            on_shafts = [one.seen(unit) * self._arm(response, one) if moves else ZERO for one in self.geared]
-        return [*self._factors(response, weight), *(one * weight for one in on_shafts)]
+            on_shafts = [item.seen(unit) * self._arm(response, item) if moves else ZERO for item in self.geared]
+        return [*self._factors(response, weight), *(item * weight for item in on_shafts)]
 
     def _arm(self, response: str, shaft_web: Geared) -> Number:
         return self.turn.factor(response, shaft_web.web.position) * self.machine.square
@@ -209,7 +209,7 @@ class Part:
 
     def peak(self, weights: Sequence[Mass], name: str, off: Scatter, sizes: Sequence[Number]) -> Number:
         """The largest of a response of the first order, likewise."""
-        return largest(ZERO, *(peak(each, each.responses(weights), name, off, sizes) for each in self.machines))
+        return largest(ZERO, *(peak(corner, corner.responses(weights), name, off, sizes) for corner in self.machines))
 
     def _group(self, kind: str) -> Group:
         goal = goal_of(kind, self.named)

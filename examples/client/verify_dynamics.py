@@ -34,25 +34,25 @@ def shown(claim: str, request: Place, pistons: Pistons, place: Place) -> Claims:
     labels = [(t, i, row) for t, throw in enumerate(request / "machine" / "throws")
               for i, row in enumerate(throw / "rows")]  # fmt: skip
     yield claim, place / "rows", ONE if len(rows) == len(labels) == len(pistons.rows) else -ONE, ONE
-    for one, (throw, number, row) in zip(rows, labels):
-        yield same(claim, one / "throw", throw)
-        yield same(claim, one / "row", number)
-        yield same(claim, one / "name", (row / "name").value)
-    turned = [radians(one) for one in angles]
-    return Shown(claim, turned, [(one, k, place) for k, (one, place) in enumerate(zip(pistons.rows, rows))])
+    for item, (throw, number, row) in zip(rows, labels):
+        yield same(claim, item / "throw", throw)
+        yield same(claim, item / "row", number)
+        yield same(claim, item / "name", (row / "name").value)
+    turned = [radians(item) for item in angles]
+    return Shown(claim, turned, [(item, k, place) for k, (item, place) in enumerate(zip(pistons.rows, rows))])
 
 
 def series(claim: str, place: Place, values: Sequence[float], off: float) -> Claims:
     """Samples."""
-    said = list(place)
-    yield claim, place, ONE if len(said) == len(values) else -ONE, ONE
-    for one, value in zip(said, values):
-        yield within(claim, one, value, value, off)
+    samples = list(place)
+    yield claim, place, ONE if len(samples) == len(values) else -ONE, ONE
+    for sample, value in zip(samples, values):
+        yield within(claim, sample, value, value, off)
 
 
 def of_row(pistons: Pistons, angles: Iterable[float], k: int) -> List[Instant]:
     """One row at the angles of the samples."""
-    return [pistons.at(k, one) for one in angles]
+    return [pistons.at(k, angle) for angle in angles]
 
 
 def alone(pistons: Pistons, k: int, reading: str, acting: Acting = ALL) -> Pressed:
@@ -62,10 +62,10 @@ def alone(pistons: Pistons, k: int, reading: str, acting: Acting = ALL) -> Press
 
 def enclosed(curve: Pressed, place: Place, sign: int = 0) -> Peak:
     """The largest value of a curve, where it can be enclosed."""
-    found = curve.peak(sign=sign)
-    if found is None:
+    peak = curve.peak(sign=sign)
+    if peak is None:
         raise NotCovered(place)
-    return found
+    return peak
 
 
 def kinematics(request: Place, pistons: Pistons, place: Place) -> Claims:
@@ -90,41 +90,41 @@ def kinematics(request: Place, pistons: Pistons, place: Place) -> Claims:
 
 def _cylinders(row: Place) -> List[Optional[str]]:
     """Names of the cylinders of a row."""
-    return [(one / "name").value for one in ([row / "cylinder"] if row / "cylinder" else row / "cylinders")]
+    return [(cylinder / "name").value for cylinder in ([row / "cylinder"] if row / "cylinder" else row / "cylinders")]
 
 
 def gas(request: Place, pistons: Pistons, place: Place) -> Claims:
     """Pressures, and what they come to."""
-    found = yield from shown("gas", request, pistons, place)
+    table = yield from shown("gas", request, pistons, place)
     omega = sqrt(pistons.square)
     power = 0.0
-    for row, k, one in found.rows:
-        there, said = of_row(pistons, found.angles, k), list(one / "chambers")
-        yield "gas", one / "chambers", ONE if len(said) == len(row.chambers) else -ONE, ONE
+    for row, k, entry in table.rows:
+        there, places = of_row(pistons, table.angles, k), list(entry / "chambers")
+        yield "gas", entry / "chambers", ONE if len(places) == len(row.chambers) else -ONE, ONE
         names = _cylinders(row.place)
         works = [row.work(chamber) for chamber in row.chambers]
-        for n, (chamber, each) in enumerate(zip(row.chambers, said)):
-            yield same("gas", each / "side", "head" if chamber.head else "crank")
-            yield same("gas", each / "cylinder", n // 2)
-            yield same("gas", each / "name", names[n // 2])
+        for n, (chamber, item) in enumerate(zip(row.chambers, places)):
+            yield same("gas", item / "side", "head" if chamber.head else "crank")
+            yield same("gas", item / "cylinder", n // 2)
+            yield same("gas", item / "name", names[n // 2])
             pressures = [instant.pressures[n] for instant in there]
-            yield from series("gas", each / "pressure_Pa", pressures, SAMPLE * chamber.most)
+            yield from series("gas", item / "pressure_Pa", pressures, SAMPLE * chamber.most)
             size = SAMPLE * chamber.most * chamber.area
-            yield from series("gas", each / "force_N", [force(chamber, value) for value in pressures], size)
+            yield from series("gas", item / "force_N", [force(chamber, value) for value in pressures], size)
             opens = chamber.breaks(row.ratio) if isinstance(chamber, Cycle) else (None, None)
             for field, angle in zip(("suction_opens_deg", "discharge_opens_deg"), opens):
                 if angle is None:
-                    yield same("gas", each / field, None)
+                    yield same("gas", item / field, None)
                 else:
-                    yield within("gas", each / field, degrees(angle), degrees(angle), OPENS)
+                    yield within("gas", item / field, degrees(angle), degrees(angle), OPENS)
             off = WORK * chamber.most * chamber.area * row.radius
-            yield within("gas", each / "indicated_work_J", works[n], works[n], off)
+            yield within("gas", item / "indicated_work_J", works[n], works[n], off)
         off = SAMPLE * row.most
-        travels = [row.radius * each.piston.travel for each in there]
-        yield from series("gas", one / "displacement_m", travels, 2 * SAMPLE * row.radius)
-        yield from series("gas", one / "force_N", [each.gas for each in there], off)
+        travels = [row.radius * item.piston.travel for item in there]
+        yield from series("gas", entry / "displacement_m", travels, 2 * SAMPLE * row.radius)
+        yield from series("gas", entry / "force_N", [item.gas for item in there], off)
         put_in, wide = sum(works) * omega / TURN, WORK * row.most * row.radius * omega
-        yield within("gas", one / "indicated_power_W", put_in, put_in, wide)
+        yield within("gas", entry / "indicated_power_W", put_in, put_in, wide)
         power += put_in
     most = sum(row.most * row.radius for row in pistons.rows)
     yield within("gas", place / "indicated_power_W", power, power, WORK * most * omega)
@@ -133,19 +133,19 @@ def gas(request: Place, pistons: Pistons, place: Place) -> Claims:
 def piston_force(request: Place, pistons: Pistons, place: Place) -> Claims:
     """Gas, inertia and friction on every piston, and what they come to at most either way."""
     claim = "piston_force"
-    found = yield from shown(claim, request, pistons, place)
-    for row, k, one in found.rows:
-        there, off = of_row(pistons, found.angles, k), SAMPLE * (row.most + row.moving[0] + row.friction)
-        yield from series(claim, one / "gas_N", [each.gas for each in there], off)
-        yield from series(claim, one / "inertia_N", [each.inertia for each in there], off)
+    table = yield from shown(claim, request, pistons, place)
+    for row, k, entry in table.rows:
+        there, off = of_row(pistons, table.angles, k), SAMPLE * (row.most + row.moving[0] + row.friction)
+        yield from series(claim, entry / "gas_N", [state.gas for state in there], off)
+        yield from series(claim, entry / "inertia_N", [state.inertia for state in there], off)
         # of the efficiency by the work of the gas, which a quadrature tells
-        yield from series(claim, one / "friction_N", [each.friction for each in there], off + RUBBED * row.friction)
-        yield from series(claim, one / "total_N", [ALL.of(each) for each in there], off + RUBBED * row.friction)
+        yield from series(claim, entry / "friction_N", [state.friction for state in there], off + RUBBED * row.friction)
+        yield from series(claim, entry / "total_N", [ALL.of(state) for state in there], off + RUBBED * row.friction)
         curve = alone(pistons, k, "piston")
         off += RUBBED * row.friction
-        pull, push = enclosed(curve, one, 1), enclosed(curve, one, -1)
-        yield from signed(claim, one, "peak_tension", pull, off)
-        yield from signed(claim, one, "peak_compression", push, off, -1)
+        pull, push = enclosed(curve, entry, 1), enclosed(curve, entry, -1)
+        yield from signed(claim, entry, "peak_tension", pull, off)
+        yield from signed(claim, entry, "peak_compression", push, off, -1)
 
 
 def signed(claim: str, place: Place, name: str, peak: Peak, off: float, sign: int = 1, least: float = -inf) -> Claims:

@@ -46,13 +46,13 @@ def proven(
     """What is said, by what its rows are multiplied with, is no more than multipliers prove."""
     for believed in (False, True):
         bound = statement.bound(proof, implied, slack, cost, believed)
-        said = price(bound.rows)
-        room = bound.least - said if place and proof and bound.least is not None else None
+        value = price(bound.rows)
+        room = bound.least - value if place and proof and bound.least is not None else None
         if room is not None and room.high >= 0:
             break
     if believed and room is not None and room.high >= 0:
         yield "reach", implied, None, ONE
-    yield claim, place, room, largest(abs(said), abs(bound.least or ZERO))
+    yield claim, place, room, largest(abs(value), abs(bound.least or ZERO))
     if room is not None:
         yield EVIDENCE, proof, None, ONE
         yield EVIDENCE, implied, None, ONE
@@ -81,7 +81,7 @@ def excess(statement: Statement, weights: Sequence[Mass]) -> dict[str, Number]:
 def optimum(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> Claims:
     """The proof of the answer to one request, with its counterweights."""
     request.require_coverage(ENTRY_FIELDS)
-    asked, goal, proof = request / "machine", request / "objective", answer / "certificate"
+    design, goal, proof = request / "machine", request / "objective", answer / "certificate"
     if (goal / "orders").text("first", "all", default="first") == "all":
         raise NotCovered(goal / "orders")
     weights = {name: weight for name, weight in weighed(goal, machine).items() if weight.high > 0}
@@ -93,7 +93,7 @@ def optimum(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> 
     after = machine.responses(fitted.turning)
     value, rest = (largest(ZERO, *statement.values(responses).values()) for responses in (after, machine.laden))
     objective, lowest, implied = proof / "objective", proof / "lower_bound", proof / "implied_max_mass_kg"
-    chosen = yield from searched(asked, answer / "counterweights", proof)
+    chosen = yield from searched(design, answer / "counterweights", proof)
     lowest = proof / "continuous_lower_bound" if chosen else lowest
     yield near("objective", objective, value)
     yield near("before", proof / "objective_without_counterweights", rest)

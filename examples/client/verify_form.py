@@ -94,12 +94,12 @@ _ANYWAY = ("residual", "balance_rate")
 
 
 def _read(table: str) -> Dict[Tuple[str, ...], Tuple[str, ...]]:
-    found = {}
+    fields = {}
     for line in table.replace("\n  ", " ").strip().splitlines():
         ends, _, names = line.partition(": ")
         for end in ends.split():
-            found[tuple(end.split("/")) if end != "." else ()] = tuple(names.split())
-    return found
+            fields[tuple(end.split("/")) if end != "." else ()] = tuple(names.split())
+    return fields
 
 
 FORM = _read(_TABLE)
@@ -120,14 +120,14 @@ def form(answer: Place, kind: Tuple[str, ...] = ()) -> Iterator[Claim]:
         value, path = left.pop()
         parts = (*kind, *(part for part in path if isinstance(part, str)))
         if isinstance(value, list):
-            left.extend((one, (*path, k)) for k, one in enumerate(value))
+            left.extend((item, (*path, k)) for k, item in enumerate(value))
         elif isinstance(value, dict):
-            known = names(parts)
-            missing = [name for name in known if name not in value]
+            fields = names(parts)
+            missing = [name for name in fields if name not in value]
             if missing:
                 yield "form", Place(value, *answer.path, *path, missing[0]), -ONE, ONE
             also = () if path or kind else tuple(name for name in OUTPUTS if name in value)
-            left.extend((value[name], (*path, name)) for name in (*known, *also) if name in value)
+            left.extend((value[name], (*path, name)) for name in (*fields, *also) if name in value)
 
 
 def outputs(request: Place, answer: Place) -> Iterator[Claim]:

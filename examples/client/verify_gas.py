@@ -132,7 +132,7 @@ class Cycle(NamedTuple):
 
 def _angle(ratio: float, travel: float, rest: float, stroke: float, head: bool) -> float:
     """Own angle [rad], up to half a revolution, at which a chamber has gone through a travel (law of cosines)."""
-    t, u = (max(2 * one / stroke, 0.0) for one in ((travel, rest) if head else (rest, travel)))
+    t, u = (max(2 * distance / stroke, 0.0) for distance in ((travel, rest) if head else (rest, travel)))
     return 2 * atan2(sqrt(t * (2 * (1 - ratio) + ratio * u)), sqrt(u * (2 + ratio * u)))
 
 
@@ -175,7 +175,7 @@ class Table(NamedTuple):
 
     def breaks(self, ratio: float) -> List[float]:
         """Own angles of its entries, within its cycle."""
-        return [one + self.lead for one in self.angles[1:-1]]
+        return [angle + self.lead for angle in self.angles[1:-1]]
 
 
 Chamber = Union[Cycle, Table]
@@ -188,8 +188,8 @@ def chambers(row: Place, stroke: float, ahead: float) -> Iterator[Chamber]:
     ----------
     ahead : own angle of the row at shaft angle 0 [rad].
     """
-    given = [row / "cylinder"] if row / "cylinder" else list(row / "cylinders")
-    for cylinder in given:
+    cylinders = [row / "cylinder"] if row / "cylinder" else list(row / "cylinders")
+    for cylinder in cylinders:
         for side in ("head", "crank"):
             yield _chamber(cylinder, side, stroke, ahead)
 
@@ -212,8 +212,8 @@ def _chamber(cylinder: Place, side: str, stroke: float, ahead: float) -> Chamber
 
 
 def _table(place: Place, head: bool, area: float, turns: int, lead: float) -> Table:
-    angles = [radians(one.double()) for one in place / "angle_deg"]
-    pressures = [one.double() for one in place / "pressure_Pa"]
+    angles = [radians(entry.double()) for entry in place / "angle_deg"]
+    pressures = [entry.double() for entry in place / "pressure_Pa"]
     if len(angles) < 3 or len(angles) != len(pressures) or turns not in (1, 2) or sorted(angles) != angles:
         raise NotCovered(place)
     cycle = TURN * turns
@@ -232,8 +232,8 @@ def _acts(cylinder: Place, side: str) -> bool:
     acting = (cylinder / "acting").text("double", "head", "crank", default="") if cylinder / "acting" else ""
     if acting:
         return acting in ("double", side)
-    told = any(_value(cylinder, side, name) for name in STATE)
-    return bool(cylinder / "pressure" / side) or not cylinder / "pressure" or told
+    state = any(_value(cylinder, side, name) for name in STATE)
+    return bool(cylinder / "pressure" / side) or not cylinder / "pressure" or state
 
 
 def _area(cylinder: Place, side: str) -> float:
@@ -256,7 +256,7 @@ def force(chamber: Chamber, pressure: float) -> float:
 
 def gauss(count: int) -> Sequence[Tuple[float, float]]:
     """Places in [0, 1] and shares of the quadrature of Gauss and Legendre: roots of P_n by Newton's method."""
-    found = []
+    nodes = []
     for k in range(count):
         x = cos(pi * (k + 0.75) / (count + 0.5))
         for _ in range(20):
@@ -265,5 +265,5 @@ def gauss(count: int) -> Sequence[Tuple[float, float]]:
                 before, value = value, ((2 * n - 1) * x * value - (n - 1) * before) / n
             slope = count * (x * value - before) / (x * x - 1)
             x -= value / slope
-        found.append(((1 + x) / 2, 1 / ((1 - x * x) * slope * slope)))
-    return found
+        nodes.append(((1 + x) / 2, 1 / ((1 - x * x) * slope * slope)))
+    return nodes

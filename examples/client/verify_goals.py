@@ -32,7 +32,7 @@ def values(request: Place, answer: Place, program: Program, fitted: Fitted) -> C
     """Objective, goals before it, the worst case and what it costs."""
     proof = answer / "certificate"
     fixed = fixed_alone(program.machine, fitted)
-    there, rest = ([Value(part, each, program.off) for part in program.parts] for each in (fitted, fixed))
+    there, rest = ([Value(part, side, program.off) for part in program.parts] for side in (fitted, fixed))
     optimal = (answer / "status").text() == "optimal"
     rooms = yield from margins(answer / "counterweights", there, rest, optimal)
     if program.machine.budget is not None:
@@ -46,7 +46,7 @@ def values(request: Place, answer: Place, program: Program, fitted: Fitted) -> C
         yield from _exactly(request, answer, program, fitted)
         return
     last = program.named[-1]
-    value, nothing = (most([one.goal(last) for one in each]) for each in (there, rest))
+    value, nothing = (most([case.goal(last) for case in side]) for side in (there, rest))
     off = WIDE * nothing.high
     yield within("objective", proof / "objective", value.low, value.high, off)
     yield within("before", proof / "objective_without_counterweights", nothing.low, nothing.high, off)
@@ -63,25 +63,25 @@ def _worst_case(place: Place, objective: Place, there: Sequence[Value]) -> Claim
     value = objective.double()
     yield within("worst_case", place / "objective", value, value, 1e-12 * abs(value))
     for name, unit in NAMES.items():
-        found = most([one.response(name) if one.part.all else one.of_first_order(name) for one in there])
-        yield within("worst_case", place / f"{name}_peak_{unit}", found.low, found.high, WIDE * found.high)
+        peak = most([case.response(name) if case.part.all else case.of_first_order(name) for case in there])
+        yield within("worst_case", place / f"{name}_peak_{unit}", peak.low, peak.high, WIDE * peak.high)
     for claim in place / "responses":
         name = (claim / "response").text(*ON_FRAME)
-        found = most([one.response(name) if one.part.all else one.of_first_order(name) for one in there])
+        peak = most([case.response(name) if case.part.all else case.of_first_order(name) for case in there])
         yield "worst_case", claim / "response", ONE, ONE
-        yield within("worst_case", claim / "peak", found.low, found.high, WIDE * found.high)
+        yield within("worst_case", claim / "peak", peak.low, peak.high, WIDE * peak.high)
     if there[0].part.of_shaft:
-        found = most([one.bearings() for one in there])
-        yield within("worst_case", place / "bearing_peak_N", found.low, found.high, WIDE * found.high)
+        peak = most([case.bearings() for case in there])
+        yield within("worst_case", place / "bearing_peak_N", peak.low, peak.high, WIDE * peak.high)
     else:
         yield "worst_case", place / "bearing_peak_N", -ONE if place / "bearing_peak_N" else ONE, ONE
 
 
 def _exactly(request: Place, answer: Place, program: Program, fitted: Fitted) -> Claims:
     """Values of goals of the first order, in exact numbers."""
-    found = fitted.first
+    masses = fitted.first
     proof, worst, price = answer / "certificate", answer / "worst_case", answer / "price_of_robustness"
-    sizes, nothing = off_sizes(program.machine, fitted), [ZERO for _ in found]
+    sizes, nothing = off_sizes(program.machine, fitted), [ZERO for _ in masses]
     parts = [(part, part.placed(fitted).first) for part in program.parts]
     value = largest(ZERO, *(part.value(weights, program.off, sizes) for part, weights in parts))
     rest = largest(ZERO, *(part.value(part.machine.there, program.off, nothing) for part, _ in parts))
@@ -93,12 +93,12 @@ def _exactly(request: Place, answer: Place, program: Program, fitted: Fitted) ->
         for name, unit in NAMES.items():
             peaks = [part.peak(weights, name, program.off, sizes) for part, weights in parts]
             yield near("worst_case", worst / f"{name}_peak_{unit}", largest(*peaks) * ABOUT_ONE)
-        for one in worst / "responses":
-            name = (one / "response").text(*ON_FRAME)
+        for entry in worst / "responses":
+            name = (entry / "response").text(*ON_FRAME)
             peaks = [part.peak(weights, name, program.off, sizes) for part, weights in parts]
-            yield "worst_case", one / "response", ONE, ONE
-            yield near("worst_case", one / "peak", largest(*peaks) * ABOUT_ONE)
+            yield "worst_case", entry / "response", ONE, ONE
+            yield near("worst_case", entry / "peak", largest(*peaks) * ABOUT_ONE)
     if price:
-        responses = program.machine.responses(found)
+        responses = program.machine.responses(masses)
         yield near("price", price / "nominal", nominal(program.machine, request / "objective", program.rows, responses))
         yield from nominal_optimum(request, program.machine, program.parts, program.off, answer)

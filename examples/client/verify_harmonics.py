@@ -55,8 +55,8 @@ class Curve:
     def at(self, angle: float) -> complex:
         """The vector at an angle [rad]."""
         unit, value = turned(1j * angle), 0j
-        for each in self.descending:
-            value = value * unit + each
+        for phasor in self.descending:
+            value = value * unit + phasor
         return value * unit**self.first
 
     def sides(self, angle: float) -> List[complex]:
@@ -66,8 +66,8 @@ class Curve:
     def length(self, angle: float) -> float:
         """Its length there."""
         unit, value = complex(cos(angle), sin(angle)), 0j
-        for each in self.descending:
-            value = value * unit + each
+        for phasor in self.descending:
+            value = value * unit + phasor
         return abs(value)
 
     @property
@@ -78,7 +78,7 @@ class Curve:
     @property
     def rms(self) -> float:
         """Root of the mean square (Parseval)."""
-        return sqrt(sum(abs(each) ** 2 for each in self.harmonics.values()))
+        return sqrt(sum(abs(phasor) ** 2 for phasor in self.harmonics.values()))
 
     @property
     def mean(self) -> complex:
@@ -92,16 +92,16 @@ class Curve:
     def along(self, axis: str) -> Curve:
         """The component of a curve that is seen from the shaft along an axis of the frame, x or y."""
         factor = 1 if axis == "x" else -1j
-        return Curve({k + 1: factor * each for k, each in self.harmonics.items()}, scalar=True)
+        return Curve({k + 1: factor * phasor for k, phasor in self.harmonics.items()}, scalar=True)
 
     def peak(self, enough: float = 0.0) -> Optional[Peak]:
         """The largest length; of no interest up to ``enough``. None where it takes too many angles."""
-        lengths = {k: abs(each) for k, each in self.harmonics.items() if each}
+        lengths = {k: abs(amplitude) for k, amplitude in self.harmonics.items() if amplitude}
         size = sum(lengths.values())
         if size == 0:
             return Peak(0.0, 0.0, 0.0)
-        middle = sum(k * each for k, each in lengths.items()) / size
-        bend = sum((k - middle) ** 2 * each for k, each in lengths.items()) / 8
+        middle = sum(k * amplitude for k, amplitude in lengths.items()) / size
+        bend = sum((k - middle) ** 2 * amplitude for k, amplitude in lengths.items()) / 8
         count = 2 * len(self.descending) + 16
         step = 2 * pi / count
         ends = [self.length(step * n) for n in range(count)]
@@ -130,12 +130,12 @@ class Curve:
 
 def total(curves: Sequence[Tuple[float, Harmonics]]) -> Curve:
     """The sum of curves, each times a factor."""
-    found: Harmonics = {}
+    sums: Harmonics = {}
     for factor, harmonics in curves:
         if factor:
-            for k, each in harmonics.items():
-                found[k] = found.get(k, 0j) + factor * each
-    return Curve(found)
+            for k, phasor in harmonics.items():
+                sums[k] = sums.get(k, 0j) + factor * phasor
+    return Curve(sums)
 
 
 @lru_cache(maxsize=256)
@@ -163,9 +163,9 @@ def rod(ratio: float) -> Optional[Dict[int, float]]:
         outward = cosine + ratio * (cosine**2 - sine**2) / root + ratio**3 * (cosine * sine) ** 2 / root**3
         values.append(outward * complex(1, -ratio * sine / root))
     # even and odd parts: all harmonics are real
-    found = [each.real / count for each in transform(values)]
-    last = max(k for k in range(count // 2) if max(abs(found[k]), abs(found[-k])) > SMALLEST * max(map(abs, found)))
-    return {k: found[k % count] for k in range(-last, last + 1)}
+    terms = [value.real / count for value in transform(values)]
+    last = max(k for k in range(count // 2) if max(abs(terms[k]), abs(terms[-k])) > SMALLEST * max(map(abs, terms)))
+    return {k: terms[k % count] for k in range(-last, last + 1)}
 
 
 def transform(values: Sequence[complex]) -> List[complex]:
@@ -174,5 +174,5 @@ def transform(values: Sequence[complex]) -> List[complex]:
     if count == 1:
         return list(values)
     even, odd = transform(values[::2]), transform(values[1::2])
-    odd = [turned(-2j * pi * k / count) * each for k, each in enumerate(odd)]
+    odd = [turned(-2j * pi * k / count) * value for k, value in enumerate(odd)]
     return [a + b for a, b in zip(even, odd)] + [a - b for a, b in zip(even, odd)]

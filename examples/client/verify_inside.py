@@ -26,7 +26,7 @@ def internal_moment(machine: Machine, place: Place, there: Optional[Fitted]) -> 
     else:
         sides.append(("after_Nm", [*own, *_forces(there.turning, square)]))
     for field, forces in sides:
-        planes = sorted({one[0] for one in forces})
+        planes = sorted({force[0] for force in forces})
         value = max((max(_couple(forces, plane, way) for way in (1, -1)) for plane in planes), default=0.0)
         size = sum(abs(co) + abs(counter) for _, co, counter in forces) * (planes[-1] - planes[0]) if planes else 0.0
         yield within("internal_moment", place / field, value, value, SAMPLE * size)
@@ -35,11 +35,11 @@ def internal_moment(machine: Machine, place: Place, there: Optional[Fitted]) -> 
 def _forces(masses: Sequence[Mass], square: float) -> List[Force]:
     return [
         (
-            one.position.middle().real,
-            one.product.middle().real * square * one.co.middle(),
-            one.product.middle().real * square * one.counter.middle(),
+            mass.position.middle().real,
+            mass.product.middle().real * square * mass.co.middle(),
+            mass.product.middle().real * square * mass.counter.middle(),
         )
-        for one in masses
+        for mass in masses
     ]
 
 

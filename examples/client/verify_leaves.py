@@ -62,19 +62,19 @@ def _finite(value: Any, path: Path) -> None:
     """Raises where a number of what is below a place is not finite."""
     left = [value]
     while left:
-        one = left.pop()
-        if isinstance(one, float) and not isfinite(one):
+        item = left.pop()
+        if isinstance(item, float) and not isfinite(item):
             raise Unreadable(path, "must be a finite number")
-        if isinstance(one, (dict, list)):
-            left.extend(one.values() if isinstance(one, dict) else one)
+        if isinstance(item, (dict, list)):
+            left.extend(item.values() if isinstance(item, dict) else item)
 
 
 def leaves(value: Any) -> int:
     """Numbers and texts in a JSON value."""
-    found, left = 0, [value]
+    count, left = 0, [value]
     while left:
-        one = left.pop()
-        if isinstance(one, (dict, list)):
-            left.extend(one.values() if isinstance(one, dict) else one)
-        found += 1
-    return found
+        item = left.pop()
+        if isinstance(item, (dict, list)):
+            left.extend(item.values() if isinstance(item, dict) else item)
+        count += 1
+    return count

@@ -26,21 +26,21 @@ def levels(
 ) -> Claims:
     """Every goal that an answer lists. ``rest``: without counterweights."""
     proof, order = answer / "certificate", list(request / "objective" / "priorities")
-    listed, names = list(proof / "goals"), [(one / "goal").text() for one in order]
-    said = [(one / "goal").text() for one in listed]
-    places = [names.index(one) for one in said if one in names]
+    listed, names = list(proof / "goals"), [(item / "goal").text() for item in order]
+    labels = [(item / "goal").text() for item in listed]
+    places = [names.index(item) for item in labels if item in names]
     # a cost of which no choice was found is left out
-    must = [one for one in names[: max(n for n, one in enumerate(names) if one not in COSTS)] if one not in COSTS]
-    right = len(places) == len(said) and places == sorted({*places}) and {*must} <= {*said}
+    must = [item for item in names[: max(n for n, item in enumerate(names) if item not in COSTS)] if item not in COSTS]
+    right = len(places) == len(labels) and places == sorted({*places}) and {*must} <= {*labels}
     yield "goals", proof / "goals", ONE if right else -ONE, ONE
-    for place, name in zip(listed, said) if right else ():
+    for place, name in zip(listed, labels) if right else ():
         yield same("goals", place / "goal", name)
-        last, allowance = name == said[-1], (order[names.index(name)] / "allowance").double(0.0, least=0)
+        last, allowance = name == labels[-1], (order[names.index(name)] / "allowance").double(0.0, least=0)
         if name in COSTS:
             yield from _cost(name, place, answer, fitted, last)
             continue
-        found, nothing = (most([one.goal(name) for one in each]) for each in (there, rest))
-        yield from _goal(place, found, nothing, allowance)
+        value, nothing = (most([item.goal(name) for item in side]) for side in (there, rest))
+        yield from _goal(place, value, nothing, allowance)
         if name == named[-1]:
             yield from _bound(place, proof / "lower_bound", proof)
 
@@ -69,8 +69,8 @@ def _bound(place: Place, own: Place, proof: Place) -> Claims:
 
 def _cost(name: str, place: Place, answer: Place, fitted: Fitted, last: bool) -> Claims:
     """What castings cost: their mass, with those fixed, their number or their sizes, without."""
-    proof, chosen = answer / "certificate", [one for one in answer / "counterweights" if not (one / "fixed").value]
-    masses = sorted((one / "mass_kg").double() for one in chosen if (one / "mass_kg").double() > 0)
+    proof, chosen = answer / "certificate", [item for item in answer / "counterweights" if not (item / "fixed").value]
+    masses = sorted((item / "mass_kg").double() for item in chosen if (item / "mass_kg").double() > 0)
     comes_to = {
         "mass": float(fitted.mass + fitted.on_shafts_mass),
         "pieces": float(len(masses)),
@@ -88,4 +88,4 @@ def _cost(name: str, place: Place, answer: Place, fitted: Fitted, last: bool) ->
 
 
 def _sizes(masses: List[float]) -> int:
-    return sum(n == 0 or one - masses[n - 1] > SAME * one for n, one in enumerate(masses))
+    return sum(n == 0 or mass - masses[n - 1] > SAME * mass for n, mass in enumerate(masses))

@@ -68,9 +68,9 @@ class Loads:
 
     @cached_property
     def _forces(self) -> float:
-        rows = sum(abs(each) for one in self.pistons for each in one.shaft.values())
-        rows += sum(one.most + one.friction for one in self.turn.pistons.rows) if self.turn.pistons else 0.0
-        return rows + sum(abs(one.product.middle().real) * self.square for one in self.turn.turning)
+        rows = sum(abs(force) for item in self.pistons for force in item.shaft.values())
+        rows += sum(item.most + item.friction for item in self.turn.pistons.rows) if self.turn.pistons else 0.0
+        return rows + sum(abs(item.product.middle().real) * self.square for item in self.turn.turning)
 
     def curve(self, response: str) -> Periodic:
         """Of a response by its name, without counterweights."""
@@ -79,14 +79,14 @@ class Loads:
         return self._curves[response]
 
     def _curve(self, response: str) -> Periodic:
-        orders = max((len(one.shaft) for one in self.pistons), default=1)
+        orders = max((len(item.shaft) for item in self.pistons), default=1)
         if response.startswith("bending") and len(self.planes) * orders > MOST:
             raise NotCovered(self.turn.place)
         pistons, on_frame = self.turn.pistons, response in ON_FRAME
         if pistons is not None and response == "roll":
             # what machine and driver take up all the time does not shake
             around = Pressed(
-                pistons, "tangential", [(k, pistons.sense * one.radius) for k, one in enumerate(pistons.rows)]
+                pistons, "tangential", [(k, pistons.sense * item.radius) for k, item in enumerate(pistons.rows)]
             )
             return around.moved(-around.mean)
         if pistons is not None and not on_frame:
@@ -95,44 +95,44 @@ class Loads:
             weights = [(k, self.factor(response, row.position) * row.axis) for k, row in enumerate(pistons.rows)]
             return Pressed(pistons, "shaft", weights, {0: self.added(response, self.turn.turning)})
         if response == "roll":
-            rolling = total([(1.0, one.roll) for one in self.pistons]).harmonics
-            return Curve({k: each for k, each in rolling.items() if k}, scalar=True)
-        rows = [(self.factor(response, one.position), one.frame if on_frame else one.shaft) for one in self.pistons]
+            rolling = total([(1.0, item.roll) for item in self.pistons]).harmonics
+            return Curve({k: phasor for k, phasor in rolling.items() if k}, scalar=True)
+        rows = [(self.factor(response, item.position), item.frame if on_frame else item.shaft) for item in self.pistons]
         return total([*rows, (1.0, {0: self.added(response, self.turn.turning)})])
 
     def added(self, response: str, weights: Sequence[Mass]) -> complex:
         """What weights on the crankshaft add, all of order 0."""
         if response == "roll":
             return 0j
-        vectors = (self.factor(response, one.position) * (one.product * one.co).middle() for one in weights)
+        vectors = (self.factor(response, mass.position) * (mass.product * mass.co).middle() for mass in weights)
         return sum(vectors, 0j) * self.square
 
     def with_weights(
         self, response: str, weights: Sequence[Mass], on_shafts: Sequence[Tuple[int, Mass]] = ()
     ) -> Periodic:
         """The curve with weights, those on balance shafts by the sizes of their speed ratios."""
-        found = self.curve(response).moved(self.added(response, weights))
-        for lever, (ratio, one) in zip(self.levers, on_shafts):
-            size = ratio**2 * self.square * one.product.middle().real
-            if isinstance(found, Pressed):
+        curve = self.curve(response).moved(self.added(response, weights))
+        for lever, (ratio, mass) in zip(self.levers, on_shafts):
+            size = ratio**2 * self.square * mass.product.middle().real
+            if isinstance(curve, Pressed):
                 lever = -1j * lever.conjugate() * size
-                for sense, vector in ((1, one.co), (-1, one.counter)) if response == "roll" else ():
-                    found = found.moved(lever * vector.middle(), sense * ratio)
+                for sense, vector in ((1, mass.co), (-1, mass.counter)) if response == "roll" else ():
+                    curve = curve.moved(lever * vector.middle(), sense * ratio)
             elif response == "roll":
                 around = Curve({}, scalar=True)
-                for sense, vector in ((1, one.co), (-1, one.counter)):
+                for sense, vector in ((1, mass.co), (-1, mass.counter)):
                     turning = Curve({sense * ratio: -1j * lever.conjugate() * size * vector.middle()}, scalar=True)
                     around = Curve(total([(1.0, around.harmonics), (1.0, turning.harmonics)]).harmonics)
-                found = Curve(total([(1.0, found.harmonics), (1.0, around.harmonics)]).harmonics)
+                curve = Curve(total([(1.0, curve.harmonics), (1.0, around.harmonics)]).harmonics)
             elif response in ON_FRAME:
-                size *= self.factor(response, one.position)
-                found = found.moved(size * one.co.middle(), ratio - 1).moved(size * one.counter.middle(), -ratio - 1)
-        return found
+                size *= self.factor(response, mass.position)
+                curve = curve.moved(size * mass.co.middle(), ratio - 1).moved(size * mass.counter.middle(), -ratio - 1)
+        return curve
 
     def factor(self, response: str, position: Number) -> float:
         """What a newton in a plane adds to a response."""
-        found: float = self.turn.factor(response, position).middle().real
-        return found
+        value: float = self.turn.factor(response, position).middle().real
+        return value
 
 
 def _piston(row: Row, square: float) -> Piston:
@@ -143,9 +143,9 @@ def _piston(row: Row, square: float) -> Piston:
     axis, lever = row.axis.middle(), row.radius.middle().real
     powers = {k: first**k for k in range(min(harmonics) - 1, max(harmonics) + 1)}
     # of the even part, the acceleration alone
-    even = {k: (each + harmonics[-k]) / 2 for k, each in harmonics.items()}
+    even = {k: (value + harmonics[-k]) / 2 for k, value in harmonics.items()}
     on_shaft, on_frame = (
-        {k - 1: size * each * axis * powers[k] for k, each in one.items()} for one in (harmonics, even)
+        {k - 1: size * value * axis * powers[k] for k, value in series.items()} for series in (harmonics, even)
     )
-    around = {k - 1: 1j * lever * size * each * powers[k - 1] for k, each in harmonics.items()}
+    around = {k - 1: 1j * lever * size * value * powers[k - 1] for k, value in harmonics.items()}
     return Piston(row.position, on_shaft, on_frame, around)

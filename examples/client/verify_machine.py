@@ -77,8 +77,8 @@ CHOICES: Dict[str, Callable[[Place], Iterator[Option]]] = {
 #: fields of a request that these tables name
 ENTRY_FIELDS = " ".join(
     [
-        f"{name}_weight {name}_ceiling_{one.unit} {name}_ceiling_x_{one.unit} {name}_ceiling_y_{one.unit} {one.fields}"
-        for name, one in ON_FRAME.items()
+        f"{name}_weight {name}_ceiling_{unit} {name}_ceiling_x_{unit} {name}_ceiling_y_{unit} {fields}"
+        for name, (unit, _, fields) in ON_FRAME.items()
     ]
     + [*CHOICES]
 )
@@ -128,28 +128,28 @@ class Machine:
 
     def off(self, shares: Sequence[Number]) -> Machine:
         """Where what moves along the rows is off by these shares, row by row."""
-        left, found = iter(shares), copy(self)
-        found.masses = [
+        left, machine = iter(shares), copy(self)
+        machine.masses = [
             mass if mass.counter is ZERO else mass._replace(product=mass.product * (ONE + next(left)))
             for mass in self.masses
         ]
-        found.refresh()
-        return found
+        machine.refresh()
+        return machine
 
     def responses(self, weights: Sequence[Mass]) -> Responses:
         """With counterweights."""
         return self._plus(self.before, weights)
 
     def _plus(self, responses: Responses, weights: Sequence[Mass]) -> Responses:
-        found = {}
+        sums = {}
         for name, (co, counter) in responses.items():
             for mass in weights:
                 arm = self.arm(name, mass.position, self.wide)
                 size = mass.product * self.wide * self.square * arm
                 co = co + (mass.co + self.blur) * size if mass.co is not ZERO else co
                 counter = counter + (mass.counter + self.blur) * size if mass.counter is not ZERO else counter
-            found[name] = co, counter
-        return found
+            sums[name] = co, counter
+        return sums
 
     def arm(self, name: str, position: Number, wide: Number = ONE) -> Number:
         """What a unit of force in a plane adds to a response. ``wide``: what every product may be off by."""
@@ -168,35 +168,35 @@ class Machine:
 
     def together(self, pulls: Sequence[Number]) -> list[Number]:
         """What pulls at the webs, of identical castings by the mean of what pulls at all, as seen from their cranks."""
-        found = list(pulls)
+        result = list(pulls)
         for group in self.groups:
             back = [(pulls[k] * direction(angle).conjugate(), mirrored) for k, angle, mirrored in group]
-            mean = total(one.conjugate() if mirrored else one for one, mirrored in back) / real(len(group))
+            mean = total(pull.conjugate() if mirrored else pull for pull, mirrored in back) / real(len(group))
             for k, angle, mirrored in group:
-                found[k] = (mean.conjugate() if mirrored else mean) * direction(angle)
-        return found
+                result[k] = (mean.conjugate() if mirrored else mean) * direction(angle)
+        return result
 
 
 def _groups(place: Place) -> list[list[tuple[int, float, bool]]]:
     """Webs that get the same casting, by number, the angles of their own cranks [deg], and which are mirrored there."""
     names = [(web / "name").text() for web in place / "webs"]
-    throws = [((one / "position_m").double(), (one / "crank_angle_deg").double()) for one in place / "throws"]
-    found = []
+    throws = [((throw / "position_m").double(), (throw / "crank_angle_deg").double()) for throw in place / "throws"]
+    groups = []
     for group in place / "web_groups":
         mirror = (group / "mirror").read((bool,), "true or false", False)
         webs = [names.index(name) for name in map(Place.text, group / "webs") if name in names]
-        found.append([(k, 0.0, mirror and n % 2 == 1) for n, k in enumerate(webs)])
-        if len(found[-1]) < len(list(group / "webs")):
+        groups.append([(k, 0.0, mirror and n % 2 == 1) for n, k in enumerate(webs)])
+        if len(groups[-1]) < len(list(group / "webs")):
             raise NotCovered(group / "webs")
-        for n, (k, _, mirrored) in enumerate(found[-1] if throws else ()):
+        for n, (k, _, mirrored) in enumerate(groups[-1] if throws else ()):
             web = list(place / "webs")[k]
             at = (web / "position_m").double()
             near = min(range(len(throws)), key=lambda t: abs(throws[t][0] - at))
             named = int((web / "throw").double(float(near))) if web / "throw" else near
             if named >= len(throws):
                 raise NotCovered(web / "throw")
-            found[-1][n] = k, throws[named][1], mirrored
-    return found
+            groups[-1][n] = k, throws[named][1], mirrored
+    return groups
 
 
 def web_of(place: Place, fastest: Number) -> Web:

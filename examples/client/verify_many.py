@@ -97,15 +97,15 @@ def _shape(curve: Place) -> Claims:
 
 def _scale(statement: Statement, place: Place) -> Claim:
     """The peak without counterweights, or where that is next to nothing at most what they could make it."""
-    machine, said = statement.machine, place.number()
+    machine, size = statement.machine, place.number()
     (rest,) = statement.values(machine.laden).values()
     most = statement.reachable(Place({}))
-    if rest.low > (said * real(1e-6)).high:
+    if rest.low > (size * real(1e-6)).high:
         return near("yardstick", place, rest)
     if most is None:
         return "yardstick", place, None, ONE
     # where they make nothing, 1 kg m or 1 kg m^2 that turns with the shaft
-    return "yardstick", place, largest(most, machine.square) * ABOUT_ONE - said, said
+    return "yardstick", place, largest(most, machine.square) * ABOUT_ONE - size, size
 
 
 def _machine(request: Place, answer: Place, budget: Place) -> Machine:
@@ -139,8 +139,8 @@ def point(statement: Statement, request: Place, scale: Place, answer: Place) -> 
     if not optimal:
         yield "status", status, ONE, ONE
     if optimal:
-        asked = (request / "accuracy" / "relative_gap").number(usual_gap(request / "machine"), least=0)
-        yield "status", relative, asked - relative.number() if relative else None, ONE
+        accuracy = (request / "accuracy" / "relative_gap").number(usual_gap(request / "machine"), least=0)
+        yield "status", relative, accuracy - relative.number() if relative else None, ONE
     yield from _active(request, machine=statement.machine, place=answer, left=after, mass=mass)
     slack = {name: size * real(CEILING) for name, size in statement.sizes.items()}
     priced = partial(priced_at, {name: (proof / f"{name}_{unit}").number(0.0) for name, unit in NAMES.items()})
@@ -191,9 +191,9 @@ def _design(request: Place, paths: Sequence[str], row: Place) -> Claims:
 
 def _in_order(cranks: Sequence[Place], order: Place) -> Claims:
     """Every angle stands in a row as often as it is listed."""
-    angles, asked = [crank.double() for crank in cranks], [one.double() for one in order]
+    angles, target = [crank.double() for crank in cranks], [item.double() for item in order]
     for crank, angle in zip(cranks, angles):
-        times = [sum(abs((one - angle + 180) % 360 - 180) <= 360 * UNSURE for one in each) for each in (angles, asked)]
+        times = [sum(abs((item - angle + 180) % 360 - 180) <= 360 * UNSURE for item in row) for row in (angles, target)]
         yield "axis", crank, ONE if times[0] == times[1] else -ONE, ONE
 
 
@@ -201,22 +201,22 @@ def _on_axis(axis: Place, row: Place) -> Claim:
     """A value of the axis: one of those that are listed, or between its ends."""
     path = (axis / "path").text()
     # of an item of a list, the name of the list says the unit
-    where, said = [int(part) if part.isdecimal() else part for part in path.split("/")[1:]], row / path
+    where, place = [int(part) if part.isdecimal() else part for part in path.split("/")[1:]], row / path
     if axis / "values":
         allowed = [
-            None if one.value is None else Place(one.value, "request", *where).double() for one in axis / "values"
+            None if item.value is None else Place(item.value, "request", *where).double() for item in axis / "values"
         ]
     else:
         allowed = [Place((axis / name).value, "request", *where).double() for name in ("start", "stop")]
-    if not said:
-        return "axis", said, None if None in allowed else -ONE, ONE
-    value, numbers = Place(said.value, "request", *where).double(), [one for one in allowed if one is not None]
+    if not place:
+        return "axis", place, None if None in allowed else -ONE, ONE
+    value, numbers = Place(place.value, "request", *where).double(), [item for item in allowed if item is not None]
     slack = UNSURE * max(map(abs, numbers), default=0.0)
     if axis / "values":
-        held = any(abs(value - one) <= slack for one in numbers)
+        held = any(abs(value - item) <= slack for item in numbers)
     else:
         held = min(numbers) - slack <= value <= max(numbers) + slack
-    return "axis", said, ONE if held else -ONE, ONE
+    return "axis", place, ONE if held else -ONE, ONE
 
 
 def _row(request: Place, row: Place, chosen: bool) -> Claims:
@@ -237,18 +237,18 @@ def _row(request: Place, row: Place, chosen: bool) -> Claims:
         if status != "infeasible" and (web / "envelope" or weights[-1]["mass_kg"] is None):
             # a column that was not asked for; and of what is cut from a plate no row tells the radius
             raise NotCovered(row / f"mass_kg.{name}")
-    given = [field for field in (*CEILINGS.values(), *LOADED) if request / "objective" / field]
+    limits = [field for field in (*CEILINGS.values(), *LOADED) if request / "objective" / field]
     peaks = {name: {f"peak_{unit}": (row / f"{name}_peak_{unit}").value} for name, unit in NAMES.items()}
     proofs = {**proof, **row.value, "multipliers": proof}
-    found = {
+    answer = {
         "status": status,
         "counterweights": weights if status != "infeasible" else [],
         "total_mass_kg": (row / "total_mass_kg").value,
         "residual": {"after": peaks, "responses": list(_beside(row))} if status != "infeasible" else {"after": None},
         "certificate": proofs if status != "infeasible" else None,
-        "infeasibility": {**proofs, "conflict": given} if status == "infeasible" else None,
+        "infeasibility": {**proofs, "conflict": limits} if status == "infeasible" else None,
     }
-    yield from _by_columns(single(request, Place(found, *row.path), whole=False), row, found, chosen)
+    yield from _by_columns(single(request, Place(answer, *row.path), whole=False), row, answer, chosen)
     if row / "multipliers":
         yield EVIDENCE, row / "multipliers", None, ONE
 
@@ -275,8 +275,8 @@ def _by_columns(claims: Claims, row: Place, fields: Any, chosen: bool) -> Claims
 
 def _beside(row: Place) -> Iterator[Dict[str, Any]]:
     """Peaks of the responses that count beside force and moment."""
-    for name, one in ON_FRAME.items():
-        column = f"{name}_peak_{one.unit}"
+    for name, response in ON_FRAME.items():
+        column = f"{name}_peak_{response.unit}"
         if name not in NAMES and row / column:
             yield {"response": name, "after": (row / column).value}
 

@@ -40,63 +40,63 @@ class Parts(NamedTuple):
 def matching(request: Place, answer: Place) -> Claims:
     """Claims of an assignment of parts to rows."""
     yield from form(answer, ("match",))
-    asked = request / "machine"
-    rows = [(k, n) for k, throw in enumerate(asked / "throws") for n, _ in enumerate(throw / "rows")]
+    design = request / "machine"
+    rows = [(k, n) for k, throw in enumerate(design / "throws") for n, _ in enumerate(throw / "rows")]
     classes, nuts = list(_classes(request, rows)), _nuts(request)
     matched = yield from _assigned(answer, classes, nuts, rows)
     listed = dict.fromkeys(rows, 0.0)
-    for each in classes:
-        for row, mass in zip(each.rows, each.masses.values()):
+    for kind in classes:
+        for row, mass in zip(kind.rows, kind.masses.values()):
             listed[row] += mass
     shown = list(answer / "rows")
     places = [(int((row / "throw").double()), int((row / "row").double())) for row in shown]
     yield "rows", answer / "rows", ONE if places == rows else -ONE, ONE
-    own = [row for throw in asked / "throws" for row in throw / "rows"]
-    for one, row, mine in zip(shown, places, own):
+    own = [row for throw in design / "throws" for row in throw / "rows"]
+    for entry, row, mine in zip(shown, places, own):
         for name in ("throw", "row"):
-            yield same("rows", one / name, (one / name).value)
-        yield same("rows", one / "name", (mine / "name").value)
+            yield same("rows", entry / name, (entry / name).value)
+        yield same("rows", entry / "name", (mine / "name").value)
         whole = (mine / "reciprocating_mass_kg").number(least=0) + real(matched.get(row, 0.0))
-        yield near("rows", one / "reciprocating_mass_kg", whole * ABOUT_ONE)
-    yield from _evaluated(request, answer, [_with(asked, by_row) for by_row in (listed, matched)], classes, nuts)
+        yield near("rows", entry / "reciprocating_mass_kg", whole * ABOUT_ONE)
+    yield from _evaluated(request, answer, [_with(design, by_row) for by_row in (listed, matched)], classes, nuts)
 
 
 def _classes(request: Place, rows: List[Row]) -> Iterator[Parts]:
     for kind in request / "parts":
-        names = [each.text() for each in kind / "names"]
-        masses = [each.double(least=0) for each in kind / "masses_kg"]
-        taking = [(int((one / "throw").double()), int((one / "row").double())) for one in kind / "rows"]
+        names = [entry.text() for entry in kind / "names"]
+        masses = [entry.double(least=0) for entry in kind / "masses_kg"]
+        taking = [(int((row / "throw").double()), int((row / "row").double())) for row in kind / "rows"]
         if len({*names}) < len(names) or len(names) != len(masses) or not {*taking} <= {*rows}:
             raise Unreadable(kind.path, "names, masses and rows must go together")
         yield Parts((kind / "class").text(), dict(zip(names, masses)), taking or rows)
 
 
 def _nuts(request: Place) -> Dict[str, float]:
-    return {str(n + 1): each.double(least=0) for n, each in enumerate(request / "balance_nuts_kg")}
+    return {str(n + 1): mass.double(least=0) for n, mass in enumerate(request / "balance_nuts_kg")}
 
 
 def _assigned(answer: Place, classes: Sequence[Parts], nuts: Dict[str, float], rows: List[Row]) -> Claims:
     """Every part on a row of its class, one each; nuts there or among the spares. Returns masses by rows."""
-    left = {(each.name, name): mass for each in classes for name, mass in each.masses.items()}
+    left = {(kind.name, name): mass for kind in classes for name, mass in kind.masses.items()}
     left.update({(NUT, name): mass for name, mass in nuts.items()})
-    rows_of = {each.name: list(each.rows) for each in classes}
+    rows_of = {kind.name: list(kind.rows) for kind in classes}
     rows_of[NUT] = list(rows)
     matched: Dict[Row, float] = {}
     for where in ("assignments", "spares"):
         for part in answer / where:
             key = (part / "class").text(), (part / "part").text()
-            known = key in left and (where == "assignments" or key[0] == NUT)
+            fit = key in left and (where == "assignments" or key[0] == NUT)
             if where == "assignments":
                 row = int((part / "throw").double()), int((part / "row").double())
-                known = known and row in rows_of[key[0]]
+                fit = fit and row in rows_of[key[0]]
                 for name in ("throw", "row"):
-                    yield "assignments", part / name, ONE if known else -ONE, ONE
-                if known:
+                    yield "assignments", part / name, ONE if fit else -ONE, ONE
+                if fit:
                     rows_of[key[0]].remove(row)
                     matched[row] = matched.get(row, 0.0) + left[key]
             for name in ("class", "part"):
-                yield where, part / name, ONE if known else -ONE, ONE
-            if known:
+                yield where, part / name, ONE if fit else -ONE, ONE
+            if fit:
                 yield near(where, part / "mass_kg", real(left.pop(key)))
     yield "assignments", answer / "assignments", -ONE if left else ONE, ONE
     return matched
@@ -117,15 +117,15 @@ def _evaluated(
 ) -> Claims:
     """Both ellipses, the objective, and its gap."""
     goal, proof, none = request / "objective", answer / "certificate", Place(None)
-    before, after = (Machine(asked, goal, none, none) for asked in machines)
+    before, after = (Machine(design, goal, none, none) for design in machines)
     chosen = (request / "choose_counterweights").value is True
     turning, mass = yield from counterweights(after, answer / "counterweights", machines[1])
     yield near("total_mass", answer / "total_mass_kg", mass, largest(mass, ONE))
     if not chosen:
-        there = {(one / "web").text(): one for one in request / "counterweights"}
-        for one in answer / "counterweights":
-            given = there.get((one / "web").text(), Place({"mass_kg": 0.0, "angle_deg": 0.0}))
-            yield near("counterweights", one / "mass_kg", (given / "mass_kg").number())
+        there = {(entry / "web").text(): entry for entry in request / "counterweights"}
+        for entry in answer / "counterweights":
+            place = there.get((entry / "web").text(), Place({"mass_kg": 0.0, "angle_deg": 0.0}))
+            yield near("counterweights", entry / "mass_kg", (place / "mass_kg").number())
     weights = {"force": (goal / "force_weight").number(1.0, least=0), "moment": ONE / after.span}
     if goal / "moment_weight":
         weights["moment"] = (goal / "moment_weight").number(least=0)
@@ -135,9 +135,9 @@ def _evaluated(
     def value(machine: Machine, responses: Responses) -> Number:
         return largest(ZERO, *Statement(machine, goal, rows, capped=False).values(responses).values())
 
-    found = after.responses(turning)
-    objective = value(after, found)
-    yield from first_order("after", answer / "residual" / "after", found)
+    residual = after.responses(turning)
+    objective = value(after, residual)
+    yield from first_order("after", answer / "residual" / "after", residual)
     yield near("objective", proof / "objective", objective)
     size = value(before, before.laden)
     if not chosen:
@@ -150,7 +150,7 @@ def _evaluated(
     if not chosen and _count(classes, nuts, len(list(_places(request / "machine")))) <= MOST:
         lengths = {name: float(weight) for name, weight in weights.items()}
         bare = [_with(request / "machine", {row: HEAVY}) for row in [None, *_places(request / "machine")]]
-        responses = [Machine(one, none, none, none).responses(turning) for one in bare]
+        responses = [Machine(entry, none, none, none).responses(turning) for entry in bare]
         least = min(_every(request, lengths, together, responses, classes, nuts))
         off = ROUNDING * (float(abs(size)) + float(objective))
         room = least + off - (proof / "lower_bound").double(0.0)
@@ -177,10 +177,10 @@ def _places(design: Place) -> Iterator[Row]:
 
 def _count(classes: Sequence[Parts], nuts: Dict[str, float], rows: int) -> int:
     """How many assignments there are."""
-    found = 1
-    for each in classes:
-        found *= factorial(min(len(each.masses), 20))
-    return found * sum(perm(len(nuts), n) * perm(rows, n) // factorial(n) for n in range(min(len(nuts), rows) + 1))
+    count = 1
+    for kind in classes:
+        count *= factorial(min(len(kind.masses), 20))
+    return count * sum(perm(len(nuts), n) * perm(rows, n) // factorial(n) for n in range(min(len(nuts), rows) + 1))
 
 
 def _every(
@@ -189,20 +189,20 @@ def _every(
 ) -> Iterator[float]:  # fmt: skip
     """Objectives of all assignments; ``machines``: responses without parts, and with HEAVY on each row."""
     rows = list(_places(request / "machine"))
-    start, *more = [[one[name] for name in NAMES] for one in machines]
-    base = [each.middle() for each in _flat(start)]
-    slopes = [[(each.middle() - old) / HEAVY for each, old in zip(_flat(one), base)] for one in more]
+    start, *more = [[entry[name] for name in NAMES] for entry in machines]
+    base = [item.middle() for item in _flat(start)]
+    slopes = [[(item.middle() - old) / HEAVY for item, old in zip(_flat(entry), base)] for entry in more]
     across = [(request / "objective" / "direction_weights" / name).double(1.0, least=0) for name in ("x", "y")]
     p, q = sum(across) / 2, (across[0] - across[1]) / 2
-    for orders in product(*(permutations(each.masses.values()) for each in parts)):
+    for orders in product(*(permutations(item.masses.values()) for item in parts)):
         on_rows = dict.fromkeys(rows, 0.0)
-        for each, masses in zip(parts, orders):
-            for row, mass in zip(each.rows, masses):
+        for item, masses in zip(parts, orders):
+            for row, mass in zip(item.rows, masses):
                 on_rows[row] += mass
         for fitted in _with_nuts(on_rows, nuts):
             vectors = list(base)
             for row, slope in zip(rows, slopes):
-                vectors = [one + fitted[row] * each for one, each in zip(vectors, slope)]
+                vectors = [entry + fitted[row] * item for entry, item in zip(vectors, slope)]
             peaks = []
             for name, (co, counter) in zip(NAMES, (vectors[:2], vectors[2:])):
                 lengths = abs(p * co + q * counter.conjugate()) + abs(q * co + p * counter.conjugate())

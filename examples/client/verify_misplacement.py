@@ -33,22 +33,22 @@ class Misplaced(Value):
         super().__init__(part, fitted, Scatter(ZERO, ZERO))
         self.by_angle = by_angle
         webs = part.machine.webs
-        self.free = [one for one, web in zip(self.fitted.turning, webs) if web.fixed is None and one.product.high > 0]
+        self.free = [u for u, web in zip(self.fitted.turning, webs) if web.fixed is None and u.product.high > 0]
 
     def response(self, name: str, enough: float = 0.0, axis: str = "") -> Range:
         loads = self.part.loads
         curve = loads.with_weights(name, self.fitted.turning)
-        found = [Range(*peak_of(curve, self.part.goal, enough)[:2])]
-        vectors = [loads.added(name, [one]) for one in self.free]
-        corners = turned_outline(vectors) if self.by_angle else [SHARE * one for one in zonotope(vectors)]
+        ranges = [Range(*peak_of(curve, self.part.goal, enough)[:2])]
+        vectors = [loads.added(name, [item]) for item in self.free]
+        corners = turned_outline(vectors) if self.by_angle else [SHARE * item for item in zonotope(vectors)]
         for corner in corners:
-            found.append(Range(*peak_of(curve.moved(corner), self.part.goal, max(most(found).low, enough))[:2]))
+            ranges.append(Range(*peak_of(curve.moved(corner), self.part.goal, max(most(ranges).low, enough))[:2]))
         still = curve.moved(-curve.mean).size
         if still <= SAMPLE * loads.size_of(name):
             # what turns with the shaft alone has one length, at worst no more than at a corner
             least = self._at_worst(curve.mean, vectors)
-            return Range(least, max(least, most(found).high))
-        return most(found)
+            return Range(least, max(least, most(ranges).high))
+        return most(ranges)
 
     def _at_worst(self, middle: complex, vectors: Sequence[complex]) -> float:
         """The largest length of a vector of which these are parts."""
@@ -65,7 +65,7 @@ class Misplaced(Value):
         for statement in self.part.statements:
             rows: Dict[str, float] = {row: float(floor) for row, floor in statement.floor.items()}
             for term in statement.terms.values():
-                moved = [(one * factor).middle() for one, factor in zip(vectors, self.part.of_first_order(term))]
+                moved = [(vector * factor).middle() for vector, factor in zip(vectors, self.part.of_first_order(term))]
                 rows[term.row] += worst(term.start.middle(), moved, ANGLE if self.by_angle else SHARE)
             there = statement.machine.responses(self.fitted.first)
             for name in {term.moves for term in statement.terms.values()}:
@@ -77,13 +77,13 @@ class Misplaced(Value):
     def _vectors(self) -> List[Number]:
         """What is chosen on every web; what is fixed is in the start of every length."""
         webs = zip(self.fitted.turning, self.part.machine.webs)
-        own = [ZERO if web.fixed else one.product * one.co for one, web in webs]
-        return [*own, *(one.vector(mass) for one, (_, mass) in zip(self.part.geared, self.fitted.on_shafts))]
+        own = [ZERO if web.fixed else item.product * item.co for item, web in webs]
+        return [*own, *(item.vector(mass) for item, (_, mass) in zip(self.part.geared, self.fitted.on_shafts))]
 
     def _mean(self, name: str, weight: float) -> Range:
         loads = self.part.loads
         curve = loads.with_weights(name, self.fitted.turning)
-        still, vectors = curve.mean, [loads.added(name, [one]) for one in self.free]
+        still, vectors = curve.mean, [loads.added(name, [mass]) for mass in self.free]
         value = hypot(curve.moved(-still).rms, self._at_worst(still, vectors)) * weight
         return Range(value, value)
 
@@ -92,11 +92,11 @@ def zonotope(vectors: Sequence[complex]) -> List[complex]:
     """Corners of all sums of vectors, each times a number from -1 to 1."""
     ahead = sorted((v if (v.imag, v.real) >= (0.0, 0.0) else -v for v in vectors if v), key=phase)
     corner = sum(ahead, 0j)
-    found = [corner, -corner] if ahead else []
+    corners = [corner, -corner] if ahead else []
     for v in ahead[:-1]:
         corner -= 2 * v
-        found += [corner, -corner]
-    return found
+        corners += [corner, -corner]
+    return corners
 
 
 def turned_outline(vectors: Sequence[complex]) -> List[complex]:
@@ -105,16 +105,16 @@ def turned_outline(vectors: Sequence[complex]) -> List[complex]:
     for v in vectors:
         if v:
             bends = [rect(1, -ANGLE), rect(1 / cos(ANGLE / 2), -ANGLE / 2), rect(1 / cos(ANGLE / 2), ANGLE / 2)]
-            points = [v * (each - 1) for each in (*bends, rect(1, ANGLE))]
+            points = [v * (bend - 1) for bend in (*bends, rect(1, ANGLE))]
             own = [after - before for before, after in zip(points, [*points[1:], points[0]])]
             first = min(range(4), key=lambda k: phase(own[k]))
             start += points[first]
             edges += own
-    found = []
+    corners = []
     for edge in sorted(edges, key=phase):
         start += edge
-        found.append(start)
-    return found
+        corners.append(start)
+    return corners
 
 
 def misplacement(parts: Sequence[Part], goal: str, fitted: Fitted, entry: Place) -> Claims:

@@ -50,19 +50,19 @@ class Program:
         self.first = next(iter(self.parts.values()))
         #: what is proven may be a mean of several corners, whose shares are not told
         self.mixed = bool(self.first.corners)
-        self.webs = [*machine.webs, *(one.web for one in self.first.geared)]
+        self.webs = [*machine.webs, *(entry.web for entry in self.first.geared)]
         #: of the last bound: what it rises by per kg m on each web
         self.slopes: List[Number] = []
         listed = answer / "certificate" / "goals"
-        self.levels = [(one / "limit").number() for one in listed if (one / "goal").text() in self.named[:-1]]
+        self.levels = [(entry / "limit").number() for entry in listed if (entry / "goal").text() in self.named[:-1]]
         if answer and len(self.levels) != len(self.named) - 1:
             raise NotCovered(answer / "certificate" / "goals")
 
     def up_to(self, goal: int) -> Program:
         """The same with the goals up to one."""
-        found = copy(self)
-        found.named, found.levels = self.named[: goal + 1], self.levels[:goal]
-        return found
+        program = copy(self)
+        program.named, program.levels = self.named[: goal + 1], self.levels[:goal]
+        return program
 
     def _part(self, cut: Place) -> Part:
         name = (cut / "scenario").text() if cut / "scenario" else None
@@ -72,33 +72,33 @@ class Program:
 
     def terms(self, proof: Place) -> List[Term]:
         """Terms of the objective with their multipliers."""
-        found, size = list(proof / "terms"), self.first
-        if len(found) * (len(size.turn.rows) + len(self.machine.masses) + len(self.webs)) > MOST:
+        places, size = list(proof / "terms"), self.first
+        if len(places) * (len(size.turn.rows) + len(self.machine.masses) + len(self.webs)) > MOST:
             raise NotCovered(proof / "terms")
-        allowed = {(each / "name").text(): (each / "value").number(least=0) for each in proof / "rows"}
+        allowed = {(row / "name").text(): (row / "value").number(least=0) for row in proof / "rows"}
         cuts: Dict[Tuple[Part, str], List[Place]] = {}
-        for one in found:
-            cuts.setdefault((self._part(one), (one / "row").text()), []).append(one)
+        for cut in places:
+            cuts.setdefault((self._part(cut), (cut / "row").text()), []).append(cut)
         worst = {key: key[0].worst(of_row, allowed.get(key[1], ZERO)) for key, of_row in cuts.items()}
-        return [part.term(one, worst[part, (one / "row").text()]) for one in found for part in [self._part(one)]]
+        return [part.term(cut, worst[part, (cut / "row").text()]) for cut in places for part in [self._part(cut)]]
 
     def reached(self, terms: List[Term], fitted: Fitted) -> Number:
         """What counterweights come to of the last goal, at the angles of the cuts."""
         rows: Dict[Tuple[Group, str], Number] = {}
         # what is fixed is in the start of every cut
-        own = [ZERO if web.fixed else one.product * one.co for one, web in zip(fitted.turning, self.machine.webs)]
-        exact = [*own, *(one.vector(mass) for one, (_, mass) in zip(self.first.geared, fitted.on_shafts))]
-        sizes, wide = [abs(one) for one in exact], self.machine.wide
+        own = [ZERO if web.fixed else item.product * item.co for item, web in zip(fitted.turning, self.machine.webs)]
+        exact = [*own, *(item.vector(mass) for item, (_, mass) in zip(self.first.geared, fitted.on_shafts))]
+        sizes, wide = [abs(item) for item in exact], self.machine.wide
         # weights that are large beside what they leave: each is a figure of its own
-        vectors = [one * wide + self.machine.blur * size for one, size in zip(exact, sizes)]
-        for one in terms:
-            moved = one.start
-            for vector, factor in zip(vectors, one.factors):
+        vectors = [item * wide + self.machine.blur * size for item, size in zip(exact, sizes)]
+        for item in terms:
+            moved = item.start
+            for vector, factor in zip(vectors, item.factors):
                 moved = moved + vector * factor
-            moved = moved.parts()[0] if one.scalar else moved
-            before = rows.get((one.group, one.row), one.floor)
-            length = abs(moved) + self.off.of(one.factors, sizes)
-            rows[one.group, one.row] = before + (abs(length + J * one.still) if one.mean else length)
+            moved = moved.parts()[0] if item.scalar else moved
+            before = rows.get((item.group, item.row), item.floor)
+            length = abs(moved) + self.off.of(item.factors, sizes)
+            rows[item.group, item.row] = before + (abs(length + J * item.still) if item.mean else length)
         groups = {group for group, _ in rows if group[1] == len(self.named) - 1}
         most = {group: largest(*(value for (of, _), value in rows.items() if of == group)) for group in groups}
         every = {group[0] for group in groups}
@@ -108,24 +108,24 @@ class Program:
         self, proof: Place, terms: List[Term], implied: Place, cost: Number = ZERO, most: Number = ZERO
     ) -> Tuple[Optional[Number], bool]:
         """Of the last goal, or of the mass with goals up to ``most``, and whether implied limits are believed."""
-        rows = {(one / "name").text(): (one / "value").number(least=0) for one in proof / "rows"}
-        group_of = {one.row: one.group for one in terms}
-        if any(group_of[one.row] != one.group for one in terms):
+        rows = {(entry / "name").text(): (entry / "value").number(least=0) for entry in proof / "rows"}
+        group_of = {entry.row: entry.group for entry in terms}
+        if any(group_of[entry.row] != entry.group for entry in terms):
             raise NotCovered(proof / "terms")
         rows = {name: value for name, value in rows.items() if value.low > 0 and name in group_of}
         rows, terms = _means(rows, terms)
-        group_of = {one.row: one.group for one in terms}
+        group_of = {entry.row: entry.group for entry in terms}
         sums = {group: total(value for name, value in rows.items() if group_of[name] == group)
                 for group in {group_of[name] for name in rows}}  # fmt: skip
         if cost is ZERO and not sums:
             return None, False
         share, charge = self._shares(sums, cost, most, proof)
-        floors = {one.row: one.floor for one in terms}
+        floors = {entry.row: entry.floor for entry in terms}
         pulls = Pulls(total(value * share[group_of[name]] * floors[name] for name, value in rows.items()), self.webs)
         pulls.least = pulls.least - charge
-        for one in terms:
-            if one.row in rows:
-                self._add(pulls, one, rows[one.row], share[one.group])
+        for entry in terms:
+            if entry.row in rows:
+                self._add(pulls, entry, rows[entry.row], share[entry.group])
         self._add_ceilings(pulls, proof)
         self.slopes = pulls.slopes
         return self._within_limits(pulls, proof, implied, cost)
@@ -135,10 +135,10 @@ class Program:
         pulls = Pulls(ZERO, self.webs)
         self._add_ceilings(pulls, proof)
         lengths: Dict[str, Number] = {}
-        for one in proof / "ceilings":
-            named = (one / "response").text() + (f" in {(one / 'scenario').text()}" if one / "scenario" else "")
-            if not one / "angle_deg":
-                lengths[named] = lengths.get(named, ZERO) + abs((one / "x").number() + J * (one / "y").number())
+        for cut in proof / "ceilings":
+            named = (cut / "response").text() + (f" in {(cut / 'scenario').text()}" if cut / "scenario" else "")
+            if not cut / "angle_deg":
+                lengths[named] = lengths.get(named, ZERO) + abs((cut / "x").number() + J * (cut / "y").number())
         for row in proof / "rows":
             name, _, case = (row / "name").text().partition(" in ")
             part = self.parts.get(case or None)
@@ -196,7 +196,7 @@ class Program:
         """Less what counterweights take off at most."""
         machine, least, believed = self.machine, pulls.least, False
         beta = (proof / "budget").number(0.0, least=0) if machine.left is not None else ZERO
-        pulled = list(zip(self.webs, machine.together([-one for one in pulls.slopes]), pulls.spread))
+        pulled = list(zip(self.webs, machine.together([-slope for slope in pulls.slopes]), pulls.spread))
         if beta is not ZERO and not any(web.plate for web in self.webs):
             gains = [
                 (web.radius * (support(pull, web.sector) - wide) - cost, self.first.exact.reach(web, implied))
@@ -228,13 +228,13 @@ class Program:
         a level takes the price times the level off. A price is the largest sum of the groups of a case.
         """
         prices: Dict[Tuple[Optional[str], int], Number] = {}
-        for (case, goal, _), each in sums.items():
-            prices[case, goal] = largest(prices.get((case, goal), ZERO), each)
+        for (case, goal, _), value in sums.items():
+            prices[case, goal] = largest(prices.get((case, goal), ZERO), value)
         last = len(self.named) - 1
         if len(prices) == 1 and last == 0:
             (price,) = prices.values()
             price = ONE if cost is ZERO else price
-            return {group: over(price, each, proof) for group, each in sums.items()}, price * most
+            return {group: over(price, value, proof) for group, value in sums.items()}, price * most
         whole = total(price for (_, goal), price in prices.items() if goal == last)
         share = ONE if cost is not ZERO else over(ONE, whole, proof)
         share = Number(share.low, share.low)
@@ -249,15 +249,15 @@ def _means(rows: Dict[str, Number], terms: List[Term]) -> Tuple[Dict[str, Number
     y^2 + z^2 is no more than the square of the row: z is what y leaves of it.
     """
     together: Dict[Tuple[str, Group], List[Term]] = {}
-    for one in terms:
-        if one.mean and one.row in rows:
-            together.setdefault((one.mean, one.group), []).append(one)
-    kept = [one for one in terms if not one.mean]
+    for term in terms:
+        if term.mean and term.row in rows:
+            together.setdefault((term.mean, term.group), []).append(term)
+    result = [term for term in terms if not term.mean]
     rows = dict(rows)
-    for (name, group), each in together.items():
-        allowed, y = total(rows.pop(one.row) for one in each), total(one.y for one in each)
+    for (name, group), cuts in together.items():
+        allowed, y = total(rows.pop(term.row) for term in cuts), total(term.y for term in cuts)
         left = root(largest(allowed * allowed - abs(y) * abs(y), ZERO))
         of = f"{name} of {group}"
         rows[of] = allowed
-        kept.append(each[0]._replace(row=of, y=y, floor=left / allowed * each[0].still))
-    return rows, kept
+        result.append(cuts[0]._replace(row=of, y=y, floor=left / allowed * cuts[0].still))
+    return rows, result

@@ -71,7 +71,7 @@ def fixed_alone(machine: Machine, there: Fitted) -> Fitted:
     """What is on the machine where nothing is chosen."""
     webs = zip(there.turning, machine.webs)
     return there._replace(
-        turning=[one if web.fixed else Mass(ZERO, ONE, ZERO, web.position) for one, web in webs], on_shafts=[]
+        turning=[mass if web.fixed else Mass(ZERO, ONE, ZERO, web.position) for mass, web in webs], on_shafts=[]
     )
 
 

@@ -116,7 +116,7 @@ def total(numbers: Iterable[Number]) -> Number:
 
 
 def largest(*numbers: Number) -> Number:
-    return Number(max(one.low for one in numbers), max(one.high for one in numbers))
+    return Number(max(number.low for number in numbers), max(number.high for number in numbers))
 
 
 ZERO, ONE, HALF, J = real(0), real(1), real(0.5), Number(0, 0, (1 << BITS, 1 << BITS))
@@ -144,11 +144,11 @@ def direction(degrees: float) -> Number:
         n += 1
         term = term * angle // (n << 224)
     slack = 1 << 10 if rest else 0
-    x, y = (((one - slack) << BITS - 224, (one + slack) << BITS - 224) for one in sums)
-    found = Number(*x, y)
+    x, y = (((value - slack) << BITS - 224, (value + slack) << BITS - 224) for value in sums)
+    vector = Number(*x, y)
     for _ in range(quarter):
-        found = found * J
-    return found
+        vector = vector * J
+    return vector
 
 
 # ---- reading: nothing in the files is trusted
@@ -200,8 +200,8 @@ class NotCovered(Exception):
 
 def pointer(path: Sequence[str | int]) -> str:
     """JSON pointer (RFC 6901), printable whatever the names in it are, and not for ever."""
-    found = "".join("/" + str(part).replace("~", "~0").replace("/", "~1") for part in path)
-    return found[:200].encode("utf-8", "backslashreplace").decode()
+    text = "".join("/" + str(part).replace("~", "~0").replace("/", "~1") for part in path)
+    return text[:200].encode("utf-8", "backslashreplace").decode()
 
 
 class Place:
@@ -211,10 +211,10 @@ class Place:
         self.value, self.path = value, path
 
     def read(self, kinds: tuple[type, ...], name: str, default: Any = None) -> Any:
-        found = default if self.value is None else self.value
-        if not isinstance(found, kinds) or (isinstance(found, bool) and bool not in kinds):
+        value = default if self.value is None else self.value
+        if not isinstance(value, kinds) or (isinstance(value, bool) and bool not in kinds):
             raise Unreadable(self.path, f"must be {name}")
-        return found
+        return value
 
     def __bool__(self) -> bool:
         return self.value is not None
@@ -224,24 +224,24 @@ class Place:
         return Place(fields.get(name), *self.path, name)
 
     def __iter__(self) -> Iterator[Place]:
-        return (Place(one, *self.path, k) for k, one in enumerate(self.read((list,), "a list", [])))
+        return (Place(item, *self.path, k) for k, item in enumerate(self.read((list,), "a list", [])))
 
     def text(self, *allowed: str, default: str | None = None) -> str:
-        found: str = self.read((str,), "a text", default)
-        if allowed and found not in allowed:
+        value: str = self.read((str,), "a text", default)
+        if allowed and value not in allowed:
             raise Unreadable(self.path, f"must be one of {', '.join(allowed)}")
-        return found
+        return value
 
     def double(self, default: float | None = None, least: float = -inf) -> float:
         """The number as a double; a text with a unit is read in the request, to the nearest double."""
-        found = self.read((int, float, str), "a number", default)
+        value = self.read((int, float, str), "a number", default)
         try:
-            found = float(self._quantity(found) if isinstance(found, str) else found)
+            value = float(self._quantity(value) if isinstance(value, str) else value)
         except OverflowError:
-            found = inf
-        if not isfinite(found) or found < least:
+            value = inf
+        if not isfinite(value) or value < least:
             raise Unreadable(self.path, f"must be a finite number of at least {least:g}")
-        return found
+        return value
 
     def number(self, default: float | None = None, least: float = -inf) -> Number:
         return real(self.double(default, least))

@@ -29,9 +29,9 @@ def first_order(claim: str, place: Place, responses: Responses) -> Claims:
     for name, unit in NAMES.items():
         pair = responses[name]
         for figure, evaluate in _FIGURES.items():
-            said = place / name / f"{figure}_{unit}"
-            if said:
-                yield near(claim, said, evaluate(*pair))
+            leaf = place / name / f"{figure}_{unit}"
+            if leaf:
+                yield near(claim, leaf, evaluate(*pair))
         axis, product = place / name / "major_axis_deg", pair[0] * pair[1]
         if axis:
             # along e^{ja} both phasors point the same way: their product is along e^{2ja}
@@ -54,11 +54,11 @@ def of_order(
 
 
 def _of_rows(request: Place, machine: Machine, order: int) -> Optional[Responses]:
-    asked = request / "machine"
+    design = request / "machine"
     # the series cut off behind its second term
     cut_off = (request / "fidelity" / "kinematics").text(default="exact") == "order_2"
     parts: List[_Turning] = []
-    for throw in asked / "throws":
+    for throw in design / "throws":
         radius, crank = (throw / "crank_radius_m").number(), direction((throw / "crank_angle_deg").double())
         for row in throw / "rows":
             rod, axis = row / "connecting_rod", direction((row / "axis_deg").double())
@@ -75,15 +75,15 @@ def _of_rows(request: Place, machine: Machine, order: int) -> Optional[Responses
 
 
 def _plus(responses: Responses, machine: Machine, parts: Sequence[_Turning]) -> Responses:
-    found = {name: [*responses[name]] for name in NAMES}
+    sums = {name: [*responses[name]] for name in NAMES}
     for size, co, counter, where in parts:
-        for name, pair in found.items():
+        for name, pair in sums.items():
             arm = ONE if name == "force" else where * machine.wide - machine.plane * machine.wide
             force = size * machine.wide * machine.square * arm
             for k, way in enumerate((co, counter)):
                 if way is not ZERO:
                     pair[k] = pair[k] + (way + machine.blur) * force
-    return {name: (co, counter) for name, (co, counter) in found.items()}
+    return {name: (co, counter) for name, (co, counter) in sums.items()}
 
 
 def harmonic(order: int, ratio: float) -> Tuple[float, float]:
@@ -111,18 +111,18 @@ def harmonic(order: int, ratio: float) -> Tuple[float, float]:
 
 def orders(claim: str, place: Place, by_order: Iterable[Tuple[int, Optional[Responses]]]) -> Claims:
     """Phasors of force and moment by order."""
-    by_order, said = list(by_order), list(place)
-    yield claim, place, ONE if len(said) == len(by_order) else -ONE, ONE
-    for (order, responses), one in zip(by_order, said):
-        if responses is None or not one:
-            yield claim, one, -ONE if (responses is None) != (one.value is None) else ONE, ONE
+    by_order, entries = list(by_order), list(place)
+    yield claim, place, ONE if len(entries) == len(by_order) else -ONE, ONE
+    for (order, responses), entry in zip(by_order, entries):
+        if responses is None or not entry:
+            yield claim, entry, -ONE if (responses is None) != (entry.value is None) else ONE, ONE
             continue
-        yield same(claim, one / "order", order)
+        yield same(claim, entry / "order", order)
         for name, unit in NAMES.items():
             pair = responses[name]
-            yield near(claim, one / name / f"peak_{unit}", abs(pair[0]) + abs(pair[1]))
+            yield near(claim, entry / name / f"peak_{unit}", abs(pair[0]) + abs(pair[1]))
             for sense, phasor in zip(("co_rotating", "counter_rotating"), pair):
-                yield from _phasor(claim, one / name / sense, unit, phasor)
+                yield from _phasor(claim, entry / name / sense, unit, phasor)
 
 
 def _phasor(claim: str, place: Place, unit: str, phasor: Number) -> Claims:

@@ -26,21 +26,21 @@ WEIGHED = 1e-11  # of all weights: by which one may be off
 
 def designer_loads(request: Place, machine: Machine, pistons: Pistons, answer: Place) -> Claims:
     """All but what guides carry, and directions of weights, where gravity has one."""
-    place, asked = answer / "loads", request / "machine"
-    found = yield from shown("loads", request, pistons, place)
-    for row, k, one in found.rows:
-        yield from _row(pistons, row, k, one, of_row(pistons, found.angles, k))
-    throws = list(asked / "throws")
+    place, design = answer / "loads", request / "machine"
+    table = yield from shown("loads", request, pistons, place)
+    for row, k, entry in table.rows:
+        yield from _row(pistons, row, k, entry, of_row(pistons, table.angles, k))
+    throws = list(design / "throws")
     yield same("loads", Place(len(list(place / "throws")), *(place / "throws").path), len(throws))
-    for n, (throw, one) in enumerate(zip(throws, place / "throws")):
+    for n, (throw, entry) in enumerate(zip(throws, place / "throws")):
         turning = (throw / "rotating_mass_kg").double(0.0) + sum(_turning(row) for row in throw / "rows")
-        yield same("loads", one / "throw", n)
-        yield within("loads", one / "rotating_mass_kg", turning, turning, SAMPLE * turning)
-    yield from _base(asked, pistons, place, found.angles)
-    yield same("loads", place / "gravity_deg", (asked / "gravity_deg").value)
+        yield same("loads", entry / "throw", n)
+        yield within("loads", entry / "rotating_mass_kg", turning, turning, SAMPLE * turning)
+    yield from _base(design, pistons, place, table.angles)
+    yield same("loads", place / "gravity_deg", (design / "gravity_deg").value)
     # the mass of what is cut from a plate follows from its own radius
-    if not any(web / "envelope" for web in asked / "webs"):
-        yield from _weights(request, place, Turn(request, machine, loads=False), list(_masses(asked, answer)))
+    if not any(web / "envelope" for web in design / "webs"):
+        yield from _weights(request, place, Turn(request, machine, loads=False), list(_masses(design, answer)))
 
 
 def _turning(row: Place) -> float:
@@ -136,19 +136,19 @@ def _masses(design: Place, answer: Place) -> Iterator[Tuple[float, float]]:
 
 def _weights(request: Place, place: Place, turn: Turn, masses: Sequence[Tuple[float, float]]) -> Claims:
     """Of all that turns: on the bearings, where gravity has no direction, and on the foundation."""
-    asked, said = request / "machine", list(place / "bearing_weights")
-    names = [(one / "name").text() for one in asked / "bearings"]
-    yield "loads", place / "bearing_weights", ONE if len(said) == len(names) else -ONE, ONE
-    for name, one in zip(names, said):
-        yield same("loads", one / "name", name)
-        if asked / "gravity_deg" or turn.spans is None:
-            yield "loads", one / "weight_N", None, ONE
+    design, entries = request / "machine", list(place / "bearing_weights")
+    names = [(entry / "name").text() for entry in design / "bearings"]
+    yield "loads", place / "bearing_weights", ONE if len(entries) == len(names) else -ONE, ONE
+    for name, entry in zip(names, entries):
+        yield same("loads", entry / "name", name)
+        if design / "gravity_deg" or turn.spans is None:
+            yield "loads", entry / "weight_N", None, ONE
             continue
         shares = [float(turn.spans.shares(Fraction(where))[turn.bearings[name]]) for where, _ in masses]
         value = sum(share * mass for share, (_, mass) in zip(shares, masses)) * GRAVITY
         size = sum(abs(share) * mass for share, (_, mass) in zip(shares, masses)) * GRAVITY
-        yield within("loads", one / "weight_N", abs(value), abs(value), WEIGHED * size)
-        yield same("loads", one / "x_N", None)
-        yield same("loads", one / "y_N", None)
-    if not asked / "stationary_mass_kg":
+        yield within("loads", entry / "weight_N", abs(value), abs(value), WEIGHED * size)
+        yield same("loads", entry / "x_N", None)
+        yield same("loads", entry / "y_N", None)
+    if not design / "stationary_mass_kg":
         yield same("loads", place / "foundation_weight_N", None)

@@ -72,23 +72,23 @@ class Piston:
         self.ahead = sense * phase((row.crank * row.axis.conjugate()).middle())
         self.chambers: List[Chamber] = list(chambers(row.place, 2 * self.radius, self.ahead))
         self.size = row.product.middle().real * square
-        even = {k: abs(each + harmonics[-k]) / 2 for k, each in harmonics.items()}
+        even = {k: abs(value + harmonics[-k]) / 2 for k, value in harmonics.items()}
         #: inertia and its slopes at most
-        self.moving = [self.size * sum(abs(k) ** n * each for k, each in even.items()) for n in range(3)]
+        self.moving = [self.size * sum(abs(k) ** n * value for k, value in even.items()) for n in range(3)]
         self.fastest = sum(even.values())
         self.friction = 0.0
 
     @property
     def most(self) -> float:
         """The largest gas force there may be."""
-        return sum(one.most * one.area for one in self.chambers)
+        return sum(chamber.most * chamber.area for chamber in self.chambers)
 
     def at(self, shaft: float, within: float) -> Instant:
         """At a shaft angle [rad], and on which side of a dead centre it is."""
         piston, own = motion(self.ratio, shaft + self.ahead), within + self.ahead
         to_shaft = own % TURN < pi
-        pressures = [one.at(piston, to_shaft) for one in self.chambers]
-        gas = sum(force(one, each) for one, each in zip(self.chambers, pressures))
+        pressures = [chamber.at(piston, to_shaft) for chamber in self.chambers]
+        gas = sum(force(chamber, pressure) for chamber, pressure in zip(self.chambers, pressures))
         still = abs(sin(own)) < STILL
         friction = 0.0 if still else self.friction if to_shaft else -self.friction
         return Instant(piston, pressures, gas, friction, self.size * piston.outward)
@@ -101,17 +101,17 @@ class Piston:
         ends = abs(first.piston.turning), abs(last.piston.turning)
         speed, bend = self.radius * (max(ends) + self.fastest * width / 2), self.radius * self.fastest
         slope = curve = 0.0
-        for one in self.chambers:
-            by = one.slopes(first.piston, last.piston, to_shaft)
-            slope += one.area * (by.first * speed + by.by_angle)
-            curve += one.area * (by.second * speed**2 + by.first * bend)
+        for chamber in self.chambers:
+            by = chamber.slopes(first.piston, last.piston, to_shaft)
+            slope += chamber.area * (by.first * speed + by.by_angle)
+            curve += chamber.area * (by.second * speed**2 + by.first * bend)
         return Steepness(max(abs(first.gas), abs(last.gas)) + slope * width / 2, slope, curve)
 
     def work(self, chamber: Chamber) -> float:
         """Put into the gas of a chamber in a revolution, J: the integral of its force over the way of the piston."""
         turns = _turns(chamber)
         ends = sorted({0.0, TURN * turns, *self.breaks(turns)})
-        found = 0.0
+        energy = 0.0
         for start, end in zip(ends, ends[1:]):
             to_shaft = (start + end) / 2 % TURN < pi
 
@@ -119,8 +119,8 @@ class Piston:
                 piston = motion(self.ratio, own)
                 return force(chamber, chamber.at(piston, to_shaft)) * piston.turning * self.radius
 
-            found += integral(torque, start, end, chamber.most * chamber.area * self.radius)
-        return found / turns
+            energy += integral(torque, start, end, chamber.most * chamber.area * self.radius)
+        return energy / turns
 
     def power(self, omega: float) -> float:
         """Put into the gas of the row, W."""
@@ -128,11 +128,11 @@ class Piston:
 
     def breaks(self, turns: int) -> List[float]:
         """Own angles [rad] at which it turns back or a process ends."""
-        found = [k * pi for k in range(2 * turns)]
-        for one in self.chambers:
-            period = _turns(one)
-            found += [angle + TURN * k for angle in one.breaks(self.ratio) for k in range(0, turns, period)]
-        return [one % (TURN * turns) for one in found]
+        angles = [k * pi for k in range(2 * turns)]
+        for entry in self.chambers:
+            period = _turns(entry)
+            angles += [angle + TURN * k for angle in entry.breaks(self.ratio) for k in range(0, turns, period)]
+        return [entry % (TURN * turns) for entry in angles]
 
     @property
     def turns(self) -> int:
@@ -167,16 +167,16 @@ class Pistons:
     @cached_property
     def pieces(self) -> List[Tuple[float, float]]:
         """Shaft angles [rad] between which nothing has a kink, and which are not far apart."""
-        breaks = {(own - one.ahead) % self.period for one in self.rows for own in one.breaks(self.turns)}
+        breaks = {(own - row.ahead) % self.period for row in self.rows for own in row.breaks(self.turns)}
         if len(self.rows) * len(breaks) > MOST:
             raise NotCovered(self.place)
         ends = sorted({0.0, self.period, *breaks})
-        found = []
+        intervals = []
         for start, end in zip(ends, ends[1:]):
             count = ceil((end - start) / WIDEST)
             cuts = [start + (end - start) * k / count for k in range(count)]
-            found += list(zip(cuts, [*cuts[1:], end]))
-        return found
+            intervals += list(zip(cuts, [*cuts[1:], end]))
+        return intervals
 
     def at(self, k: int, shaft: float, within: Optional[float] = None) -> Instant:
         """A row at a shaft angle [rad], and on which side of a kink it is."""
@@ -199,13 +199,13 @@ class Pistons:
 
     def pushes(self, shaft: float) -> List[Tuple[float, float]]:
         """Gas and friction on every piston, N, and what they may be off by, on both sides of a kink."""
-        found = []
+        forces = []
         for k, row in enumerate(self.rows):
-            one, other = (self.at(k, shaft, shaft + side) for side in (-BESIDE, BESIDE))
-            jump = abs(one.friction - other.friction) / 2
+            instant, other = (self.at(k, shaft, shaft + side) for side in (-BESIDE, BESIDE))
+            jump = abs(instant.friction - other.friction) / 2
             off = ROUNDING * (row.most + row.friction) + jump
-            found.append((one.gas + (one.friction + other.friction) / 2, off))
-        return found
+            forces.append((instant.gas + (instant.friction + other.friction) / 2, off))
+        return forces
 
     @cached_property
     def mean_torque(self) -> Tuple[float, float]:
@@ -221,15 +221,15 @@ class Pistons:
         efficiency = place / "mechanical_efficiency"
         if not efficiency:
             forces = list(place / "reciprocating_force_N")
-            for one, size in zip(self.rows, forces):
-                one.friction = size.double(least=0)
+            for item, size in zip(self.rows, forces):
+                item.friction = size.double(least=0)
             return (place / "rotating_torque_Nm").double(0.0, least=0)
-        given, share = list(place / "indicated_power_W"), (place / "reciprocating_share").double(0.7, least=0)
-        powers = [one.double(least=0) for one in given] or [one.power(omega) for one in self.rows]
+        entries, share = list(place / "indicated_power_W"), (place / "reciprocating_share").double(0.7, least=0)
+        powers = [item.double(least=0) for item in entries] or [item.power(omega) for item in self.rows]
         e = efficiency.double(least=1e-6)
-        losses = [-one * (1 - e) if one < 0 else one * (1 - e) / e for one in powers]
-        for one, lost in zip(self.rows, losses):
-            one.friction = share * lost * TURN / omega / (4 * one.radius) if omega > 0 else 0.0
+        losses = [-item * (1 - e) if item < 0 else item * (1 - e) / e for item in powers]
+        for item, lost in zip(self.rows, losses):
+            item.friction = share * lost * TURN / omega / (4 * item.radius) if omega > 0 else 0.0
         return (1 - share) * sum(losses) / omega if omega > 0 else 0.0
 
 

@@ -74,8 +74,8 @@ class Plate(NamedTuple):
         most = self.up_to(limit)
         angle = min(self.opening(price, cost), most)
         off = 1e-12 * (price * self.unbalance(most) + cost * self.mass(most))
-        found = max(price * self.unbalance(angle) - cost * self.mass(angle), 0.0)
-        return max(found - off, 0.0), found + off
+        value = max(price * self.unbalance(angle) - cost * self.mass(angle), 0.0)
+        return max(value - off, 0.0), value + off
 
 
 def _excess(angle: float) -> float:

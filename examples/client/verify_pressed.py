@@ -90,22 +90,22 @@ class Pressed:
     def moved(self, by: complex, order: int = 0) -> Pressed:
         """The curve with a vector that turns ``order`` times."""
         turning = {**self.beside, order: self.beside.get(order, 0j) + by}
-        found = Pressed(self.pistons, self.reading, self.weights, turning, self.acting)
-        found._rows = self._rows
-        return found
+        curve = Pressed(self.pistons, self.reading, self.weights, turning, self.acting)
+        curve._rows = self._rows
+        return curve
 
     def value(self, shaft: float, within: Optional[float] = None) -> complex:
         """At a shaft angle [rad]."""
-        found, reads, sense = 0j, READINGS[self.reading], self.pistons.sense
+        vector, reads, sense = 0j, READINGS[self.reading], self.pistons.sense
         for k, weight in self.weights:
-            one = self.pistons.at(k, shaft, within)
-            factor = reads(one.piston)
-            found += weight * self.acting.of(one) * (factor if self.scalar else complex(1, -sense * factor))
+            instant = self.pistons.at(k, shaft, within)
+            factor = reads(instant.piston)
+            vector += weight * self.acting.of(instant) * (factor if self.scalar else complex(1, -sense * factor))
         if not self.scalar:
-            found *= complex(cos(shaft), -sense * sin(shaft))
-        for order, each in self.beside.items():
-            found += each * (turned(1j * order * sense * shaft) if order else 1)
-        return complex(found.real) if self.scalar else found
+            vector *= complex(cos(shaft), -sense * sin(shaft))
+        for order, phasor in self.beside.items():
+            vector += phasor * (turned(1j * order * sense * shaft) if order else 1)
+        return complex(vector.real) if self.scalar else vector
 
     def at(self, angle: float) -> complex:
         """At an angle of the harmonics [rad], the negative of the shaft's where that turns clockwise."""
@@ -123,13 +123,13 @@ class Pressed:
     @cached_property
     def size(self) -> float:
         """What no angle exceeds."""
-        found = sum(map(abs, self.beside.values()))
+        bound = sum(map(abs, self.beside.values()))
         for k, weight in self.weights:
             row = self.pistons.rows[k]
             force = self.acting.gas * row.most + self.acting.friction * row.friction
             force += self.acting.inertia * row.moving[0]
-            found += abs(weight) * force * _sizes(self.reading, row.ratio, 0.0)[0]
-        return found
+            bound += abs(weight) * force * _sizes(self.reading, row.ratio, 0.0)[0]
+        return bound
 
     def _middle(self) -> float:
         """How often the frame turns in which the curve bends little."""
@@ -150,24 +150,24 @@ class Pressed:
             return sign * value.real if sign else abs(value)
 
         parts = [_Part(start, end, (start + end) / 2) for start, end in self.pistons.pieces]
-        parts = [one._replace(first=height(one.start, one.within), last=height(one.end, one.within)) for one in parts]
-        low, best = max((height, place) for one in parts for place, height in one.ends)
+        parts = [arc._replace(first=height(arc.start, arc.within), last=height(arc.end, arc.within)) for arc in parts]
+        low, best = max((height, place) for arc in parts for place, height in arc.ends)
         high, visits = -inf, 0
         while parts:
             finer: List[_Part] = []
             floor = low if sign else max(low, enough)
             most = floor + CLOSE * abs(floor) + LEFT_OUT * size
-            for one in parts:
+            for arc in parts:
                 bound = (
-                    max(one.first, one.last) + bends(one.start, one.end, one.within) * (one.end - one.start) ** 2 / 8
+                    max(arc.first, arc.last) + bends(arc.start, arc.end, arc.within) * (arc.end - arc.start) ** 2 / 8
                 )
                 if not bound > most:
                     high = max(high, bound)
                     continue
-                there = (one.start + one.end) / 2
-                value = height(there, one.within)
+                there = (arc.start + arc.end) / 2
+                value = height(there, arc.within)
                 low, best = max((low, best), (value, there))
-                finer += [one._replace(end=there, last=value), one._replace(start=there, first=value)]
+                finer += [arc._replace(end=there, last=value), arc._replace(start=there, first=value)]
             parts, visits = finer, visits + len(finer)
             if visits > MOST:
                 return None
@@ -178,18 +178,18 @@ class Pressed:
         weights = [(k, abs(weight)) for k, weight in self.weights]
         rows = [self.pistons.rows[k] for k, _ in weights]
         own = [_sizes(self.reading, row.ratio, frame) for row in rows]
-        always = sum((order - frame) ** 2 * abs(each) for order, each in self.beside.items())
+        always = sum((order - frame) ** 2 * abs(phasor) for order, phasor in self.beside.items())
         for (_, weight), row, (flat, slope, curve) in zip(weights, rows, own):
             still, once, twice = row.moving if self.acting.inertia else (0.0, 0.0, 0.0)
             rubs = row.friction if self.acting.friction else 0.0
             always += weight * (twice * flat + 2 * once * slope + (still + rubs) * curve)
 
         def bends(start: float, end: float, within: float) -> float:
-            found = always
+            bound = always
             for (k, weight), (flat, slope, curve) in zip(weights if self.acting.gas else (), own):
                 most, first, second = self.pistons.steepness(k, start, end, within)
-                found += weight * (second * flat + 2 * first * slope + most * curve)
-            return found
+                bound += weight * (second * flat + 2 * first * slope + most * curve)
+            return bound
 
         return bends
 
@@ -209,8 +209,8 @@ class Pressed:
             rows = Pressed(self.pistons, self.reading, self.weights, {}, self.acting)
             pieces = [_integrals(rows, *piece, (sum(piece)) / 2, rows.size) for piece in self.pistons.pieces]
             whole = self.pistons.period
-            middle = sum(one[0] for one in pieces) / whole
-            self._rows = Mean(middle, sum(one[1] for one in pieces) / whole - abs(middle) ** 2)
+            middle = sum(pair[0] for pair in pieces) / whole
+            self._rows = Mean(middle, sum(pair[1] for pair in pieces) / whole - abs(middle) ** 2)
         return self._rows
 
 
@@ -235,14 +235,14 @@ def _integrals(
 @lru_cache(maxsize=256)
 def _sizes(reading: str, ratio: float, frame: float) -> Tuple[float, float, float]:
     """Sums of the sizes of the harmonics of what the motion makes of a force, and of its slopes in a frame."""
-    count, found = 32, [1.0]
-    while max(found[count // 4 - 2 : count // 4 + 2], default=1.0) > 1e-12 and count < FINEST:
+    count, sizes = 32, [1.0]
+    while max(sizes[count // 4 - 2 : count // 4 + 2], default=1.0) > 1e-12 and count < FINEST:
         count *= 2
         values = [complex(READINGS[reading](motion(ratio, 2 * pi * n / count))) for n in range(count)]
-        found = [abs(each) / count for each in transform(values)][: count // 2]
-    orders = {sign * k: each for k, each in enumerate(found) if each > 1e-14 for sign in (1, -1)}
+        sizes = [abs(size) / count for size in transform(values)][: count // 2]
+    orders = {sign * k: size for k, size in enumerate(sizes) if size > 1e-14 for sign in (1, -1)}
     if reading == "shaft":
         # 1 - j s tan b, turned back by the shaft angle
-        orders = {-1: 1.0, **{k - 1: each for k, each in orders.items() if k}}
-    flat, slope, curve = (1.0001 * sum(abs(k - frame) ** n * each for k, each in orders.items()) for n in range(3))
+        orders = {-1: 1.0, **{k - 1: size for k, size in orders.items() if k}}
+    flat, slope, curve = (1.0001 * sum(abs(k - frame) ** n * size for k, size in orders.items()) for n in range(3))
     return flat, slope, curve

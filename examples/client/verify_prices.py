@@ -50,11 +50,11 @@ def worst_by_mass(start: complex, vectors: Sequence[complex], share: float) -> f
     """Largest |start + sum of (1 + e) v|, |e| up to a share: the corners of a zonotope, in the order of their edges."""
     ahead = sorted((v if (v.imag, v.real) >= (0.0, 0.0) else -v for v in vectors), key=phase)
     middle, corner = start + sum(vectors), sum(ahead)
-    found = [abs(middle + share * corner), abs(middle - share * corner)]
+    lengths = [abs(middle + share * corner), abs(middle - share * corner)]
     for v in ahead:
         corner -= 2 * v
-        found += [abs(middle + share * corner), abs(middle - share * corner)]
-    return max(found)
+        lengths += [abs(middle + share * corner), abs(middle - share * corner)]
+    return max(lengths)
 
 
 def worst_by_angle(start: complex, vectors: Sequence[complex], angle: float) -> float:
@@ -65,7 +65,7 @@ def worst_by_angle(start: complex, vectors: Sequence[complex], angle: float) -> 
     """
     there = [(abs(v), phase(v)) for v in vectors if v]
     edges = sorted({(way + off) % (2 * pi) for _, way in there for off in (-angle, angle, pi)}) or [0.0]
-    found = abs(start + sum(vectors))
+    length = abs(start + sum(vectors))
     for low, high in zip(edges, [*edges[1:], edges[0] + 2 * pi]):
         middle = (low + high) / 2
         constant, turned = 0.0, start
@@ -77,8 +77,8 @@ def worst_by_angle(start: complex, vectors: Sequence[complex], angle: float) -> 
                 turned += rect(size, way + (angle if off > 0 else -angle))
         best = low + min(max((phase(turned) - middle + pi) % (2 * pi) - pi + (middle - low), 0.0), high - low)
         for way in (low, high, best):
-            found = max(found, constant + (turned * complex(cos(way), -sin(way))).real)
-    return found
+            length = max(length, constant + (turned * complex(cos(way), -sin(way))).real)
+    return length
 
 
 # ---- what limits cost
@@ -100,13 +100,13 @@ def prices(statement: Statement, request: Place, answer: Place, there: Fitted, c
     """The slope of the bound at the limits: none of choices and of groups, where one web does not give way alone."""
     place, goal, proof = answer / "shadow_prices", request / "objective", answer / "certificate"
     machine, gap = statement.machine, proof / "gap"
-    told = list(place)
+    entries = list(place)
     if chosen or machine.groups or not gap:
-        yield "shadow_prices", place, -ONE if told else ONE, ONE
+        yield "shadow_prices", place, -ONE if entries else ONE, ONE
         return
     # of the first response that is weighed
     weights = ((float(weight), ON_FRAME[name].unit) for name, weight in weighed(goal, machine).items())
-    weight, unit = next((each for each in weights if each[0] > 0), (0.0, "N"))
+    weight, unit = next((pair for pair in weights if pair[0] > 0), (0.0, "N"))
     unit = unit.replace("Nm", "N m")
     multipliers = proof / "multipliers" / "objective"
     if machine.budget is not None and any(web.plate for web in machine.webs):
@@ -115,13 +115,13 @@ def prices(statement: Statement, request: Place, answer: Place, there: Fitted, c
         least = statement.bound(multipliers, implied, {}, ZERO, True, printed=True).least
         noise = real(PRICED) * abs((proof / "objective_without_counterweights").number(0.0))
         yield "shadow_prices", place, None if least is None else least + noise - lowest.number(), abs(lowest.number())
-    touched = {(one.text()) for one in answer / "active_limits"}
+    touched = {(entry.text()) for entry in answer / "active_limits"}
     slopes, ceilings = slope(statement, multipliers)
     arms = [1 + abs((web.position - machine.plane).middle()) for web in machine.webs]
     # of a plate a kilogram metre has the price
     levers = [1.0 if web.plate else abs(web.radius.middle()) for web in machine.webs]
     widest = max((lever * arm for lever, arm in zip(levers, arms)), default=0.0)
-    lengths = (abs(complex((one / "x").double(), (one / "y").double())) for one in multipliers / "terms")
+    lengths = (abs(complex((entry / "x").double(), (entry / "y").double())) for entry in multipliers / "terms")
     factor = max((abs(term.factor.middle()) for term in statement.terms.values()), default=0.0)
     dust = 1e-11 * widest * machine.square.middle().real * (sum(lengths) * factor + sum(ceilings.values()))
     stated = list(stated_limits(machine, answer / "counterweights", slopes, multipliers, "max_total_mass" in touched))
@@ -141,52 +141,52 @@ def listed_prices(
 
     ``dust``: of a price, what rounding leaves where what pulls at a web cancels.
     """
-    by_name = {(one.limit, one.web): one for one in stated}
-    names = [((one / "limit").text(), (one / "web").text() if one / "web" else "") for one in place]
+    by_name = {(entry.limit, entry.web): entry for entry in stated}
+    names = [((entry / "limit").text(), (entry / "web").text() if entry / "web" else "") for entry in place]
     least = WORTH * rest * (1 + 1e-6) + 1e-200
     # of a limit beyond any need rounding alone is worth a lot
-    worth = {key: (one.price - dust) * one.size for key, one in by_name.items()}
-    counts = {key: one.touched or (worth[key] > least and not one.edge) for key, one in by_name.items()}
-    must = {key for key, one in counts.items() if one}
+    worth = {key: (entry.price - dust) * entry.size for key, entry in by_name.items()}
+    counts = {key: entry.touched or (worth[key] > least and not entry.edge) for key, entry in by_name.items()}
+    must = {key for key, entry in counts.items() if entry}
     right = len({*names}) == len(names) and must <= {*names} <= {*by_name}
     yield "shadow_prices", place, ONE if right else -ONE, ONE
-    for one, key in zip(place, names):
-        yield "shadow_prices", one / "limit", ONE if key in by_name else -ONE, ONE
-        yield "shadow_prices", one / "web", ONE, ONE
+    for entry, key in zip(place, names):
+        yield "shadow_prices", entry / "limit", ONE if key in by_name else -ONE, ONE
+        yield "shadow_prices", entry / "web", ONE, ONE
         if key not in by_name:
             continue
         exact = by_name[key]
-        yield "shadow_prices", one / "unit", ONE if (one / "unit").value == f"{unit}/{exact.unit}" else -ONE, ONE
-        value, said = exact.price / weight, (one / "value").double(least=0)
+        yield "shadow_prices", entry / "unit", ONE if (entry / "unit").value == f"{unit}/{exact.unit}" else -ONE, ONE
+        value, price = exact.price / weight, (entry / "value").double(least=0)
         whole = exact.price * exact.size
         # a whole limit that is worth less than the gap has no price that can be told
         by_rounding = 1e-9 * rest / weight / exact.size if exact.size > 1e-300 else 0.0
-        near_it = abs(said - value) <= 1e-6 * value + dust / weight + by_rounding
-        held = near_it if said > 0 else exact.size > 0 and whole <= gap * (1 + 1e-3) + 1e-12 * rest
-        held = held or (said == 0 and (exact.edge or value <= 1e-12 * (rest / weight) + dust / weight))
-        yield "shadow_prices", one / "value", ONE if held else -ONE, ONE
+        near_it = abs(price - value) <= 1e-6 * value + dust / weight + by_rounding
+        held = near_it if price > 0 else exact.size > 0 and whole <= gap * (1 + 1e-3) + 1e-12 * rest
+        held = held or (price == 0 and (exact.edge or value <= 1e-12 * (rest / weight) + dust / weight))
+        yield "shadow_prices", entry / "value", ONE if held else -ONE, ONE
 
 
 def slope(statement: Statement, proof: Place) -> Tuple[List[complex], Dict[str, float]]:
     """What the bound falls by per kg m on each web, and the lengths of the multipliers of ceilings."""
     machine, slopes = statement.machine, dict.fromkeys(ON_FRAME, 0j)
     lengths: Dict[str, float] = dict.fromkeys(statement.caps, 0.0)
-    for one in proof / "terms":
-        key = (one / "response").text(), (one / "part").text("co", "counter")
-        if key not in statement.terms or one / "angle_deg" or one / "scenario":
-            raise NotCovered(one)
-        term, y = statement.terms[key], complex((one / "x").double(), (one / "y").double())
+    for item in proof / "terms":
+        key = (item / "response").text(), (item / "part").text("co", "counter")
+        if key not in statement.terms or item / "angle_deg" or item / "scenario":
+            raise NotCovered(item)
+        term, y = statement.terms[key], complex((item / "x").double(), (item / "y").double())
         slopes[term.moves] += y * term.factor.middle()
-    for one in proof / "ceilings":
-        name, y = (one / "response").text(), complex((one / "x").double(), (one / "y").double())
-        if name not in lengths or one / "angle_deg" or one / "scenario":
-            raise NotCovered(one)
+    for item in proof / "ceilings":
+        name, y = (item / "response").text(), complex((item / "x").double(), (item / "y").double())
+        if name not in lengths or item / "angle_deg" or item / "scenario":
+            raise NotCovered(item)
         slopes[name.partition(":")[0]] += y
         lengths[name] += abs(y)
     square = machine.square.middle().real
     sums = [sum(by * machine.arm(name, web.position).middle().real for name, by in slopes.items())
             for web in machine.webs]  # fmt: skip
-    return [-one * square for one in sums], lengths
+    return [-item * square for item in sums], lengths
 
 
 def stated_limits(
@@ -194,12 +194,12 @@ def stated_limits(
 ) -> Iterator[Priced]:
     """Every limit of webs and of the total mass."""
     beta = (proof / "budget").double(0.0, least=0)
-    for web, one, pull in zip(machine.webs, fitted, pulls):
+    for web, place, pull in zip(machine.webs, fitted, pulls):
         if web.fixed is not None:
             continue
-        names = {each.text() for each in one / "active_limits"}
+        names = {limit.text() for limit in place / "active_limits"}
         plate, sizes = web.plate, {name: float(most) for name, most in web.limits}
-        radius = (one / "radius_m").double() if plate else web.radius.middle().real
+        radius = (place / "radius_m").double() if plate else web.radius.middle().real
         worth = max(radius * _support(pull, web.sector) - beta, 0.0)
         if plate is not None:
             # of what one more kilogram metre is worth, its mass takes the price of the budget
@@ -210,14 +210,14 @@ def stated_limits(
             binds = worth if most <= least * (1 + 1e-12) else 0.0
             per = 1.0
             if plate is not None and len(sizes) > 1:
-                raise NotCovered(one)
+                raise NotCovered(place)
             if name == "max_centrifugal_force":
                 per = radius * machine.fastest.middle().real
             yield Priced(name, web.name, binds / per, most * per, UNITS[name], name in names)
         if web.sector is not None:
             centre, half = web.sector
             off = abs((phase(pull) - radians(centre) + pi) % (2 * pi) - pi) - radians(half)
-            u = (one / "mass_kg").double() * radius
+            u = (place / "mass_kg").double() * radius
             # across the edge a web between its limits gains nothing, on either side of 0
             opening = abs(pull) * sin(off) if 0 < off < pi / 2 + ACROSS else 0.0
             edge = abs(off - pi / 2) < ACROSS

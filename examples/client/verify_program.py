@@ -25,8 +25,8 @@ from verify_plates import Plate
 
 #: ceilings by the response that they limit, a component of it as force:x
 CEILINGS = {
-    f"{name}:{axis}" if axis else name: f"{name}_ceiling_{axis}_{one.unit}" if axis else f"{name}_ceiling_{one.unit}"
-    for name, one in ON_FRAME.items()
+    f"{name}:{axis}" if axis else name: f"{name}_ceiling_{axis}_{unit}" if axis else f"{name}_ceiling_{unit}"
+    for name, (unit, *_) in ON_FRAME.items()
     for axis in ("", "x", "y")
 }
 
@@ -35,7 +35,7 @@ def weighed(goal: Place, machine: Machine) -> dict[str, Number]:
     """Weights of all responses on the frame: of the moment one over the span where none is said, of the others 0."""
     usual = {"force": ONE, "moment": ONE / machine.span}
     places = {name: goal / f"{name}_weight" for name in ON_FRAME}
-    return {name: one.number(least=0) if one else usual.get(name, ZERO) for name, one in places.items()}
+    return {name: place.number(least=0) if place else usual.get(name, ZERO) for name, place in places.items()}
 
 
 def phasors(responses: Responses, name: str) -> tuple[Number, Number]:
@@ -89,7 +89,7 @@ class Statement:
         self.x, self.y = ((goal / "direction_weights" / name).number(1.0, least=0) for name in ("x", "y"))
         self.floor: dict[str, Number] = dict.fromkeys(rows, ZERO)
         self.terms: dict[Key, Term] = {}
-        for row, name, weight in ((r, name, weight) for r, each in rows.items() for name, weight in each.items()):
+        for row, name, weight in ((r, name, weight) for r, item in rows.items() for name, weight in item.items()):
             floor, lengths = self.peak(phasors(machine.laden, name), weight)
             self.floor[row] = self.floor[row] + floor
             self.terms.update({(name, part): Term(row, name, *length) for part, length in lengths.items()})
@@ -106,8 +106,8 @@ class Statement:
         webs = self.machine.webs
         most = {n: largest(ZERO, *(abs(self.machine.arm(n, web.position)) for web in webs)) for n in ON_FRAME}
         most = {response: arm if arm.low > 0 else ONE for response, arm in most.items()}
-        moving = [one for one in self.terms.values() if abs(one.factor).low > 0]
-        called = [abs(one.start) / (abs(one.factor) * most[one.moves]) for one in moving]
+        moving = [term for term in self.terms.values() if abs(term.factor).low > 0]
+        called = [abs(term.start) / (abs(term.factor) * most[term.moves]) for term in moving]
         other = most[name.partition(":")[0]] * largest(ZERO, *called)
         other = other if other.low > 0 else self.machine.square
         # what may be rounding alone, or a little that is there
@@ -124,11 +124,11 @@ class Statement:
 
     def values(self, responses: Responses) -> dict[str, Number]:
         """Of every row."""
-        found = dict.fromkeys(self.rows, ZERO)
-        for row, name, weight in ((r, name, weight) for r, each in self.rows.items() for name, weight in each.items()):
+        sums = dict.fromkeys(self.rows, ZERO)
+        for row, name, weight in ((r, name, weight) for r, item in self.rows.items() for name, weight in item.items()):
             floor, lengths = self.peak(phasors(responses, name), weight)
-            found[row] = found[row] + floor + total(abs(vector) for vector, *_ in lengths.values())
-        return found
+            sums[row] = sums[row] + floor + total(abs(vector) for vector, *_ in lengths.values())
+        return sums
 
     def bound(
         self,
@@ -159,7 +159,7 @@ class Statement:
             grouped = {machine.webs[k].name for group in machine.groups for k, _, _ in group}
             free = self._balance(y, terms, [w for w in free.values() if w.sector is None and w.name not in grouped])
         # |y| <= lambda holds by shortening all alike; what a ceiling costs is its own length, if it has no row
-        most = {key: rows.get(one.row, ZERO) for key, one in terms.items()}
+        most = {key: rows.get(item.row, ZERO) for key, item in terms.items()}
         most.update({key: Number(abs(y[key]).high, abs(y[key]).high) for key in limits if self.floor})
         share = _share((most[key], abs(y[key])) for key in y)
         least, slope = total(rows[name] * self.floor[name] for name in rows if self.floor), dict.fromkeys(NAMES, ZERO)
@@ -177,8 +177,8 @@ class Statement:
             price = cost + budget(machine, pulls, share, cost, implied if believed else Place(None), price - cost)
         for web in machine.webs:
             if web.plate is not None:
-                said = implied / web.name if believed else Place(None)
-                least = least - of_plate(web, web.plate, pulls[web.name] * share, price, said)
+                place = implied / web.name if believed else Place(None)
+                least = least - of_plate(web, web.plate, pulls[web.name] * share, price, place)
                 continue
             gain = gains[web.name] * share - price
             if gain.high > 0 and (web.name not in free or (machine.left is not None and price.high > 0)):
@@ -199,18 +199,18 @@ class Statement:
 
     def _multipliers(self, proof: Place, terms: Iterable[Key]) -> tuple[dict[str, Number], dict[Key, Number]]:
         """Of the rows and of the terms, those that are not 0 and those that are to be given."""
-        rows = {(one / "name").text(): (one / "value").number(least=0) for one in proof / "rows"}
+        rows = {(entry / "name").text(): (entry / "value").number(least=0) for entry in proof / "rows"}
         rows = {name: row for name, row in rows.items() if row.high > 0}
         if not rows.keys() <= (self.floor or self.caps).keys():
             raise NotCovered(proof / "rows")
         y = dict.fromkeys(terms, ZERO)
         for field in ("terms", "ceilings"):
-            for one in proof / field:
-                part = (one / "part").text("co", "counter", default="co")
-                key = (one / "response").text(), part if field == "terms" else "ceiling"
-                vector = (one / "x").number() + J * (one / "y").number()
-                if abs(vector).high > 0 and (key not in y or one / "angle_deg" or one / "scenario"):
-                    raise NotCovered(one)
+            for entry in proof / field:
+                part = (entry / "part").text("co", "counter", default="co")
+                key = (entry / "response").text(), part if field == "terms" else "ceiling"
+                vector = (entry / "x").number() + J * (entry / "y").number()
+                if abs(vector).high > 0 and (key not in y or entry / "angle_deg" or entry / "scenario"):
+                    raise NotCovered(entry)
                 if abs(vector).high > 0:
                     y[key] = y[key] + vector
         return rows, y
@@ -219,10 +219,10 @@ class Statement:
         """Choose a multiplier so that webs without limit gain exactly nothing; those for which that can be done."""
         slope = dict.fromkeys(NAMES, ZERO)
         chosen: dict[str, Key] = {}
-        for key, one in terms.items():
-            self.machine.add(slope, one.moves, y[key] * one.factor)
-            if one.factor.low > 0 and one.moves in NAMES:
-                chosen.setdefault(one.moves, key)
+        for key, term in terms.items():
+            self.machine.add(slope, term.moves, y[key] * term.factor)
+            if term.factor.low > 0 and term.moves in NAMES:
+                chosen.setdefault(term.moves, key)
         arms = {web.position.low: web.position - self.machine.plane for web in webs}
         if len(arms) == 1 and "force" in chosen:
             # on one plane it is enough that force and moment together do nothing
@@ -243,7 +243,7 @@ class Statement:
     def change(self, web: Web, row: str) -> Number:
         """What a kilogram on a web adds to a row at most."""
         arms = {name: abs(self.machine.arm(name, web.position)) for name in ON_FRAME}
-        does = total(abs(one.factor) * arms[one.moves] for one in self.terms.values() if one.row == row)
+        does = total(abs(term.factor) * arms[term.moves] for term in self.terms.values() if term.row == row)
         radius = real(web.plate.lever(0.0)) * ABOUT_ONE if web.plate else web.radius
         return does * radius * self.machine.square
 
@@ -306,8 +306,8 @@ def spent(machine: Machine, pulls: dict[str, Number], share: Number, cost: Numbe
     def fits(price: float) -> bool:
         mass = 0.0
         for web in machine.webs:
-            said = implied / web.name
-            limit = min(inf if web.limit is None else float(web.limit), said.double(least=0) if said else inf)
+            place = implied / web.name
+            limit = min(inf if web.limit is None else float(web.limit), place.double(least=0) if place else inf)
             if web.plate is not None:
                 mass += min(web.plate.mass(web.plate.opening(worth[web.name], price + least)), limit)
             elif worth[web.name] * levers[web.name] > price + least:

@@ -53,5 +53,5 @@ def _in_planes(machine: Machine, weights: Sequence[Mass], first: float, second: 
 
 
 def _inverse(number: float) -> Number:
-    found = ABOUT_ONE / real(abs(number))
-    return found if number > 0 else -found
+    inverse = ABOUT_ONE / real(abs(number))
+    return inverse if number > 0 else -inverse

@@ -26,17 +26,17 @@ FINE = 2  # parts of a piece in which the torque crosses its mean once at most
 def rod_loads(request: Place, pistons: Pistons, place: Place) -> Claims:
     """Series, and the load cases of every rod."""
     claim = "rod_loads"
-    found = yield from shown(claim, request, pistons, place)
+    table = yield from shown(claim, request, pistons, place)
     worst = 0.0
-    for row, k, one in found.rows:
+    for row, k, item in table.rows:
         off = (SAMPLE * (row.most + row.moving[0]) + RUBBED * row.friction) * leaning(row)
-        there = of_row(pistons, found.angles, k)
+        there = of_row(pistons, table.angles, k)
         for name in ("rod", "side", "tangential", "radial"):
-            values = [ALL.of(each) * READINGS[name](each.piston) for each in there]
-            yield from series(claim, one / f"{name}_N", values, off)
-        yield from magnitude(claim, one, "peak_side", "N", enclosed(alone(pistons, k, "side"), one), off)
-        cases = list(one / "cases")
-        yield claim, one / "cases", ONE if len(cases) == len(CASES) else -ONE, ONE
+            values = [ALL.of(state) * READINGS[name](state.piston) for state in there]
+            yield from series(claim, item / f"{name}_N", values, off)
+        yield from magnitude(claim, item, "peak_side", "N", enclosed(alone(pistons, k, "side"), item), off)
+        cases = list(item / "cases")
+        yield claim, item / "cases", ONE if len(cases) == len(CASES) else -ONE, ONE
         loads: Dict[str, float] = {}
         for (name, acting), case in zip(CASES.items(), cases):
             curve = alone(pistons, k, "rod", acting)
@@ -47,8 +47,8 @@ def rod_loads(request: Place, pistons: Pistons, place: Place) -> Claims:
                 yield where(claim, case / f"{way}_deg", curve, peak, off, sign)
             loads[name] = max((case / "tension_N").double(), -(case / "compression_N").double())
         most = max(loads.values(), default=0.0)
-        yield same(claim, one / "governing_load_N", most)
-        yield claim, one / "governing_case", ONE if loads.get((one / "governing_case").text()) == most else -ONE, ONE
+        yield same(claim, item / "governing_load_N", most)
+        yield claim, item / "governing_case", ONE if loads.get((item / "governing_case").text()) == most else -ONE, ONE
         worst = max(worst, most)
     yield same(claim, place / "governing_load_N", worst)
 
@@ -61,7 +61,7 @@ def leaning(row: Piston) -> float:
 def where(claim: str, place: Place, curve: Pressed, peak: Peak, off: float, sign: int = 0) -> Claim:
     """The shaft angle of a peak: the curve has it there."""
     angle, period = radians(place.double()), curve.pistons.period * (1 + 1e-12)
-    values = [sign * one.real if sign else abs(one) for one in curve.sides(angle * curve.pistons.sense)]
+    values = [sign * value.real if sign else abs(value) for value in curve.sides(angle * curve.pistons.sense)]
     there = max(values) if 0 <= angle <= period else -inf
     return claim, place, real(max(there - peak.low + PEAK * abs(peak.low) + off, -LARGE)), real(abs(peak.high) + off)
 
@@ -69,24 +69,24 @@ def where(claim: str, place: Place, curve: Pressed, peak: Peak, off: float, sign
 def torque(request: Place, pistons: Pistons, place: Place) -> Claims:
     """Of every row and of all, its mean, powers, and what a flywheel takes up."""
     claim, omega, every = "torque", sqrt(pistons.square), of_shaft(pistons)
-    found = yield from shown(claim, request, pistons, place)
+    table = yield from shown(claim, request, pistons, place)
     off = RUBBED * every.size + RUBBED * abs(pistons.rubbing)
-    samples = [0.0] * len(found.angles)
-    for row, k, one in found.rows:
-        there = of_row(pistons, found.angles, k)
-        values = [row.radius * ALL.of(each) * each.piston.turning for each in there]
+    samples = [0.0] * len(table.angles)
+    for row, k, item in table.rows:
+        there = of_row(pistons, table.angles, k)
+        values = [row.radius * ALL.of(state) * state.piston.turning for state in there]
         samples = [a + b for a, b in zip(samples, values)]
-        yield from series(claim, one / "torque_Nm", values, SAMPLE * every.size)
+        yield from series(claim, item / "torque_Nm", values, SAMPLE * every.size)
         mean = row.radius * alone(pistons, k, "tangential").mean.real
-        yield within(claim, one / "mean_torque_Nm", mean, mean, off)
+        yield within(claim, item / "mean_torque_Nm", mean, mean, off)
     rubs = pistons.rubbing
     yield within(claim, place / "rotating_friction_Nm", rubs, rubs, off)
-    samples = [one + rubs for one in samples]
+    samples = [item + rubs for item in samples]
     yield from series(claim, place / "torque_Nm", samples, off)
     radii = {row.radius for row in pistons.rows}
     if len(radii) == 1:
         (radius,) = radii
-        yield from series(claim, place / "tangential_N", [one / radius for one in samples], off / radius)
+        yield from series(claim, place / "tangential_N", [item / radius for item in samples], off / radius)
     else:
         yield same(claim, place / "tangential_N", None)
     whole = every.moved(complex(rubs))
@@ -148,15 +148,15 @@ def _root(curve: Callable[[float], float], start: float, end: float) -> Optional
 
 def flywheel(request: Place, pistons: Pistons, place: Place) -> Claims:
     """Irregularity and inertia: one as it is given, the other by the energy, E = J omega^2 delta."""
-    given, energy = request / "machine" / "flywheel", fluctuation(pistons)
+    wheel, energy = request / "machine" / "flywheel", fluctuation(pistons)
     off = RANGE * of_shaft(pistons).size
     yield within("flywheel", place / "fluctuation_energy_J", energy, energy, off)
-    if given / "irregularity":
-        share = (given / "irregularity").double()
+    if wheel / "irregularity":
+        share = (wheel / "irregularity").double()
         inertia, wide = energy / pistons.square / share, off / pistons.square / share
         yield within("flywheel", place / "irregularity", share, share, 0.0)
     else:
-        inertia, wide = (given / "inertia_kg_m2").double(), 0.0
+        inertia, wide = (wheel / "inertia_kg_m2").double(), 0.0
         share = energy / pistons.square / inertia
         yield within("flywheel", place / "irregularity", share, share, off / pistons.square / inertia)
     yield within("flywheel", place / "inertia_J_kg_m2", inertia, inertia, wide)
@@ -166,14 +166,14 @@ def flywheel(request: Place, pistons: Pistons, place: Place) -> Claims:
 def overturning(request: Place, pistons: Pistons, place: Place) -> Claims:
     """Side force times its distance from the shaft, which equals the torque."""
     claim = "overturning"
-    found = yield from shown(claim, request, pistons, place)
+    table = yield from shown(claim, request, pistons, place)
     every = of_shaft(pistons)
     off = (SAMPLE + RUBBED) * every.size
-    samples = [0.0] * len(found.angles)
-    for row, k, one in found.rows:
-        values = [row.radius * ALL.of(each) * each.piston.turning for each in of_row(pistons, found.angles, k)]
+    samples = [0.0] * len(table.angles)
+    for row, k, entry in table.rows:
+        values = [row.radius * ALL.of(state) * state.piston.turning for state in of_row(pistons, table.angles, k)]
         samples = [a + b for a, b in zip(samples, values)]
-        yield from series(claim, one / "couple_Nm", values, off)
+        yield from series(claim, entry / "couple_Nm", values, off)
     yield from series(claim, place / "couple_Nm", samples, off)
     peak = enclosed(every, place)
     yield from magnitude(claim, place, "peak", "Nm", peak, off)

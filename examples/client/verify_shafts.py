@@ -23,8 +23,8 @@ class Geared(NamedTuple):
 
     def vector(self, mass: Mass) -> Number:
         """What is chosen, of a counterweight that is there [kg m]."""
-        found = mass.product * (mass.co if self.ratio > 0 else mass.counter)
-        return found.conjugate() if self.mirrored else found
+        unbalance = mass.product * (mass.co if self.ratio > 0 else mass.counter)
+        return unbalance.conjugate() if self.mirrored else unbalance
 
     def first(self, own: Number, backwards: Number) -> Number:
         """Its share in a length of the first order, of those of what turns forwards and backwards."""
@@ -36,8 +36,8 @@ class Geared(NamedTuple):
 
     def roll(self, unit: Number) -> Number:
         """The same about the crankshaft; its real part counts."""
-        found = -J * self.place.conjugate() * real(self.ratio**2) * power(unit, self.ratio)
-        return found.conjugate() if self.mirrored else found
+        factor = -J * self.place.conjugate() * real(self.ratio**2) * power(unit, self.ratio)
+        return factor.conjugate() if self.mirrored else factor
 
 
 def geared(design: Place, machine: Machine, mirrored: bool) -> List[Geared]:
@@ -56,7 +56,7 @@ def geared(design: Place, machine: Machine, mirrored: bool) -> List[Geared]:
 
 def power(unit: Number, times: int) -> Number:
     """Of a unit vector."""
-    found = ONE
+    result = ONE
     for _ in range(abs(times)):
-        found = found * (unit if times > 0 else unit.conjugate())
-    return found
+        result = result * (unit if times > 0 else unit.conjugate())
+    return result

@@ -63,18 +63,18 @@ def _hodographs(request: Place, machine: Machine, place: Place, there: Optional[
     angles = yield from sampled("hodograph", place / "angle_deg", request)
     yield from _sides("hodograph", place, there)
     sense = 1 if (request / "machine" / "rotation").text(default="ccw") == "ccw" else -1
-    turned = [exp(1j * sense * radians(one)) for one in angles]
+    turned = [exp(1j * sense * radians(item)) for item in angles]
     for side, fitted in _shown(there):
         responses = machine.before if fitted is None else machine.responses(fitted.first)
         for name, unit in NAMES.items():
-            co, counter = (one.middle() for one in responses[name])
-            off = total(_wide(one) for one in responses[name])
+            co, counter = (item.middle() for item in responses[name])
+            off = total(_wide(item) for item in responses[name])
             least = float(off) + SAMPLE * (abs(co) + abs(counter))
-            vectors = [co * one + counter * one.conjugate() for one in turned]
-            for axis, values in (("x", [one.real for one in vectors]), ("y", [one.imag for one in vectors])):
+            vectors = [co * item + counter * item.conjugate() for item in turned]
+            for axis, values in (("x", [item.real for item in vectors]), ("y", [item.imag for item in vectors])):
                 samples = list(place / side / f"{name}_{axis}_{unit}")
                 yield "hodograph", place / side, ONE if len(samples) == len(values) else -ONE, ONE
-                yield from (within("hodograph", one, is_, is_, least) for one, is_ in zip(samples, values))
+                yield from (within("hodograph", item, is_, is_, least) for item, is_ in zip(samples, values))
 
 
 def _wide(number: Number) -> Number:
@@ -85,38 +85,38 @@ def _wide(number: Number) -> Number:
 
 def _foundation(request: Place, machine: Machine, place: Place, there: Optional[Fitted]) -> Claims:
     """By order: amplitudes and phases."""
-    asked = [int(one.double()) for one in request / "foundation_orders"] or [1, 2, 3, 4, 5, 6]
-    said = list(place)
-    yield "foundation", place, ONE if len(said) == len(asked) else -ONE, ONE
+    numbers = [int(entry.double()) for entry in request / "foundation_orders"] or [1, 2, 3, 4, 5, 6]
+    entries = list(place)
+    yield "foundation", place, ONE if len(entries) == len(numbers) else -ONE, ONE
     sides = dict(_shown(there))
     if list(request / "fitted"):
         sides["as_built"] = as_built(request, machine)
     loads = {side: by_order(request, machine, fitted) for side, fitted in sides.items()}
     sizes = {side: _size(machine, fitted) for side, fitted in sides.items()}
     rows = [row for throw in list(request / "machine" / "throws")[:1] for row in list(throw / "rows")[:1]]
-    for order, one in zip(sorted(asked), said):
-        yield same("foundation", one / "order", order)
-        centre = one / "dead_centre_deg"
+    for order, entry in zip(sorted(numbers), entries):
+        yield same("foundation", entry / "order", order)
+        centre = entry / "dead_centre_deg"
         degrees = centre.double()
         way = _turned(request, rows[0]) if rows else ONE
         off = abs(direction(degrees) + BLUR - way)
         yield "foundation", centre, real(FIGURE) - off if 0 <= degrees < 360 else -ONE, ONE
         for side in ("before", "after", "as_built"):
             if side not in sides:
-                yield same("foundation", one / side, None)
+                yield same("foundation", entry / side, None)
                 continue
-            found = loads[side].get(order, dict.fromkeys(NAMES, (ZERO, ZERO)))
-            if found is None:
-                yield "foundation", one / side, None, ONE
+            responses = loads[side].get(order, dict.fromkeys(NAMES, (ZERO, ZERO)))
+            if responses is None:
+                yield "foundation", entry / side, None, ONE
                 continue
-            yield from _load(request, one / side, found, order, way, sizes[side])
+            yield from _load(request, entry / side, responses, order, way, sizes[side])
 
 
 def _turned(request: Place, row: Place) -> Number:
     """Where the crank of the first row points along its axis, as a unit vector of the shaft angle."""
     throw = next(iter(request / "machine" / "throws"))
-    found = direction((row / "axis_deg").double()) * direction((throw / "crank_angle_deg").double()).conjugate()
-    return found if (request / "machine" / "rotation").text(default="ccw") == "ccw" else found.conjugate()
+    unit = direction((row / "axis_deg").double()) * direction((throw / "crank_angle_deg").double()).conjugate()
+    return unit if (request / "machine" / "rotation").text(default="ccw") == "ccw" else unit.conjugate()
 
 
 def _load(
@@ -145,8 +145,8 @@ def _load(
 
 def _size(machine: Machine, there: Optional[Fitted]) -> Dict[str, Number]:
     """What is added up to force and couple: the sizes of all, with arms of no less than the plane's distance from 0."""
-    masses = [(one.product * real(1 if one.counter is ZERO else 2), one.position) for one in machine.masses]
-    masses += [] if there is None else [(one.product, one.position) for one in there.turning]
+    masses = [(mass.product * real(1 if mass.counter is ZERO else 2), mass.position) for mass in machine.masses]
+    masses += [] if there is None else [(mass.product, mass.position) for mass in there.turning]
     far = abs(machine.plane)
     arms = (abs(size) * (abs(position - machine.plane) + far) for size, position in masses)
     return {
@@ -157,11 +157,11 @@ def _size(machine: Machine, there: Optional[Fitted]) -> Dict[str, Number]:
 
 def as_built(request: Place, machine: Machine) -> Fitted:
     """What the request says is on the machine, and what is fixed."""
-    given = {(one / "web").text(): one for one in request / "fitted"}
+    entries = {(entry / "web").text(): entry for entry in request / "fitted"}
     turning = []
     for web in machine.webs:
-        one = given.get(web.name)
-        mass, angle = ((one / "mass_kg").number(), (one / "angle_deg").double()) if one else (ZERO, 0.0)
+        entry = entries.get(web.name)
+        mass, angle = ((entry / "mass_kg").number(), (entry / "angle_deg").double()) if entry else (ZERO, 0.0)
         if web.fixed is not None:
             mass, angle = web.fixed
         radius = web.radius if web.plate is None else _radius(web.plate, float(mass))
@@ -170,9 +170,9 @@ def as_built(request: Place, machine: Machine) -> Fitted:
     for shaft in request / "machine" / "balance_shafts":
         ratio = int((shaft / "speed_ratio").double())
         for place in shaft / "webs":
-            web, one = web_of(place, machine.fastest), given.get((place / "name").text())
-            product = (one / "mass_kg").number() * web.radius if one else ZERO
-            turned = direction((one / "angle_deg").double()) if one else ONE
+            web, entry = web_of(place, machine.fastest), entries.get((place / "name").text())
+            product = (entry / "mass_kg").number() * web.radius if entry else ZERO
+            turned = direction((entry / "angle_deg").double()) if entry else ONE
             ways = (turned, ZERO) if ratio > 0 else (ZERO, turned)
             on_shafts.append((abs(ratio), Mass(product, *ways, web.position)))
     return Fitted(turning, on_shafts, ZERO, ZERO)

@@ -22,14 +22,14 @@ def single(request: Place, answer: Place, whole: bool = True) -> Claims:
     if whole:
         yield from form(answer)
         yield from outputs(request, answer)
-    asked = request / "machine"
+    design = request / "machine"
     status = (answer / "status").text("optimal", "inaccurate", "infeasible")
-    machine = Machine(asked, request / "objective", answer / "reference_plane_m", asked / "max_total_mass_kg")
+    machine = Machine(design, request / "objective", answer / "reference_plane_m", design / "max_total_mass_kg")
     yield from before(request, machine, answer)
     turn = looks_at_the_turn(request)
     if status == "infeasible":
         yield from _nothing(answer)
-        budget, why = asked / "max_total_mass_kg", answer / "infeasibility"
+        budget, why = design / "max_total_mass_kg", answer / "infeasibility"
         yield from covered(shaking(request, machine, answer, None))
         yield from covered(curves(request, machine, answer, None))
         yield from covered(dynamics(request, machine, answer, None))

@@ -30,21 +30,21 @@ class Spans:
 
     def bending(self, plane: Fraction, place: Fraction) -> Fraction:
         """The moment in a plane of the shaft from a unit of load in another."""
-        carried = sum(max(one - plane, Fraction(0)) * share for one, share in zip(self.places, self.shares(place)))
+        carried = sum(max(seat - plane, Fraction(0)) * share for seat, share in zip(self.places, self.shares(place)))
         return carried - max(place - plane, Fraction(0))
 
     def _shares(self, place: Fraction) -> List[Fraction]:
-        k = sum(place >= one for one in self.places[1:-1])
+        k = sum(place >= seat for seat in self.places[1:-1])
         length = self.lengths[k]
         ahead, behind = place - self.places[k], self.places[k + 1] - place
-        found = [Fraction(0) for _ in self.places]
-        found[k], found[k + 1] = behind / length, ahead / length
+        shares = [Fraction(0) for _ in self.places]
+        shares[k], shares[k + 1] = behind / length, ahead / length
         if self.continuous:
             moments = self._over_bearings(k, ahead, behind)
             for n, length in enumerate(self.lengths):
                 tilt = (moments[n + 1] - moments[n]) / length
-                found[n], found[n + 1] = found[n] + tilt, found[n + 1] - tilt
-        return found
+                shares[n], shares[n + 1] = shares[n] + tilt, shares[n + 1] - tilt
+        return shares
 
     def _over_bearings(self, k: int, ahead: Fraction, behind: Fraction) -> List[Fraction]:
         """Moments over all bearings, 0 over both outer ones: the rows of the equation, solved one by one."""
@@ -57,10 +57,10 @@ class Spans:
             factor = lengths[n - 1] / diagonal[-1] if n > 1 else Fraction(0)
             diagonal.append(2 * (lengths[n - 1] + lengths[n]) - factor * lengths[n - 1])
             right.append(-kinks[n] - factor * right[-1])
-        found = [Fraction(0) for _ in self.places]
+        moments = [Fraction(0) for _ in self.places]
         for n in range(count - 2, 0, -1):
-            found[n] = (right[n] - lengths[n] * found[n + 1]) / diagonal[n]
-        return found
+            moments[n] = (right[n] - lengths[n] * moments[n + 1]) / diagonal[n]
+        return moments
 
 
 def _kink(distance: Fraction, length: Fraction) -> Fraction:

@@ -42,10 +42,10 @@ def looks_at_the_turn(request: Place) -> bool:
 def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> Claims:
     """The proof of the answer to one request whose objective looks at the whole turn."""
     request.require_coverage(f"{FIELDS}{CASES}{SHAFTS}{ENTRY_FIELDS}")
-    asked, proof = request / "machine", answer / "certificate"
+    design, proof = request / "machine", answer / "certificate"
     program = Program(request, machine, answer)
     objective, lowest, implied = proof / "objective", proof / "lower_bound", proof / "implied_max_mass_kg"
-    chosen = yield from searched(asked, answer / "counterweights", proof)
+    chosen = yield from searched(design, answer / "counterweights", proof)
     of_any_mass = proof / "continuous_lower_bound" if chosen else lowest
     multipliers, value = proof / "multipliers", objective.number(0.0)
     noise = SPECK * (abs(value) + abs(lowest.number(0.0)))
@@ -54,8 +54,8 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
     reached = program.reached(terms, fitted)
     yield "cuts", proof, value + noise + real(NOTHING) - reached if objective else None, largest(value, reached)
     of_objective = multipliers / "objective"
-    found = program.bound(of_objective, terms, implied)
-    yield from _proven("lower_bound", of_any_mass, found, implied, of_objective, mixed=program.mixed)
+    bound = program.bound(of_objective, terms, implied)
+    yield from _proven("lower_bound", of_any_mass, bound, implied, of_objective, mixed=program.mixed)
     slopes = program.slopes
     yield from _earlier(program, proof, implied)
     least, limit = proof / "mass_lower_bound_kg", (proof / "mass_objective_limit").number(0.0)
@@ -66,8 +66,8 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
         yield EVIDENCE, multipliers / "mass", None, ONE
     elif least and multipliers / "mass":
         of_mass = multipliers / "mass"
-        found = program.bound(of_mass, program.terms(of_mass), implied, ONE, limit)
-        yield from _proven("mass_lower_bound", least, found, implied, of_mass, machine.fixed, program.mixed)
+        bound = program.bound(of_mass, program.terms(of_mass), implied, ONE, limit)
+        yield from _proven("mass_lower_bound", least, bound, implied, of_mass, machine.fixed, program.mixed)
     size, mass, first = proof / "mass_yardstick_kg", fitted.mass + fitted.on_shafts_mass, program.first
     if size and abs(size.number() - mass).low <= (mass * SPECK).high:
         yield near("yardstick", size, mass)
@@ -84,16 +84,16 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
 
 def _earlier(program: Program, proof: Place, implied: Place) -> Claims:
     """Bounds of the goals before the last: each by its own multipliers, under the limits of those before it."""
-    listed = [one for one in proof / "goals" if (one / "goal").text() in program.named[:-1]]
-    for n, one in enumerate(listed):
-        if not one / "lower_bound":
+    listed = [goal for goal in proof / "goals" if (goal / "goal").text() in program.named[:-1]]
+    for n, goal in enumerate(listed):
+        if not goal / "lower_bound":
             continue
-        if not one / "multipliers":
-            yield "goals", one / "lower_bound", None, ONE
+        if not goal / "multipliers":
+            yield "goals", goal / "lower_bound", None, ONE
             continue
         so_far = program.up_to(n)
-        found = so_far.bound(one / "multipliers", so_far.terms(one / "multipliers"), implied)
-        yield from _proven("goals", one / "lower_bound", found, implied, one / "multipliers", mixed=program.mixed)
+        bound = so_far.bound(goal / "multipliers", so_far.terms(goal / "multipliers"), implied)
+        yield from _proven("goals", goal / "lower_bound", bound, implied, goal / "multipliers", mixed=program.mixed)
 
 
 def _nominal(request: Place, machine: Machine, answer: Place) -> Claims:

@@ -27,12 +27,12 @@ NOTHING = Range(0.0, 0.0)
 
 def most(ranges: Sequence[Range]) -> Range:
     """The largest of several figures."""
-    return Range(max(one.low for one in ranges), max(one.high for one in ranges)) if ranges else NOTHING
+    return Range(max(figure.low for figure in ranges), max(figure.high for figure in ranges)) if ranges else NOTHING
 
 
 def together(ranges: Sequence[Range]) -> Range:
     """The sum of several figures."""
-    return Range(sum(one.low for one in ranges), sum(one.high for one in ranges))
+    return Range(sum(figure.low for figure in ranges), sum(figure.high for figure in ranges))
 
 
 def _range(number: Number) -> Range:
@@ -42,8 +42,8 @@ def _range(number: Number) -> Range:
 def off_sizes(machine: Machine, fitted: Fitted) -> List[Number]:
     """What is off by a share of itself [kg m], web by web: what is fixed is as it is."""
     webs = zip(fitted.turning, machine.webs)
-    own = [ZERO if web.fixed else one.product for one, web in webs]
-    return [*own, *(one.product for one in fitted.first[len(own) :])]
+    own = [ZERO if web.fixed else mass.product for mass, web in webs]
+    return [*own, *(mass.product for mass in fitted.first[len(own) :])]
 
 
 class Value:
@@ -63,9 +63,9 @@ class Value:
         curve = self.part.loads.with_weights(name, self.fitted.turning, self.fitted.on_shafts)
         curve = curve.along(axis) if axis and isinstance(curve, Curve) else curve
         off = self._off(name)
-        found = peak_of(curve, self.part.goal, max(enough - off, 0.0))
+        peak = peak_of(curve, self.part.goal, max(enough - off, 0.0))
         rounding = SAMPLE * self.part.loads.size_of(name)
-        return Range(found.low + off - rounding, found.high + off + rounding)
+        return Range(peak.low + off - rounding, peak.high + off + rounding)
 
     def under(self, response: str) -> Range:
         """What a ceiling on a response limits, or on its component along an axis."""
@@ -74,8 +74,8 @@ class Value:
             return self.response(response)
         if not self.part.all:
             sizes = off_sizes(self.part.machine, self.fitted)
-            every = [(each, phasors(each.responses(self.fitted.first), response)) for each in self.part.machines]
-            grow = (abs(co) + abs(counter) + grown(each, name, self.off, sizes) for each, (co, counter) in every)
+            every = [(corner, phasors(corner.responses(self.fitted.first), response)) for corner in self.part.machines]
+            grow = (abs(co) + abs(counter) + grown(corner, name, self.off, sizes) for corner, (co, counter) in every)
             return _range(largest(ZERO, *grow))
         return self.response(name, axis=axis)
 
@@ -85,10 +85,10 @@ class Value:
 
     def bearings(self) -> Range:
         """The largest load."""
-        found: List[Range] = []
+        ranges: List[Range] = []
         for name in self.part.turn.bearings:
-            found.append(self.response(f"bearing:{name}", most(found).low))
-        return most(found)
+            ranges.append(self.response(f"bearing:{name}", most(ranges).low))
+        return most(ranges)
 
     def _off(self, name: str) -> float:
         if self.off.share.high == self.off.besides.high == 0:
@@ -116,21 +116,21 @@ class Value:
 
     def _bearings(self) -> Iterator[Range]:
         weight = float(self.part.weights["bearing"])
-        found: List[Range] = []
+        ranges: List[Range] = []
         for name in self.part.turn.bearings if weight > 0 else ():
             area = self.part.area[name].middle().real if self.part.specific else 1.0
             if self.part.mean:
-                found.append(self._mean(f"bearing:{name}", weight / area))
+                ranges.append(self._mean(f"bearing:{name}", weight / area))
             else:
-                found.append(self._weighed(f"bearing:{name}", weight / area, most(found).low))
-        yield most(found)
+                ranges.append(self._weighed(f"bearing:{name}", weight / area, most(ranges).low))
+        yield most(ranges)
 
     def _bending(self) -> Iterator[Range]:
         weight = float(self.part.weights["bending"])
-        found: List[Range] = []
+        ranges: List[Range] = []
         for plane in self.part.loads.planes if weight > 0 else ():
-            found.append(self._weighed(f"bending:{plane!r}", weight, most(found).low))
-        yield most(found)
+            ranges.append(self._weighed(f"bending:{plane!r}", weight, most(ranges).low))
+        yield most(ranges)
 
     def _weighed(self, name: str, weight: float, enough: float = 0.0) -> Range:
         low, high = self.response(name, enough / weight)

@@ -110,13 +110,13 @@ def _alike(machine: Machine, by_name: Dict[str, Place]) -> Claims:
         (first, crank, _), *others = group
         same = by_name[machine.webs[first].name]
         for k, angle, mirrored in others:
-            one = by_name[machine.webs[k].name]
-            yield near("web_groups", one / "mass_kg", (same / "mass_kg").number())
-            there, asked = ((Fraction((each / "angle_deg").double()) - Fraction(own))
-                            for each, own in ((one, angle), (same, crank)))  # fmt: skip
-            off = (there + (asked if mirrored else -asked) + 180) % 360 - 180
-            fitted = (one / "mass_kg").number().high > 0
-            yield "web_groups", one / "angle_deg", real(Fraction(ANGLE) - abs(off)) if fitted else ONE, ONE
+            entry = by_name[machine.webs[k].name]
+            yield near("web_groups", entry / "mass_kg", (same / "mass_kg").number())
+            there, target = ((Fraction((place / "angle_deg").double()) - Fraction(own))
+                            for place, own in ((entry, angle), (same, crank)))  # fmt: skip
+            off = (there + (target if mirrored else -target) + 180) % 360 - 180
+            fitted = (entry / "mass_kg").number().high > 0
+            yield "web_groups", entry / "angle_deg", real(Fraction(ANGLE) - abs(off)) if fitted else ONE, ONE
 
 
 def _touched(web: Web, entry: Place) -> Iterator[Tuple[str, float]]:
@@ -138,12 +138,12 @@ def listed(claim: str, place: Place, rooms: Dict[str, float]) -> Claims:
 
     Of what nothing can be told the room is nan.
     """
-    names = [one.text() for one in place]
+    names = [entry.text() for entry in place]
     must = [name for name, room in rooms.items() if room <= TOUCHED - UNSURE]
     may = [name for name, room in rooms.items() if not room > TOUCHED + UNSURE]
     right = {*must} <= {*names} <= {*may} and len({*names}) == len(names)
     yield claim, place, ONE if right else -ONE, ONE
-    yield from ((claim, one, ONE, ONE) for one in place)
+    yield from ((claim, entry, ONE, ONE) for entry in place)
 
 
 def _cut(of: Plate, entry: Place) -> Claims:

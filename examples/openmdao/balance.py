@@ -45,8 +45,8 @@ class Balance(om.ExplicitComponent):  # type: ignore[misc]
         self.add_output("mass", units="kg")
         self.declare_partials("peak", "max_mass")
         if unbalances:
-            said = [[unbalance.get("x_kg_m", 0.0), unbalance.get("y_kg_m", 0.0)] for unbalance in unbalances]
-            self.add_input("unbalance", val=said, units="kg*m")
+            vectors = [[unbalance.get("x_kg_m", 0.0), unbalance.get("y_kg_m", 0.0)] for unbalance in unbalances]
+            self.add_input("unbalance", val=vectors, units="kg*m")
             self.declare_partials("peak", "unbalance")
 
     def compute(self, inputs: Any, outputs: Any) -> None:

@@ -12,7 +12,7 @@ import numpy as np
 
 from optimizer.mechanics.plates import Plates
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.program.compiled_evaluation import balanced
+from optimizer.program.methods.compensation import balanced
 from optimizer.program.methods.compiled import suits_kernel, unproven
 from optimizer.program.methods.plate_sizes import NEARLY, SAME_SIZE, CutWeights, at_limits, total_mass
 from optimizer.program.plate_pieces import pieces, tangents

@@ -4,6 +4,7 @@ import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -169,6 +170,7 @@ def simulate(
     demands: Mapping[str, Sequence[str]],
     fidelity: Fidelity,
     angle: Real | None = None,
+    results: Mapping[str, Any] = MappingProxyType({}),
 ) -> Simulated:
     """Run the effects that the outputs call for, each once, and no others.
 
@@ -177,14 +179,14 @@ def simulate(
     layout : of the machine; its leading axes (...) are those of all results.
     demands : outputs and other purposes by name, with the effects that each needs.
     angle : (T,) rad, shaft angles of the samples; needed only by sampled effects.
+    results : of effects that need not run, by name.
     """
     samples = np.zeros(0) if angle is None else angle
     wanted = tuple(need for needs in demands.values() for need in needs)
-    results, times = _run(machine, layout, wanted, fidelity, samples)
+    found, times = _run(machine, layout, wanted, fidelity, samples, results)
     purposes = tuple((purpose, tuple(needs)) for purpose, needs in demands.items())
-    return Simulated(
-        machine, layout, fidelity, results, times, _users(purposes, absent_effects(machine, wanted)).copy()
-    )
+    users = _users(purposes, absent_effects(machine, wanted))
+    return Simulated(machine, layout, fidelity, found, times, users.copy())
 
 
 @lru_cache(maxsize=256)
@@ -203,7 +205,12 @@ def run(machine: Machine, layout: Layout, needs: Sequence[str], fidelity: Fideli
 
 
 def _run(
-    machine: Machine, layout: Layout, needs: Sequence[str], fidelity: Fidelity, angle: Real
+    machine: Machine,
+    layout: Layout,
+    needs: Sequence[str],
+    fidelity: Fidelity,
+    angle: Real,
+    results: Mapping[str, Any] = MappingProxyType({}),
 ) -> tuple[dict[str, Any], dict[str, float]]:
     """Results of these effects, and the milliseconds of each that ran; what only others need is let go after its use.
 
@@ -215,7 +222,8 @@ def _run(
         effect, start = EFFECTS[name], time.perf_counter()
         # an effect sees the results of those that it declares, and no others
         visible = {need: found[need] for need in effect.needs if need in found} if effect.needs else {}
-        found[name] = effect.simulate(Context(machine, layout, fidelity, angle, visible, needs))
+        context = Context(machine, layout, fidelity, angle, visible, needs)
+        found[name] = results[name] if name in results else effect.simulate(context)
         times[name] = (time.perf_counter() - start) * 1e3
         for need in done:
             # what does not apply was never there

@@ -13,7 +13,7 @@ import numpy as np
 from optimizer.mechanics.balance_shafts import first_order_responses
 from optimizer.mechanics.frame import FORCE, MOMENT, Shares, first_order, shaking
 from optimizer.mechanics.inertia import Wrench
-from optimizer.mechanics.layout import Layout, stacked
+from optimizer.mechanics.layout import Layout, outermost
 from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.numerics.arrays import SMALLEST, Reals
 from optimizer.numerics.memoization import remembered
@@ -41,8 +41,8 @@ def span(machine: Machine) -> Reals:
     if np.ndarray not in map(type, planes):
         length = max(planes) - min(planes)
         return 1.0 if length <= SMALLEST else length
-    places = stacked(planes)
-    length = np.maximum.reduce(places, axis=-1) - np.minimum.reduce(places, axis=-1)
+    low, high = outermost(planes)
+    length = high - low
     return np.where(length <= SMALLEST, 1.0, length)[()]
 
 

@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from optimizer.effects.inertia import second_order
+from optimizer.effects.inertia import FIRST_ORDER, second_order
 from optimizer.effects.registry import Simulated, closure, simulate
 from optimizer.formulation.formulate import added, responses
 from optimizer.mechanics.balance_shafts import of_balance_shafts
 from optimizer.mechanics.cylinders import cycle_turns
 from optimizer.mechanics.fixed_weights import laden
 from optimizer.mechanics.frame import Shares
-from optimizer.mechanics.inertia import Wrench, counterweights, reciprocating, rotating
+from optimizer.mechanics.inertia import Wrench, counterweights, first_order, reciprocating, rotating
 from optimizer.mechanics.layout import Layout, layout, spread
 from optimizer.mechanics.roll import roll
 from optimizer.mechanics.shaft import INFLUENCES, bearing_places
@@ -197,12 +197,16 @@ def simulated(
     """
     start = time.perf_counter()
     machine = request.machine if machine is None else machine
-    plan = layout(machine)
+    plan, needs = layout(machine), [need for needs in outputs.values() for need in needs]
+    known: dict[str, Wrench] = {}
+    if leading and not set(FIRST_ORDER).isdisjoint(closure(machine, needs)):
+        # of what the designs have in common once, and once for the program and for the outputs
+        known = dict(zip(FIRST_ORDER, (each.spread(leading) for each in first_order(plan)), strict=True))
     if leading:
         plan = spread(plan, leading)
-    turns = turns_over(machine, [need for needs in outputs.values() for need in needs])
+    turns = turns_over(machine, needs)
     angle, radians = _sampled(samples, turns)
-    result = simulate(machine, plan, outputs, request.fidelity, radians)
+    result = simulate(machine, plan, outputs, request.fidelity, radians, known)
     objective = request.objective if isinstance(request, OptimizeRequest) else Objective()
     spent_ms = (time.perf_counter() - start) * 1e3
     return Prepared(request, machine, objective, plan, angle, result, spent_ms, turns=turns)

@@ -34,15 +34,20 @@ def direction(angle_deg: Real) -> Complex:
     angle = np.asarray(angle_deg, dtype=float)
     if angle.ndim == 1 and angle.size <= _FEW:
         return np.array([_vector(each) for each in angle.tolist()], complex)
-    quarters = np.rint(angle / 90.0)
+    quarters = np.asarray(np.rint(angle / 90.0))
     rest = angle - 90.0 * quarters
-    vector = np.asarray(np.exp(_DEGREE * rest))
+    radians = rest * (np.pi / 180.0)
+    # in half the time of a complex exponential, to the same last digit
+    vector = np.empty(angle.shape, complex)
+    vector.real, vector.imag = np.cos(radians), np.sin(radians)
     # sin 30 = 1/2, and sin 45 = cos 45
     size = np.abs(rest)
-    if np.count_nonzero(size >= 30.0):
-        np.copysign(0.5, rest, out=vector.imag, where=size == 30.0)
-        np.copysign(vector.real, rest, out=vector.imag, where=size == 45.0)
-    return vector * _QUADRANTS.take(np.asarray(quarters).astype(np.int64), mode="wrap")
+    for exact, across in ((30.0, 0.5), (45.0, vector.real)):
+        there = size == exact
+        if np.count_nonzero(there):
+            np.copysign(across, rest, out=vector.imag, where=there)
+    vector *= _QUADRANTS.take(quarters.astype(np.int64) & 3)
+    return vector
 
 
 # cranks and axes of a machine have few angles, and most machines the same
@@ -81,6 +86,8 @@ def angle_deg(vector: Complex) -> Real:
     ----------
     vector : (...) complex, any unit.
     """
-    value = np.rad2deg(np.arctan2(vector.imag, vector.real))
-    value = np.where(value < 0.0, value + 360.0, value)
-    return np.where((value >= 360.0) | (vector == 0), 0.0, value)
+    value = np.asarray(np.rad2deg(np.arctan2(vector.imag, vector.real)))
+    value += 360.0 * (value < 0.0)
+    # a hair below 0 comes to 360; the zero vector has parts of either sign
+    none = (value >= 360.0) | ((vector.real == 0.0) & (vector.imag == 0.0))
+    return np.where(none, 0.0, value) if np.count_nonzero(none) else value

@@ -11,7 +11,9 @@ import numpy as np
 
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic
-from optimizer.numerics.arrays import Complex, Real, total
+from optimizer.numerics.arrays import Complex, Real, spread, total
+from optimizer.numerics.memoization import remembered
+from optimizer.numerics.sums import force_and_couple
 from optimizer.responses.response import Phasors, Response
 
 
@@ -26,6 +28,16 @@ class Wrench(NamedTuple):
 
     def times(self, factor: Real) -> "Wrench":
         return Wrench(self.force * factor, self.moment * factor)
+
+    def spread(self, leading: tuple[int, ...]) -> "Wrench":
+        """The same of as many machines as the leading axes say; what is common to all is not copied."""
+        return Wrench(*(Phasors(spread(pair.co, leading), spread(pair.counter, leading)) for pair in self))
+
+
+@remembered
+def first_order(layout: Layout) -> tuple[Wrench, Wrench]:
+    """First-order force of the rotating masses, and that of the reciprocating ones."""
+    return rotating(layout), reciprocating(layout, 1)
 
 
 def rotating(layout: Layout) -> Wrench:
@@ -104,7 +116,7 @@ def counterweights(layout: Layout, unbalance: Complex) -> Wrench:
     ----------
     unbalance : (..., webs) mass-radius products m R e^{ja}, kg m.
     """
-    force, couple = _sums(unbalance, web_arms(layout))
+    force, couple = force_and_couple(unbalance, web_arms(layout))
     nothing = np.zeros(force.shape, complex)
     return Wrench(Phasors(force, nothing), Phasors(couple, nothing))
 
@@ -137,19 +149,10 @@ def _summed(layout: Layout, forces: Complex, position: Real) -> tuple[Complex, C
     Where the sum vanishes the couple is the same about any plane, and is summed about the centre, where the arms are
     short. Else it is summed with its own arms: moved there from the centre it loses what is small beside the span.
     """
-    force, about = _sums(forces, (position - layout.reference_plane[..., None])[..., None, :])
+    force, about = force_and_couple(forces, (position - layout.reference_plane[..., None])[..., None, :])
     if layout.central:
         return force, about
     balanced = force == 0
     if not np.count_nonzero(balanced):
         return force, about
     return force, np.where(balanced, total((position - layout.centre_plane[..., None])[..., None, :] * forces), about)
-
-
-def _sums(forces: Complex, arm: Real) -> tuple[Complex, Complex]:
-    """Sum of forces (..., n) and of their couples, at once: small sums cost by their number."""
-    couples = arm * forces
-    terms = np.empty((2, *couples.shape), complex)
-    terms[0], terms[1] = forces, couples
-    both = total(terms)
-    return both[0, ...], both[1, ...]

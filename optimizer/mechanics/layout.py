@@ -6,7 +6,7 @@ the same formulas. Angles are unit vectors (complex), as drawn at shaft angle 0.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
-from functools import lru_cache
+from functools import lru_cache, reduce
 from typing import Any
 
 import numpy as np
@@ -162,7 +162,20 @@ def stacked(values: Sequence[Any]) -> Real:
 
 
 def _columns(values: Sequence[Any]) -> Real:
-    return np.stack(np.broadcast_arrays(*(np.asarray(value, dtype=float) for value in values)), axis=-1)
+    each = [np.asarray(value, dtype=float) for value in values]
+    table = np.empty((*np.broadcast_shapes(*(one.shape for one in each)), len(each)))
+    for k, one in enumerate(each):
+        table[..., k] = one
+    return table
+
+
+def outermost(planes: Sequence[Any]) -> tuple[Any, Any]:
+    """Lowest and highest of at least one plane, each a number or a column (N,)."""
+    numbers = [plane for plane in planes if type(plane) is not np.ndarray]
+    columns = [plane for plane in planes if type(plane) is np.ndarray]
+    # numbers beside columns are compared once for all
+    low, high = ([min(numbers)], [max(numbers)]) if numbers else ([], [])
+    return reduce(np.minimum, [*low, *columns]), reduce(np.maximum, [*high, *columns])
 
 
 def quotient(numerator: Any, denominator: Any) -> tuple[Any, Any]:
@@ -266,7 +279,5 @@ def _table(rows: Sequence[Any], parts: int) -> Sequence[Real]:
 
 def _middle(planes: Sequence[Any]) -> Real:
     """Middle between the outermost of planes (...) m."""
-    if set(map(type, planes)) == {float}:
-        return np.asarray(0.5 * (min(planes) + max(planes)))
-    places = stacked(planes)
-    return np.asarray(0.5 * (np.minimum.reduce(places, axis=-1) + np.maximum.reduce(places, axis=-1)))
+    low, high = outermost(planes)
+    return np.asarray(0.5 * (low + high))

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from optimizer.effects.inertia import FIRST_ORDER
 from optimizer.formulation.formulate import RESPONSES
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.balance_shafts import shaft_arms
@@ -38,7 +39,7 @@ _FIELDS = tuple(
     )
     for name, unit in (("force", "N"), ("moment", "Nm"))
 )
-FIRST_ORDER_EFFECTS = ("rotating_inertia", "reciprocating_inertia")
+FIRST_ORDER_EFFECTS = FIRST_ORDER
 
 
 def first_order(wrench: Wrench) -> FirstOrder:

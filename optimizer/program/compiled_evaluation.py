@@ -201,7 +201,7 @@ class Flat:
             rounding,
             rungs,
             self.programs,
-            *_work(self.programs.region, terms, webs),
+            *settling_work(self.programs.region, terms, webs),
         )
 
     def judge(
@@ -239,7 +239,7 @@ class Flat:
             # to the last digit as of :func:`optimizer.program.multipliers.resting_multipliers`
             np.abs(self.programs.constant[:, : own[0].shape[1]]),
             rungs,
-            *_work(self.programs.region, terms, webs),
+            *settling_work(self.programs.region, terms, webs),
             found,
             figures,
             proof,
@@ -310,56 +310,8 @@ def flat(
     )
 
 
-def near_limits(
-    limits: Limits, influence: Real | Complex, u: Complex, dust: float, touched: float
-) -> tuple[Complex, np.ndarray]:
-    """Points (N, K) with what is near enough to nothing, or to a limit, there, and whether anything was (N,) bool.
-
-    What is between the limits makes up for it.
-
-    Parameters
-    ----------
-    influence : (N, J, K) on what is to stay as it is.
-    dust, touched : shares of the largest mass that is next to nothing, and of a limit that is next to it.
-    """
-    new = np.empty(u.shape, complex)
-    moved = _rebalance(limits, influence, u, np.array([dust, touched]), np.empty(u.shape), new)
-    return new, moved
-
-
-def balanced(limits: Limits, influence: Real | Complex, u: Complex, put: Complex, room: Real) -> Complex:
-    """What is put (N, K) in place of points, with others that make up for it, within all limits.
-
-    Parameters
-    ----------
-    influence : (N, J, K) on what is to stay as it is.
-    room : (N, K) relative to which the change of the others is the least; of alike webs they change alike.
-    """
-    new = np.array(put, complex, order="C")
-    _rebalance(limits, influence, u, np.array([-1.0, 0.0]), in_order(room), new)
-    return new
-
-
-def _rebalance(
-    limits: Limits, influence: Real | Complex, u: Complex, near: Real, room: Real, new: Complex
-) -> np.ndarray:
-    """As :func:`optimizer.program.kernel.settling.rebalance`: which points are others (N,) bool."""
-    from optimizer.program.kernel.settling import rebalance
-
-    many, terms, webs = influence.shape
-    own, moved = limits.region((many,)), np.empty(many, bool)
-    rebalance(in_order(u), near, *_parts(influence, (many,)), own, room, *_work(own, terms, webs), new, moved)
-    return moved
-
-
-def _parts(influence: Real | Complex, leading: tuple[int, ...]) -> tuple[Real, Real]:
-    """Real and imaginary parts (N, J, K), the latter (N, J, 0) where all are real."""
-    across = influence[..., :0] if influence.dtype == float else influence.imag
-    return merged(leading, influence.real, 2), merged(leading, across, 2)
-
-
-def _work(own: Region, terms: int, webs: int) -> tuple[Complex, Complex]:
-    """What is written to where others make up for something."""
+def settling_work(own: Region, terms: int, webs: int) -> tuple[Complex, Complex]:
+    """What :mod:`optimizer.program.kernel.settling` writes to where others make up for something."""
     if own.leader.size:
         terms, webs = 2 * terms, 2 * webs
     return np.empty((5, max(terms, webs)), complex), np.empty((2, terms, webs), complex)

@@ -13,7 +13,7 @@ from optimizer.numerics.arrays import Complex, Real, Reals, spread
 from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, ceiling_allowance
-from optimizer.program.points import points_at
+from optimizer.program.points import Points, points_at
 from optimizer.program.scaling import natural_reach
 from optimizer.program.statement import Statement
 
@@ -79,6 +79,7 @@ def claim(
     lower_bound: Real,
     multipliers: Multipliers | None,
     mass_lower_bound: Real | None,
+    point: Points | None = None,
 ) -> Claim:
     """What counterweights come to, of one goal.
 
@@ -89,8 +90,9 @@ def claim(
     u : (..., K) kg m.
     mass : (...) kg, of the counterweights as they are returned.
     lower_bound, multipliers : of the objective, with its proof; None where there is none.
+    point : what they come to, where that has been worked out.
     """
-    point, size = points_at(statement, u), yardstick(statement)[..., None]
+    point, size = points_at(statement, u) if point is None else point, yardstick(statement)[..., None]
     allowance: Reals = 0.0
     if multipliers is not None and (point.excess > 0).any():
         allowance = ceiling_allowance(statement, multipliers, statement.ceilings.excess(u))

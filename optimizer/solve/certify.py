@@ -14,6 +14,7 @@ from optimizer.numerics.arrays import Complex, Real, Reals
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import Optima, optima
 from optimizer.program.methods.symmetry import symmetric
+from optimizer.program.points import points_at
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import INFEASIBLE, Claim, Verdict, claim, verdict
 from optimizer.responses.response import Response
@@ -84,10 +85,12 @@ def judgement(machine: Machine, wanted: Demand, program: Statement, optima: Opti
     """
     mass, angle = masses_and_angles(machine, optima.unbalance, program.limits)
     u = unbalance(mass, angle, program.limits.radius)
+    point = points_at(program, u)
     if wanted.least_mass:
-        optima = optima.counting(program, program.objective(u))
+        optima = optima.counting(program, point.objective)
     mass_bound = optima.mass_lower_bound if wanted.least_mass else None
-    claimed = claim(program, u, np.add.reduce(mass, axis=-1), optima.lower_bound, optima.multipliers, mass_bound)
+    heavy = np.add.reduce(mass, axis=-1)
+    claimed = claim(program, u, heavy, optima.lower_bound, optima.multipliers, mass_bound, point)
     return Judgement(mass, angle, u, optima, claimed, verdict(claimed, wanted.relative_gap))
 
 

@@ -12,7 +12,7 @@ from starlette.requests import Request
 from starlette.responses import Response, StreamingResponse
 
 from schemas.base.model import Model
-from service.common.validation import check, read_json
+from service.common.validation import read_request
 from service.computations import XLSX, Computation, Form
 from service.fairness.quotas import holding
 from service.fairness.threads import threads_of
@@ -82,7 +82,7 @@ class Computing:
         ------
         UnreadableJson, InvalidRequest
         """
-        asked = check(model, read_json(body))
+        asked = read_request(model, body)
         self.limits.require(asked)
         return asked
 

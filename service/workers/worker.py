@@ -13,7 +13,7 @@ import time
 import traceback
 from collections.abc import Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import AbstractContextManager, nullcontext, suppress
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass, replace
 from functools import cache, partial
 from pathlib import Path
@@ -21,11 +21,12 @@ from tempfile import TemporaryFile
 from typing import BinaryIO
 
 from optimizer.errors import NotComputable
+from schemas.base.model import Model
 from service.common.coding import SMALL_BYTES, Coding, coded
 from service.common.faults import error_log
 from service.common.private import make_folder
 from service.common.time_slices import SHORT_S, set_slice
-from service.common.validation import InvalidRequest, UnreadableBody, check, read_json
+from service.common.validation import InvalidRequest, UnreadableBody, check, read_request
 from service.fairness.length import long_by_size
 from service.workers.messages import say
 from service.workers.task import Priority, Task
@@ -228,9 +229,8 @@ def perform(task: Task) -> Outcome | Long:
     """The outcome of a task; nothing escapes."""
     begun = time.perf_counter()
     try:
-        body, said = _read(task)
-        with said:
-            request = check(task.computation.asks, body, None if task.workbook else len(task.body))
+        with ExitStack() as said:
+            request = _request(task, said)
             task.limits.require(request)
             if not task.long and long_by_size(request, task.computation.answer is None):
                 return Long()
@@ -254,15 +254,16 @@ def perform(task: Task) -> Outcome | Long:
         return Crashed("\n".join(_frames(error)), str(error))
 
 
-def _read(task: Task) -> tuple[object, AbstractContextManager[None]]:
-    """The body, and what says where its problems are; of a workbook in which cells."""
+def _request(task: Task, said: ExitStack) -> Model:
+    """What is asked; until the stack ends problems of a workbook are said to be in its cells."""
     if not task.workbook:
-        return read_json(task.body), nullcontext()
+        return read_request(task.computation.asks, task.body)
     # only who sends workbooks pays for the library
     from service.workbook.body import cells_named, read_workbook
 
     found = read_workbook(task.body)
-    return found.body, cells_named(found)
+    said.enter_context(cells_named(found))
+    return check(task.computation.asks, found.body)
 
 
 def _frames(error: BaseException) -> Iterator[str]:

@@ -110,13 +110,13 @@ _VERIFY: dict[str, str] = {
     " middles of pieces, which end at dead centres",
     "verify_program.py spent: web.plate.lever(0.0) -> web.plate.lever(0.001)": "an end of the prices that are halved,"
     " less by a millionth",
-    "verify_gas.py breaks: one + self.lead -> one - self.lead": "it is a revolution of two, forwards or backwards",
-    "verify_claims.py judged: found[claim][:2] -> found[claim][:3]": "a pair is never above what begins with it",
+    "verify_gas.py breaks: angle + self.lead -> angle - self.lead": "it is a revolution of two, forwards or backwards",
+    "verify_claims.py judged: kinds[claim][:2] -> kinds[claim][:3]": "a pair is never above what begins with it",
     "verify_nominal.py nominal_optimum: above < 0 -> above <= 0": "nothing is above a bound by 0 to the bit",
     "verify_levels.py levels: max -> min": "without a goal before the last nothing that follows it is covered",
     "verify_harmonics.py rod: wide ** 2 -> wide ** 3": "wide is not below 1: a larger bound calls for more samples",
     "verify_program.py lightest: sizes[row].low > 0 -> sizes[row].low > 1": "it counts the smallest steps of numbers",
-    "verify_pressed.py _sizes: each > 1e-14 -> each >= 1e-14": "no size is 1e-14 to the bit, which is of no account",
+    "verify_pressed.py _sizes: size > 1e-14 -> size >= 1e-14": "no size is 1e-14 to the bit, which is of no account",
     "verify_values.py response: max -> min": "up to there a peak is of no interest: without it every peak is enclosed",
     "verify_prices.py worst_by_angle: off > 0 -> off >= 0": "what is off by nothing is within the angle, which is asked"
     " before",
@@ -131,6 +131,8 @@ _VERIFY: dict[str, str] = {
     " -> size.low < real(NEXT_TO_NOTHING).high": "nothing is 1e-280 kg m to the bit",
     "verify_program.py bound: price.high > 0 -> price.high >= 0": "without a price what is free gains the smallest"
     " steps of numbers at most",
+    "verify_cases.py cases: path[1:2] -> path[1:3]": "beside balance shafts the service takes no scenarios",
+    "verify_weights.py shafts: ratio > 0 -> ratio >= 0": "no shaft stands still",
     "verify_weights.py listed: room <= TOUCHED - UNSURE -> room < TOUCHED - UNSURE": "no room is that to the bit",
     "verify_shafts.py power: times > 0 -> times >= 0": "0 times nothing is multiplied",
     "verify_numbers.py _distance: low >= 0 -> low > 0": _ALIKE,
@@ -139,9 +141,9 @@ _VERIFY: dict[str, str] = {
     "verify_harmonics.py MOST: 40000 -> 40001": "angles are counted in pairs",
     "verify_alternatives.py costs: mass_kg - masses[n - 1] > SAME * mass_kg"
     " -> mass_kg - masses[n - 1] >= SAME * mass_kg": "no mass is that to the bit",
-    "verify_levels.py _sizes: one - masses[n - 1] > SAME * one -> one - masses[n - 1] >= SAME * one": "no mass is that"
-    " to the bit",
-    "verify_match.py _count: min(len(each.masses), 20) -> min(len(each.masses), 21)": "either is more than is compared",
+    "verify_levels.py _sizes: mass - masses[n - 1] > SAME * mass"
+    " -> mass - masses[n - 1] >= SAME * mass": "no mass is that to the bit",
+    "verify_match.py _count: min(len(kind.masses), 20) -> min(len(kind.masses), 21)": "either is more than is compared",
 }
 
 
@@ -167,7 +169,7 @@ _TO_BOTH_SIDES = (
     "verify_cuts.py _mean: real(mean.real) + around",
     "verify_cuts.py _mean: real(mean.imag) + around",
     "verify_cuts.py _mean: real(curve.moved(-mean).rms) + around",
-    "verify_cuts.py _fixed: one.co + self.machine.blur",
+    "verify_cuts.py _fixed: mass.co + self.machine.blur",
     "verify_cuts.py value: most[name] + SPECK * size",
     "verify_first.py near_the_bound: above + noise",
     "verify_first.py near_the_bound: size * real(SMALLEST) + noise",
@@ -176,7 +178,7 @@ _TO_BOTH_SIDES = (
     "verify_many.py point: peaks[name] + SPECK * peaks[name]",
     "verify_match.py _gap: gap + noise",
     "verify_match.py _gap: wide * size + noise",
-    "verify_multipliers.py reached: one * wide + self.machine.blur * size",
+    "verify_multipliers.py reached: item * wide + self.machine.blur * size",
     "verify_numbers.py ABOUT_ONE: ONE + SPECK",
     "verify_orders.py first_order: direction(degrees) + BLUR",
     "verify_orders.py _plus: way + machine.blur",
@@ -218,7 +220,7 @@ _ABOUT_ONE = (
     "verify_many.py point: gap * ABOUT_ONE",
     "verify_match.py matching: whole * ABOUT_ONE",
     "verify_match.py _gap: (gap + noise) * ABOUT_ONE",
-    "verify_multipliers.py reached: one * wide",
+    "verify_multipliers.py reached: item * wide",
     "verify_orders.py _plus: where * machine.wide",
     "verify_orders.py _plus: machine.plane * machine.wide",
     "verify_orders.py _plus: size * machine.wide",
@@ -249,7 +251,7 @@ _STEPS = (
     "verify_machine.py over: by.low <= 0",
     "verify_many.py point: size.low > 0",
     "verify_match.py _gap: size.low > 0",
-    "verify_misplacement.py __init__: one.product.high > 0",
+    "verify_misplacement.py __init__: u.product.high > 0",
     "verify_multipliers.py __init__: self.off.share.high > 0",
     "verify_multipliers.py __init__: self.off.besides.high > 0",
     "verify_multipliers.py __init__: weight.high > 0",
@@ -260,7 +262,7 @@ _STEPS = (
     "verify_orders.py floor: abs(plane - machine.plane).low > 0",
     "verify_program.py _size: size.low > 0",
     "verify_program.py _size: arm.low > 0",
-    "verify_program.py _size: abs(one.factor).low > 0",
+    "verify_program.py _size: abs(term.factor).low > 0",
     "verify_program.py _size: other.low > 0",
     "verify_program.py bound: total(rows.values()).low <= 0",
     "verify_program.py bound: price.low > 0",
@@ -268,7 +270,7 @@ _STEPS = (
     "verify_program.py bound: price.high > 0",
     "verify_program.py _multipliers: row.high > 0",
     "verify_program.py _multipliers: abs(vector).high > 0",
-    "verify_program.py _balance: one.factor.low > 0",
+    "verify_program.py _balance: term.factor.low > 0",
     "verify_program.py _balance: abs(slope[name]).high > 0",
     "verify_program.py lightest: limit.high > 0",
     "verify_program.py lightest: does.low > 0",
@@ -276,7 +278,7 @@ _STEPS = (
     "verify_program.py of_plate: web.limit.high <= 0",
     "verify_turn.py over_turn: (least.number() - machine.fixed).high <= 0",
     "verify_weights.py counterweight: mass.high > 0",
-    "verify_weights.py _alike: (one / 'mass_kg').number().high > 0",
+    "verify_weights.py _alike: (entry / 'mass_kg').number().high > 0",
     "verify_weights.py heavy_enough: mass.high > 0",
     "verify_weights.py catalogue: mass.high <= 0",
 )

@@ -11,10 +11,10 @@ from optimizer.mechanics.angles import direction
 from optimizer.numerics.arrays import Complex
 from optimizer.program import scaling
 from optimizer.program.ceilings import Ceilings
-from optimizer.program.compiled_evaluation import balanced
 from optimizer.program.equal_castings import Alike
 from optimizer.program.equal_unknowns import apart, united
 from optimizer.program.limits import Limits
+from optimizer.program.methods.compensation import balanced
 from optimizer.program.norms import Norms
 from optimizer.program.statement import Names, Statement, Term
 

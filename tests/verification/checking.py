@@ -7,6 +7,7 @@ night and under mutants, all of them are.
 
 import json
 import os
+import sys
 from collections import Counter
 from typing import Any
 
@@ -91,9 +92,10 @@ def broken(request: Any, answer: Any) -> list[str]:
 def is_broken(request: Any, answer: Any) -> bool:
     """Whether a claim does not hold: the first that does not is the last that is looked at."""
     tools = checker()
+    is_contradiction = sys.modules["verify_claims"].is_contradiction
 
     def judged(claims: Any, _answer: Any) -> bool:
-        return any(room is not None and room.high < 0 for _, _, room, _ in claims)
+        return any(room is not None and is_contradiction(room) for _, _, room, _ in claims)
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(tools, "judged", judged)

@@ -77,6 +77,23 @@ def better_bound(answer: Answer) -> None:
     answer["certificate"]["lower_bound"] = answer["certificate"]["objective"] * 1.01
 
 
+@pytest.mark.parametrize("factor", [1.0, 1.001])
+@pytest.mark.parametrize("across", [(1.0, 1.0), (1.0, 0.2), (0.3, 1.0)])
+def test_a_bound_is_below_all_assignments(across: tuple[float, float], factor: float) -> None:
+    """Independent: all assignments, whose best comes from the answer's own search."""
+    weights = dict(zip("xy", across, strict=True))
+    body = {
+        "machine": machine([0.0, 100.0, 220.0], [0.0] * 3),
+        "parts": parts(5, 3, 3),
+        "objective": {"direction_weights": weights},
+    }
+    request, answer = MatchRequest.model_validate(body).model_dump(mode="json", by_alias=True), matched(body)
+    wrong = answer.model_dump(mode="json", by_alias=True)
+    wrong["certificate"]["lower_bound"] = wrong["certificate"]["objective"] * factor
+    claims = {claim["claim"]: claim["verdict"] for claim in checker().verify(request, wrong)["claims"]}
+    assert claims["lower_bound"] == ("held" if factor == 1.0 else "broken")
+
+
 @pytest.mark.parametrize("tampered", [swap_names, better_bound])
 def test_nuts_are_on_rows_or_beside_the_machine(tampered: Callable[[Answer], None]) -> None:
     request, answer = pair("matching")

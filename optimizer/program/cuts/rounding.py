@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.program.compiled_evaluation import near_limits
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.cuts.stage import Point
+from optimizer.program.methods.compensation import near_limits
 from optimizer.program.methods.plate_sizes import CutWeights, equal_sizes, unlike
 from optimizer.program.methods.rounding import HEAVIER, NEAR
 from optimizer.program.solution import CEILING_ROUNDING

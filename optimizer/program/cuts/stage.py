@@ -97,7 +97,7 @@ class Search:
 
         Parameters
         ----------
-        kept : levels of all goals but the last, or of all where the mass is to be small.
+        levels : those of all goals but the last, or of all where the mass is to be small.
         inside : a point that keeps all that has to be kept.
         raised : ceilings take up the tolerance that they have.
         until : time.thread_time() at which the search ends.

@@ -27,9 +27,9 @@ def change(influence, constant, passes, row, basis, u):  # type: ignore[no-untyp
             size = 0.0
             for k in range(webs):
                 size = max(size, length(influence[j, k]))
-            left = constant[j] / size if size > 0.0 else 0.0j
+            left = _over(constant[j], size) if size > 0.0 else 0.0j
             for k in range(webs):
-                row[k] = influence[j, k] / (size if size > 0.0 else 1.0)
+                row[k] = _over(influence[j, k], size if size > 0.0 else 1.0)
                 left += row[k] * u[k]
             for before in range(j * passes):
                 other = basis[before % j]
@@ -44,5 +44,11 @@ def change(influence, constant, passes, row, basis, u):  # type: ignore[no-untyp
             size_left = np.sqrt(square)
             new = size_left > _DEPENDENT
             for k in range(webs):
-                basis[j, k] = row[k] / size_left if new else 0.0
-                u[k] -= np.conj(basis[j, k]) * (left / size_left if new else left)
+                basis[j, k] = _over(row[k], size_left) if new else 0.0
+                u[k] -= np.conj(basis[j, k]) * (_over(left, size_left) if new else left)
+
+
+@inner
+def _over(number, size):  # type: ignore[no-untyped-def]
+    """What is complex by what is real, without the steps of a division by what is complex."""
+    return complex(number.real / size, number.imag / size)

@@ -51,10 +51,17 @@ def means(constant, influence, limits, kinds, u):  # type: ignore[no-untyped-def
         _scaled(influence[n], relative, level)
         # most programs have hardly any, which is told at little cost
         _in_line(relative, level, order, along)
-        for way in range(2):
-            _ranges(order, along, 1.0 - 2.0 * way, begin[way], end[way])
-        straight = _partners(relative, ones, limits, kinds, n, order, begin[0], end[0])
-        turned_round = _partners(relative, level, limits, kinds, n, order, begin[1], end[1])
+        straight, turned_round = (1, 1), (0, 0)
+        if not _apart(along):
+            _ranges(order, along, 1.0, begin[0], end[0])
+            straight = _partners(relative, ones, limits, kinds, n, order, begin[0], end[0])
+        else:
+            for place in range(webs):
+                begin[0, order[place]], end[0, order[place]] = place, place + 1
+        # the web at either end has an image at the other
+        if not abs(along[0] + along[webs - 1]) > 2.0 * _SAME:
+            _ranges(order, along, -1.0, begin[1], end[1])
+            turned_round = _partners(relative, level, limits, kinds, n, order, begin[1], end[1])
         counted, changed = False, False
         for symmetry in range(4):
             # straight or from end to end, as they are or as mirror images
@@ -145,6 +152,15 @@ def _in_line(relative, level, order, along):  # type: ignore[no-untyped-def]
             order[i], along[i] = order[i - 1], along[i - 1]
             i -= 1
         order[i], along[i] = k, value
+
+
+@inner
+def _apart(along):  # type: ignore[no-untyped-def]
+    """Whether no web in the line is an image of another, for all that rounding may do to their places."""
+    apart = True
+    for i in range(1, along.size):
+        apart = apart and along[i] - along[i - 1] > 3.0 * _SAME
+    return apart
 
 
 @inner

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.program.compiled_evaluation import balanced
+from optimizer.program.methods.compensation import balanced
 from optimizer.program.plate_pieces import Plates
 from optimizer.program.statement import Statement
 

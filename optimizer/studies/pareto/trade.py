@@ -25,7 +25,7 @@ class Trade:
 
     both : the program min max(F, M), kg m and kg m^2 (over omega^2).
     alone : min F and min M.
-    known : (2,) peaks up to which all that can be reached is reached within the limits, and no heavier; inf where these
+    cap : (2,) peaks up to which all that can be reached is reached within the limits, and no heavier; inf where these
         are the machine's own.
     """
 

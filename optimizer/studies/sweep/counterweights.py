@@ -8,7 +8,7 @@ from optimizer.formulation.counterweights import mass_and_angle, unbalance
 from optimizer.formulation.formulate import responses, shape_facts
 from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import beside, laden
-from optimizer.mechanics.inertia import reciprocating, rotating
+from optimizer.mechanics.inertia import first_order
 from optimizer.mechanics.layout import layout as layout_of
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex
@@ -35,7 +35,8 @@ def optimal(request: OptimizeRequest, count: int, multipliers: bool = False) -> 
     multipliers : whether the proofs are wanted, as text.
     """
     layout = laden(layout_of(request.machine), request.machine)
-    baseline = rotating(layout).plus(reciprocating(layout, 1))
+    turning, moving = first_order(layout)
+    baseline = turning.plus(moving)
     square = np.broadcast_to(layout.omega**2, (count,))
     machine, objective, every = request.machine, request.objective, responses(layout, baseline, request.objective)
     best = certified(machine, objective, every, square, Task.of(request).demand)
@@ -49,18 +50,21 @@ def columns_of(request: OptimizeRequest, best: Certified, multipliers: bool) -> 
     columns: Columns = {
         **best.certificate,
         "status": best.status,
-        "message": np.full(optimal.shape, "") if optimal.all() else np.where(optimal, "", best.reason),
+        "message": np.broadcast_to("", optimal.shape) if optimal.all() else np.where(optimal, "", best.reason),
         "total_mass_kg": np.sum(mass, axis=-1),
     }
     if multipliers:
         columns[MULTIPLIERS] = multipliers_as_text(request, best)
-    for k, web in enumerate(request.machine.webs):
-        columns[f"mass_kg.{web.name}"], columns[f"angle_deg.{web.name}"] = mass[:, k], angle[:, k]
+    # one after the other, as the table has them
+    for web, of_web, towards in zip(request.machine.webs, mass.T.copy(), angle.T.copy(), strict=False):
+        columns[f"mass_kg.{web.name}"], columns[f"angle_deg.{web.name}"] = of_web, towards
     if none.any():
         columns = {
             name: np.where(none, np.nan, column) if column.dtype == float else column
             for name, column in columns.items()
         }
+    if mass is best.mass_kg:
+        return columns, best.unbalance
     return columns, unbalance(mass, angle, stacked([web.radius_m for web in request.machine.webs]))
 
 
@@ -70,8 +74,8 @@ def fixed_columns(request: AnalyzeRequest, count: int) -> tuple[Columns, Complex
     radius = stacked([web.radius_m for web in request.machine.webs])
     shape = (count, radius.shape[-1])
     columns: Columns = {
-        "status": np.full(count, "analyzed"),
-        "message": np.full(count, ""),
+        "status": np.broadcast_to("analyzed", count),
+        "message": np.broadcast_to("", count),
         "total_mass_kg": np.broadcast_to(np.sum(mass, axis=-1), count),
     }
     return columns, np.broadcast_to(unbalance(mass, angle, radius), shape)

@@ -53,7 +53,8 @@ def permuted(index: Indices, count: int, seed: int, axis: int) -> Indices:
 
     bits = max((count - 1).bit_length(), _FEWEST_BITS)
     result = index.astype(np.uint64)
-    permute(result, np.uint64(count), bits, Philox(key=[seed, 2 * axis + 1]).random_raw(_ROUNDS))
+    work = np.empty(index.shape, np.int64), np.empty(index.shape, np.uint64)
+    permute(result, np.uint64(count), bits, Philox(key=[seed, 2 * axis + 1]).random_raw(_ROUNDS), *work)
     return result.astype(np.int64)
 
 

@@ -23,7 +23,7 @@ from schemas.sweep.request import SweepRequest
 #: seconds of work in a chunk: long against the cost of handing it out, short against the patience of a client
 _CHUNK_S = 1.0
 #: seconds a design takes for each web, for its certified optimum: of the largest of peaks, and of their sum
-_PROGRAM_S, _DISC_S = 1.5e-5, 1.5e-6
+_PROGRAM_S, _DISC_S = 1.5e-5, 1e-6
 #: and for each row at each angle of the turn, in the outputs
 _SAMPLE_S = 2.5e-7
 _ROW_S = 2e-6
@@ -39,7 +39,7 @@ _CELLS = 1_000_000
 _MOST_CHUNKS = 10_000
 #: seconds, and rows, of a block of a chunk: between blocks a worker sees that it is to stop
 _BLOCK_S = 0.25
-_BLOCK_ROWS = 10_000
+_BLOCK_ROWS = 30_000
 #: a small sweep is cut into so many chunks, so that all workers have some
 _FEWEST_CHUNKS = 16
 _SMALLEST_CHUNK = 64

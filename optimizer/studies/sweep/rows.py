@@ -18,7 +18,6 @@ from optimizer.studies.sweep.counterweights import fixed_columns, optimal, shape
 from optimizer.studies.sweep.designs import axis_values
 from optimizer.studies.sweep.singles import single_optima
 from optimizer.studies.sweep.work import work_per_design
-from schemas.answer.outputs import Column
 from schemas.base.rules import Path, Rule, all_rules
 from schemas.base.target import pointer
 from schemas.base.variation import with_fields
@@ -36,37 +35,51 @@ class Rows:
     """Columns of a range of designs, filled group by group; nan and None stand for what is not there."""
 
     def __init__(self, request: SweepRequest, start: int, stop: int) -> None:
-        count = stop - start
-        self.columns: dict[str, Any] = {
-            column.name: np.full(count, np.nan) if column.kind == "number" else np.full(count, None, dtype=object)
-            for column in _columns_of(request)
-        }
-        self.columns["index"] = np.arange(start, stop, dtype=np.int64)
+        self._count = stop - start
+        self._blank = _blank_columns(request)
+        self._columns: dict[str, Any] = {"index": np.arange(start, stop, dtype=np.int64)}
+        #: columns that whoever computed them holds too, to which nothing is written
+        self._shared = set[str]()
         self._labels = {"index", *(pointer(target.path) for target in request.targets)}
         self._faults: dict[str, tuple[list[int], Exception]] = {}
+
+    @property
+    def columns(self) -> dict[str, Any]:
+        """All of them by name; those of one value for all designs take no memory."""
+        return {name: self._columns[name] if name in self._columns else self._missing(name) for name in self._blank}
 
     def put(self, designs: Designs, columns: dict[str, Any]) -> None:
         """Columns of some designs; those that the result does not have are left out."""
         # all of them stand in their order
-        place = slice(None) if designs.size == self.columns["index"].size else designs
+        whole = designs.size == self._count
         for name, column in columns.items():
-            if name in self.columns:
-                self.columns[name][place] = column
+            if name not in self._blank:
+                continue
+            if whole:
+                self._columns[name] = np.broadcast_to(column, (self._count,))
+                self._shared.add(name)
+            else:
+                self._own(name)[designs] = column
+
+    def infeasible(self, designs: Designs) -> NDArray[np.bool_]:
+        """Which designs have no counterweights, as nothing keeps their ceilings."""
+        status = self._columns["status"]
+        return np.asarray((status if designs.size == self._count else status[designs]) == "infeasible")
 
     def refuse(self, designs: Designs, rule: Rule) -> None:
         """Designs that are no valid requests."""
-        self.columns["status"][designs] = "invalid"
-        self.columns["message"][designs] = f"{pointer(rule.path)}: {rule.message}"
+        self._own("status")[designs] = "invalid"
+        self._own("message")[designs] = f"{pointer(rule.path)}: {rule.message}"
 
     def fail(self, design: int, error: Exception) -> None:
         """A design that computing broke down for: what of it was computed before is not told."""
-        for name, column in self.columns.items():
+        for name in self._blank:
             if name not in self._labels:
-                column[design] = np.nan if column.dtype == float else None
-        self.columns["status"][design] = "failed"
+                self._own(name)[design] = self._blank[name]
+        self._own("status")[design] = "failed"
         said = f"{type(error).__name__}: {error}"
-        self.columns["message"][design] = f"internal fault: {said}"
-        self._faults.setdefault(said, ([], error))[0].append(int(self.columns["index"][design]))
+        self._own("message")[design] = f"internal fault: {said}"
+        self._faults.setdefault(said, ([], error))[0].append(int(self._columns["index"][design]))
 
     def tell_faults(self) -> None:
         """Log what designs broke down for, once for all that say the same."""
@@ -75,10 +88,26 @@ class Rows:
                 "%d design(s) of a sweep broke down, %d first: %s", len(designs), designs[0], said, exc_info=error
             )
 
+    def _missing(self, name: str) -> NDArray[Any]:
+        """A column of which nothing is there."""
+        blank = self._blank[name]
+        return np.broadcast_to(np.array(blank, dtype=object if blank is None else float), self._count)
+
+    def _own(self, name: str) -> NDArray[Any]:
+        """A column to write to."""
+        if name not in self._columns or name in self._shared:
+            column = self._columns[name] if name in self._columns else self._missing(name)
+            self._columns[name] = np.array(column, dtype=object if self._blank[name] is None else float)
+            self._shared.discard(name)
+        own: NDArray[Any] = self._columns[name]
+        return own
+
 
 @remembered
-def _columns_of(request: SweepRequest) -> tuple[Column, ...]:
-    return (*request.all_columns, *request.chosen_columns)
+def _blank_columns(request: SweepRequest) -> dict[str, float | None]:
+    """Columns by name, with what stands where a design has none."""
+    columns = (*request.all_columns, *request.chosen_columns)
+    return {column.name: np.nan if column.kind == "number" else None for column in columns}
 
 
 @remembered
@@ -284,8 +313,8 @@ def _fill_outputs(table: Rows, group: AnyGroup, designs: Designs, unbalance: Com
 def _fill_columns(table: Rows, group: AnyGroup, designs: Designs, unbalance: Complex, always: tuple[str, ...]) -> None:
     """The same of some designs, in blocks that fit into memory."""
     # without counterweights there is nothing with them
-    none = table.columns["status"][designs] == "infeasible"
-    fitted = np.where(none[:, None], np.nan, unbalance)
+    none = table.infeasible(designs)
+    fitted = np.where(none[:, None], np.nan, unbalance) if none.any() else unbalance
     size = max(1, _AT_ONCE // max(work_per_design(group.of(designs), always, group.wanted), 1))
     for first in range(0, designs.size, size):
         block = designs[first : first + size] if size < designs.size else designs

@@ -55,6 +55,8 @@ def versions() -> dict[str, str]:
 
 
 def _array(column: Any, kind: pa.DataType) -> pa.Array:
+    if isinstance(column, np.ndarray) and column.size > 1 and _uniform(column, kind):
+        return pa.repeat(_array(column[:1], kind)[0], column.size)
     if kind == pa.float64():
         finite = np.isfinite(column)
         return pa.array(column, kind) if finite.all() else pa.array(column, kind, mask=~finite)
@@ -65,3 +67,8 @@ def _array(column: Any, kind: pa.DataType) -> pa.Array:
         dictionary = pa.array([text or None for text in number], kind)
         return pa.DictionaryArray.from_arrays(pa.array(which), dictionary).cast(kind)
     return pa.array(column, kind)
+
+
+def _uniform(column: np.ndarray, kind: pa.DataType) -> bool:
+    """Whether a column is seen at a glance to be of one value."""
+    return column.strides == (0,) or (kind == pa.string() and bool(np.all(column == column[0])))

@@ -176,27 +176,27 @@ def draw(machine, question, answer):
     """
     document, request = machine.Document, question.body
     with change(document, "Balance"):
-        drawn = {one.Web: one for one in machine.Counterweights}
+        drawn = {weight.Web: weight for weight in machine.Counterweights}
         heaviest = max((counterweight["mass_kg"] for counterweight in answer["counterweights"]), default=0.0)
         webs = {web["name"]: web for web in request["machine"]["webs"]}
-        kept = []
-        for one in answer["counterweights"]:
-            if one["mass_kg"] > _NOTHING * heaviest:
-                made = drawn.pop(one["web"], None) or _new(document, one["web"])
-                _ask_for(made, machine, webs[one["web"]], one)
-                kept.append(made)
-        machine.Counterweights = kept
+        weights = []
+        for weight in answer["counterweights"]:
+            if weight["mass_kg"] > _NOTHING * heaviest:
+                made = drawn.pop(weight["web"], None) or _new(document, weight["web"])
+                _ask_for(made, machine, webs[weight["web"]], weight)
+                weights.append(made)
+        machine.Counterweights = weights
         machine.Request, machine.Answer = json.dumps(request), json.dumps(answer)
-        for one in drawn.values():
-            document.removeObject(one.Name)
+        for weight in drawn.values():
+            document.removeObject(weight.Name)
         document.recompute()
-        failed = [one.Label for one in kept if "Invalid" in one.State]
+        failed = [weight.Label for weight in weights if "Invalid" in weight.State]
         if failed:
             raise Wrong([f"{label}: no opening of its plate has the unbalance that was asked for" for label in failed])
-        found = verify(machine)
-        if not found.held:
-            raise Wrong(found.words())
-    return replace(found, notes=(*found.notes, *warnings(answer, question)))
+        result = verify(machine)
+        if not result.held:
+            raise Wrong(result.words())
+    return replace(result, notes=(*result.notes, *warnings(answer, question)))
 
 
 def verify(machine):
@@ -212,10 +212,10 @@ def verify(machine):
     shaft = shaft_moments(machine)
     first, *others = shaft.values()
     try:
-        found = verdict(now, json.loads(machine.Answer), sum(others, first), weight_moments(machine))
+        result = verdict(now, json.loads(machine.Answer), sum(others, first), weight_moments(machine))
     except KeyError as missing:
         raise Wrong([f"the tables no longer say {missing}"]) from None
-    return replace(found, notes=(f"FORCED in spite of: {machine.Forced}",)) if machine.Forced else found
+    return replace(result, notes=(f"FORCED in spite of: {machine.Forced}",)) if machine.Forced else result
 
 
 def _new(document, web):

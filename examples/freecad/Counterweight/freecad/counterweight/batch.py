@@ -53,7 +53,7 @@ def _balanced(shaft, machine, folder):
     except (OSError, ValueError, TypeError, AttributeError) as error:
         raise Wrong([f"{machine}: {error}"]) from None
     document = _opened(shaft)
-    bodies = [one for one in document.RootObjects if getattr(one, "Shape", None) is not None and one.Shape.Solids]
+    bodies = [body for body in document.RootObjects if getattr(body, "Shape", None) is not None and body.Shape.Solids]
     service = service_at(os.environ.get("COUNTERWEIGHT_URL") or url())
     force = forced()
     made = read_shaft(document, bodies, service, [density] * len(bodies), description=description, force=force)

@@ -32,29 +32,29 @@ def clearance(machine):
     Wrong
         if a rod is not there, or is not drawn where it is at shaft angle 0.
     """
-    weights = {one: inside(one.Shape, machine.Frame) for one in machine.Counterweights}
+    weights = {weight: inside(weight.Shape, machine.Frame) for weight in machine.Counterweights}
     rods = list(_rods(machine))
     room = machine.Clearance.Value
-    found = overlaps(machine)
-    for one, shape in weights.items():
-        ring = _ring(one, shape.BoundBox, room)
+    lines = overlaps(machine)
+    for weight, shape in weights.items():
+        ring = _ring(weight, shape.BoundBox, room)
         for body in machine.Obstacles:
             words = f"within {room:g} mm of its way"
-            found += _overlap_line(one, body, words, _overlap(ring, seen(body, machine.Frame)))
+            lines += _overlap_line(weight, body, words, _overlap(ring, seen(body, machine.Frame)))
         grown = shape.makeOffsetShape(room, 1e-3, join=2) if room else shape
         for rod in rods:
             volume, angle = rod.worst(grown)
-            found += _overlap_line(one, rod.body, f"within {room:g} mm at shaft angle {angle:g} degrees", volume)
-    return found
+            lines += _overlap_line(weight, rod.body, f"within {room:g} mm at shaft angle {angle:g} degrees", volume)
+    return lines
 
 
 def overlaps(machine):
     """Counterweights that stand in their own shaft, in words: what is of both would weigh twice."""
     return [
         line
-        for one in machine.Counterweights
+        for weight in machine.Counterweights
         for body in machine.Shaft
-        for line in _overlap_line(one, body, "overlap", _overlap(one.Shape, shape_of(body)))
+        for line in _overlap_line(weight, body, "overlap", _overlap(weight.Shape, shape_of(body)))
     ]
 
 

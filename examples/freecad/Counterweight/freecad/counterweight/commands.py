@@ -56,15 +56,15 @@ def tell(lines):
 
 def _machine():
     """The machine that is selected, or the only one."""
-    chosen = [one for one in Gui.Selection.getSelection() if hasattr(one, "Shaft")]
-    every = chosen or [one for one in App.ActiveDocument.Objects if hasattr(one, "Shaft")]
+    chosen = [machine for machine in Gui.Selection.getSelection() if hasattr(machine, "Shaft")]
+    every = chosen or [machine for machine in App.ActiveDocument.Objects if hasattr(machine, "Shaft")]
     if len(every) != 1:
         raise Wrong([f"{len(every)} machines: select one, or read the shaft first"])
     return every[0]
 
 
 def _read():
-    bodies = [one for one in Gui.Selection.getSelection() if getattr(one, "Shape", None) and one.Shape.Faces]
+    bodies = [body for body in Gui.Selection.getSelection() if getattr(body, "Shape", None) and body.Shape.Faces]
     document, selected, service = App.ActiveDocument.Name, listed(bodies), _service()
 
     def drawn(answer):
@@ -149,26 +149,26 @@ def _service():
 def _ask_key():
     global _key
     words = translate("Counterweight", f"Key of the service; never stored. {KEY} in the environment does the same.")
-    said, given = QtGui.QInputDialog.getText(Gui.getMainWindow(), "Counterweight", words, QtGui.QLineEdit.Password)
-    if given:
-        _key = said or None
+    text, consent = QtGui.QInputDialog.getText(Gui.getMainWindow(), "Counterweight", words, QtGui.QLineEdit.Password)
+    if consent:
+        _key = text or None
 
 
 # ---- what was drawn
 
 
 def _verify(machine):
-    found = verify(machine)
-    if not found.held:
-        show(Result(found.words()))
-        raise Wrong(found.words())
-    _result(found.words())
+    result = verify(machine)
+    if not result.held:
+        show(Result(result.words()))
+        raise Wrong(result.words())
+    _result(result.words())
 
 
 def _clearance(machine):
-    found = clearance(machine)
-    if found:
-        raise Wrong(found)
+    lines = clearance(machine)
+    if lines:
+        raise Wrong(lines)
     tell(["nothing is in the way of the counterweights"])
 
 

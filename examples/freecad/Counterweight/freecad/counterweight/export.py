@@ -25,8 +25,8 @@ def export(machine, folder, service):
     Wrong
         if the solids are not those of the answer or stand in the shaft, or the service does not draw.
     """
-    found = verify(machine)
-    wrong = overlaps(machine) if found.held else found.words()
+    result = verify(machine)
+    wrong = overlaps(machine) if result.held else result.words()
     if wrong:
         raise Wrong(wrong)
     target = Path(folder)

@@ -52,7 +52,7 @@ def _listed(face, name):
     u0, u1, v0, v1 = face.ParameterRange
     if isinstance(surface, Part.Cylinder):
         angle = degrees(u1 - u0)
-        found = {
+        fields = {
             "type": "cylinder",
             "centre_m": _metres(surface.Center),
             "axis": list(surface.Axis),
@@ -61,17 +61,17 @@ def _listed(face, name):
             "angle_deg": 360.0 if angle > 360.0 - _ROUND else angle,
             "outer": _outward(face),
         }
-        whole = found["angle_deg"] == 360.0
-        return {**found, "name": name, **({} if whole else _points(face))}
+        whole = fields["angle_deg"] == 360.0
+        return {**fields, "name": name, **({} if whole else _points(face))}
     if isinstance(surface, Part.Plane):
         normal = list(face.normalAt((u0 + u1) / 2, (v0 + v1) / 2))
-        found = {
+        fields = {
             "type": "plane",
             "centre_m": _metres(face.CenterOfMass),
             "normal": normal,
             "area_m2": face.Area * MM**2,
         }
-        return {**found, "name": name, **_points(face)}
+        return {**fields, "name": name, **_points(face)}
     return {"type": "other", "name": name, **_points(face)}
 
 

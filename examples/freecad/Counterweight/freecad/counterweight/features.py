@@ -105,8 +105,8 @@ class Counterweight(_Proxy):
         placement = made.Frame.multiply(along)
         shape.Placement = placement
         made.Shape, made.Placement = shape, placement
-        found = moments(inside(shape, made.Frame), made.Density)
-        made.HalfAngle, made.Mass, made.Unbalance = degrees(half), found.mass_kg, abs(found.static_kg_m)
+        result = moments(inside(shape, made.Frame), made.Density)
+        made.HalfAngle, made.Mass, made.Unbalance = degrees(half), result.mass_kg, abs(result.static_kg_m)
 
 
 def _add(made, properties):
@@ -141,10 +141,10 @@ def shaft_moments(machine):
 
 def weight_moments(machine):
     """Moments of every counterweight that was drawn, by its web."""
-    found = {}
-    for one in machine.Counterweights:
-        found[one.Web] = found.get(one.Web, Moments()) + moments(inside(one.Shape, machine.Frame), one.Density)
-    return found
+    sums = {}
+    for item in machine.Counterweights:
+        sums[item.Web] = sums.get(item.Web, Moments()) + moments(inside(item.Shape, machine.Frame), item.Density)
+    return sums
 
 
 def request_of(machine):

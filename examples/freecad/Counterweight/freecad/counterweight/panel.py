@@ -38,11 +38,11 @@ class Shaft:
         heads, *lines = table_of(self._sheet)
         self.boxes = []
         for line in lines:
-            said = dict(zip(heads, line))
+            row = dict(zip(heads, line))
             box = QtGui.QCheckBox(
-                "{name}: z = {position_m:.4g} m, radius {crank_radius_m:.4g} m at {crank_angle_deg:.1f}°".format(**said)
+                "{name}: z = {position_m:.4g} m, radius {crank_radius_m:.4g} m at {crank_angle_deg:.1f}°".format(**row)
             )
-            box.setChecked(said[USE] == "yes")
+            box.setChecked(row[USE] == "yes")
             self._layout.addWidget(box)
             self.boxes.append(box)
         self._label(translate("Counterweight", "Rows, masses and speed are asked for in the spreadsheets."))

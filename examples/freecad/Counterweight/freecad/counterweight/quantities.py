@@ -25,6 +25,6 @@ _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*([
 def quantity(name: str, text: str) -> Optional[float]:
     """A text in the unit of a field, correctly rounded; None if it is no number with a unit of that kind."""
     units = UNITS.get(name.rpartition("_")[2], {})
-    found = _QUANTITY.fullmatch(text) if len(text) <= 48 else None
-    factor = units.get(" ".join(found[2].split())) if found else None
-    return float(Decimal(found[1]) * factor) if found and factor else None
+    match = _QUANTITY.fullmatch(text) if len(text) <= 48 else None
+    factor = units.get(" ".join(match[2].split())) if match else None
+    return float(Decimal(match[1]) * factor) if match and factor else None

@@ -104,7 +104,7 @@ class _Reader:
     def lines(self, sheet: str, table: Table) -> List[Tuple[Dict[str, Any], Dict[str, str], str]]:
         """What every line says, with the cells of its fields, and where it stands."""
         heads = table[0] if table else []
-        found = []
+        items = []
         for number, line in enumerate(table[1:], start=2):
             item: Dict[str, Any] = {}
             cells: Dict[str, str] = {}
@@ -117,8 +117,8 @@ class _Reader:
                 else:
                     self._set(item, cells, str(head), value, f"{sheet}!{letters(column)}{number}")
             if item and used:
-                found.append((item, cells, f"{sheet}!{number}"))
-        return found
+                items.append((item, cells, f"{sheet}!{number}"))
+        return items
 
     def put(self, path: Sequence[Union[str, int]], item: Dict[str, Any], cells: Mapping[str, str], place: str) -> int:
         """Append an item to a list of the request; its number."""
@@ -219,11 +219,11 @@ def _merged(sheet: str, shown: Table, description: Sequence[Mapping[str, Any]]) 
 
 def flat(fields: Mapping[str, Any], prefix: str = "") -> Dict[str, Cell]:
     """Values by their paths with dots."""
-    found: Dict[str, Cell] = {}
+    cells: Dict[str, Cell] = {}
     for name, value in fields.items():
         if isinstance(value, Mapping):
-            found.update(flat(value, f"{prefix}{name}."))
+            cells.update(flat(value, f"{prefix}{name}."))
         else:
             plain = value is None or (isinstance(value, (str, float, int)) and not isinstance(value, bool))
-            found[f"{prefix}{name}"] = value if plain else json.dumps(value)
-    return found
+            cells[f"{prefix}{name}"] = value if plain else json.dumps(value)
+    return cells

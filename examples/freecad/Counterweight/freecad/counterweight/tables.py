@@ -35,8 +35,8 @@ def write(sheet, table):
     for row, line in enumerate(table, start=1):
         for column, value in enumerate(line):
             if value is not None:
-                said = f"'{value}" if isinstance(value, str) else repr(value)
-                sheet.set(f"{letters(column)}{row}", said)
+                content = f"'{value}" if isinstance(value, str) else repr(value)
+                sheet.set(f"{letters(column)}{row}", content)
 
 
 def _value(sheet, name):

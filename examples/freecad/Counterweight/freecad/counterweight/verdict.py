@@ -106,16 +106,16 @@ def verdict(
     arm = max((abs(place - plane) for place in _places(machine)), default=0.0)
     before, after = answer["residual"]["before"], answer["residual"]["after"]
     lines = []
-    for name, found, unit, least in (("force", force, "N", small), ("moment", moment, "Nm", small * arm)):
+    for name, ellipse, unit, least in (("force", force, "N", small), ("moment", moment, "Nm", small * arm)):
         scale = before[name][f"peak_{unit}"]
         for part, value in (
-            ("peak", found.peak),
-            ("co_rotating", found.co_rotating),
-            ("counter_rotating", found.counter_rotating),
+            ("peak", ellipse.peak),
+            ("co_rotating", ellipse.co_rotating),
+            ("counter_rotating", ellipse.counter_rotating),
         ):
             words = f"{part.replace('_', '-')} {name}"
-            told = after[name][f"{part}_{unit}"]
-            lines.append(Line(words, unit.replace("Nm", "N m"), scale, told, value, least, part == "peak"))
+            figure = after[name][f"{part}_{unit}"]
+            lines.append(Line(words, unit.replace("Nm", "N m"), scale, figure, value, least, part == "peak"))
     masses: Dict[str, float] = {
         counterweight["web"]: counterweight["mass_kg"] for counterweight in answer["counterweights"]
     }
@@ -127,5 +127,5 @@ def verdict(
 
 
 def _places(machine: Mapping[str, Any]) -> Iterator[float]:
-    for each in ("throws", "webs", "unbalances"):
-        yield from (one["position_m"] for one in machine.get(each, ()))
+    for kind in ("throws", "webs", "unbalances"):
+        yield from (entry["position_m"] for entry in machine.get(kind, ()))

@@ -1,0 +1,53 @@
+"""Sums of forces and of their couples: by arrays of one machine, by a compiled loop of many."""
+
+import math
+
+import numpy as np
+
+from optimizer.numerics.arrays import SMALLEST, Complex, Real, in_order, spread, total
+
+#: so many forces are a loop's work; of fewer the compiler is not loaded
+MANY = 4096
+#: terms up to which the loop adds in the order in which numpy does
+_IN_ONE_ORDER = 64
+
+
+def force_and_couple(forces: Complex, arm: Real) -> tuple[Complex, Complex]:
+    """Sum of forces and of their couples, at once: small sums cost by their number.
+
+    Exactly zero where the terms cancel up to rounding, as of :func:`optimizer.numerics.arrays.total`.
+
+    Parameters
+    ----------
+    forces : (..., n), or (..., m, n) beside arms (..., 1, n).
+    arm : (..., n) m.
+
+    Returns
+    -------
+    Two arrays (...), or (..., m).
+    """
+    if forces.ndim > 1 and forces.size >= MANY and forces.shape[-1] <= _IN_ONE_ORDER:
+        return _in_a_loop(forces, arm)
+    couples = arm * forces
+    terms = np.empty((2, *couples.shape), complex)
+    terms[0], terms[1] = forces, couples
+    both = total(terms)
+    return both[0, ...], both[1, ...]
+
+
+def _in_a_loop(forces: Complex, arm: Real) -> tuple[Complex, Complex]:
+    # the compiler is loaded when it is first needed
+    from optimizer.numerics.kernel.sums import force_and_couple as loop
+
+    shape = np.broadcast_shapes(forces.shape, arm.shape)
+    # forces of one machine beside one another have the same arms
+    many = shape[-2] if arm.ndim == len(shape) and arm.shape[-2] == 1 else 1
+    leading, terms = (shape[:-2] if many > 1 else shape[:-1]), shape[-1]
+    number = math.prod(leading)
+    each = in_order(spread(forces, shape)).reshape(number, many, terms)
+    arms = arm[..., 0, :] if many > 1 else arm
+    own = in_order(spread(arms, (*leading, terms))).reshape(number, terms)
+    found = np.empty((2, number, many), complex)
+    loop(each, own, SMALLEST, found)
+    both = found.reshape(2, *shape[:-1])
+    return both[0, ...], both[1, ...]
