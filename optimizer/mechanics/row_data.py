@@ -39,15 +39,15 @@ class RowData:
     closed: Real | None = None
     traces: tuple[Trace, ...] = ()  # of chambers whose pressure is given
 
-    def of_design(self, number: int) -> "RowData":
-        """Data of one of the designs alone."""
+    def of_designs(self, some: slice) -> "RowData":
+        """Data of some of the designs alone."""
 
-        def single(value: Any) -> Any:
-            return value[number : number + 1] if len(value) > 1 else value
+        def part(value: Any) -> Any:
+            return shared(value[some]) if len(value) > 1 else value
 
-        arrays = {name: single(value) for name, value in vars(self).items() if isinstance(value, np.ndarray)}
-        traces = tuple(replace(trace, table=single(trace.table), lead=single(trace.lead)) for trace in self.traces)
-        return replace(self, designs=1, traces=traces, **arrays)
+        arrays = {name: part(value) for name, value in vars(self).items() if isinstance(value, np.ndarray)}
+        traces = tuple(replace(trace, table=part(trace.table), lead=part(trace.lead)) for trace in self.traces)
+        return replace(self, designs=len(range(self.designs)[some]), traces=traces, **arrays)
 
     @cached_property
     def packed(self) -> "Rows":

@@ -8,7 +8,7 @@ brackets peaks with.
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
@@ -91,11 +91,11 @@ class WholeTurn:
         """Sums of a force of the rows over weights (N, C, R), with constants (N, C): N C curves."""
         return TurnCurves(self, reading, weights, spread(np.asarray(constant), weights.shape[:2]))
 
-    def of_design(self, number: int) -> "WholeTurn":
-        """The turn of one of the designs alone."""
-        one = slice(number, number + 1)
-        means = None if self.means is None else self.means[one]
-        return WholeTurn(self.rows.of_design(number), self.centre[one], self.half[one], self.turns, means, self.squared)
+    def of_designs(self, some: slice) -> "WholeTurn":
+        """The turn of some of the designs alone."""
+        means = None if self.means is None else self.means[some]
+        rows = self.rows.of_designs(some)
+        return WholeTurn(rows, self.centre[some], self.half[some], self.turns, means, self.squared)
 
     def of_rows(self, reading: Reading) -> "TurnCurves":
         """A force of every row by itself."""
@@ -195,10 +195,9 @@ class TurnCurves:
     def period_deg(self) -> float:
         return 360.0 * self.whole.turns
 
-    def of_design(self, number: int) -> "TurnCurves":
-        """The curves of one of the designs alone."""
-        weights, constant = (each[number : number + 1] for each in (self.weights, self.constant))
-        return TurnCurves(self.whole.of_design(number), self.reading, weights, constant)
+    def of_designs(self, some: slice) -> "TurnCurves":
+        """The curves of some of the designs alone."""
+        return TurnCurves(self.whole.of_designs(some), self.reading, self.weights[some], self.constant[some])
 
     def first(self, count: int) -> "TurnCurves":
         """The first curves of each design alone."""
@@ -237,14 +236,14 @@ class TurnCurves:
     @cached_property
     def _mean(self) -> Complex:
         """The same by quadrature (N, C)."""
-        values, shares = self._quadrature
-        return np.add.reduce(values * shares, axis=-1)
+        values, shares, count = self._quadrature
+        return _sums(values * shares, count)
 
     @cached_property
     def variance(self) -> Real:
         """Means of |curve - mean|^2 over the turn (N C,)."""
-        values, shares = self._quadrature
-        return np.add.reduce(np.abs(values - self._mean[..., None]) ** 2 * shares, axis=-1).reshape(-1)
+        values, shares, count = self._quadrature
+        return _sums(np.abs(values - self._mean[..., None]) ** 2 * shares, count).reshape(-1)
 
     @cached_property
     def rms_error(self) -> Real:
@@ -254,8 +253,9 @@ class TurnCurves:
         they differ by no more than both of what the polynomials leave out, which is at most the rest of the parts.
         """
         pieces = self.pieces
-        share, rest = pieces.half / (np.pi * self.whole.turns), self._left_out / self._parts**_GAUSS
-        return 2.0 * np.sqrt(np.add.reduce(share * rest**2, axis=-1)) + _ROUNDING * pieces.size
+        rest = self._by_design(self._left_out) / self._parts[:, None] ** _GAUSS
+        share = pieces.half / (np.pi * self.whole.turns)
+        return 2.0 * np.sqrt(np.add.reduce(share * rest.reshape(share.shape) ** 2, axis=-1)) + _ROUNDING * pieces.size
 
     @cached_property
     def _left_out(self) -> Real:
@@ -264,23 +264,33 @@ class TurnCurves:
 
     @cached_property
     def _parts(self) -> Real:
-        """Number of equal parts of every piece (P,) in the quadrature: the more, the more is left out there."""
+        """Number of equal parts of every piece (N, P) in the quadrature: the more, the more is left out there."""
         size = np.where(self.pieces.size > 0.0, self.pieces.size, 1.0)
-        out = np.maximum.reduce(self._left_out / size[:, None], axis=0)
+        out = np.maximum.reduce(self._by_design(self._left_out / size[:, None]), axis=1)
         return np.clip(np.ceil((out / _LEFT_OUT) ** (1.0 / _GAUSS)), 1, _MOST_PARTS)
 
+    def _by_design(self, values: Real) -> Real:
+        """Values (N C, P) as (N, C, P)."""
+        return values.reshape(*self.weights.shape[:2], -1)
+
     @cached_property
-    def _quadrature(self) -> tuple[Complex, Real]:
-        """Values (N, C, n) at the Gauss nodes of all parts, and the share of the turn for which each stands."""
+    def _quadrature(self) -> tuple[Complex, Real, Index]:
+        """Values (N, C, n) at the Gauss nodes of all parts, the share of the turn for which each stands (N, 1, n), and
+        how many nodes each design has (N,): beyond these are none that count."""
         whole, parts = self.whole, self._parts.astype(np.intp)
-        piece = np.repeat(np.arange(parts.size), parts)
-        number = np.arange(piece.size) - np.repeat(np.cumsum(parts) - parts, parts)
-        wide, centre = whole.half[:, piece], whole.centre[:, piece]
-        half = wide / parts[piece]
-        angle = (centre + wide * ((2.0 * number + 1.0) / parts[piece] - 1.0))[..., None] + half[..., None] * _NODES
+        count = np.add.reduce(parts, axis=-1)
+        # those of one design after those of another, and in every row as many as any of them has
+        piece = np.repeat(np.arange(parts.size), parts.reshape(-1))
+        row = np.minimum(np.arange(np.max(count)), count[:, None] - 1) + (np.cumsum(count) - count)[:, None]
+        parts = parts.reshape(-1)
+        number = (np.arange(piece.size) - (np.cumsum(parts) - parts)[piece])[row]
+        piece = piece[row]
+        wide, centre, parts = whole.half.reshape(-1)[piece], whole.centre.reshape(-1)[piece], parts[piece]
+        half = wide / parts
+        angle = (centre + wide * ((2.0 * number + 1.0) / parts - 1.0))[..., None] + half[..., None] * _NODES
         shares = (half[..., None] * (_SHARES / (TURN * whole.turns))).reshape(len(half), -1)
         within = np.repeat(centre, _GAUSS, axis=-1)
-        return self._values(angle.reshape(within.shape), within), shares[:, None]
+        return self._values(angle.reshape(within.shape), within), shares[:, None], count * _GAUSS
 
     def in_pieces(self, places: Real) -> Complex:
         """The curves (N C, P n) at places (n,) from -1 to 1 of every piece, at its ends the one-sided limits."""
@@ -321,3 +331,10 @@ class TurnCurves:
         whole, curves = self.whole, self.weights.shape[0] * self.weights.shape[1]
         weights, constant = self.weights.reshape(curves, -1), self.constant.reshape(curves)
         return CurveSeries(whole.rows, whole.centre, (self.reading,), weights, constant)
+
+
+def _sums(values: Any, count: Index) -> Any:
+    """Sums (N, C) of the first so many (N,) of values (N, C, n), each added up as of a design alone."""
+    if np.all(count == values.shape[-1]):
+        return np.add.reduce(values, axis=-1)
+    return np.array([np.add.reduce(row[:, :some], axis=-1) for row, some in zip(values, count.tolist(), strict=True)])

@@ -8,7 +8,6 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.angles import turned
 from optimizer.mechanics.shaft_curves import ShaftCurves
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.numerics.enclosing_circle import Circle
 from optimizer.outputs.balance_rate import cranks
 from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.peaks import (
@@ -20,7 +19,7 @@ from optimizer.outputs.peaks import (
     shaft_peaks,
     shaft_search,
 )
-from optimizer.responses.curve import floors
+from optimizer.responses.curve import Floors, floors
 from optimizer.responses.peak_table import PeakList
 from schemas.answer.dynamics import BearingLoad, BendingMoment, MainBearing, MainBearings
 from schemas.answer.outputs import labels
@@ -35,12 +34,10 @@ def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
     curves = scene.shaft_curves
     count = len(machine.bearings)
     # every bearing's, and the largest of all bending moments
-    circles = [
-        floor.circle for floor in floors(curves.curves, FLOOR_TOLERANCE, None, separate_groups(count, len(planes)))
-    ]
+    fixed = floors(curves.curves, FLOOR_TOLERANCE, None, separate_groups(count, len(planes)))
     sets = _sets(unbalance)
     peaks = shaft_peaks(scene, sets)
-    before, *fitted = _loads(scene, curves.first(count), peaks, circles, sets)
+    before, *fitted = _loads(scene, curves.first(count), peaks, fixed, sets)
     after: Sequence[BearingLoad | None] = fitted[0] if fitted else [None] * count
     moments = [peak.part(slice(count, None)) for peak in peaks]
     shown = moments[-1]
@@ -59,7 +56,7 @@ def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
             peak_Nm=shown.lower[worst],
             peak_bracket_Nm=(shown.lower[worst], max(shown.upper)),
             peak_position_m=planes[worst],
-            floor_Nm=max(circle.radius for circle in circles[count:]) * scene.omega_squared,
+            floor_Nm=float(np.max(fixed.radius[count:])) * scene.omega_squared,
         ),
     )
 
@@ -89,15 +86,16 @@ def _loads(
     scene: Prepared,
     curves: ShaftCurves,
     peaks: Sequence[PeakList],
-    circles: Sequence[Circle],
+    fixed: Floors,
     sets: Sequence[Complex | None],
 ) -> list[list[BearingLoad]]:
-    """Loads of the bearings of one machine, by their curves and peaks, with sets of counterweights (webs,) kg m or
-    without."""
+    """Loads of the bearings of one machine, by their curves, peaks and floors, with sets of counterweights (webs,) kg m
+    or without."""
     bearings, square, turn = scene.machine.bearings, scene.omega_squared, np.deg2rad(scene.angle_deg)
+    count = len(bearings)
     offset = np.array([curves.offsets(unbalance) for unbalance in sets])
     samples = _samples(scene) + offset[..., None] * turned(scene.layout.sense, turn) * square
-    centre = (np.array([circle.centre for circle in circles[: len(bearings)]]) + offset) * square
+    centre, radius = (fixed.centre[:count] + offset) * square, (fixed.radius[:count] * square).tolist()
     rms = np.sqrt(curves.curves.variance + np.abs(curves.curves.mean + offset) ** 2) * square
     figures = samples.real.tolist(), samples.imag.tolist(), rms.tolist(), centre.tolist()
     return [
@@ -110,12 +108,11 @@ def _loads(
                 peak_angle_deg=peak.angle_deg[k],
                 specific_load_Pa=_over_area(peak.lower[k], bearing),
                 rms_N=of_rms,
-                floor_N=circle.radius * square,
+                floor_N=floor,
                 circle_x_N=middle.real,
                 circle_y_N=middle.imag,
             )
-            # of what the bending moments have too nothing is taken
-            for k, (bearing, circle, x, y, of_rms, middle) in enumerate(zip(bearings, circles, *own, strict=False))
+            for k, (bearing, floor, x, y, of_rms, middle) in enumerate(zip(bearings, radius, *own, strict=True))
         ]
         for peak, *own in zip(peaks, *figures, strict=True)
     ]

@@ -19,7 +19,7 @@ class Columns:
     sampled : whether they are read off the samples of the turn.
     needs : effects whose results they read, where the figure reads others.
     keys : of those in detail (:mod:`schemas.sweep.details`), which are worked out only where one of them is wanted.
-    alone : whether every design is worked out by itself, as a single answer is.
+    alone : whether a design takes about as long as in a single answer, however many there are.
     """
 
     values: Callable[[Prepared, Complex], Mapping[str, Real]]

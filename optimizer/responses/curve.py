@@ -201,14 +201,27 @@ class Floor(NamedTuple):
     upper: Real  # proven peak about the circle's centre, () : the floor is between the radius and this
 
 
+class Floors(NamedTuple):
+    """The same of J curves: circles around some points of each, and their proven peaks about the centres."""
+
+    centre: Complex  # (J,)
+    radius: Real  # (J,)
+    upper: Real  # (J,)
+    points: "_Points"
+
+    def floor(self, number: int) -> Floor:
+        """That of one curve, with the points that hold its circle."""
+        return Floor(*self.points.circle(number), self.upper[number])
+
+
 def floors(
-    curves: Curves, tolerance: float, numbers: Sequence[int] | None = None, group: Index | None = None
-) -> list[Floor]:
-    """The smallest circles around curves of one machine, each radius known to a tolerance relative to it.
+    curves: Curves, tolerance: float, numbers: Sequence[int] | Index | None = None, group: Index | None = None
+) -> Floors:
+    """The smallest circles around curves, each radius known to a tolerance relative to it.
 
     Parameters
     ----------
-    numbers : which curves, by default all.
+    numbers : which curves, by default all; of designs in which the same pieces have a width.
     group : (numbers,) from 0, where only the largest radius of each group is asked for: of the others no more is found
         out than that they are smaller.
     """
@@ -216,8 +229,6 @@ def floors(
 
     pieces, every = curves.pieces, curves.pieces.cubics
     number: Index = np.arange(len(pieces.half)) if numbers is None else np.array(numbers, dtype=np.intp)
-    if not number.size:
-        return []
     together = np.arange(number.size) if group is None else group
     outline = outlines(every, number, np.flatnonzero(pieces.half[number[0]] > 0.0), together)
     rounding = _ROUNDING * outline.size
@@ -252,7 +263,7 @@ def floors(
             break
         points.add(open_, peak.angle[beyond], peak.value[beyond])
         centre[open_], radius[open_] = points.surround(open_)
-    return [Floor(*points.circle(k), upper[k]) for k in range(number.size)]
+    return Floors(points.centre, points.radius, upper, points)
 
 
 class _Points:
@@ -264,13 +275,9 @@ class _Points:
 
     def __init__(self, centre: Complex, radius: Real, of: Index, angle: Real, value: Complex) -> None:
         self._of, self._angle, self._value, curves = of, angle, value, len(centre)
-        self._circles = (
-            centre.copy(),
-            np.maximum(radius, 0.0),
-            np.zeros((curves, 3), np.intp),
-            np.zeros((curves, 3)),
-            np.zeros(curves, np.intp),
-        )
+        self.centre, self.radius = centre.copy(), np.maximum(radius, 0.0)
+        self._support, self._weights = np.zeros((curves, 3), np.intp), np.zeros((curves, 3))
+        self._count = np.zeros(curves, np.intp)
 
     def add(self, of: Index, angle: Real, value: Complex) -> None:
         """Points (n,) more."""
@@ -282,18 +289,19 @@ class _Points:
         """The smallest circles around the points of some curves (n,): centres and radii."""
         from optimizer.responses.kernel.outlines import circles
 
-        found = circles(self._of, in_order(self._value), some)
-        for every, part in zip(self._circles, found, strict=True):
-            every[some] = part
-        return found[0], found[1]
+        centre, radius, *held = circles(self._of, in_order(self._value), some)
+        self.centre[some], self.radius[some] = centre, radius
+        self._support[some], self._weights[some], self._count[some] = held
+        return centre, radius
 
     def circle(self, k: int) -> tuple[Circle, Real, Complex]:
         """That of a curve, and angles and values of the points that hold it."""
-        centre, radius, support, weights, count = (part[k] for part in self._circles)
-        held = support[:count]
-        return Circle(complex(centre), float(radius), held, weights[:count]), self._angle[held], self._value[held]
+        count = self._count[k]
+        held = self._support[k, :count]
+        circle = Circle(complex(self.centre[k]), float(self.radius[k]), held, self._weights[k, :count])
+        return circle, self._angle[held], self._value[held]
 
 
 def floor(response: TurnResponse, tolerance: float) -> Floor:
     """The smallest circle around the curve of a response."""
-    return floors(response.curves, tolerance, [response.number])[0]
+    return floors(response.curves, tolerance, [response.number]).floor(0)

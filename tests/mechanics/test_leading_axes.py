@@ -41,7 +41,7 @@ def test_of_two_designs_each_has_its_own_data() -> None:
     both = {name: value[:2] for name, value in vars(rows).items() if isinstance(value, np.ndarray)}
     pair = replace(rows, designs=2, **both)
     for number in range(2):
-        alone = pair.of_design(number)
+        alone = pair.of_designs(slice(number, number + 1))
         assert alone.designs == 1
         for name, value in both.items():
             own = value if len(value) == 1 else value[number : number + 1]

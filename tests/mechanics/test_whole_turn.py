@@ -16,6 +16,7 @@ from optimizer.mechanics.rod import rod_forces, shaft_loads
 from optimizer.mechanics.row_data import row_data, shared
 from optimizer.mechanics.row_series import Reading, RowSeries
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn, break_angles, whole_turn
+from optimizer.responses.curve import floors
 from optimizer.responses.piecewise_cubics import Bracket
 from tests.analyze.driven import STYLES, arrays, random_driven
 
@@ -159,7 +160,7 @@ def test_what_is_left_out_everywhere_is_counted_once_for_each_of_both() -> None:
     turn, _, _ = _driven(2, STYLES[0])
     curves = _peaks_of_rows(turn, "on_shaft")
     pieces = curves.pieces
-    vars(curves).update(_left_out=np.full(pieces.half.shape, 3.0), _parts=np.ones(pieces.half.shape[-1]))
+    vars(curves).update(_left_out=np.full(pieces.half.shape, 3.0), _parts=np.ones((1, pieces.half.shape[-1])))
     assert curves.rms_error == pytest.approx(6.0, abs=1e-11 * float(np.max(pieces.size)))
 
 
@@ -216,7 +217,46 @@ def test_a_design_taken_alone_keeps_its_curves() -> None:
     curves = whole.curves("rod", weights, 1e3 * weights[..., 0])
     angle = np.linspace(0.1, 6.0, 7)
     for number, expected in enumerate(curves.at(angle).reshape(3, 2, -1)):
-        np.testing.assert_array_equal(curves.of_design(number).at(angle), expected)
+        np.testing.assert_array_equal(curves.of_designs(slice(number, number + 1)).at(angle), expected)
+
+
+def _three_designs(reading: Reading) -> TurnCurves:
+    """Two curves of each of three designs, the last of which has a piece without width more."""
+    turn, _, _ = _driven(1, STYLES[0], friction=1e3)
+    centre, half = (np.repeat(each, 3, axis=0) for each in (turn.centre, turn.half))
+    half[2, 4] = 0.0
+    weights = np.random.default_rng(2).normal(size=(3, 2, turn.rows.crank_radius.shape[-1]))
+    # beside so large a constant nothing is left out, and one part of a piece is enough
+    constant = np.array([[0.0, 0.0], [1e12, 1e12], [1e5, 0.0]])
+    return WholeTurn(replace(turn.rows, designs=3), centre, half, squared=True).curves(reading, weights, constant)
+
+
+@pytest.mark.parametrize("reading", ["on_shaft", "rod"])
+def test_mean_squares_of_designs_are_those_of_each_alone(reading: Reading) -> None:
+    # property: to the bit, though their quadratures have different numbers of nodes
+    curves = _three_designs(reading)
+    nodes = curves._quadrature[2]
+    assert len(set(nodes.tolist())) > 1
+    for name in ("mean", "variance", "rms_error"):
+        found = getattr(curves, name).reshape(3, 2)
+        for number in range(3):
+            alone = curves.of_designs(slice(number, number + 1))
+            np.testing.assert_array_equal(found[number], getattr(alone, name), err_msg=name)
+            assert alone._quadrature[2] == nodes[number]
+
+
+def test_floors_of_designs_are_those_of_each_alone() -> None:
+    # property: to the bit, of designs in which the same pieces have a width
+    curves = _three_designs("on_shaft")
+    found = floors(curves, 1e-7, range(4), np.array([0, 1, 2, 2]))
+    for number, group in enumerate(([0, 1], [0, 0])):
+        alone = floors(curves.of_designs(slice(number, number + 1)), 1e-7, None, np.array(group))
+        some = slice(2 * number, 2 * number + 2)
+        np.testing.assert_array_equal(found.centre[some], alone.centre)
+        np.testing.assert_array_equal(found.radius[some], alone.radius)
+        np.testing.assert_array_equal(found.upper[some], alone.upper)
+    held = found.floor(0)
+    assert np.abs(held.value - held.circle.centre) == pytest.approx(held.circle.radius, rel=1e-12)
 
 
 def test_every_design_has_its_own_means() -> None:

@@ -138,14 +138,17 @@ def row_functions(rows, places, order, pressed, counted):  # type: ignore[no-unt
                     way[t, first : first + lanes] = np.nan
             if not some:
                 continue
+            last = np.int64(-1)
             for p in range(lanes):
                 q = first + p
-                motion = rows.motion[places.design[q] if designs > 1 else 0, r]
+                one = places.design[q] if designs > 1 else np.int64(0)
+                motion = rows.motion[one, r]
                 angle, within = places.centre[q] + motion[0], places.within[q] + motion[0]
                 lane[RATIO, p], lane[SHORT, p] = motion[1], motion[2] * (1.0 + motion[1])
                 lane[OWN, p], lane[WITHIN, p] = angle, within
                 # many places of one piece stand side by side
-                repeats[p] = p > 0 and places.within[q] == places.within[q - 1] and designs == 1
+                repeats[p] = p > 0 and one == last and places.within[q] == places.within[q - 1]
+                last = one
                 if repeats[p]:
                     for f in range(4):
                         cranks[INSIDE, f, p] = cranks[INSIDE, f, p - 1]

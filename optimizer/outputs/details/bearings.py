@@ -6,41 +6,52 @@ import numpy as np
 
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.shaft_curves import ShaftCurves, shaft_curves
-from optimizer.mechanics.whole_turn import TurnCurves
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.mechanics.whole_turn import WholeTurn
+from optimizer.numerics.arrays import Complex, Real, variant
 from optimizer.outputs.output import Columns
 from optimizer.outputs.peaks import FLOOR_TOLERANCE, of_shaft, separate_groups
 from optimizer.responses.curve import floors
+from optimizer.responses.piecewise_cubics import Index
 from schemas.answer.outputs import labels
 from schemas.machine.drive import Bearing
+
+#: designs whose curves are looked at in one block, which bounds the memory
+_AT_ONCE = 16
 
 
 def _specific(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
     """Peaks over the area of the bearings that say how large they are."""
     sized = {k: area for k, bearing in enumerate(_bearings(scene)) if (area := _area(bearing)) is not None}
-    peak = of_shaft(scene, _bearing_curves(scene), unbalance).lower
+    peak = of_shaft(scene, _bearing_curves(scene, scene.results["whole_turn"]), unbalance).lower
     return _named(scene, "specific_load_Pa", {k: peak[..., k] / area for k, area in sized.items()})
 
 
 def _root_mean_square(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
-    result = _bearing_curves(scene)
-    offset = result.offsets(unbalance).reshape(result.webs.shape[:-1])
+    # what bounds quadratures bounds the pieces too
+    result = _bearing_curves(scene, variant(scene.results["whole_turn"], squared=True))
+    of_blocks = (result.curves.of_designs(some) for some in _blocks(result))
     mean, variance = (
-        np.array(each) for each in zip(*((one.mean, one.variance) for one in _alone(result)), strict=True)
+        np.concatenate(each) for each in zip(*((one.mean, one.variance) for one in of_blocks), strict=True)
     )
-    rms = np.sqrt(variance + np.abs(mean + offset) ** 2) * scene.layout.omega[..., None] ** 2
-    return _named(scene, "bearing_rms_N", dict(enumerate(np.moveaxis(rms, -1, 0))))
+    rms = np.sqrt(variance + np.abs(mean + result.offsets(unbalance)) ** 2).reshape(result.webs.shape[:-1])
+    square = scene.layout.omega[..., None] ** 2
+    return _named(scene, "bearing_rms_N", dict(enumerate(np.moveaxis(rms * square, -1, 0))))
 
 
 def _floors(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
     """Smallest circles around the loads, and what the largest of all bending moments comes to at least."""
     count, square = len(_bearings(scene)), scene.layout.omega[..., None] ** 2
     result = scene.shaft_curves
-    group = separate_groups(count, result.webs.shape[-2] - count)
-    circles = [[each.circle for each in floors(one, FLOOR_TOLERANCE, None, group)] for one in _alone(result)]
-    radius = np.array([[circle.radius for circle in one] for one in circles]) * square
-    fixed = np.array([[circle.centre for circle in one[:count]] for one in circles])
-    centre = (fixed + result.offsets(unbalance).reshape(result.webs.shape[:-1])[..., :count]) * square
+    shape = result.webs.shape[:-1]
+    group = separate_groups(count, shape[-1] - count)
+    centre, radius = np.empty(shape, complex), np.empty(shape)
+    for designs in _alike(result):
+        number = designs[:, None] * group.size + np.arange(group.size)
+        together = np.arange(len(designs))[:, None] * (count + 1) + group
+        found = floors(result.curves, FLOOR_TOLERANCE, number.reshape(-1), together.reshape(-1))
+        centre[designs], radius[designs] = found.centre.reshape(number.shape), found.radius.reshape(number.shape)
+    radius *= square
+    centre = (centre + result.offsets(unbalance).reshape(shape))[..., :count] * square
     return {
         "bending_floor_Nm": np.max(radius[..., count:], axis=-1),
         **_named(scene, "bearing_floor_N", {k: radius[..., k] for k in range(count)}),
@@ -49,13 +60,22 @@ def _floors(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
     }
 
 
-def _bearing_curves(scene: Prepared) -> ShaftCurves:
-    return shaft_curves(scene.results["whole_turn"], scene.layout, scene.bearing_influence)
+def _bearing_curves(scene: Prepared, turn: WholeTurn) -> ShaftCurves:
+    return shaft_curves(turn, scene.layout, scene.bearing_influence)
 
 
-def _alone(shaft: ShaftCurves) -> Iterator[TurnCurves]:
-    """The curves of each design by itself: parts of a quadrature and steps of a search are its own."""
-    return (shaft.curves.of_design(k) for k in range(len(shaft.curves.weights)))
+def _blocks(shaft: ShaftCurves) -> Iterator[slice]:
+    """Designs that are worked on together."""
+    designs = len(shaft.curves.weights)
+    return (slice(first, first + _AT_ONCE) for first in range(0, designs, _AT_ONCE))
+
+
+def _alike(shaft: ShaftCurves) -> Iterator[Index]:
+    """The same, of designs in which the same pieces of the turn have a width."""
+    _, kind = np.unique(shaft.curves.whole.half > 0.0, axis=0, return_inverse=True)
+    for number in range(int(np.max(kind)) + 1):
+        designs = np.flatnonzero(kind == number)
+        yield from (designs[some] for some in _blocks(shaft) if designs[some].size)
 
 
 def _named(scene: Prepared, name: str, by_bearing: dict[int, Real]) -> dict[str, Real]:
