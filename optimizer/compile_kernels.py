@@ -19,8 +19,8 @@ from optimizer.numerics.linking import link_first
 from optimizer.numerics.shortcuts import take_shortcuts
 from optimizer.warm_up import follow_a_turn, match_parts, plain_discs
 
-#: by so much the shorter parts are nicer than the longest: a third of its share of a core
-_BEHIND = 5
+#: how much nicer the shorter parts are than the longest: two cores are shared as long as each takes
+_BEHIND = 0, 1, 2
 
 
 def any_limits() -> None:
@@ -92,10 +92,9 @@ def main() -> None:
     link_first()
     take_shortcuts()
     budgets()
-    # three at a time; the longest has a core of its own where there are two, so that both are busy until the end
+    # three at a time, the longest first: so that two cores are busy until the end
     parts = (plain_discs, proofs), (follow_a_turn,), (any_limits, match_parts, designs, moving_curves, near_sums)
-    niceness = 0, _BEHIND, _BEHIND
-    processes = [get_context("fork").Process(target=_in_turn, args=some) for some in zip(niceness, parts, strict=True)]
+    processes = [get_context("fork").Process(target=_in_turn, args=some) for some in zip(_BEHIND, parts, strict=True)]
     for process in processes:
         process.start()
     for process in processes:
