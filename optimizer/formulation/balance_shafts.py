@@ -12,7 +12,7 @@ import numpy as np
 
 from optimizer.formulation.counterweights import counterweights, places, unbalance, unbalances_of_shaft
 from optimizer.formulation.formulate import with_weights_of
-from optimizer.mechanics.fixed_weights import beside, fixed_webs
+from optimizer.mechanics.fixed_weights import any_fixed, beside
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex, Real
 from schemas.answer.counterweights import Counterweight, FittedShaft
@@ -99,7 +99,7 @@ def chosen(
     vectors : (K + S,) kg m, their unbalances where they are known.
     """
     shafts = balance_shafts(machine)
-    if not shafts and not np.count_nonzero(fixed_webs(machine)):
+    if not shafts and not any_fixed(machine):
         return fitted(machine, mass_kg, angle_deg, vectors)
     mass_kg, angle_deg = beside(machine, mass_kg, angle_deg)
     if not shafts:

@@ -13,7 +13,7 @@ import numpy as np
 
 from optimizer.formulation.groups import alike_webs
 from optimizer.mechanics.angles import direction
-from optimizer.mechanics.fixed_weights import fixed_mass, fixed_webs
+from optimizer.mechanics.fixed_weights import any_fixed, fixed_mass, fixed_webs
 from optimizer.mechanics.layout import stacked
 from optimizer.mechanics.shapes import plates
 from optimizer.numerics.arrays import Real, Reals, mapped, spread
@@ -198,10 +198,9 @@ def largest_mass(machine: Machine) -> Real:
     given = (size.limit for size in limit_sizes(machine).values())
     allowed = [each.mass(machine) for each in given if isinstance(each, MassLimit)]
     mass = reduce(np.minimum, allowed) if allowed else np.full(len(machine.webs), np.inf)
-    fixed = fixed_webs(machine)
-    if np.count_nonzero(fixed):
+    if any_fixed(machine):
         # nothing is chosen there
-        mass = np.where(fixed, 0.0, mass)
+        mass = np.where(fixed_webs(machine), 0.0, mass)
     # null, or more than can be multiplied
     return np.where(mass > _NO_LIMIT, np.inf, mass)
 

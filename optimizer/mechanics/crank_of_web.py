@@ -32,6 +32,7 @@ def own_throws(machine: Machine) -> Sequence[int | None]:
     return _of_places(*_places(machine)).throws
 
 
+@remembered
 def _places(machine: ReciprocatingMachine) -> tuple[tuple[Any, ...], tuple[Any, ...], tuple[Any, ...]]:
     """Places of throws and of webs, and the throws that webs name."""
     webs = machine.webs

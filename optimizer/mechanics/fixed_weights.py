@@ -12,6 +12,12 @@ from schemas.machine.machine import Machine
 
 
 @remembered
+def any_fixed(machine: Machine) -> bool:
+    """Whether some web carries a fixed weight."""
+    return any(web.fixed is not None for web in machine.webs)
+
+
+@remembered
 def fixed_webs(machine: Machine) -> np.ndarray:
     """Which webs carry a fixed weight (K,) bool."""
     return np.array([web.fixed is not None for web in machine.webs], dtype=bool)
@@ -25,7 +31,7 @@ def fixed_masses(machine: Machine) -> Real:
 @remembered
 def fixed_mass(machine: Machine) -> Real:
     """Their sum (...) kg."""
-    if all(web.fixed is None for web in machine.webs):
+    if not any_fixed(machine):
         return np.zeros(())
     return np.asarray(np.add.reduce(fixed_masses(machine), axis=-1))
 
@@ -35,9 +41,9 @@ def beside(machine: Machine, mass_kg: Real, angle_deg: Real) -> tuple[Real, Real
 
     Of webs on balance shafts, which stand behind those of the crankshaft, nothing is fixed.
     """
-    which = fixed_webs(machine)
-    if not np.count_nonzero(which):
+    if not any_fixed(machine):
         return mass_kg, angle_deg
+    which = fixed_webs(machine)
     behind = mass_kg.shape[-1] - which.size
     angles = np.mod(stacked([0.0 if web.fixed is None else web.fixed.angle_deg for web in machine.webs]), 360.0)
     masses, at = (np.pad(each, [(0, 0)] * (each.ndim - 1) + [(0, behind)]) for each in (fixed_masses(machine), angles))
@@ -48,10 +54,9 @@ def beside(machine: Machine, mass_kg: Real, angle_deg: Real) -> tuple[Real, Real
 
 def laden(layout: Layout, machine: Machine) -> Layout:
     """The layout with the fixed weights among its rotating masses: what counterweights are chosen for."""
-    which = fixed_webs(machine)
-    if not np.count_nonzero(which):
+    if not any_fixed(machine):
         return layout
-    there = np.flatnonzero(which)
+    there = np.flatnonzero(fixed_webs(machine))
     fixed = [web.fixed for web in machine.webs if web.fixed is not None]
     turning = layout.rotating
     parts = {

@@ -130,6 +130,8 @@ class Statement:
 
     def rows(self, sizes: Real) -> Real:
         """Rows of the objective (..., rows) for sizes of its terms (..., J)."""
+        if self.floor.shape[-1] == 1:
+            return self.floor + np.add.reduce(sizes, axis=-1, keepdims=True)
         if self._many_in_order:
             return self.floor + np.add.reduceat(sizes, np.searchsorted(self.row, np.arange(self.row[-1] + 1)), axis=-1)
         return self.floor + np.add.reduce(self.membership * sizes[..., None, :], axis=-1)

@@ -2,10 +2,15 @@
 
 import ipaddress
 from collections.abc import Iterable
+from functools import lru_cache
 
 from starlette.types import Scope
 
+#: names by which requests come, which are few
+_NAMES = 256
 
+
+@lru_cache(_NAMES)
 def is_loopback(host: str) -> bool:
     """Whether only this machine reaches a name or an address."""
     if host == "localhost":

@@ -229,8 +229,8 @@ def perform(task: Task) -> Outcome | Long:
     """The outcome of a task; nothing escapes."""
     begun = time.perf_counter()
     try:
-        with ExitStack() as said:
-            request = _request(task, said)
+        with ExitStack() as places:
+            request = _request(task, places)
             task.limits.require(request)
             if not task.long and long_by_size(request, task.computation.answer is None):
                 return Long()
@@ -254,7 +254,7 @@ def perform(task: Task) -> Outcome | Long:
         return Crashed("\n".join(_frames(error)), str(error))
 
 
-def _request(task: Task, said: ExitStack) -> Model:
+def _request(task: Task, places: ExitStack) -> Model:
     """What is asked; until the stack ends problems of a workbook are said to be in its cells."""
     if not task.workbook:
         return read_request(task.computation.asks, task.body)
@@ -262,7 +262,7 @@ def _request(task: Task, said: ExitStack) -> Model:
     from service.workbook.body import cells_named, read_workbook
 
     found = read_workbook(task.body)
-    said.enter_context(cells_named(found))
+    places.enter_context(cells_named(found))
     return check(task.computation.asks, found.body)
 
 
