@@ -48,6 +48,11 @@ def _first_order(context: Context) -> Wrench:
     return reciprocating(context.layout, 1) if both is None else both[0]
 
 
+def _higher_orders(context: Context) -> dict[int, Wrench]:
+    every = reciprocating_orders(context.layout, HIGHER_ORDERS, harmonic(context.fidelity))
+    return dict(zip(HIGHER_ORDERS, every, strict=True))
+
+
 @remembered
 def _first_two(layout: Layout) -> list[Wrench] | None:
     """Both orders of one machine, all rows of which have a rod; None of others."""
@@ -74,9 +79,7 @@ INERTIA = (
     Effect(
         "higher_orders",
         "fourth- and sixth-order forces of the reciprocating masses",
-        lambda context: {
-            order: reciprocating(context.layout, order, harmonic(context.fidelity)) for order in HIGHER_ORDERS
-        },
+        _higher_orders,
         inputs=RODS,
         problems=rod_problems,
     ),

@@ -69,6 +69,16 @@ class Prepared:
         return self.angle_deg.tolist()
 
     @cached_property
+    def row_labels(self) -> list[dict[str, Any]]:
+        """Where each row is and what it is called, as answers name it; none of a scroll machine."""
+        throws = self.machine.throws if isinstance(self.machine, ReciprocatingMachine) else ()
+        return [
+            {"throw": t, "row": i, "name": row.name}
+            for t, throw in enumerate(throws)
+            for i, row in enumerate(throw.rows)
+        ]
+
+    @cached_property
     def omega_squared(self) -> float:
         return float(self.layout.omega**2)
 

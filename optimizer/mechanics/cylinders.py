@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
+from operator import attrgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -27,6 +28,7 @@ _STATE = (
     "expansion_exponent",
     "compression_exponent",
 )
+_IN_ORDER = attrgetter(*_STATE)
 #: rows times entries of all traces at which the turns of a cycle are cut; so many take some ten seconds
 MAX_ENTRIES = 200_000
 #: a chamber that there is not
@@ -199,7 +201,7 @@ def _acts(cylinder: Cylinder, side: str) -> bool:
 
 def _has_gas(cylinder: Cylinder, side: str) -> bool:
     """Whether any of the data of a cycle is given for a side."""
-    return any(_value(cylinder, side, field) is not None for field in _STATE)
+    return any(value is not None for value in _state(cylinder, side))
 
 
 def _is_none(area: float | None) -> bool:
@@ -211,10 +213,13 @@ def _indicated(cylinder: Cylinder, side: str) -> PressureTrace | None:
     return trace
 
 
-def _value(cylinder: Cylinder, side: str, field: str) -> float | None:
+def _state(cylinder: Cylinder, side: str) -> tuple[float | None, ...]:
+    """Data of the cycle on a side, each its own or else that of both."""
+    common: tuple[float | None, ...] = _IN_ORDER(cylinder)
     own = getattr(cylinder, side)
-    value: float | None = None if own is None else getattr(own, field)
-    return getattr(cylinder, field) if value is None else value
+    if own is None:
+        return common
+    return tuple(both if alone is None else alone for alone, both in zip(_IN_ORDER(own), common, strict=True))
 
 
 def _areas(cylinder: Cylinder) -> tuple[float | None, float | None]:
@@ -243,8 +248,8 @@ def _missing(cylinder: Cylinder) -> Iterator[tuple[str, str]]:
         words = "" if cylinder.pressure is None else f": the {open_[0]} side has no indicated pressure and is open"
         yield "ambient_pressure_Pa", words
     # what both sides have in common is not lacking
-    for field in (field for field in _STATE if getattr(cylinder, field) is None):
-        lacking = [side for side in acting if _value(cylinder, side, field) is None]
+    for number, field in ((number, field) for number, field in enumerate(_STATE) if getattr(cylinder, field) is None):
+        lacking = [side for side in acting if _state(cylinder, side)[number] is None]
         if lacking:
             words = "" if cylinder.pressure is None else f" on the {lacking[0]} side, which has no indicated pressure"
             if words and cylinder.acting == "double":
@@ -260,7 +265,7 @@ def _row(cylinder: Cylinder) -> list[list[float | None]]:
 def _side(cylinder: Cylinder, side: str, area: float | None) -> list[float | None]:
     given = _indicated(cylinder, side) is not None
     if _acts(cylinder, side) and not given:
-        return [area, *(_value(cylinder, side, field) for field in _STATE), 1.0]
+        return [area, *_state(cylinder, side), 1.0]
     # an open side: ambient pressure all the way round, unless it is given; the other numbers are not used
     ambient = 0.0 if given or _is_none(area) else cylinder.ambient_pressure_Pa
     return [area, ambient, ambient, 1.0, 2.0, 2.0, 0.0]

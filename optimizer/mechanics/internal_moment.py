@@ -1,13 +1,10 @@
 """The first-order moment inside a shaft: what a balanced layout still bends itself and its frame with."""
 
-from collections.abc import Sequence
-from typing import Any
-
 import numpy as np
 
 from optimizer.mechanics.inertia import reciprocating_forces, rotating_forces
 from optimizer.mechanics.layout import Layout
-from optimizer.numerics.arrays import Complex, Real, spread
+from optimizer.numerics.arrays import Complex, Real
 from optimizer.responses.response import Phasors
 
 
@@ -21,18 +18,20 @@ def internal_moment(layout: Layout, unbalance: Complex | None = None) -> Real:
     ----------
     unbalance : (..., webs) mass-radius products of the counterweights, kg m; none without.
     """
-    forces = [rotating_forces(layout), reciprocating_forces(layout, 1)]
-    places = [layout.rotating.position, layout.reciprocating.position]
+    parts = [(layout.rotating.position, rotating_forces(layout))]
+    parts.append((layout.reciprocating.position, reciprocating_forces(layout, 1)))
     if unbalance is not None:
-        forces.append(Phasors(unbalance, np.zeros_like(unbalance)))
-        places.append(layout.webs.position)
-    leading = np.broadcast_shapes(*(part.co.shape[:-1] for part in forces), *(part.shape[:-1] for part in places))
-    place: Real = _joined(places, leading) - np.asarray(layout.centre_plane)[..., None]
+        parts.append((layout.webs.position, Phasors(unbalance, np.zeros(1, complex))))
+    ends = np.cumsum([0, *(place.shape[-1] for place, _ in parts)]).tolist()
+    leading = np.broadcast_shapes(*(each.shape[:-1] for place, pair in parts for each in (place, pair.co)))
+    # both phasors beside each other
+    place, force = np.empty((*leading, ends[-1])), np.empty((*leading, 2, ends[-1]), complex)
+    for (own, pair), first, last in zip(parts, ends, ends[1:], strict=False):
+        place[..., first:last], force[..., 0, first:last], force[..., 1, first:last] = own, pair.co, pair.counter
+    place -= np.asarray(layout.centre_plane)[..., None]
     order = np.argsort(place, axis=-1)
     arm = np.take_along_axis(place, order, axis=-1)[..., None, :]
-    # both phasors beside each other
-    both = np.stack([_joined([getattr(one, part) for one in forces], leading) for part in ("co", "counter")], axis=-2)
-    force = np.take_along_axis(both, order[..., None, :], axis=-1)
+    force = np.take_along_axis(force, order[..., None, :], axis=-1)
     peaks = [_largest_of_side(arm[..., ::side], force[..., ::side]) for side in (1, -1)]
     return np.maximum(*peaks)
 
@@ -42,8 +41,3 @@ def _largest_of_side(arm: Real, force: Complex) -> Real:
     couple = arm * np.cumsum(force, axis=-1) - np.cumsum(arm * force, axis=-1)
     result: Real = np.maximum.reduce(np.add.reduce(np.abs(couple), axis=-2), axis=-1, initial=0.0)
     return result
-
-
-def _joined(parts: Sequence[Any], leading: tuple[int, ...]) -> Any:
-    """Side by side on the last axis."""
-    return np.concatenate([spread(part, (*leading, part.shape[-1])) for part in parts], axis=-1)

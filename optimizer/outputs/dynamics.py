@@ -1,6 +1,6 @@
 """Dynamics as answers: series of every row, and what they come to together."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from math import isnan
 from typing import Any, Literal
 
@@ -52,12 +52,14 @@ def kinematics(scene: Prepared, _fitted: Complex | None = None) -> Kinematics:
         rows=tuple(
             RowMotion(
                 **labels,
-                crank_angle_deg=_series(own[k]),
-                displacement_m=_series(result.displacement[k]),
-                velocity_m_s=_series(result.velocity[k]),
-                acceleration_m_s2=_series(result.acceleration[k]),
+                crank_angle_deg=angle,
+                displacement_m=displacement,
+                velocity_m_s=velocity,
+                acceleration_m_s2=acceleration,
             )
-            for k, labels in rows_of(scene)
+            for labels, angle, displacement, velocity, acceleration in _by_row(
+                scene, own, result.displacement, result.velocity, result.acceleration
+            )
         ),
     )
 
@@ -80,15 +82,16 @@ def gas(scene: Prepared, _fitted: Complex | None = None) -> Gas:
     ]
 
     opens, work = np.rad2deg(np.array(cycle.opens)).tolist(), scene.results["indicated_work"].tolist()
+    pressure, forces, power = cycle.forces.pressure.tolist(), force.tolist(), cycle.power.tolist()
 
-    def chamber(k: int, side: int, names: Sequence[str | None]) -> Chamber:
+    def chamber(k: int, side: int) -> Chamber:
         suction, discharge = (None if isnan(angles[k][side]) else angles[k][side] for angles in opens)
         return Chamber(
             side=_SIDES[side % 2],
             cylinder=side // 2,
-            name=names[side // 2],
-            pressure_Pa=_series(cycle.forces.pressure[k, side]),
-            force_N=_series(force[k, side]),
+            name=names[k][side // 2],
+            pressure_Pa=pressure[k][side],
+            force_N=forces[k][side],
             suction_opens_deg=suction,
             discharge_opens_deg=discharge,
             indicated_work_J=work[k][side],
@@ -99,12 +102,12 @@ def gas(scene: Prepared, _fitted: Complex | None = None) -> Gas:
         rows=tuple(
             RowGas(
                 **labels,
-                chambers=tuple(chamber(k, side, names[k]) for side in range(2 * len(names[k]))),
-                displacement_m=_series(motion.displacement[k]),
-                force_N=_series(total[k]),
-                indicated_power_W=float(cycle.power[k]),
+                chambers=tuple(chamber(k, side) for side in range(2 * len(names[k]))),
+                displacement_m=displacement,
+                force_N=of_row,
+                indicated_power_W=power[k],
             )
-            for k, labels in rows_of(scene)
+            for k, (labels, displacement, of_row) in enumerate(_by_row(scene, motion.displacement, total))
         ),
         indicated_power_W=float(_indicated_power(scene)),
     )
@@ -118,16 +121,18 @@ def piston_force(scene: Prepared, _fitted: Complex | None = None) -> PistonForce
         rows=tuple(
             RowPistonForce(
                 **labels,
-                gas_N=_series(result.gas[k]),
-                inertia_N=_series(result.inertia[k]),
-                friction_N=_series(result.friction[k]),
-                total_N=_series(result.total[k]),
+                gas_N=of_gas,
+                inertia_N=inertia,
+                friction_N=friction,
+                total_N=total,
                 peak_tension_N=high.lower[k],
                 peak_tension_bracket_N=high.bracket(k),
                 peak_compression_N=-low.lower[k],
                 peak_compression_bracket_N=_negated(low.bracket(k)),
             )
-            for k, labels in rows_of(scene)
+            for k, (labels, of_gas, inertia, friction, total) in enumerate(
+                _by_row(scene, result.gas, result.inertia, result.friction, result.total)
+            )
         ),
     )
 
@@ -139,20 +144,20 @@ CASES: dict[Case, Reading] = {"running": "rod", "no_load": "rod_without_gas", "s
 def rod_loads(scene: Prepared, _fitted: Complex | None = None) -> RodLoads:
     """Forces in the mechanism, and the load cases of every rod."""
     result = scene.results["rod_forces"]
-    rod, side, tangential, radial = result.rod, result.side, result.tangential, result.radial
+    forces = _by_row(scene, result.rod, result.side, result.tangential, result.radial)
     by_case = [_cases(case, *row_peaks(scene, reading)) for case, reading in CASES.items()]
     least, most = (part.tolist() for part in of_rows(scene, "side").magnitude[2:])
     rows = []
-    for k, labels in rows_of(scene):
+    for k, (labels, rod, side, tangential, radial) in enumerate(forces):
         cases = tuple(each[k] for each in by_case)
         worst = max(cases, key=_largest)
         rows.append(
             RowRodLoads(
                 **labels,
-                rod_N=_series(rod[k]),
-                side_N=_series(side[k]),
-                tangential_N=_series(tangential[k]),
-                radial_N=_series(radial[k]),
+                rod_N=rod,
+                side_N=side,
+                tangential_N=tangential,
+                radial_N=radial,
                 peak_side_N=least[k],
                 peak_side_bracket_N=(least[k], most[k]),
                 cases=cases,
@@ -182,12 +187,12 @@ def torque(scene: Prepared, _fitted: Complex | None = None) -> Torque:
     return Torque(
         angle_deg=scene.angles,
         rows=tuple(
-            RowTorque(**labels, torque_Nm=_series(result.rows[k]), mean_torque_Nm=float(integrals.row_mean[k]))
-            for k, labels in rows_of(scene)
+            RowTorque(**labels, torque_Nm=samples, mean_torque_Nm=mean)
+            for labels, samples, mean in _by_row(scene, result.rows, integrals.row_mean)
         ),
         rotating_friction_Nm=float(result.rotating_friction),
-        torque_Nm=_series(result.total),
-        tangential_N=_series(result.total / radius[0]) if one_radius else None,
+        torque_Nm=result.total.tolist(),
+        tangential_N=(result.total / radius[0]).tolist() if one_radius else None,
         peak_Nm=peak.lower[0],
         peak_bracket_Nm=peak.bracket(),
         peak_angle_deg=peak.angle_deg[0],
@@ -218,25 +223,20 @@ def overturning(scene: Prepared, _fitted: Complex | None = None) -> Overturning:
     total, peak = np.add.reduce(rows, axis=-2), torque_peak(scene)
     return Overturning(
         angle_deg=scene.angles,
-        rows=tuple(RowOverturning(**labels, couple_Nm=_series(rows[k])) for k, labels in rows_of(scene)),
-        couple_Nm=_series(total),
+        rows=tuple(RowOverturning(**labels, couple_Nm=couple) for labels, couple in _by_row(scene, rows)),
+        couple_Nm=total.tolist(),
         peak_Nm=peak.lower[0],
         peak_bracket_Nm=peak.bracket(),
         peak_angle_deg=peak.angle_deg[0],
     )
 
 
-def rows_of(scene: Prepared) -> Iterator[tuple[int, dict[str, Any]]]:
-    """Number of every row, and its labels."""
-    machine = scene.machine
-    places = [(t, i, row.name) for t, throw in enumerate(machine.throws) for i, row in enumerate(throw.rows)]
-    for number, (t, i, name) in enumerate(places):
-        yield number, {"throw": t, "row": i, "name": name}
+def _by_row(scene: Prepared, *values: Real) -> Iterator[tuple[Any, ...]]:
+    """Labels of every row and its part of values (rows, ...), as lists.
 
-
-def _series(values: Real) -> Any:
-    # the answer makes a tuple of any list, in half the time that it takes to look through another tuple
-    return values.tolist()
+    An answer makes a tuple of any list, in half the time that it takes to look through another tuple.
+    """
+    return zip(scene.row_labels, *(each.tolist() for each in values), strict=True)
 
 
 def _cases(case: Case, tension: PeakList, compression: PeakList) -> list[LoadCase]:

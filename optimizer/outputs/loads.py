@@ -16,7 +16,6 @@ from optimizer.mechanics.row_series import Reading
 from optimizer.mechanics.shaft import INFLUENCES, bearing_places
 from optimizer.mechanics.weight import GRAVITY, along_axis, on_guide
 from optimizer.numerics.arrays import Complex, Real, spread
-from optimizer.outputs.dynamics import rows_of
 from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.peaks import (
     Search,
@@ -75,19 +74,19 @@ def _inertia(scene: Prepared, machine: ReciprocatingMachine) -> float | None:
 
 
 def _rows(scene: Prepared, machine: ReciprocatingMachine) -> Iterator[RowLoad]:
-    forces, masses = scene.results["piston_force"], scene.layout.reciprocating.mass
+    forces, masses = scene.results["piston_force"], scene.layout.reciprocating.mass.tolist()
     piston, rod, stopped = (of_rows(scene, reading).magnitude.lower.tolist() for reading in _READINGS)
-    at_centres = at_dead_centres(scene)
+    at_centres = at_dead_centres(scene).tolist()
     guides, frames, covers = _guides(scene, machine), _frames(forces.gas), _covers(scene)
     rows = [row for throw in machine.throws for row in throw.rows]
     largest_gas, largest_inertia = (_ends(np.abs(force))[1] for force in (forces.gas, forces.inertia))
-    for k, place in rows_of(scene):
+    for k, place in enumerate(scene.row_labels):
         three = {"gas": largest_gas[k], "inertia": largest_inertia[k], "running": piston[k]}
         link = rows[k].connecting_rod
         worst = max(three, key=lambda name: three[name])
         yield RowLoad(
             **place,
-            reciprocating_mass_kg=float(masses[k]),
+            reciprocating_mass_kg=masses[k],
             rod_rotating_mass_kg=0.0 if link is None else float(link.rotating_kg),
             rotating_mass_kg=float(rows[k].rotating_kg),
             largest_gas_N=three["gas"],
@@ -96,8 +95,8 @@ def _rows(scene: Prepared, machine: ReciprocatingMachine) -> Iterator[RowLoad]:
             piston_rod_N=three[worst],
             piston_rod_governed_by=worst,
             crosshead_pin_N=rod[k],
-            stop_at_outer_dead_centre_N=float(at_centres[k, 0]),
-            stop_at_inner_dead_centre_N=float(at_centres[k, 1]),
+            stop_at_outer_dead_centre_N=at_centres[k][0],
+            stop_at_inner_dead_centre_N=at_centres[k][1],
             stop_over_the_turn_N=stopped[k],
             covers=tuple(covers[k][: 2 * sum(1 for _ in row_cylinders(rows[k]))]) if covers else (),
             frame=frames[k],
@@ -165,15 +164,16 @@ def _guides(scene: Prepared, machine: ReciprocatingMachine) -> list[GuideLoad] |
     if machine.gravity_deg is None:
         return None
     force, weight = on_guides(scene, machine)
+    share = np.mean(force < 0.0, axis=-1)
     return [
         GuideLoad(
-            weight_N=float(weight[k]),
-            largest_N=float(np.max(force[k])),
-            smallest_N=float(np.min(force[k])),
-            lifts=None if weight[k] == 0.0 else bool(np.any(force[k] < 0.0)),
-            lifted_share=0.0 if weight[k] == 0.0 else float(np.mean(force[k] < 0.0)),
+            weight_N=pull,
+            largest_N=largest,
+            smallest_N=smallest,
+            lifts=None if pull == 0.0 else lifted > 0.0,
+            lifted_share=0.0 if pull == 0.0 else lifted,
         )
-        for k in range(len(weight))
+        for pull, smallest, largest, lifted in zip(weight.tolist(), *_ends(force), share.tolist(), strict=True)
     ]
 
 

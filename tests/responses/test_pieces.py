@@ -101,10 +101,8 @@ def test_of_a_group_only_the_largest_floor_is_sought(seed: int) -> None:
     curves = FourierCurves(orders, size * (rng.normal(size=(12, 9)) + 1j * rng.normal(size=(12, 9))))
     group = np.array([0, 1, *[2] * 10])
     alone, together = floors(curves, 1e-9), floors(curves, 1e-9, None, group)
-    radii = [np.array([each.circle.radius for each in found]) for found in (alone, together)]
-    assert radii[1][:2] == pytest.approx(radii[0][:2], rel=1e-9)
-    assert np.max(radii[1][2:]) == pytest.approx(np.max(radii[0][2:]), rel=1e-9)
-    assert np.all(radii[1] <= radii[0] * (1.0 + 1e-9))
+    assert together.radius[:2] == pytest.approx(alone.radius[:2], rel=1e-9)
+    assert np.max(together.radius[2:]) == pytest.approx(np.max(alone.radius[2:]), rel=1e-9)
+    assert np.all(together.radius <= alone.radius * (1.0 + 1e-9))
     values = curves.at(np.linspace(0.0, TURN, 2000))
-    for value, each in zip(values, together, strict=True):
-        assert np.max(np.abs(value - each.circle.centre)) <= each.upper * (1.0 + 1e-12)
+    assert np.all(np.max(np.abs(values - together.centre[:, None]), axis=1) <= together.upper * (1.0 + 1e-12))
