@@ -22,7 +22,6 @@ from service.report.chapters.verdict import result
 from service.report.document import document
 from service.report.formula import formula
 from service.report.terminal import terminal
-from tests.night import part
 from tests.report_document.conftest import AT, asked
 
 Make = Callable[..., Document]
@@ -140,22 +139,18 @@ def test_a_machine_without_a_place_for_counterweights(made: Make) -> None:
 
 @pytest.mark.parametrize(
     ("output", "title", "figures"),
-    part(
-        2,
-        [
-            ("kinematics", "Motion", 3),
-            ("gas", "Gas", 4),
-            ("piston_force", "Piston forces", 3),
-            ("rod_loads", "Rod loads", 4),
-            ("torque", "Torque", 1),
-            ("flywheel", "Flywheel", 0),
-            ("overturning", "Overturning couple", 1),
-            ("roll", "Roll moment", 1),
-            ("main_bearings", "Main bearings", 4),
-            ("orders", "Orders", 0),
-        ],
-        rows=True,
-    ),
+    [
+        ("kinematics", "Motion", 3),
+        ("gas", "Gas", 4),
+        ("piston_force", "Piston forces", 3),
+        ("rod_loads", "Rod loads", 4),
+        ("torque", "Torque", 1),
+        ("flywheel", "Flywheel", 0),
+        ("overturning", "Overturning couple", 1),
+        ("roll", "Roll moment", 1),
+        ("main_bearings", "Main bearings", 4),
+        ("orders", "Orders", 0),
+    ],
 )
 def test_every_output_asked_for_has_its_chapter(made: Make, output: str, title: str, figures: int) -> None:
     found = made("2d12", outputs=[output])
