@@ -22,6 +22,7 @@ from optimizer.warm_up import warm_up
 from service.workers.process import preload
 from tests.fork_server import fork_fork_servers
 from tests.mould import DOCUMENTS
+from tests.night import ALL
 from tests.verification.every import check_answers
 
 # with `-n 4`, or `--numprocesses 4`, in four processes
@@ -37,9 +38,10 @@ os.environ["COUNTERWEIGHT_DATABASE_BUSY_S"] = "60"
 os.environ["COUNTERWEIGHT_REQUEST_TIMEOUT_S"] = "600"
 
 # times are for benchmarks, and a run that failed must fail again;
-# HYPOTHESIS_PROFILE=night looks at fifteen times as many, =thorough at many more, other ones each time
+# under mutants there are a few more; HYPOTHESIS_PROFILE=night looks at twenty times as many, =thorough at many more,
+# other ones each time
 quick = {"deadline": None, "derandomize": True, "database": None, "suppress_health_check": [HealthCheck.too_slow]}
-settings.register_profile("quick", max_examples=20, **quick)
+settings.register_profile("quick", max_examples=20 if ALL else 14, **quick)
 settings.register_profile("night", max_examples=300, **quick)
 settings.register_profile("thorough", deadline=None, max_examples=1000)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))

@@ -21,7 +21,8 @@ def part(count: int, values: Iterable[Any], rows: bool = False) -> list[Any]:
 
     ``rows`` is whether each of the values is a tuple of several parameters.
     """
-    return [*values] if ALL else every(count, (pytest.param(*one) for one in values) if rows else values)
+    sets = [one if isinstance(one, ParameterSet) or not rows else pytest.param(*one) for one in values]
+    return sets if ALL else every(count, sets)
 
 
 def but(day: Container[Any], values: Iterable[Any]) -> list[Any]:

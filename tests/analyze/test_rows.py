@@ -8,6 +8,7 @@ import pytest
 from optimizer.mechanics.kinematics import motion
 from optimizer.mechanics.layout import layout
 from schemas.machine.reciprocating import ReciprocatingMachine
+from tests import night
 from tests.analyze.driven import STYLES, ask, random_driven
 
 
@@ -19,7 +20,7 @@ def rows_of(body: dict[str, Any]) -> list[dict[str, Any]]:
     return parts
 
 
-@pytest.mark.parametrize("style", STYLES)
+@pytest.mark.parametrize("style", night.part(2, STYLES))
 @pytest.mark.parametrize("seed", range(3))
 def test_a_machine_is_the_sum_of_its_rows(seed: int, style: str) -> None:
     body = random_driven(seed, style, friction=None)

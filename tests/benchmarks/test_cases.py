@@ -11,6 +11,7 @@ from tests.benchmarks import discrete, outputs, plates, sweep_outputs, sweep_ove
 from tests.benchmarks.cases import CASES
 from tests.benchmarks.phases import PHASES, measure
 from tests.benchmarks.stopwatch import Stopwatch
+from tests.night import part
 from tests.studies.matching.cases import mirrored
 
 
@@ -63,7 +64,7 @@ def test_choices_are_those_of_scip_independent() -> None:
     assert abs(found.apart) <= 2e-4
 
 
-@pytest.mark.parametrize("cranks", [discrete.in_some_order(6), mirrored(6)])
+@pytest.mark.parametrize("cranks", part(2, [discrete.in_some_order(6), mirrored(6)]))
 def test_matches_are_those_of_scip_independent(cranks: list[float]) -> None:
     found = discrete.matched_beside(discrete.rows_matched(cranks), 1, 1e9)
     assert max(found.ours_gap, found.theirs_gap) <= 1e-4

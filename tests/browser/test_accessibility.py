@@ -27,8 +27,8 @@ def portal(visit: Portal) -> Portal:
     return visit
 
 
-#: inside of the second of two plots, whose marks are made as those of the first
-SECOND = ".pair > .plot + .plot > *"
+#: inside of the second of two plots, and of further pairs, whose marks are made as those of the first
+SECOND = ".pair > .plot + .plot > *, .pair ~ .pair > .plot > *"
 
 
 @pytest.mark.parametrize(

@@ -10,6 +10,7 @@ from optimizer.choices.discrete.lightest import Lightest, lighter
 from schemas.answer.answers import OptimizeAnswer
 from tests.benchmarks.discrete import choice
 from tests.hard.cases.case import Body
+from tests.night import part
 from tests.verification.checking import optimized
 
 #: the four throws of opposed pistons of which an engineer knows what a foundry would cast
@@ -160,7 +161,7 @@ def test_two_sizes(mass_step_kg: float, angle_step_deg: float, heaviest_kg: floa
     assert found.certificate.objective <= 40_549.5 + 91.2
 
 
-@pytest.mark.parametrize("seed", [2, 4, *(pytest.param(n, marks=pytest.mark.nightly) for n in range(5, 40))])
+@pytest.mark.parametrize("seed", part(2, [2, 4, *(pytest.param(n, marks=pytest.mark.nightly) for n in range(5, 40))]))
 @pytest.mark.parametrize("catalogue", ["steps", "sizes"])
 def test_no_worse_than_by_hand(seed: int, catalogue: str) -> None:
     body = machine(seed)

@@ -8,6 +8,7 @@ from tests.choices.highs import SIDES, highs
 from tests.choices.scip import scip
 from tests.choices.sets import options_of
 from tests.choices.test_search import found_of
+from tests.night import part
 from tests.program.cases import random_statement
 
 #: SCIP keeps constraints to 1e-6 of what they are scaled to; of the yardstick
@@ -18,7 +19,11 @@ _LONG = 1e9
 
 @pytest.mark.parametrize(
     ("combine", "budget", "ceilings", "fitted"),
-    [("sum", False, False, None), ("max", True, False, None), ("sum", True, False, 3), ("max", False, True, None)],
+    part(
+        2,
+        [("sum", False, False, None), ("max", True, False, None), ("sum", True, False, 3), ("max", False, True, None)],
+        rows=True,
+    ),
 )
 def test_four_webs(combine: str, budget: bool, ceilings: bool, fitted: int | None) -> None:
     """Four webs, five masses at six angles: 31^4 sets."""

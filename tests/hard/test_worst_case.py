@@ -5,6 +5,7 @@ import pytest
 from tests.hard import stored
 from tests.hard.cases import all_cases
 from tests.hard.worst_case import KINDS, faults
+from tests.night import part
 
 _CASES = all_cases()
 _KNOWN = stored.read()
@@ -19,7 +20,7 @@ def _held(kind: str, cases: range) -> None:
     assert not found, found
 
 
-@pytest.mark.parametrize(("offset", "kind"), list(enumerate(KINDS)))
+@pytest.mark.parametrize(("offset", "kind"), part(2, list(enumerate(KINDS)), rows=True))
 def test_some_cases_of_each_kind(offset: int, kind: str) -> None:
     _held(kind, range(offset, len(_CASES), 24))
 

@@ -30,6 +30,7 @@ from tests.jobs import synthetic
 from tests.jobs.failover import CHUNK_S, MOST_S
 from tests.jobs.house import QUICK, House
 from tests.jobs.sweeps import MACHINE, analyses
+from tests.night import part
 
 
 def test_the_chunks_of_a_service_that_is_gone_are_another_ones_in_time() -> None:
@@ -72,7 +73,7 @@ def tiny_disk(folder: Path, size: str) -> Iterator[None]:
         subprocess.run(["umount", "--lazy", folder], check=True)
 
 
-@pytest.mark.parametrize(("workers", "chunk_rows"), [(1, 1), (2, 7), (3, 7), (3, 100)])
+@pytest.mark.parametrize(("workers", "chunk_rows"), part(2, [(1, 1), (2, 7), (3, 7), (3, 100)], rows=True))
 def test_the_same_rows_whatever_the_chunks_and_workers(house: House, workers: int, chunk_rows: int) -> None:
     job = house.submit(total=60, chunk_rows=chunk_rows)
     with house.coordinator(threads(workers)):

@@ -17,6 +17,7 @@ from service.jobs.owner_jobs import OwnerJobs, Parts, RowsDamaged
 from tests.jobs import synthetic
 from tests.jobs.house import House
 from tests.jobs.test_coordinator import threads
+from tests.night import part
 
 
 def folder(path: Path) -> None:
@@ -50,7 +51,7 @@ def read(house: House, job: str, jobs: OwnerJobs) -> pa.Table:
     return pa.Table.from_batches(jobs.rows(house.store.get(job), synthetic.SCHEMA).batches)
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", part(2, KINDS))
 def test_what_is_no_file_of_rows_is_computed_again(house: House, kind: str, caplog: pytest.LogCaptureFixture) -> None:
     job = house.submit(total=40, chunk_rows=10)
     with house.coordinator(threads(1)) as coordinator:

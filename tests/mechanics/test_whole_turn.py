@@ -18,6 +18,7 @@ from optimizer.mechanics.row_series import Reading, RowSeries
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn, break_angles, whole_turn
 from optimizer.responses.curve import floors
 from optimizer.responses.piecewise_cubics import Bracket
+from tests import night
 from tests.analyze.driven import STYLES, arrays, random_driven
 
 READINGS = ("piston", "rod", "side", "tangential", "radial")
@@ -45,7 +46,7 @@ def _peaks_of_rows(turn: WholeTurn, reading: str) -> TurnCurves:
     return turn.curves(reading, np.eye(count)[None])  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("exact", [True, False])
+@pytest.mark.parametrize("exact", night.part(2, [True, False]))
 @pytest.mark.parametrize("style", STYLES)
 def test_series_have_the_values_of_the_samples(style: str, exact: bool) -> None:
     # independent: the same forces by other formulas
@@ -116,7 +117,7 @@ def test_mean_and_variance_are_those_of_many_samples(style: str) -> None:
     assert curves.variance == pytest.approx(variance, rel=1e-4)
 
 
-@pytest.mark.parametrize("most", [1, 512])
+@pytest.mark.parametrize("most", night.part(2, [1, 512]))
 @pytest.mark.parametrize("style", STYLES)
 def test_root_mean_squares_are_off_by_no_more_than_is_told(
     style: str, most: int, monkeypatch: pytest.MonkeyPatch

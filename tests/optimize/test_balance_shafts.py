@@ -15,6 +15,7 @@ from schemas.request.accuracy import AccuracyRequest
 from schemas.request.objective import Objective
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep.request import SweepRequest
+from tests.night import part
 from tests.optimize.machines import throw, web
 from tests.optimize.shafts import WHOLE, at, in_line_four, shaft, single
 from tests.verification.checking import optimized
@@ -97,7 +98,7 @@ def _inclined(rotation: str) -> dict[str, Any]:
     return body | {"throws": throws, "webs": [web("a", -0.1, 4.0), web("b", 0.6, 2.0)], "rotation": rotation}
 
 
-@pytest.mark.parametrize("rotation", ["ccw", "cw"])
+@pytest.mark.parametrize("rotation", part(2, ["ccw", "cw"]))
 @pytest.mark.parametrize(
     "objective",
     [{}, {"combine": "max"}, {"direction_weights": {"x": 1, "y": 0.3}}, {"moment_weight": 0, "force_ceiling_y_N": 900}],

@@ -8,6 +8,7 @@ import pytest
 
 from optimizer.choices.discrete import branch, search
 from optimizer.choices.discrete.search import TREE
+from tests import night
 from tests.optimize.choices import DEGREE, Loads, asked, certified, chosen, every_set, twin, two_webs
 from tests.optimize.whole_turn import ALONE
 from tests.verification.checking import optimized
@@ -68,13 +69,17 @@ def plane_at_0(webs: int = 4) -> dict[str, Any]:
 
 @pytest.mark.parametrize(
     ("by_tree", "webs", "share"),
-    [
-        (False, 4, {"force_ceiling_x_N": 0.9, "moment_ceiling_y_Nm": 0.9}),
-        (True, 3, {"moment_ceiling_y_Nm": 0.95}),
-        pytest.param(True, 4, {"force_ceiling_x_N": 0.9, "moment_ceiling_y_Nm": 0.9}, marks=pytest.mark.nightly),
-        (False, 4, {"force_ceiling_y_N": 0.99}),
-        (False, 4, {"moment_ceiling_x_Nm": 0.8}),
-    ],
+    night.part(
+        2,
+        [
+            (False, 4, {"force_ceiling_x_N": 0.9, "moment_ceiling_y_Nm": 0.9}),
+            (True, 3, {"moment_ceiling_y_Nm": 0.95}),
+            pytest.param(True, 4, {"force_ceiling_x_N": 0.9, "moment_ceiling_y_Nm": 0.9}, marks=pytest.mark.nightly),
+            (False, 4, {"force_ceiling_y_N": 0.99}),
+            (False, 4, {"moment_ceiling_x_Nm": 0.8}),
+        ],
+        rows=True,
+    ),
 )
 def test_no_set_by_hand_is_better(
     monkeypatch: pytest.MonkeyPatch, by_tree: bool, webs: int, share: dict[str, float]

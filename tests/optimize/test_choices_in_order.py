@@ -14,7 +14,7 @@ from optimizer.solve import choice as certified_choice
 from optimizer.solve.cutting_plane_rounds import in_rounds
 from schemas.answer.answers import OptimizeAnswer
 from schemas.request.requests import OptimizeRequest
-from tests.night import every
+from tests.night import every, part
 from tests.optimize.choices import (
     DEGREE,
     FAST,
@@ -74,7 +74,7 @@ def assert_best(found: OptimizeAnswer, first: np.ndarray, last: np.ndarray, allo
     assert proof.continuous_lower_bound <= proof.lower_bound
 
 
-@pytest.mark.parametrize("by_tree", [False, True])
+@pytest.mark.parametrize("by_tree", part(2, [False, True]))
 @pytest.mark.parametrize(
     "goal",
     every(

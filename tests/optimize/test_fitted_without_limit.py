@@ -14,6 +14,7 @@ from schemas.request.requests import OptimizeRequest
 from service.common.validation import InvalidRequest, check
 from tests.dust.machines import crankshaft
 from tests.hard.cases.case import Body
+from tests.night import part
 from tests.verification.checking import optimized
 
 
@@ -26,7 +27,7 @@ def fitted(seed: int, most: float | None, sectors: float = 0.0, least: float = 2
     return {"machine": found}
 
 
-@pytest.mark.parametrize("sectors", [0.0, 0.8])
+@pytest.mark.parametrize("sectors", part(2, [0.0, 0.8]))
 @pytest.mark.parametrize("seed", range(6))
 def test_no_limit_is_a_limit_that_is_far_away(seed: int, sectors: float) -> None:
     """Independent: 1e4 kg, of which the search needs no proof, and 1e12 kg come to the same."""

@@ -80,7 +80,7 @@ def test_no_set_by_hand_is_better(
     assert found.certificate.lower_bound == pytest.approx(best, rel=1e-9)
 
 
-@pytest.mark.parametrize("mirror", [False, True])
+@pytest.mark.parametrize("mirror", part(2, [False, True]))
 @pytest.mark.parametrize("ceiling", [None, 200.0])
 def test_a_tree_finds_what_trying_all_sets_does(
     mirror: bool, ceiling: float | None, monkeypatch: pytest.MonkeyPatch
@@ -143,7 +143,7 @@ def test_holes_count_from_the_own_crank(mirror: bool) -> None:
     assert found.counterweights[0].angle_deg in (170.0, 200.0)
 
 
-@pytest.mark.parametrize("mirror", [False, True])
+@pytest.mark.parametrize("mirror", part(2, [False, True]))
 @pytest.mark.parametrize(("groups", "least"), [([NAMES], 8.5), (HALVES, 7.0)])
 def test_no_least_mass_by_hand_is_better(mirror: bool, groups: list[list[str]], least: float) -> None:
     """Independent: every choice of groups that are fitted, each searched over size and angle of its castings."""

@@ -17,6 +17,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from schemas.answer.answers import Certificate, OptimizeAnswer
+from tests import night
 from tests.optimize.machines import machine, random_machine, row, throw, web
 from tests.verification.checking import optimized
 
@@ -256,7 +257,7 @@ def test_higher_ceilings_never_hurt(seed: int, step: float) -> None:
         assert high.objective <= low.objective + 1.01 * tolerated + 1.01 * SHARE * low.objective_without_counterweights
 
 
-@pytest.mark.parametrize("combine", ["sum", "max"])
+@pytest.mark.parametrize("combine", night.part(2, ["sum", "max"]))
 @pytest.mark.parametrize("seed", range(6))
 def test_no_jumps_at_the_boundary_of_what_can_be_reached(seed: int, combine: str) -> None:
     """The smallest force as the ceiling, times 1 -+ 1e-3, 1 -+ 1e-9 and 1.

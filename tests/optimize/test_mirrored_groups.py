@@ -11,6 +11,7 @@ from optimizer.errors import OutOfRange
 from optimizer.studies.pareto.pareto import pareto
 from schemas.answer.answers import OptimizeAnswer
 from schemas.front.pareto import ParetoRequest
+from tests.night import part
 from tests.optimize.test_web_groups import ANGLES, NAMES, RADIUS, body, objective, phasors, refused
 from tests.verification.checking import broken, optimized
 
@@ -139,18 +140,21 @@ def test_ceilings_of_mirrored_pairs() -> None:
 @CASES
 @pytest.mark.parametrize(
     "more",
-    [
-        {"objective": {"orders": "all"}},
-        {"objective": {"force_weight": 0, "moment_weight": 0, "bearing_weight": 1}},
-        {"objective": {"bending_weight": 1.0, "force_weight": 0.1}},
-        {
-            "scenarios": [
-                {"name": "as it is", "changes": []},
-                {"name": "heavy", "changes": [{"path": "/machine/throws/0/rotating_mass_kg", "value": 40}]},
-            ]
-        },
-        {"tolerances": {"mass_relative": 0.02, "angle_deg": 2, "reciprocating_mass_relative": 0.01}},
-    ],
+    part(
+        2,
+        [
+            {"objective": {"orders": "all"}},
+            {"objective": {"force_weight": 0, "moment_weight": 0, "bearing_weight": 1}},
+            {"objective": {"bending_weight": 1.0, "force_weight": 0.1}},
+            {
+                "scenarios": [
+                    {"name": "as it is", "changes": []},
+                    {"name": "heavy", "changes": [{"path": "/machine/throws/0/rotating_mass_kg", "value": 40}]},
+                ]
+            },
+            {"tolerances": {"mass_relative": 0.02, "angle_deg": 2, "reciprocating_mass_relative": 0.01}},
+        ],
+    ),
     ids=["orders", "bearings", "bending", "scenarios", "tolerances"],
 )
 def test_over_the_turn_and_in_the_worst_case(mirror: bool, more: dict[str, Any]) -> None:

@@ -14,6 +14,7 @@ from schemas.front.pareto import ParetoRequest
 from schemas.request.accuracy import AccuracyRequest
 from schemas.request.requests import OptimizeRequest
 from schemas.sweep.request import SweepRequest
+from tests.night import part
 from tests.optimize.machines import machine, random_machine, row, throw, web
 from tests.optimize.robust import answered, crank, scenario, worst
 from tests.optimize.whole_turn import one_throw
@@ -201,12 +202,16 @@ def test_what_a_scenario_lacks_is_asked_for_in_its_name() -> None:
 
 @pytest.mark.parametrize(
     ("made", "objective", "ceiling", "share", "slower"),
-    [
-        (BASES["twin"]["machine"], {"moment_weight": 0.2}, "bearing_ceiling_N", 0.97, 1.0),
-        (random_machine(1), {"moment_weight": 0.0}, "moment_ceiling_Nm", 0.8, 1.0),
-        # the slow machine decides the objective, and the fast one is under the ceiling
-        (random_machine(1), {"moment_weight": 0.0}, "moment_ceiling_Nm", 0.8, 2.0),
-    ],
+    part(
+        2,
+        [
+            (BASES["twin"]["machine"], {"moment_weight": 0.2}, "bearing_ceiling_N", 0.97, 1.0),
+            (random_machine(1), {"moment_weight": 0.0}, "moment_ceiling_Nm", 0.8, 1.0),
+            # the slow machine decides the objective, and the fast one is under the ceiling
+            (random_machine(1), {"moment_weight": 0.0}, "moment_ceiling_Nm", 0.8, 2.0),
+        ],
+        rows=True,
+    ),
 )
 def test_the_multiplier_of_a_ceiling_is_what_it_costs_at_its_own_speed(
     made: dict[str, Any], objective: dict[str, float], ceiling: str, share: float, slower: float

@@ -16,6 +16,7 @@ from optimizer.solve.uncertain_program import scatter_of
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from schemas.request.scenarios import Tolerances
 from tests.hard_turn.machines import twin
+from tests.night import part
 from tests.optimize.machines import random_machine
 from tests.optimize.robust import answered, crank, scenario, six_rows, worst
 from tests.optimize.whole_turn import ALONE, inline_six, one_throw
@@ -64,7 +65,7 @@ def test_tolerances_of_nothing_are_none() -> None:
     assert listed.total_mass_kg == pytest.approx(plain.total_mass_kg, rel=1e-4)
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", part(2, range(4)))
 def test_errors_in_the_worst_direction_come_to_the_worst_case_of_the_larger_peak_and_none_to_more(seed: int) -> None:
     """Independent: every counterweight off by its largest error, in the direction of what is left."""
     made = random_machine(seed)
@@ -112,7 +113,7 @@ def _scattered(made: dict[str, Any], share: float) -> list[dict[str, Any]]:
     return found
 
 
-@pytest.mark.parametrize("across", [{"x": 1, "y": 1}, {"x": 1, "y": 0.3}, {"x": 0, "y": 1}])
+@pytest.mark.parametrize("across", part(2, [{"x": 1, "y": 1}, {"x": 1, "y": 0.3}, {"x": 0, "y": 1}]))
 def test_all_corners_of_the_masses_as_scenarios_are_their_scatter(across: dict[str, float]) -> None:
     """Independent: 2^6 machines analysed one by one, and given as scenarios where that is the same program."""
     made = six_rows()
@@ -261,7 +262,7 @@ def test_a_bearing_that_suits_the_heaviest_and_the_lightest_piston(share: float)
 
 
 @pytest.mark.parametrize(
-    "objective", [{**ALONE, "bearing_weight": 1}, {"combine": "max", "orders": "all", "bending_weight": 2.0}]
+    "objective", part(2, [{**ALONE, "bearing_weight": 1}, {"combine": "max", "orders": "all", "bending_weight": 2.0}])
 )
 def test_all_corners_of_the_masses_as_scenarios_are_their_scatter_over_the_turn(objective: dict[str, Any]) -> None:
     """Independent: the four corners of two masses, each a machine of its own."""

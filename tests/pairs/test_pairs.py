@@ -6,7 +6,7 @@ counterweights within their limits, figures that agree, and no claim that the in
 
 import pytest
 
-from tests.night import ALL, but
+from tests.night import ALL, but, part
 from tests.pairs.asking import Outcome, ask
 from tests.pairs.combinations import Combination, all_pairs, random_triples, some_pairs
 from tests.pairs.features import FEATURES
@@ -50,7 +50,7 @@ def test_some_pairs(quarter: int) -> None:
     assert sum(each.kind == "answered" for each in outcomes) >= 27
 
 
-@pytest.mark.parametrize("combination", some_pairs()[::9], ids=_short)
+@pytest.mark.parametrize("combination", part(2, some_pairs()[::9]), ids=_short)
 def test_some_pairs_in_rows_and_fronts(combination: Combination) -> None:
     """A row is the answer to its design alone, and a front is computed or refused by a field."""
     assert sweep_fault(*combination) is None

@@ -20,6 +20,7 @@ from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM, INTERIOR_POINT
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import yardstick
 from schemas.request.requests import OptimizeRequest
+from tests import night
 from tests.hard import stored
 from tests.hard.cases import all_cases
 from tests.hard.cases.case import Case
@@ -153,7 +154,7 @@ def test_fifty_digits_prove_what_double_precision_cannot(limit: str) -> None:
     assert fifty.lower_bound[0] * square == pytest.approx(float(expected.objective), abs=1e-9 * unit * square)
 
 
-@pytest.mark.parametrize("case", COMBINATIONS[::5])
+@pytest.mark.parametrize("case", night.part(2, COMBINATIONS[::5]))
 def test_finer_numbers_solve_the_same_program(case: tuple) -> None:
     """Property: interpreted in other numbers the functions are the same, and the bound is at least as sharp."""
     problem = random_statement(7, *case, webs=2)

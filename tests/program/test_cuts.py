@@ -17,6 +17,7 @@ from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.cuts.stage import Search
 from optimizer.program.solution import CEILING_ROUNDING
 from optimizer.responses.curve import floor
+from tests.night import part
 from tests.program.cases import random_point
 from tests.program.turning import bearings, force_and_moment, largest, quantities, wide
 from tests.responses.fourier import FourierCurves
@@ -49,7 +50,7 @@ def test_the_optimum_is_the_largest_floor_where_no_limit_binds(seed: int) -> Non
     assert best.goals[-1].value - best.goals[-1].lower_bound <= 1e-6 * rest
 
 
-@pytest.mark.parametrize("beside", [False, True])
+@pytest.mark.parametrize("beside", part(2, [False, True]))
 @pytest.mark.parametrize("seed", range(4))
 def test_the_bound_is_that_of_the_program_at_fine_angles(seed: int, beside: bool) -> None:
     """Independent: the same program at 720 angles in the modelling layer, a relaxation, by another formulation."""

@@ -2,10 +2,11 @@ import numpy as np
 import pytest
 
 from optimizer.program.rows import combined, statement, weighted_peak
+from tests.night import part
 from tests.program.cases import COMBINATIONS, random_limits, random_point, random_responses, random_statement
 
 
-@pytest.mark.parametrize("weights", [(1.0, 1.0), (2.0, 0.5), (0.3, 1.0), (0.0, 1.0), (1.0, 0.0)])
+@pytest.mark.parametrize("weights", part(2, [(1.0, 1.0), (2.0, 0.5), (0.3, 1.0), (0.0, 1.0), (1.0, 0.0)]))
 def test_weighted_peak_is_the_peak_over_a_turn(weights: tuple[float, float]) -> None:
     # independent: the weighted components on a grid of shaft angles, refined by the exact maximum nearby
     rng = np.random.default_rng(7)

@@ -16,6 +16,7 @@ from service.report.document import report
 from service.report.html import html
 from service.report.pdf import pdf
 from service.settings import Settings
+from tests.night import part
 from tests.report_document.conftest import AT, MARKUP, asked
 
 HEAD = {
@@ -57,7 +58,7 @@ def test_names_of_the_head_are_names() -> None:
     assert "".join(pages(pdf(made))).count(re.sub(r"\s", "", MARKUP)) >= 3
 
 
-@pytest.mark.parametrize("example", ["2d12", "v8-cross-plane"])
+@pytest.mark.parametrize("example", part(2, ["2d12", "v8-cross-plane"]))
 def test_verdict_and_counterweights_are_on_the_first_page_and_the_contents_follow(example: str) -> None:
     made = report(asked(example, document=HEAD), AT)
     found = pages(pdf(made))

@@ -10,6 +10,7 @@ from pypdf import PdfReader
 
 from service.report.blocks import Document
 from service.report.pdf import pdf
+from tests.night import part
 from tests.report_document.conftest import MARKUP, asked
 
 Make = Callable[..., Document]
@@ -25,7 +26,7 @@ def read(content: bytes) -> tuple[PdfReader, str]:
     return reader, re.sub(r"\s|\u200b", "", text)
 
 
-@pytest.mark.parametrize("example", ["2d12", "v8-cross-plane", "scroll-three-pins"])
+@pytest.mark.parametrize("example", part(2, ["2d12", "v8-cross-plane", "scroll-three-pins"]))
 def test_pages_are_a4_tagged_and_numbered(made: Make, example: str) -> None:
     document = made(example)
     reader, text = read(pdf(document))

@@ -13,6 +13,7 @@ from pypdf import PdfReader
 from service.report.blocks import Document
 from service.report.html import html
 from tests.browser import chromium
+from tests.night import part
 
 Make = Callable[..., Document]
 
@@ -54,7 +55,7 @@ def opened(browser: Browser, made: Make, tmp_path: Path) -> Iterator[Callable[..
     assert seen == []
 
 
-@pytest.mark.parametrize("example", ["v8-cross-plane", "scroll-three-pins"])
+@pytest.mark.parametrize("example", part(2, ["v8-cross-plane", "scroll-three-pins"]))
 def test_it_prints_on_a4_and_light(opened: Callable[..., Page], example: str) -> None:
     page = opened(example, 1280)
     printed = PdfReader(io.BytesIO(page.pdf(prefer_css_page_size=True)))

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from optimizer.numerics.arrays import Real
 from optimizer.pins.contact import Contact, _gap, _Scaled, pin_contact
 from optimizer.pins.loads import elastic_loads, levers
+from tests.night import part
 from tests.scroll.patterns import TABLE, TORQUE, ask, even_pins, given_pins, loads, random_pins, seeds
 
 TURN = np.arange(360.0)
@@ -214,7 +215,7 @@ def test_leading_axes_analytic() -> None:
     np.testing.assert_array_equal(found.load[3], one.load)
 
 
-@pytest.mark.parametrize("stiffness", [1e-6, 1e3, 1e18])
+@pytest.mark.parametrize("stiffness", part(2, [1e-6, 1e3, 1e18]))
 @pytest.mark.parametrize("play", [1e-15, 1e-6, 1.0])
 @pytest.mark.parametrize("torque", [1e-18, 1.0, 1e18])
 def test_extremes_are_in_equilibrium_or_say_so_analytic(stiffness: float, play: float, torque: float) -> None:

@@ -19,6 +19,7 @@ from optimizer.pins.loads import (
     levers,
     peaks,
 )
+from tests.night import part
 from tests.scroll.patterns import TABLE, TORQUE, ask, even, even_pins, given_pins, loads, random_pins, seeds
 
 TURN = np.arange(360.0)
@@ -144,7 +145,7 @@ def test_no_torque_needs_no_loads_analytic() -> None:
         assert answer.pins[0].compression_from_deg is None
 
 
-@pytest.mark.parametrize("torque", [TORQUE, -3.0, TABLE, {"angle_deg": [10, 200], "torque_Nm": [-5, 20]}])
+@pytest.mark.parametrize("torque", part(2, [TORQUE, -3.0, TABLE, {"angle_deg": [10, 200], "torque_Nm": [-5, 20]}]))
 @pytest.mark.parametrize("pins", [given_pins(**UNEVEN), given_pins([0, 4, 181], radius_m=[0.05, 0.06, 0.05]), None])
 def test_peaks_are_those_of_a_fine_grid_independent(torque: Any, pins: Any) -> None:
     """The largest of 36000 samples; near a peak the load is flat, at an entry of the table it is sampled itself."""

@@ -20,6 +20,7 @@ from service.cli import app
 from service.common.examples import directory
 from service.documents.examples import catalogue, load, names
 from service.routes.version import processor
+from tests.night import part
 
 ROOT = Path(__file__).parents[2]
 
@@ -139,7 +140,7 @@ def test_analyze_prints_what_is_fitted(body: dict[str, Any]) -> None:
     assert "total mass" not in run("analyze", "-", given=json.dumps(body).encode()).stdout
 
 
-@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize("name", part(3, names()))
 def test_every_example_has_tables(name: str) -> None:
     every = ("--output", "residual", "--output", "stages", "--output", "orders", "--output", "hodograph")
     assert run("optimize", str(directory() / f"{name}.json"), *every).exit_code == 0

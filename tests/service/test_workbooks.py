@@ -16,6 +16,7 @@ from service.computations import XLSX
 from service.documents.examples import bodies
 from service.workbook.files import workbook, workbook_sheets
 from service.workbook.sheets import written
+from tests.night import part
 
 OPTIMIZE, CONVERT = "/v1/optimize", "/v1/convert"
 
@@ -186,7 +187,7 @@ def test_there_is_a_template_of_every_example_and_of_nothing_else(client: TestCl
     assert workbook_sheets(client.get("/v1/template.xlsx").content)["machine"]
 
 
-@pytest.mark.parametrize("name", sorted(bodies()))
+@pytest.mark.parametrize("name", part(3, sorted(bodies())))
 def test_the_request_in_a_workbook_is_the_one_that_was_written(
     client: TestClient, post_workbook: Callable[..., Any], name: str
 ) -> None:

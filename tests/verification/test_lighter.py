@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from tests import night
 from tests.verification.recorded import records
 from tests.verification.scaled import differences
 
@@ -45,7 +46,7 @@ def _lighter_prices(prices: list[Any]) -> list[Any]:
     return [each | {"value": each["value"] * (_LIGHTER if each["unit"].endswith("/deg") else 1.0)} for each in prices]
 
 
-@pytest.mark.parametrize("name", _NAMES[::4])
+@pytest.mark.parametrize("name", night.part(2, _NAMES[::4]))
 def test_a_lighter_machine_is_judged_alike(name: str) -> None:
     """Rooms are forces, or shares of them."""
     assert differences(name, lighter, (1.0, _LIGHTER))[:4] == []

@@ -8,6 +8,7 @@ import pytest
 from optimizer.optimize import optimize
 from schemas.request.requests import OptimizeRequest
 from service.verification import checker
+from tests import night
 from tests.hard.bodies import drawn
 from tests.optimize.machines import machine, row, throw, web
 from tests.verification.answers import pair
@@ -17,53 +18,58 @@ from tests.verification.test_curves import part
 
 @pytest.mark.parametrize(
     ("mode", "number", "seed", "claim"),
-    [
-        # weights of 8e19 N that leave 2e14 N, and of 1e-6 N that leave 5e-9 N
-        ("balance shafts", 191, 77, "cuts"),
-        ("balance shafts", 261, 77, "cuts"),
-        # a minimum of 9e-44 kg beside a budget of 35 t, whose least price of 1e-30 would cost 3e-26 kg
-        ("plates", 267, 77, "mass_lower_bound"),
-        # webs of 1e15 kg and more in a scenario, which the machine as it is given has no use for
-        ("scenarios", 88, 78, "nominal_optimum"),
-        ("tolerances", 404, 78, "nominal_optimum"),
-        # a limit of 1e300 kg: 8e-8 kg are enough where masses are off, 2e-9 kg where none is
-        ("tolerances", 390, 79, "nominal_optimum"),
-        # plates of up to 9 kg: 5e-23 kg are enough for the moment by itself
-        ("plates", 267, 79, "smallest_moment"),
-        # a force of 9e22 N under a moment of 1e-10 N m, which is exceeded by the rounding of a mass of 2e19 kg
-        ("scenarios", 116, 80, "nominal_optimum"),
-        # a plate that is open to 89.999999 degrees, where an unbalance tells the opening to 1e-8
-        ("plates", 204, 80, "shape"),
-        # nothing without counterweights, and no use for a budget of a gram; and 6e-14 N m of rounding beside no budget
-        ("axis ceilings", 451, 78, "yardstick"),
-        ("axis ceilings", 444, 78, "yardstick"),
-        # nothing without counterweights, and 0.04 kg are as much as the proof counts with
-        ("axis ceilings", 864, 83, "yardstick"),
-        # a moment of nothing, of which nothing is allowed, beside a force of 58 N
-        ("balance shafts", 135, 83, "ceilings"),
-        # ceilings that conflict within 1000 kg at a radius of 5e7 m; a peak by itself counts with 6e21 kg there
-        ("balance shafts", 1381, 83, "conflict"),
-        # a moment of 10 N m that turns against the shaft, the rounding of which is 1e12 N m
-        ("balance shafts", 1871, 83, "conflict"),
-        # any masses keep a ceiling that no choice in time does
-        ("catalogue", 5488, 83, "objective"),
-        # 1e16 N along x, of which nothing counts, beside 3 kN along y
-        ("scenarios", 1971, 90, "sensitivity"),
-        # a moment of nothing, which places on a balance shaft of 1e9 m change
-        ("balance shafts", 2277, 90, "ceilings"),
-        # a web without a limit, at which 1e-8 N/kg are left of 3 kN/kg m that cancel
-        ("plates", 4677, 92, "shadow_prices"),
-        # 5e18 kg at a radius of 6e4 m, in a sector that points away
-        ("catalogue", 1337, 83, "smallest_force"),
-        # 9e17 kg m in a sector that points away, of which it is not told whether it does
-        ("balance shafts", 1031, 94, "lower_bound"),
-        # a budget that is used by 1e-10 of what cancels, at a price that is rounding for the most part
-        ("scenarios", 4078, 96, "lower_bound"),
-        # a plate of up to 2e10 kg m, at which 2e-12 N are left of what cancels
-        ("plates", 2185, 95, "shadow_prices"),
-        # a moment of 6e-9 N m, none of which is allowed, beside 1e12 N whose arm is 0 but for rounding
-        ("balance shafts", 261, 95, "mass_lower_bound"),
-    ],
+    night.part(
+        2,
+        [
+            # weights of 8e19 N that leave 2e14 N, and of 1e-6 N that leave 5e-9 N
+            ("balance shafts", 191, 77, "cuts"),
+            ("balance shafts", 261, 77, "cuts"),
+            # a minimum of 9e-44 kg beside a budget of 35 t, whose least price of 1e-30 would cost 3e-26 kg
+            ("plates", 267, 77, "mass_lower_bound"),
+            # webs of 1e15 kg and more in a scenario, which the machine as it is given has no use for
+            ("scenarios", 88, 78, "nominal_optimum"),
+            ("tolerances", 404, 78, "nominal_optimum"),
+            # a limit of 1e300 kg: 8e-8 kg are enough where masses are off, 2e-9 kg where none is
+            ("tolerances", 390, 79, "nominal_optimum"),
+            # plates of up to 9 kg: 5e-23 kg are enough for the moment by itself
+            ("plates", 267, 79, "smallest_moment"),
+            # a force of 9e22 N under a moment of 1e-10 N m, which is exceeded by the rounding of a mass of 2e19 kg
+            ("scenarios", 116, 80, "nominal_optimum"),
+            # a plate that is open to 89.999999 degrees, where an unbalance tells the opening to 1e-8
+            ("plates", 204, 80, "shape"),
+            # nothing without counterweights, and no use for a budget of a gram; and 6e-14 N m of rounding beside
+            # no budget
+            ("axis ceilings", 451, 78, "yardstick"),
+            ("axis ceilings", 444, 78, "yardstick"),
+            # nothing without counterweights, and 0.04 kg are as much as the proof counts with
+            ("axis ceilings", 864, 83, "yardstick"),
+            # a moment of nothing, of which nothing is allowed, beside a force of 58 N
+            ("balance shafts", 135, 83, "ceilings"),
+            # ceilings that conflict within 1000 kg at a radius of 5e7 m; a peak by itself counts with 6e21 kg there
+            ("balance shafts", 1381, 83, "conflict"),
+            # a moment of 10 N m that turns against the shaft, the rounding of which is 1e12 N m
+            ("balance shafts", 1871, 83, "conflict"),
+            # any masses keep a ceiling that no choice in time does
+            ("catalogue", 5488, 83, "objective"),
+            # 1e16 N along x, of which nothing counts, beside 3 kN along y
+            ("scenarios", 1971, 90, "sensitivity"),
+            # a moment of nothing, which places on a balance shaft of 1e9 m change
+            ("balance shafts", 2277, 90, "ceilings"),
+            # a web without a limit, at which 1e-8 N/kg are left of 3 kN/kg m that cancel
+            ("plates", 4677, 92, "shadow_prices"),
+            # 5e18 kg at a radius of 6e4 m, in a sector that points away
+            ("catalogue", 1337, 83, "smallest_force"),
+            # 9e17 kg m in a sector that points away, of which it is not told whether it does
+            ("balance shafts", 1031, 94, "lower_bound"),
+            # a budget that is used by 1e-10 of what cancels, at a price that is rounding for the most part
+            ("scenarios", 4078, 96, "lower_bound"),
+            # a plate of up to 2e10 kg m, at which 2e-12 N are left of what cancels
+            ("plates", 2185, 95, "shadow_prices"),
+            # a moment of 6e-9 N m, none of which is allowed, beside 1e12 N whose arm is 0 but for rounding
+            ("balance shafts", 261, 95, "mass_lower_bound"),
+        ],
+        rows=True,
+    ),
 )
 def test_what_cancels_is_judged_by_its_parts(mode: str, number: int, seed: int, claim: str) -> None:
     sent = drawn(number, seed, mode)
@@ -91,30 +97,34 @@ def test_a_yardstick_of_what_webs_are_implied_to_carry_is_named() -> None:
 
 @pytest.mark.parametrize(
     ("mode", "number", "seed", "share"),
-    [
-        # other masses are the worst where counterweights are off
-        ("scenarios", 14, 85, 0.1),
-        # a speed of 3e-7 rpm, at which what proves that no mass is below 0 is beyond all numbers
-        ("plates", 32, 85, 0.001),
-        # a bound of the machine as it is that counts with less than its plates
-        ("plates", 128, 85, 0.001),
-        # no time to look for the worst masses of what was come to
-        ("plates", 135, 86, 1.0),
-        # a ceiling whose peak is lost in rounding in a scenario
-        ("scenarios", 98, 86, 0.1),
-        # a ring of 8e11 kg that may weigh nothing, beside 1e-9 kg
-        ("plates", 51, 87, 1.0),
-        # two ways to be off whose peaks differ by 3e-13
-        ("tolerances", 29, 88, 0.02),
-        # ceilings that the best of the machine as it is does not keep
-        ("axis ceilings", 100, 88, 0.001),
-        # a ceiling of nothing on a moment that there is with heavy masses only
-        ("axis ceilings", 55, 95, 1.0),
-        # a price of the budget that is raised by its rounding
-        ("balance shafts", 983, 89, 1.0),
-        # a plate of up to 66 t, at which what cancels leaves 2e-4 of 2e10 N, or 1e-2
-        ("plates", 4880, 96, 0.1),
-    ],
+    night.part(
+        2,
+        [
+            # other masses are the worst where counterweights are off
+            ("scenarios", 14, 85, 0.1),
+            # a speed of 3e-7 rpm, at which what proves that no mass is below 0 is beyond all numbers
+            ("plates", 32, 85, 0.001),
+            # a bound of the machine as it is that counts with less than its plates
+            ("plates", 128, 85, 0.001),
+            # no time to look for the worst masses of what was come to
+            ("plates", 135, 86, 1.0),
+            # a ceiling whose peak is lost in rounding in a scenario
+            ("scenarios", 98, 86, 0.1),
+            # a ring of 8e11 kg that may weigh nothing, beside 1e-9 kg
+            ("plates", 51, 87, 1.0),
+            # two ways to be off whose peaks differ by 3e-13
+            ("tolerances", 29, 88, 0.02),
+            # ceilings that the best of the machine as it is does not keep
+            ("axis ceilings", 100, 88, 0.001),
+            # a ceiling of nothing on a moment that there is with heavy masses only
+            ("axis ceilings", 55, 95, 1.0),
+            # a price of the budget that is raised by its rounding
+            ("balance shafts", 983, 89, 1.0),
+            # a plate of up to 66 t, at which what cancels leaves 2e-4 of 2e10 N, or 1e-2
+            ("plates", 4880, 96, 0.1),
+        ],
+        rows=True,
+    ),
 )
 def test_masses_that_are_off_are_judged_at_every_corner(mode: str, number: int, seed: int, share: float) -> None:
     sent = drawn(number, seed, mode)

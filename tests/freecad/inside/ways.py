@@ -17,7 +17,7 @@ LENGTH = 700.0
 
 def main():
     # enough for a rod that is in the way for most of a turn
-    ways_of.STEPS = 12
+    ways_of.STEPS = 6
     document = App.newDocument("shaft")
     machine = machine_of("imported", document)
     balance(machine, service_at(os.environ["URL"]))

@@ -15,6 +15,7 @@ from optimizer.studies.accuracy.measure import accuracy
 from schemas.request.accuracy import AccuracyAnswer, ChoiceRow
 from service.cli import app
 from service.report.accuracy_picture import draw
+from tests.night import part
 
 Post = Callable[..., Any]
 Machine = dict[str, Any]
@@ -79,7 +80,7 @@ def answered(rows: tuple[ChoiceRow, ...]) -> list[ChoiceRow]:
 
 
 @pytest.mark.parametrize(
-    "kind", [pytest.param(kind, marks=pytest.mark.nightly) if kind in LONG else kind for kind in MADE]
+    "kind", part(2, [pytest.param(kind, marks=pytest.mark.nightly) if kind in LONG else kind for kind in MADE])
 )
 def test_every_kind_has_rows_that_agree_with_the_service(kind: str) -> None:
     """Each row is what /v1/optimize answers to that gap or time (independent), and no bound is above a value."""

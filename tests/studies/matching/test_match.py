@@ -12,19 +12,24 @@ from optimizer.studies.matching.problem import stated
 from schemas.match.request import MatchRequest
 from schemas.request.requests import OptimizeRequest
 from service.documents.examples import bodies
+from tests.night import part
 from tests.studies.matching.cases import OMEGA, RADIUS, every, machine, matched, mirrored, objective, parts
 
 
 @pytest.mark.parametrize(
     ("cranks", "axes", "counts"),
-    [
-        (mirrored(4), [90.0] * 4, (4, 4)),
-        ([0.0, 120.0, 240.0], [90.0] * 3, (3, 3, 3)),
-        (mirrored(6), [90.0] * 6, (6,)),
-        ([0.0, 120.0, 240.0, 240.0, 120.0], [45.0, 135.0] * 2 + [45.0], (5, 5)),
-        (mirrored(8), [90.0] * 8, (8,)),
-        (mirrored(8), [45.0, 135.0] * 4, (8,)),
-    ],
+    part(
+        2,
+        [
+            (mirrored(4), [90.0] * 4, (4, 4)),
+            ([0.0, 120.0, 240.0], [90.0] * 3, (3, 3, 3)),
+            (mirrored(6), [90.0] * 6, (6,)),
+            ([0.0, 120.0, 240.0, 240.0, 120.0], [45.0, 135.0] * 2 + [45.0], (5, 5)),
+            (mirrored(8), [90.0] * 8, (8,)),
+            (mirrored(8), [45.0, 135.0] * 4, (8,)),
+        ],
+        rows=True,
+    ),
 )
 @pytest.mark.parametrize("combined", [False, True])
 def test_it_is_the_best_of_all(cranks: list[float], axes: list[float], counts: tuple[int, ...], combined: bool) -> None:

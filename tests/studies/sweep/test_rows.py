@@ -116,7 +116,7 @@ def test_a_pressure_may_vary_alone() -> None:
 
 
 @pytest.mark.parametrize(
-    "seed", [*range(18), *(pytest.param(seed, marks=pytest.mark.nightly) for seed in range(18, 60))]
+    "seed", night.part(2, [*range(18), *(pytest.param(seed, marks=pytest.mark.nightly) for seed in range(18, 60))])
 )
 def test_columns_of_every_output_are_the_single_answers(seed: int) -> None:
     # property: to rounding, for as they stand machines bring no solver between
@@ -148,18 +148,21 @@ def test_every_output_with_columns_is_compared() -> None:
 
 @pytest.mark.parametrize(
     "axes",
-    [
-        # what changes the shape of the program: terms, rows, ceilings, webs
-        [("/objective/force_weight", [0, 1]), ("/objective/moment_weight", [0, 2, None])],
-        [("/objective/direction_weights/x", [0, 0.5, 1]), ("/objective/direction_weights/y", [0, 1])],
-        [("/objective/force_ceiling_N", [None, 100, 9000]), ("/objective/moment_ceiling_Nm", [None, 0, 30000])],
-        [("/machine/webs/0/max_mass_kg", [0, 20]), ("/machine/webs/3/max_mass_kg", [0, 1e12])],
-        [("/machine/max_total_mass_kg", [None, 0, 1e-6, 50, 1e12]), ("/machine/webs/1/max_mass_kg", [0, 5])],
-        [("/machine/reference_plane_m", [None, 0.3]), ("/machine/throws/0/position_m", [-1, 1])],
-        [("/machine/throws/0/rows/0/connecting_rod/length_m", [None, 0.1, 0.14, 0.5])],
-        [("/machine/throws/1/crank_angle_deg", [0, 90, 180, 270, 360, -540])],
-        [("/machine/webs/0/counterweight_radius_m", ["1e-12 m", "1e9 m", 0.2, 0])],
-    ],
+    night.part(
+        2,
+        [
+            # what changes the shape of the program: terms, rows, ceilings, webs
+            [("/objective/force_weight", [0, 1]), ("/objective/moment_weight", [0, 2, None])],
+            [("/objective/direction_weights/x", [0, 0.5, 1]), ("/objective/direction_weights/y", [0, 1])],
+            [("/objective/force_ceiling_N", [None, 100, 9000]), ("/objective/moment_ceiling_Nm", [None, 0, 30000])],
+            [("/machine/webs/0/max_mass_kg", [0, 20]), ("/machine/webs/3/max_mass_kg", [0, 1e12])],
+            [("/machine/max_total_mass_kg", [None, 0, 1e-6, 50, 1e12]), ("/machine/webs/1/max_mass_kg", [0, 5])],
+            [("/machine/reference_plane_m", [None, 0.3]), ("/machine/throws/0/position_m", [-1, 1])],
+            [("/machine/throws/0/rows/0/connecting_rod/length_m", [None, 0.1, 0.14, 0.5])],
+            [("/machine/throws/1/crank_angle_deg", [0, 90, 180, 270, 360, -540])],
+            [("/machine/webs/0/counterweight_radius_m", ["1e-12 m", "1e9 m", 0.2, 0])],
+        ],
+    ),
 )
 @pytest.mark.parametrize("combine", ["sum", "max"])
 def test_fields_that_change_the_shape_of_the_program(axes: list[tuple[str, list[Any]]], combine: str) -> None:

@@ -13,6 +13,7 @@ from schemas.base.target import find_target, pointer
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep.request import SweepRequest
 from service.common.validation import InvalidRequest, check
+from tests import night
 from tests.analyze.driven import random_driven
 from tests.studies.sweep.single import numeric_paths, put, sweep, table
 
@@ -150,7 +151,7 @@ def out_of_range(request: SweepRequest, row: dict[str, Any]) -> bool:
     return any(rule.broken for target, value in values if value is not None for rule in target.rules(value))
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", night.part(2, CASES))
 def test_a_row_is_invalid_where_its_request_is_refused_and_says_the_same(name: str) -> None:
     # property: random sweeps whose values break rules between fields
     task, base, fields, expected = CASES[name]

@@ -1,0 +1,26 @@
+"""What is left to the night, and what is not under mutants."""
+
+import pytest
+
+from tests import night
+
+
+def _by_day(parameters: list[object]) -> list[object]:
+    return [one for one in parameters if not any(mark.name == "nightly" for mark in getattr(one, "marks", ()))]
+
+
+@pytest.mark.parametrize(("everything", "count"), [(False, 2), (True, 4)])
+def test_a_part_is_tried_by_day_and_all_under_mutants(
+    everything: bool, count: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(night, "ALL", everything)
+    for tried in (night.part(2, range(4)), night.part(2, [(n, n) for n in range(4)], rows=True)):
+        assert len(tried) == 4
+        assert len(_by_day(tried)) == count
+
+
+@pytest.mark.parametrize("everything", [False, True])
+def test_what_is_of_the_night_stays_so(everything: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(night, "ALL", everything)
+    slow = pytest.param(1, marks=pytest.mark.nightly)
+    assert len(_by_day(night.part(1, [slow, 2]))) == 1
