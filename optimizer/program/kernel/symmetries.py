@@ -228,7 +228,8 @@ def _turn(constant, counts, signs, mirrored):  # type: ignore[no-untyped-def]
         if counts[q]:
             wanted = signs[q] + 0.0j
             if mirrored:
-                unit = constant[q] / abs(constant[q])
+                size = abs(constant[q])
+                unit = complex(constant[q].real / size, constant[q].imag / size)
                 wanted = signs[q] * (unit * unit)
             if not known:
                 turn, known = wanted, True
