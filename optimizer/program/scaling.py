@@ -82,10 +82,10 @@ def least_change(influence: Real | Complex, constant: Real | Complex, passes: in
     shape = (math.prod(leading), terms, webs)
     constants = in_order(np.asarray(constant, complex)).reshape(shape[:-1])
     changes = np.zeros((shape[0], webs), complex)
-    if influence.dtype == float:
-        _cancelling().least_changes_of_real(in_order(influence).reshape(shape), constants, passes, changes)
-    else:
-        _cancelling().least_changes(in_order(influence).reshape(shape), constants, passes, changes)
+    loops, turned = _cancelling(), influence.dtype.kind == "c"
+    loop, kind = (loops.least_changes, complex) if turned else (loops.least_changes_of_real, float)
+    row, basis = np.empty(webs, kind), np.empty((terms, webs), kind)
+    loop(in_order(influence).reshape(shape), constants, passes, row, basis, changes)
     return changes.reshape(*leading, webs)
 
 

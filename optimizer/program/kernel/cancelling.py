@@ -2,27 +2,29 @@
 
 import numpy as np
 
-from optimizer.program.kernel.compiling import inner, kernel
+from optimizer.program.kernel.compiling import in_place, inner
 from optimizer.program.kernel.lengths import length
 
 #: a term whose influence is this close to those before it is not cancelled on its own
 _DEPENDENT = 1e-13
 
 
-@kernel
-def least_changes(influence, constant, passes, changes):  # type: ignore[no-untyped-def]
-    """The least u for which constant (N, J) + influence (N, J, K) u is 0, as far as can be, added to changes (N, K)."""
-    number, terms, webs = influence.shape
-    row, basis = np.empty(webs, np.complex128), np.empty((terms, webs), np.complex128)
-    for n in range(number):
+@in_place
+def least_changes(influence, constant, passes, row, basis, changes):  # type: ignore[no-untyped-def]
+    """The least u for which constant (N, J) + influence (N, J, K) u is 0, as far as can be, added to changes (N, K).
+
+    Parameters
+    ----------
+    row, basis : (K,) and (J, K) as the influence, to be written to.
+    """
+    for n in range(influence.shape[0]):
         change(influence[n], constant[n], passes, row, basis, changes[n])
 
 
-@kernel
-def least_changes_of_real(influence, constant, passes, changes):  # type: ignore[no-untyped-def]
+@in_place
+def least_changes_of_real(influence, constant, passes, row, basis, changes):  # type: ignore[no-untyped-def]
     """The same to the last digit where influences are real, in a third of the time."""
     number, terms, webs = influence.shape
-    row, basis = np.empty(webs), np.empty((terms, webs))
     for n in range(number):
         u = changes[n]
         for _ in range(passes):
