@@ -56,6 +56,7 @@ def proofs() -> None:
     from optimizer.program.methods.rounding import settled
     from optimizer.program.norms import Norms
     from optimizer.program.points import points_at
+    from optimizer.program.scaling import least_change
     from optimizer.program.statement import Names, Statement
 
     one, first, vector = np.ones(1), np.zeros(1, int), np.ones(1, complex)
@@ -65,6 +66,7 @@ def proofs() -> None:
     affine_minorant(program, nothing_proven(program))
     objective_lower_bound(program, nothing_proven(program))
     near_limits(limits, np.ones((1, 1, 1)), np.ones((1, 1), complex), 0.0, 0.0)
+    least_change(np.ones((1, 1, 1), complex), np.ones((1, 1), complex), 1)
     settled(program.alone(), points_at(program.alone(), np.zeros((1, 1), complex)), one, None)
 
 

@@ -49,13 +49,20 @@ def _within(machine: Machine, unbalance: Complex, limits: Limits) -> tuple[Real,
         return mass, np.where(mass > 0, angle, 0.0)
     # reduced first, without which the edge of a sector at 1e6 degrees would be rounded to 1e-10
     centre = np.mod(centre, 360.0)
-    off = np.mod(angle - centre + 180.0, 360.0) - 180.0
+    off = _in_a_turn(angle - centre + 180.0) - 180.0
     over = np.abs(off) - half_angle
     outside = ~free & (over > 0) & (mass > 0)
-    mass = np.where(outside, mass * np.maximum(np.cos(np.deg2rad(over)), 0.0), mass)
-    edge = np.mod(centre + np.copysign(half_angle, off), 360.0)
+    if np.count_nonzero(outside):
+        # few are
+        mass[outside] *= np.maximum(np.cos(np.deg2rad(over[outside])), 0.0)
+    edge = _in_a_turn(centre + np.copysign(half_angle, off))
     at_edge = ~free & (over > -_ROUNDING * 360.0)
     return mass, np.where(mass > 0, np.where(at_edge, edge, angle), 0.0)
+
+
+def _in_a_turn(angle_deg: Real) -> Real:
+    """Angles from -360 to 720 degrees within a turn, as the remainder is, in a third of its time."""
+    return np.where(angle_deg < 0.0, angle_deg + 360.0, np.where(angle_deg >= 360.0, angle_deg - 360.0, angle_deg))
 
 
 def unbalance(mass_kg: Real, angles_deg: Real, radius: Real) -> Complex:

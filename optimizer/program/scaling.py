@@ -80,11 +80,12 @@ def least_change(influence: Real | Complex, constant: Real | Complex, passes: in
     """
     *leading, terms, webs = influence.shape
     shape = (math.prod(leading), terms, webs)
-    # real or complex, both compiled once
-    rows = np.array(influence, complex, order="C").reshape(shape)
     constants = in_order(np.asarray(constant, complex)).reshape(shape[:-1])
     changes = np.zeros((shape[0], webs), complex)
-    _cancelling().least_changes(rows, constants, passes, changes)
+    loops, turned = _cancelling(), influence.dtype.kind == "c"
+    loop, kind = (loops.least_changes, complex) if turned else (loops.least_changes_of_real, float)
+    row, basis = np.empty(webs, kind), np.empty((terms, webs), kind)
+    loop(in_order(influence).reshape(shape), constants, passes, row, basis, changes)
     return changes.reshape(*leading, webs)
 
 

@@ -137,14 +137,15 @@ def verdict(claim: Claim, tolerance: float) -> Verdict:
     optimal = ~false & kept & close & light
     if np.logical_and.reduce(optimal, axis=None) and tolerance < np.inf:
         # all is finite then
-        every = spread(_OPTIMAL, optimal.shape), spread(np.asarray(why), optimal.shape)
+        every = spread(_OPTIMAL, optimal.shape), spread(np.asarray(why, dtype=object), optimal.shape)
         return Verdict(*every, bound, gap, relative, mass_bound, mass_gap, mass_yardstick)
     nothing = false | ~np.isfinite(relative)
     # the last of these that is so
     said = np.maximum.reduce([1 * ~light, 2 * ~close, 3 * ~kept, 4 * false])
     return Verdict(
         np.where(optimal, "optimal", "inaccurate"),
-        np.array([why, NOT_LIGHT, NOT_CLOSE, ON_THE_BOUNDARY, CONTRADICTED])[said],
+        # objects, as texts take the room of the longest in each design
+        np.asarray(np.array([why, NOT_LIGHT, NOT_CLOSE, ON_THE_BOUNDARY, CONTRADICTED], object)[said], object),
         np.where(nothing[..., None], np.nan, bound),
         np.where(nothing[..., None], np.nan, gap),
         np.where(nothing, np.nan, relative),

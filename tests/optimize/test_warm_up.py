@@ -12,6 +12,7 @@ from optimizer.compile_kernels import any_limits, budgets, moving_curves, proofs
 from optimizer.compile_kernels import near_sums as sums
 from optimizer.mechanics.kernel import entry
 from optimizer.numerics.kernel import circle, knapsack, meeting
+from optimizer.numerics.kernel import sums as of_forces
 from optimizer.program.kernel import (
     bounds,
     cancelling,
@@ -72,10 +73,11 @@ def test_what_is_compiled_is_what_answers_need() -> None:
         settling: ("rebalance", "settle"),
         symmetries: ("means",),
         outlines: ("worst_scaled", "worst_turned"),
-        cancelling: ("least_changes",),
+        cancelling: ("least_changes", "least_changes_of_real"),
         disc_forms: ("forms", "scales"),
         entry: ("_over_turn",),
         knapsack: ("filled",),
+        of_forces: ("force_and_couple",),
         circle: ("smallest",),
         of_curves: ("circles", "farthest", "nearer", "outlines"),
         motion: ("in_motion",),

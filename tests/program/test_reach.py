@@ -5,13 +5,15 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from scipy.optimize import linprog
 
 from optimizer.mechanics.angles import direction
 from optimizer.numerics.arrays import Complex
 from optimizer.program.ceilings import Ceilings
 from optimizer.program.equal_castings import Alike
-from optimizer.program.kernel.cancelling import least_changes
+from optimizer.program.kernel.cancelling import least_changes_of_real
 from optimizer.program.limits import Limits
 from optimizer.program.methods.implied_bounds import (
     _masses_by_inverse,
@@ -298,4 +300,14 @@ def test_a_real_constant_is_cancelled_by_the_same_machine_code() -> None:
     """Analytic: 2 u - 4 is 0 for u = 2. Another signature would be compiled while a client waits."""
     for kind in (float, complex):
         assert least_change(np.full((1, 1), 2.0), np.full(1, -4.0, kind), 1) == 2.0
-    assert len(least_changes.signatures) == 1
+    assert len(least_changes_of_real.signatures) == 1
+
+
+@given(terms=st.integers(1, 4), webs=st.integers(1, 6), passes=st.integers(1, 3), seed=st.integers(0, 2**16))
+def test_real_influences_are_complex_ones_to_the_last_digit(terms: int, webs: int, passes: int, seed: int) -> None:
+    """Independent: complex arithmetic with imaginary parts of 0."""
+    source = np.random.default_rng(seed)
+    influence = np.rint(3.0 * source.normal(size=(20, terms, webs)))
+    constant = source.normal(size=(20, terms)) + 1j * source.normal(size=(20, terms))
+    found = least_change(influence, constant, passes)
+    np.testing.assert_array_equal(found, least_change(influence.astype(complex), constant, passes))

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.program.kernel.compiling import inner, kernel
+from optimizer.program.kernel.compiling import in_place, inner
 from optimizer.program.kernel.lengths import length
 
 #: data that agree this closely, relative, are the same
@@ -27,8 +27,23 @@ class Alike(NamedTuple):
     half_angle_sin: Real  # (N, K)
 
 
-@kernel
-def means(constant, influence, limits, kinds, u):  # type: ignore[no-untyped-def]
+class Work(NamedTuple):
+    """Memory for one program after the other."""
+
+    relative: Real  # (Q, K)
+    level: Real  # (Q,)
+    ones: Real  # (Q,)
+    counts: np.ndarray  # (Q,) bool
+    along: Real  # (K,)
+    own: Real  # (K,)
+    moved: Complex  # (K,)
+    order: np.ndarray  # (K,)
+    begin: np.ndarray  # (2, K)
+    end: np.ndarray  # (2, K)
+
+
+@in_place
+def means(constant, influence, limits, kinds, u, work, found):  # type: ignore[no-untyped-def]
     """The mean of every program over its symmetries, and what it was where that is worse.
 
     Parameters
@@ -37,14 +52,13 @@ def means(constant, influence, limits, kinds, u):  # type: ignore[no-untyped-def
     limits : Alike.
     kinds : (K,) webs of different numbers are never alike.
     u : (N, K) kg m.
+    work : to be written to.
+    found : (N, K) the same as u, to be written to.
     """
     number, terms, webs = influence.shape
-    found = u.copy()
-    relative, level = np.empty((terms, webs)), np.empty(terms)
-    order, along = np.empty(webs, np.int64), np.empty(webs)
-    begin, end = np.empty((2, webs), np.int64), np.empty((2, webs), np.int64)
-    own, counts, moved = np.empty(webs), np.empty(terms, np.bool_), np.empty(webs, np.complex128)
-    ones = np.empty(terms)
+    relative, along, own, moved = work.relative, work.along, work.own, work.moved
+    level, ones, counts = work.level, work.ones, work.counts
+    order, begin, end = work.order, work.begin, work.end
     for q in range(terms):
         ones[q] = 1.0
     for n in range(number):
@@ -98,7 +112,6 @@ def means(constant, influence, limits, kinds, u):  # type: ignore[no-untyped-def
         if changed and _worse(constant[n], influence[n], limits.radius[n], u[n], found[n]):
             for k in range(webs):
                 found[n, k] = u[n, k]
-    return found
 
 
 @inner
@@ -228,7 +241,8 @@ def _turn(constant, counts, signs, mirrored):  # type: ignore[no-untyped-def]
         if counts[q]:
             wanted = signs[q] + 0.0j
             if mirrored:
-                unit = constant[q] / abs(constant[q])
+                size = abs(constant[q])
+                unit = complex(constant[q].real / size, constant[q].imag / size)
                 wanted = signs[q] * (unit * unit)
             if not known:
                 turn, known = wanted, True

@@ -34,12 +34,21 @@ def symmetric(statement: Statement, u: Complex, kinds: np.ndarray | None = None)
     if u.shape[-1] < 2 or not u.size or statement.norms.turned or statement.ceilings.norms.turned:
         return u
     programs, region = statement.flat.programs, statement.flat.programs.region
-    found: Complex = _symmetries().means(
+    _, terms, webs = programs.influence.shape
+    numbers, own, places = np.empty((terms + 2, webs)), np.empty((2, terms)), np.empty((5, webs), np.int64)
+    work = _symmetries().Work(
+        numbers[:terms], own[0], own[1], np.empty(terms, bool), numbers[terms], numbers[terms + 1],
+        np.empty(webs, complex), places[0], places[1:3], places[3:],
+    )  # fmt: skip
+    found: Complex = np.array(u, complex, order="C")
+    _symmetries().means(
         programs.constant,
         programs.influence,
         _symmetries().Alike(region.radius, region.max_mass, region.free, region.centre, region.sine),
         np.zeros(u.shape[-1], np.int64) if kinds is None else kinds.astype(np.int64),
         in_order(u),
+        work,
+        found,
     )
     return found
 

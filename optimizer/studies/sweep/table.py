@@ -62,8 +62,9 @@ def _array(column: Any, kind: pa.DataType) -> pa.Array:
         return pa.array(column, kind) if finite.all() else pa.array(column, kind, mask=~finite)
     if kind == pa.string():
         # few different texts: Arrow repeats them faster than Python does
-        number = {text: k for k, text in enumerate(dict.fromkeys(column))}
-        which = np.fromiter(map(number.__getitem__, column), dtype=np.int32, count=len(column))
+        texts = column.tolist() if isinstance(column, np.ndarray) else column
+        number = {text: k for k, text in enumerate(dict.fromkeys(texts))}
+        which = np.fromiter(map(number.__getitem__, texts), dtype=np.int32, count=len(texts))
         dictionary = pa.array([text or None for text in number], kind)
         return pa.DictionaryArray.from_arrays(pa.array(which), dictionary).cast(kind)
     return pa.array(column, kind)
