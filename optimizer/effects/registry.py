@@ -74,9 +74,9 @@ def _universal(names: tuple[str, ...]) -> bool:
 
 def problems_of(machine: Machine, needs: Sequence[str]) -> Iterator[FieldProblem]:
     """Fields that these effects need, and all that they need, and the machine does not give."""
-    known = _problems(machine)
+    problems = _problems(machine)
     for name in closure(machine, needs):
-        yield from known[name]
+        yield from problems[name]
 
 
 class _Problems(dict[str, tuple[FieldProblem, ...]]):
@@ -111,7 +111,7 @@ def rules_of(machine: Machine, name: str) -> Iterator[Rule]:
 
 def inputs_of(needs: Sequence[str]) -> tuple[str, ...]:
     """Fields that these effects, and all that they need, read beyond masses and geometry, each once."""
-    return tuple(dict.fromkeys(each for name in effects_of(needs) for each in EFFECTS[name].inputs))
+    return tuple(dict.fromkeys(field for name in effects_of(needs) for field in EFFECTS[name].inputs))
 
 
 @dataclass
@@ -183,10 +183,10 @@ def simulate(
     """
     samples = np.zeros(0) if angle is None else angle
     wanted = tuple(need for needs in demands.values() for need in needs)
-    found, times = _run(machine, layout, wanted, fidelity, samples, results)
+    figures, times = _run(machine, layout, wanted, fidelity, samples, results)
     purposes = tuple((purpose, tuple(needs)) for purpose, needs in demands.items())
     users = _users(purposes, absent_effects(machine, wanted))
-    return Simulated(machine, layout, fidelity, found, times, users.copy())
+    return Simulated(machine, layout, fidelity, figures, times, users.copy())
 
 
 @lru_cache(maxsize=256)
@@ -216,19 +216,19 @@ def _run(
 
     A result over the turn of many designs is large, and memory that is used again is quicker than new memory.
     """
-    found: dict[str, Any] = {}
+    figures: dict[str, Any] = {}
     times: dict[str, float] = {}
     for name, done in _plan(tuple(closure(machine, needs)), tuple(needs)):
         effect, start = EFFECTS[name], time.perf_counter()
         # an effect sees the results of those that it declares, and no others
-        visible = {need: found[need] for need in effect.needs if need in found} if effect.needs else {}
+        visible = {need: figures[need] for need in effect.needs if need in figures} if effect.needs else {}
         context = Context(machine, layout, fidelity, angle, visible, needs)
-        found[name] = results[name] if name in results else effect.simulate(context)
+        figures[name] = results[name] if name in results else effect.simulate(context)
         times[name] = (time.perf_counter() - start) * 1e3
         for need in done:
             # what does not apply was never there
-            found.pop(need, None)
-    return found, times
+            figures.pop(need, None)
+    return figures, times
 
 
 @lru_cache(maxsize=256)

@@ -60,11 +60,11 @@ class _Cranks(NamedTuple):
 # of a machine that is asked about again and again; of few, for large ones are a third of a megabyte
 @lru_cache(maxsize=16)
 def _of_places(throws: tuple[float, ...], webs: tuple[float, ...], named: tuple[int | None, ...]) -> _Cranks:
-    found, own = _shares(throws, webs, named), dict[int, int]()
-    for throw, web in zip(*map(np.ndarray.tolist, (found == 1.0).nonzero()), strict=True):
+    fractions, own = _shares(throws, webs, named), dict[int, int]()
+    for throw, web in zip(*map(np.ndarray.tolist, (fractions == 1.0).nonzero()), strict=True):
         own[web] = throw
-    found.flags.writeable = False
-    return _Cranks(found, tuple(own.get(web) for web in range(len(webs))))
+    fractions.flags.writeable = False
+    return _Cranks(fractions, tuple(own.get(web) for web in range(len(webs))))
 
 
 def crank_angles(machine: Machine) -> list[float | None]:

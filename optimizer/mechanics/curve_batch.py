@@ -36,7 +36,7 @@ class CurveBatch:
         """The curves piece by piece (J, P)."""
         turn = self.parts[0].whole
         cubic, rest, size = self._series.over(turn.points, turn.bounds, turn.half)
-        centre, half = (spread(each, rest.shape) for each in (turn.centre, turn.half))
+        centre, half = (spread(array, rest.shape) for array in (turn.centre, turn.half))
         pieces = Pieces(centre, half, cubic, rest, size, source=self)
         for part, ends in zip(self.parts, pairwise(self.first.tolist()), strict=True):
             part.take(pieces, slice(*ends))

@@ -51,15 +51,15 @@ class CurveSeries:
         from optimizer.mechanics.kernel.entry import SUMS, Reading, over_turn
 
         rows, nothing = self.rows.packed, repeat((NOTHING, None))
-        each = (nothing if one is None else one.functions(self._pressed) for one in (points, bounds))
-        found, order = [], -1 if bounds is None else bounds.order
-        for (at, place), (over, other) in zip(*each, strict=False):
+        functions = (nothing if series is None else series.functions(self._pressed) for series in (points, bounds))
+        results, order = [], -1 if bounds is None else bounds.order
+        for (at, place), (over, other) in zip(*functions, strict=False):
             wide = compact(half[:, place or other])
             reading = Reading(self._every, np.arange(len(wide)), wide, order, wide.shape[1])
-            found.append(over_turn(SUMS, rows, self.sums, reading=reading, points=at, bounds=over)[1:])
-        if len(found) == 1:
-            return found[0]
-        cubic, rest, size = zip(*found, strict=True)
+            results.append(over_turn(SUMS, rows, self.sums, reading=reading, points=at, bounds=over)[1:])
+        if len(results) == 1:
+            return results[0]
+        cubic, rest, size = zip(*results, strict=True)
         return np.concatenate(cubic, axis=1), np.concatenate(rest, axis=1), np.max(size, axis=0)
 
     @cached_property
@@ -70,7 +70,7 @@ class CurveSeries:
 
         number = np.empty(len(self.weights), np.int64)
         number[:] = [READINGS.index(reading) for reading in self.readings]
-        return Sums(number, *(in_order(np.asarray(each, complex)) for each in (self.weights, self.constant)))
+        return Sums(number, *(in_order(np.asarray(array, complex)) for array in (self.weights, self.constant)))
 
     def search(self, cubics: "Cubics", members: "Members", best: "Best", motion: "Motion | None") -> Complex:
         """Peaks of the curves, or of one of them in motion, from their pieces, and the curves there, at rest."""
@@ -150,5 +150,5 @@ def forces(series: RowSeries, reading: Reading, bounded: bool = False) -> Comple
     curves = CurveSeries(series.data, series.centre, (reading,), every, np.zeros(len(every)))
     points, bounds = (None, series) if bounded else (series, None)
     middle, most, _ = curves.over(points, bounds, np.ones((designs, series.centre.shape[1])))
-    found = most if bounded else middle
-    return found.reshape(designs, rows, *found.shape[1:])
+    coefficients = most if bounded else middle
+    return coefficients.reshape(designs, rows, *coefficients.shape[1:])

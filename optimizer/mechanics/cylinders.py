@@ -56,9 +56,9 @@ def chambers(machine: ReciprocatingMachine, leading: tuple[int, ...] = ()) -> Ch
 @remembered
 def _chambers(machine: ReciprocatingMachine) -> Chambers:
     """The same with the axes of the columns alone."""
-    given = [[cylinder for _, cylinder in row_cylinders(row)] for throw in machine.throws for row in throw.rows]
-    count = 2 * max((len(row) for row in given), default=1) or 2
-    rows = [([side for one in row for side in _row(one)] + [_NONE] * count)[:count] for row in given]
+    cylinders = [[cylinder for _, cylinder in row_cylinders(row)] for throw in machine.throws for row in throw.rows]
+    count = 2 * max((len(row) for row in cylinders), default=1) or 2
+    rows = [([side for member in row for side in _row(member)] + [_NONE] * count)[:count] for row in cylinders]
     values = stacked([chamber[number] for number in range(7) for row in rows for chamber in row])
     table = values.reshape(*values.shape[:-1], 7, len(rows), count)
     area, low, high, clearance, expansion, compression, closed = np.moveaxis(table, -3, 0)
@@ -70,12 +70,17 @@ def traces(machine: ReciprocatingMachine, layout: Layout) -> tuple[Trace, ...]:
     ahead = own_angle(layout, np.zeros(1))[..., 0]
     results = [
         _trace(
-            place.row, place.chamber + side, given, getattr(given, name), _start_deg(machine, place.row, given), ahead
+            place.row,
+            place.chamber + side,
+            record,
+            getattr(record, name),
+            _start_deg(machine, place.row, record),
+            ahead,
         )
         for place, cylinder in _cylinders(machine)
-        for given in (() if cylinder.pressure is None else (cylinder.pressure,))
+        for record in (() if cylinder.pressure is None else (cylinder.pressure,))
         for side, name in enumerate(_SIDES)
-        if getattr(given, name) is not None
+        if getattr(record, name) is not None
     ]
     if not results:
         return ()
@@ -103,7 +108,7 @@ def _trace(
     row: int, chamber: int, record: IndicatedPressure, table: PressureTrace, start_deg: Real, ahead: Real
 ) -> Trace:
     """One trace, from an entry of the cycle before to one of the next."""
-    angle, pressure = (np.atleast_2d(stacked(each)) for each in (table.angle_deg, table.pressure_Pa))
+    angle, pressure = (np.atleast_2d(stacked(column)) for column in (table.angle_deg, table.pressure_Pa))
     angle, cycle = np.deg2rad(angle), TURN * record.cycle_turns
     angle = np.concatenate([angle[:, -1:] - cycle, angle, angle[:, :1] + cycle], axis=-1)
     pressure = np.concatenate([pressure[:, -1:], pressure, pressure[:, :1]], axis=-1)
@@ -121,15 +126,15 @@ def _trace(
 
 def cycle_turns(machine: ReciprocatingMachine) -> int:
     """Turns of the shaft after which the gas of all rows repeats, 1 or 2."""
-    given = [cylinder.pressure for _, cylinder in _cylinders(machine)]
-    return max((one.cycle_turns for one in given if one is not None), default=1)
+    records = [cylinder.pressure for _, cylinder in _cylinders(machine)]
+    return max((record.cycle_turns for record in records if record is not None), default=1)
 
 
 def entry_count(machine: ReciprocatingMachine) -> int:
     """Entries of all indicated pressures over the turns after which all repeats."""
-    turns, given = cycle_turns(machine), [cylinder.pressure for _, cylinder in _cylinders(machine)]
-    tables = [(one, table) for one in given if one for table in (one.head, one.crank) if table]
-    return sum(len(table.angle_deg) * turns // one.cycle_turns for one, table in tables)
+    turns, records = cycle_turns(machine), [cylinder.pressure for _, cylinder in _cylinders(machine)]
+    tables = [(record, table) for record in records if record for table in (record.head, record.crank) if table]
+    return sum(len(table.angle_deg) * turns // record.cycle_turns for record, table in tables)
 
 
 def without_gas(machine: ReciprocatingMachine) -> tuple[Path, ...]:
@@ -161,12 +166,12 @@ def delivery_rules(machine: ReciprocatingMachine, layout: Layout) -> Iterator[Ru
 
 def trace_rules(machine: ReciprocatingMachine, layout: Layout) -> Iterator[Rule]:
     """Not more entries than can be worked on: every row is looked at between any two of them."""
-    given = traces(machine, layout)
-    if given:
-        angles = entries(given, own_angle(layout, np.zeros(1))[..., 0])
+    records = traces(machine, layout)
+    if records:
+        angles = entries(records, own_angle(layout, np.zeros(1))[..., 0])
         different = 1 + np.count_nonzero(np.diff(angles, axis=-1) > SLIVER, axis=-1)
         many = layout.reciprocating.mass.shape[-1] * different > MAX_ENTRIES
-        path = next(place.path for place, one in _cylinders(machine) if one.pressure is not None)
+        path = next(place.path for place, cylinder in _cylinders(machine) if cylinder.pressure is not None)
         words = f"rows times the different angles of all indicated pressures must be at most {MAX_ENTRIES}"
         yield Rule(many, (*path, "pressure"), words)
 
@@ -263,9 +268,9 @@ def _row(cylinder: Cylinder) -> list[list[float | None]]:
 
 
 def _side(cylinder: Cylinder, side: str, area: float | None) -> list[float | None]:
-    given = _indicated(cylinder, side) is not None
-    if _acts(cylinder, side) and not given:
+    indication = _indicated(cylinder, side) is not None
+    if _acts(cylinder, side) and not indication:
         return [area, *_state(cylinder, side), 1.0]
     # an open side: ambient pressure all the way round, unless it is given; the other numbers are not used
-    ambient = 0.0 if given or _is_none(area) else cylinder.ambient_pressure_Pa
+    ambient = 0.0 if indication or _is_none(area) else cylinder.ambient_pressure_Pa
     return [area, ambient, ambient, 1.0, 2.0, 2.0, 0.0]

@@ -46,7 +46,9 @@ def beside(machine: Machine, mass_kg: Real, angle_deg: Real) -> tuple[Real, Real
     which = fixed_webs(machine)
     behind = mass_kg.shape[-1] - which.size
     angles = np.mod(stacked([0.0 if web.fixed is None else web.fixed.angle_deg for web in machine.webs]), 360.0)
-    masses, at = (np.pad(each, [(0, 0)] * (each.ndim - 1) + [(0, behind)]) for each in (fixed_masses(machine), angles))
+    masses, at = (
+        np.pad(array, [(0, 0)] * (array.ndim - 1) + [(0, behind)]) for array in (fixed_masses(machine), angles)
+    )
     there = np.pad(which, (0, behind))
     # without a mass there is no angle
     return np.where(there, masses, mass_kg), np.where(there, np.where(masses > 0, at, 0.0), angle_deg)
@@ -60,9 +62,9 @@ def laden(layout: Layout, machine: Machine) -> Layout:
     fixed = [web.fixed for web in machine.webs if web.fixed is not None]
     turning = layout.rotating
     parts = {
-        "mass": stacked([each.mass_kg for each in fixed]),
+        "mass": stacked([weight.mass_kg for weight in fixed]),
         "radius": layout.webs.radius[..., there],
-        "direction": direction(stacked([each.angle_deg for each in fixed])),
+        "direction": direction(stacked([weight.angle_deg for weight in fixed])),
         "position": layout.webs.position[..., there],
     }
     return replace(
@@ -72,4 +74,4 @@ def laden(layout: Layout, machine: Machine) -> Layout:
 
 def _behind(arrays: np.ndarray, more: np.ndarray) -> np.ndarray:
     leading = np.broadcast_shapes(arrays.shape[:-1], more.shape[:-1])
-    return np.concatenate([np.broadcast_to(each, (*leading, each.shape[-1])) for each in (arrays, more)], axis=-1)
+    return np.concatenate([np.broadcast_to(array, (*leading, array.shape[-1])) for array in (arrays, more)], axis=-1)

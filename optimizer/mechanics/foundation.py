@@ -44,9 +44,9 @@ def foundation_load(
     negligible : force [N] and couple [N m] that rounding alone leaves, (...) each.
     """
     phasors = np.array([phasor for pair in wrench for phasor in _along(pair)])
-    least = np.array([spread(each, phasors.shape[1:]) for each in negligible for _ in range(2)])
+    least = np.array([spread(entry, phasors.shape[1:]) for entry in negligible for _ in range(2)])
     loads = _oscillation(phasors, order, sense, dead_centre_deg, least)
-    return FoundationLoad(*(Oscillation(*each) for each in zip(*loads, strict=True)))
+    return FoundationLoad(*(Oscillation(*entry) for entry in zip(*loads, strict=True)))
 
 
 def _along(pair: Phasors) -> tuple[Complex, Complex]:

@@ -162,8 +162,8 @@ def indicated_work(chambers: Chambers, layout: Layout) -> Real:
         _above_start(log, n) for n in (chambers.compression_exponent, chambers.expansion_exponent)
     )
     put_in = low * (stroke + clear) * compression + rise * discharge
-    given_back = low * (clear + suction) * expansion
-    return np.where(chambers.closed, chambers.area * (put_in - given_back), 0.0)
+    recovery = low * (clear + suction) * expansion
+    return np.where(chambers.closed, chambers.area * (put_in - recovery), 0.0)
 
 
 def _above_start(log: Real, exponent: Real) -> Real:

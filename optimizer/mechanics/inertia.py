@@ -80,8 +80,8 @@ def reciprocating_orders(
     forces = [reciprocating_forces(layout, order, harmonic) for order in orders]
     *leading, rows = forces[0].co.shape
     every = np.empty((*leading, 2 * len(forces), rows), complex)
-    for n, each in enumerate(forces):
-        every[..., 2 * n, :], every[..., 2 * n + 1, :] = each.co, each.counter
+    for n, phasors in enumerate(forces):
+        every[..., 2 * n, :], every[..., 2 * n + 1, :] = phasors.co, phasors.counter
     force, couple = _summed(layout, every, layout.reciprocating.position)
     return [
         Wrench(

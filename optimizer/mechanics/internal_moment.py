@@ -23,7 +23,7 @@ def internal_moment(layout: Layout, unbalance: Complex | None = None) -> Real:
     if unbalance is not None:
         parts.append((layout.webs.position, Phasors(unbalance, np.zeros(1, complex))))
     ends = np.cumsum([0, *(place.shape[-1] for place, _ in parts)]).tolist()
-    leading = np.broadcast_shapes(*(each.shape[:-1] for place, pair in parts for each in (place, pair.co)))
+    leading = np.broadcast_shapes(*(array.shape[:-1] for place, pair in parts for array in (place, pair.co)))
     # both phasors beside each other
     place, force = np.empty((*leading, ends[-1])), np.empty((*leading, 2, ends[-1]), complex)
     for (own, pair), first, last in zip(parts, ends, ends[1:], strict=False):

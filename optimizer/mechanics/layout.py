@@ -113,12 +113,12 @@ def layout(machine: ReciprocatingMachine | ScrollMachine) -> Layout:
     turning_mass, turning_radius, angle, place = _table([*turning, *_unbalances(machine)], 4)
     mass, radius, crank_angle, axis_angle, position, ratio, rest = _table(moving, 7)
     towards, crank, axis = direction(angle), direction(crank_angle), direction(axis_angle)
-    centre, given = _middle(planes), machine.reference_plane_m
+    centre, plane = _middle(planes), machine.reference_plane_m
     return Layout(
         omega=np.asarray(machine.speed_rpm * np.pi / 30.0),
         sense=np.asarray(1.0 if machine.rotation == "ccw" else -1.0),
         centre_plane=centre,
-        reference_plane=centre if given is None else np.asarray(given, dtype=float),
+        reference_plane=centre if plane is None else np.asarray(plane, dtype=float),
         rotating=Rotating(turning_mass, turning_radius, towards, place),
         reciprocating=Reciprocating(mass, radius, crank, axis, position, ratio, rest),
         webs=_webs(machine),
@@ -162,10 +162,10 @@ def stacked(values: Sequence[Any]) -> Real:
 
 
 def _columns(values: Sequence[Any]) -> Real:
-    each = [np.asarray(value, dtype=float) for value in values]
-    table = np.empty((*np.broadcast_shapes(*(one.shape for one in each)), len(each)))
-    for k, one in enumerate(each):
-        table[..., k] = one
+    columns = [np.asarray(value, dtype=float) for value in values]
+    table = np.empty((*np.broadcast_shapes(*(column.shape for column in columns)), len(columns)))
+    for k, column in enumerate(columns):
+        table[..., k] = column
     return table
 
 

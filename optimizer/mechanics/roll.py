@@ -35,8 +35,8 @@ def roll(turn: WholeTurn, layout: Layout) -> TurnResponse:
 
 def roll_curves(turn: WholeTurn, layout: Layout) -> TurnCurves:
     """What the rows of N designs leave on the frame, without its mean: N curves, kg m^2 (over omega^2)."""
-    each = layout.sense[..., None] * layout.reciprocating.crank_radius / layout.omega[..., None] ** 2
-    weights = spread(each, (*layout.omega.shape, turn.rows.crank_radius.shape[-1]))
+    factor = layout.sense[..., None] * layout.reciprocating.crank_radius / layout.omega[..., None] ** 2
+    weights = spread(factor, (*layout.omega.shape, turn.rows.crank_radius.shape[-1]))
     of_rows = turn.curves("tangential", weights.reshape(len(turn.centre), 1, -1))
     return variant(of_rows, constant=-of_rows.mean[:, None])
 

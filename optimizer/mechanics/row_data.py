@@ -58,16 +58,16 @@ class RowData:
         motion = _together([self.ahead, self.rod_ratio, self.rod_margin, self.sense], (count,))
         scale = _together([self.inertia, self.friction], (count,))
         chambers = 0 if self.area is None else self.area.shape[-1]
-        area, gas, given = np.zeros((1, count, 0)), np.zeros((1, count, 0, 8)), np.full((count, chambers), -1)
+        area, gas, numbers = np.zeros((1, count, 0)), np.zeros((1, count, 0, 8)), np.full((count, chambers), -1)
         if self.area is not None and self.closed is not None:
             # crank sides pull, head sides push
             area = np.where(np.arange(chambers) % 2 == 0, -self.area, self.area)
             gas = _together([*self._state, *_opened(self._state, self.closed), self.closed], (count, chambers))
         for number, trace in enumerate(self.traces):
-            given[trace.row, trace.side] = number
+            numbers[trace.row, trace.side] = number
         designs = max(len(motion), len(gas))
-        motion, gas = (compact(spread(each, (designs, *each.shape[1:]))) for each in (motion, gas))
-        return Rows(motion, scale, compact(area), gas, given, self.exact, _tables(self.traces))
+        motion, gas = (compact(spread(array, (designs, *array.shape[1:]))) for array in (motion, gas))
+        return Rows(motion, scale, compact(area), gas, numbers, self.exact, _tables(self.traces))
 
     @property
     def _state(self) -> list[Real]:
@@ -124,15 +124,18 @@ def _tables(traces: Sequence[Trace]) -> "Tables":
     """The pressures that traces give, as what is compiled takes them."""
     from optimizer.mechanics.kernel.rows import Tables
 
-    number, designs = len(traces), max((len(each) for trace in traces for each in (trace.table, trace.lead)), default=1)
+    number, designs = (
+        len(traces),
+        max((len(entry) for trace in traces for entry in (trace.table, trace.lead)), default=1),
+    )
     sizes = [trace.angle.shape for trace in traces]
-    shape = (number, *(max(each) for each in zip(*sizes, strict=True))) if sizes else (0, 1, 1)
+    shape = (number, *(max(entry) for entry in zip(*sizes, strict=True))) if sizes else (0, 1, 1)
     parts, lead, table = np.zeros((3, *shape)), np.empty((number, designs)), np.empty((number, designs), np.int64)
-    for k, (one, (tables, count)) in enumerate(zip(traces, sizes, strict=True)):
-        step = np.diff(one.angle, axis=-1)
-        parts[0, k, :tables, :count], parts[1, k, :tables, :count] = one.angle, one.pressure
-        parts[2, k, :tables, : count - 1] = np.diff(one.pressure, axis=-1) / np.where(step > 0.0, step, np.inf)
-        table[k], lead[k] = one.table, one.lead
+    for k, (record, (tables, count)) in enumerate(zip(traces, sizes, strict=True)):
+        step = np.diff(record.angle, axis=-1)
+        parts[0, k, :tables, :count], parts[1, k, :tables, :count] = record.angle, record.pressure
+        parts[2, k, :tables, : count - 1] = np.diff(record.pressure, axis=-1) / np.where(step > 0.0, step, np.inf)
+        table[k], lead[k] = record.table, record.lead
     counts, cycles = np.array([count for _, count in sizes], np.int64), np.array([trace.cycle for trace in traces])
     angle, pressure, slope = parts
     return Tables(angle, pressure, slope, counts, cycles, table, lead)
@@ -145,10 +148,10 @@ def compact(values: Real) -> Real:
 
 def _together(values: Sequence[Real], shape: tuple[int, ...]) -> Real:
     """Values (D, *shape) on a last axis; D is 1 where all designs have the same."""
-    found = np.empty((max(len(each) for each in values), *shape, len(values)))
-    for k, each in enumerate(values):
-        found[..., k] = each
-    return found
+    result = np.empty((max(len(value) for value in values), *shape, len(values)))
+    for k, value in enumerate(values):
+        result[..., k] = value
+    return result
 
 
 def shared(values: Real) -> Real:

@@ -38,8 +38,8 @@ class RowParts:
         reach = np.abs(self._fourth) * self.half**4
         for k in range(4):
             reach = reach + np.abs(middle[..., k]) * self.half**k
-        found: Real = np.abs(self.weights) @ reach
-        return found
+        total: Real = np.abs(self.weights) @ reach
+        return total
 
     def fourth(self, curve: Index, piece: Index) -> Real:
         """Bounds (m, R) on the fourth coefficients of the parts all over pieces."""
@@ -47,8 +47,8 @@ class RowParts:
 
     def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
         """Taylor polynomials (m, R, 4) about centres (m,) rad within pieces, in units of half widths (m,)."""
-        found = np.moveaxis(self._forces(centre, None, 3, piece), 0, 1) * half[:, None, None] ** np.arange(4)
-        parts: Complex = self.weights[curve][..., None] * found
+        coefficients = np.moveaxis(self._forces(centre, None, 3, piece), 0, 1) * half[:, None, None] ** np.arange(4)
+        parts: Complex = self.weights[curve][..., None] * coefficients
         return parts
 
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
@@ -58,8 +58,8 @@ class RowParts:
 
     def at(self, curve: int, angle: Real) -> Complex:
         """Values (n, R) at angles (n,) rad."""
-        found: Complex = self.weights[curve] * self._forces(angle, None, 0)[..., 0].T
-        return found
+        values: Complex = self.weights[curve] * self._forces(angle, None, 0)[..., 0].T
+        return values
 
     @cached_property
     def _fourth(self) -> Real:

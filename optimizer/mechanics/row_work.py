@@ -46,8 +46,8 @@ class RowWork:
     def of_a_turn(self) -> Real:
         """Work of every row in one turn (..., rows) J."""
         gas = 0.0 if self._indicated is None else np.add.reduce(self._indicated, axis=-1)
-        found: Real = gas + self._rubbed
-        return found
+        work: Real = gas + self._rubbed
+        return work
 
     def beside_mean(self, angle: Real) -> Real:
         """Running integral of torque - mean, of all rows, but for a constant, at shaft angles (..., n) rad: (..., n) J.
@@ -70,8 +70,8 @@ class RowWork:
             switching = switching_travels(self.chambers, self.layout)
             gas = _gas_work(self.chambers, stroke[..., None], travel, rest, since < 0.5 * TURN, switching)
             work += np.add.reduce(gas - self._indicated[..., None] * (since / TURN), axis=-2)
-        found: Real = np.add.reduce(work, axis=-2)
-        return found
+        total: Real = np.add.reduce(work, axis=-2)
+        return total
 
     def fluctuation(self, torque: TurnCurves) -> Range:
         """Range of the running integral of torque - mean, of the torque of all rows: it turns where they are equal."""

@@ -22,8 +22,8 @@ _SHAPES: Mapping[str, type[AnnularSector | Segment]] = {"sector": AnnularSector,
 @remembered
 def plates(machine: Machine) -> Plates | None:
     """The plates of the webs that have one; None where no web has."""
-    given = tuple(web.envelope for web in machine.webs)
-    return _side_by_side(given) if any(given) else None
+    envelopes = tuple(web.envelope for web in machine.webs)
+    return _side_by_side(envelopes) if any(envelopes) else None
 
 
 @lru_cache(maxsize=8)
@@ -32,17 +32,18 @@ def _side_by_side(envelopes: tuple[Envelope | None, ...]) -> Plates:
     cut = [(k, envelope) for k, envelope in enumerate(envelopes) if envelope is not None]
     parts = []
     for shape, made in _SHAPES.items():
-        places = np.array([n for n, (_, each) in enumerate(cut) if each.shape == shape], dtype=int)
+        places = np.array([n for n, (_, plate) in enumerate(cut) if plate.shape == shape], dtype=int)
         if places.size:
             of_shape = [cut[n][1] for n in places]
             figures = [
-                (each.inner_radius_m, each.outer_radius_m, each.thickness_m * each.density_kg_m3) for each in of_shape
+                (plate.inner_radius_m, plate.outer_radius_m, plate.thickness_m * plate.density_kg_m3)
+                for plate in of_shape
             ]
             inner, outer, areal = np.array(figures).T
             parts.append(
-                (places, made(inner, outer, areal, np.deg2rad([each.max_half_angle_deg for each in of_shape])))
+                (places, made(inner, outer, areal, np.deg2rad([plate.max_half_angle_deg for plate in of_shape])))
             )
-    kinds = [envelopes.index(each) for _, each in cut]
+    kinds = [envelopes.index(plate) for _, plate in cut]
     return Plates(np.array([k for k, _ in cut]), np.array(kinds), parts)
 
 
@@ -69,7 +70,7 @@ def _cut_machine(machine: Machine) -> Callable[[tuple[float, ...]], Machine]:
         fits = mass > 0.0
         radius = np.where(fits, cut.unbalance(angle) / np.where(fits, mass, 1.0), cut.lever(np.zeros(mass.shape)))
         at = zip(cut.webs.tolist(), radius.tolist(), strict=True)
-        return with_fields(machine, {("webs", k, "counterweight_radius_m"): each for k, each in at})
+        return with_fields(machine, {("webs", k, "counterweight_radius_m"): value for k, value in at})
 
     return with_radii
 

@@ -52,9 +52,9 @@ def acceleration_harmonic(order: int, rod_ratio: Real) -> Real:
 @lru_cache(maxsize=256)
 def _of_machine(order: int, rod_ratios: tuple[float, ...]) -> Real:
     """The same of the rows of one machine, of an even order; nobody writes to it."""
-    found = _even_harmonic(order, np.array(rod_ratios))
-    found.flags.writeable = False
-    return found
+    harmonics = _even_harmonic(order, np.array(rod_ratios))
+    harmonics.flags.writeable = False
+    return harmonics
 
 
 def _even_harmonic(order: int, lam: Real) -> Real:

@@ -90,9 +90,9 @@ def panels(breaks: Real, widest: float, halved: bool = False, turns: int = 1) ->
 
 def mean(turn: Turn, values: Real) -> Real:
     """Mean over all turns of values at the nodes (...)."""
-    each = _per_panel(turn, values) @ turn.rule.weights * (0.5 * turn.width)
+    integrals = _per_panel(turn, values) @ turn.rule.weights * (0.5 * turn.width)
     # one after the other: panels without width, which a neighbour brings, change no bit
-    whole: Real = np.cumsum(each, axis=-1)[..., -1]
+    whole: Real = np.cumsum(integrals, axis=-1)[..., -1]
     return whole / (2.0 * np.pi * turn.turns)
 
 

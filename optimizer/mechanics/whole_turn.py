@@ -55,19 +55,19 @@ def break_angles(layout: Layout, opens: tuple[Real, ...] = (), traces: Sequence[
     dead = spread(_DEAD_CENTRES, (*ratio.shape, 2))
     own = np.concatenate([*opens, dead, steep_angles(ratio)], axis=-1)
     ahead = own_angle(layout, np.zeros(1))
-    found = (own - ahead).reshape(*ratio.shape[:-1], -1)
-    designs = tuple(range(found.ndim - 1))
-    found = found[..., ~np.logical_and.reduce(np.isnan(found), axis=designs)]
+    angles = (own - ahead).reshape(*ratio.shape[:-1], -1)
+    designs = tuple(range(angles.ndim - 1))
+    angles = angles[..., ~np.logical_and.reduce(np.isnan(angles), axis=designs)]
     apart = 0.0
     if traces:
         turns, apart = turns_of(traces), SLIVER
-        again = [np.mod(found + TURN * k, TURN * turns) for k in range(turns)]
-        found = np.concatenate([*again, entries(traces, ahead[..., 0])], axis=-1)
-    found = np.sort(found, axis=-1)
+        again = [np.mod(angles + TURN * k, TURN * turns) for k in range(turns)]
+        angles = np.concatenate([*again, entries(traces, ahead[..., 0])], axis=-1)
+    angles = np.sort(angles, axis=-1)
     # rows that reverse together, and tables that have the same entries, would only make panels without width
-    same = np.zeros(found.shape, dtype=bool)
-    np.less_equal(found[..., 1:] - found[..., :-1], apart, out=same[..., 1:])
-    return found[..., ~np.logical_and.reduce(same, axis=designs)]
+    same = np.zeros(angles.shape, dtype=bool)
+    np.less_equal(angles[..., 1:] - angles[..., :-1], apart, out=same[..., 1:])
+    return angles[..., ~np.logical_and.reduce(same, axis=designs)]
 
 
 @dataclass(frozen=True)
@@ -121,7 +121,7 @@ class WholeTurn:
 
     def tangential(self, turn: Turn) -> Real:
         """Tangential force of every row (N, R, n) N at the nodes of panels between breaks, which have leading axes."""
-        nodes, middle = (each.reshape(-1, each.shape[-1]) for each in (turn.angle, turn.middle))
+        nodes, middle = (array.reshape(-1, array.shape[-1]) for array in (turn.angle, turn.middle))
         places = shared(np.stack([nodes, middle], axis=1))
         series = RowSeries(self.rows, places[:, 0], None, places[:, 1], 0)
         return forces(series, "tangential")[..., 0].real
@@ -215,7 +215,7 @@ class TurnCurves:
         """The curves piece by piece (N C, P)."""
         whole = self.whole
         cubic, rest, size = self._series.over(whole.points, whole.bounds, whole.half)
-        centre, half = (np.repeat(each, self.weights.shape[1], axis=0) for each in (whole.centre, whole.half))
+        centre, half = (np.repeat(array, self.weights.shape[1], axis=0) for array in (whole.centre, whole.half))
         return Pieces(centre, half, cubic, rest, size, source=self)
 
     @cached_property

@@ -33,16 +33,16 @@ def variant(part: Part, **fields: Any) -> Part:
 
 def mapped(part: Part, function: Callable[[Any], Any]) -> Part:
     """The same dataclass with a function of every array in it, parts within parts too; what is no array stays."""
-    found = vars(part).copy()
-    for name, value in found.items():
+    fields = vars(part).copy()
+    for name, value in fields.items():
         kind = type(value)
         if kind in _PLAIN:
             continue
         if kind is np.ndarray or isinstance(value, _ARRAYS):
-            found[name] = function(value)
+            fields[name] = function(value)
         elif hasattr(kind, "__dataclass_fields__"):
-            found[name] = mapped(value, function)
-    return type(part)(**found)
+            fields[name] = mapped(value, function)
+    return type(part)(**fields)
 
 
 def spread(array: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:
@@ -104,8 +104,8 @@ def columns(array: NDArray[Any], chosen: NDArray[np.bool_]) -> NDArray[Any]:
     """
     if chosen.ndim == 1:
         return array[..., chosen].copy()
-    each = np.broadcast_to(np.expand_dims(chosen, tuple(range(1, array.ndim - 1))), array.shape)
-    return array[each].reshape(*array.shape[:-1], np.count_nonzero(chosen[:1]))
+    mask = np.broadcast_to(np.expand_dims(chosen, tuple(range(1, array.ndim - 1))), array.shape)
+    return array[mask].reshape(*array.shape[:-1], np.count_nonzero(chosen[:1]))
 
 
 def total(terms: Complex) -> Complex:

@@ -25,9 +25,9 @@ def nearest_sums(lists: Sequence[Real], about: Real, wanted: Real) -> np.ndarray
     ----------
     about : (d,) what points of the first two lists come to together, about.
     """
-    one, two, three, four = lists
-    first, second = _met(one, about - two), _met(three, wanted - about - four)
-    left, right = one[first[0]] + two[first[1]], three[second[0]] + four[second[1]]
+    points, two, three, four = lists
+    first, second = _met(points, about - two), _met(three, wanted - about - four)
+    left, right = points[first[0]] + two[first[1]], three[second[0]] + four[second[1]]
     i, j = _met(left, wanted - right)
     apart = np.sum((left[i] + right[j] - wanted) ** 2, axis=1)
     best = np.argpartition(apart, _NEAREST)[:_NEAREST] if apart.size > _NEAREST else np.arange(apart.size)

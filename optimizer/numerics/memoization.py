@@ -42,8 +42,8 @@ def remembered(function: Callable[[Machine], Made]) -> Callable[[Machine], Made]
     @wraps(function)
     def memoized(machine: Machine) -> Made:
         nonlocal last
-        known, made = last
-        if known is not machine:
+        subject, made = last
+        if subject is not machine:
             made = function(machine)
             last = machine, made
         return made
@@ -58,9 +58,9 @@ def remembered_of_both(function: Callable[[Part, Machine], Made]) -> Callable[[P
     @wraps(function)
     def memoized(part: Part, machine: Machine) -> Made:
         nonlocal last
-        known = last
-        if known is None or known[0] is not part or known[1] is not machine:
-            last = known = (part, machine, function(part, machine))
-        return known[2]
+        memory = last
+        if memory is None or memory[0] is not part or memory[1] is not machine:
+            last = memory = (part, machine, function(part, machine))
+        return memory[2]
 
     return memoized

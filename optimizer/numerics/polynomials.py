@@ -12,10 +12,10 @@ from optimizer.numerics.arrays import Complex, Real
 def squared(polynomial: Complex) -> Real:
     """|p|^2 of polynomials (..., k) of a real variable: (..., 2 k - 1)."""
     count = polynomial.shape[-1]
-    found = np.zeros((*polynomial.shape[:-1], 2 * count - 1))
+    square = np.zeros((*polynomial.shape[:-1], 2 * count - 1))
     for i in range(count):
-        found[..., i : i + count] += (polynomial[..., i : i + 1] * np.conj(polynomial)).real
-    return found
+        square[..., i : i + count] += (polynomial[..., i : i + 1] * np.conj(polynomial)).real
+    return square
 
 
 def bernstein(polynomial: Real) -> Real:

@@ -44,10 +44,10 @@ def _in_a_loop(forces: Complex, arm: Real) -> tuple[Complex, Complex]:
     many = shape[-2] if arm.ndim == len(shape) and arm.shape[-2] == 1 else 1
     leading, terms = (shape[:-2] if many > 1 else shape[:-1]), shape[-1]
     number = math.prod(leading)
-    each = in_order(spread(forces, shape)).reshape(number, many, terms)
+    columns = in_order(spread(forces, shape)).reshape(number, many, terms)
     arms = arm[..., 0, :] if many > 1 else arm
     own = in_order(spread(arms, (*leading, terms))).reshape(number, terms)
-    found = np.empty((2, number, many), complex)
-    loop(each, own, SMALLEST, found)
-    both = found.reshape(2, *shape[:-1])
+    sums = np.empty((2, number, many), complex)
+    loop(columns, own, SMALLEST, sums)
+    both = sums.reshape(2, *shape[:-1])
     return both[0, ...], both[1, ...]

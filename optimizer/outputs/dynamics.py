@@ -76,7 +76,7 @@ def gas(scene: Prepared, _fitted: Complex | None = None) -> Gas:
 
     # a row without a cylinder has two sides without area
     names = [
-        [getattr(one, "name", None) for _, one in row_cylinders(row)] or [None]
+        [getattr(cylinder, "name", None) for _, cylinder in row_cylinders(row)] or [None]
         for throw in scene.machine.throws
         for row in throw.rows
     ]
@@ -149,7 +149,7 @@ def rod_loads(scene: Prepared, _fitted: Complex | None = None) -> RodLoads:
     least, most = (part.tolist() for part in of_rows(scene, "side").magnitude[2:])
     rows = []
     for k, (labels, rod, side, tangential, radial) in enumerate(forces):
-        cases = tuple(each[k] for each in by_case)
+        cases = tuple(column[k] for column in by_case)
         worst = max(cases, key=_largest)
         rows.append(
             RowRodLoads(
@@ -183,7 +183,7 @@ def torque(scene: Prepared, _fitted: Complex | None = None) -> Torque:
     errors, shaft_power = scene.results["torque_errors"], _shaft_power(scene)
     peak = torque_peak(scene, result.rotating_friction)
     radius = scene.layout.reciprocating.crank_radius
-    one_radius = radius.size > 0 and bool(np.all(radius == radius[0]))
+    common_radius = radius.size > 0 and bool(np.all(radius == radius[0]))
     return Torque(
         angle_deg=scene.angles,
         rows=tuple(
@@ -192,7 +192,7 @@ def torque(scene: Prepared, _fitted: Complex | None = None) -> Torque:
         ),
         rotating_friction_Nm=float(result.rotating_friction),
         torque_Nm=result.total.tolist(),
-        tangential_N=(result.total / radius[0]).tolist() if one_radius else None,
+        tangential_N=(result.total / radius[0]).tolist() if common_radius else None,
         peak_Nm=peak.lower[0],
         peak_bracket_Nm=peak.bracket(),
         peak_angle_deg=peak.angle_deg[0],
@@ -236,7 +236,7 @@ def _by_row(scene: Prepared, *values: Real) -> Iterator[tuple[Any, ...]]:
 
     An answer makes a tuple of any list, in half the time that it takes to look through another tuple.
     """
-    return zip(scene.row_labels, *(each.tolist() for each in values), strict=True)
+    return zip(scene.row_labels, *(array.tolist() for array in values), strict=True)
 
 
 def _cases(case: Case, tension: PeakList, compression: PeakList) -> list[LoadCase]:

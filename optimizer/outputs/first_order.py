@@ -80,9 +80,9 @@ def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
     wrench = scene.first_order(unbalance)
     # a response that counts in some designs has its column in all
     return peaks(wrench) | {
-        each.fields.peak: phasors(each.shares(scene.layout, scene.objective), wrench).peak
-        for each in RESPONSES.values()
-        if each.name not in PAIR
+        response.fields.peak: phasors(response.shares(scene.layout, scene.objective), wrench).peak
+        for response in RESPONSES.values()
+        if response.name not in PAIR
     }
 
 
@@ -123,8 +123,8 @@ def residual(scene: Prepared, unbalance: Complex | None) -> Residual:
     shown = [scene.first_order()] if unbalance is None else [scene.first_order(), scene.first_order(unbalance)]
     second = _second_order(scene, [False] if unbalance is None or scene.shafts is None else [False, True])
     polars, count = Polars.of(vectors_of([*shown, *second])), len(shown)
-    told = orders_of([1] * count + [2] * len(second), polars)
-    first, twice, ellipses = told[:count], told[count:], _ellipses(polars.first(count))
+    orders = orders_of([1] * count + [2] * len(second), polars)
+    first, twice, ellipses = orders[:count], orders[count:], _ellipses(polars.first(count))
     # one validation of the whole takes a third of the time of one of each part
     return Residual.model_validate(
         {

@@ -78,13 +78,13 @@ def _loads(
     force, couple = (least[:, None] for least in rounding(scene.layout, weights))
     wrench = Wrench(*(Phasors(*pair) for pair in phasors))
     loads = foundation_load(wrench, np.array(orders), scene.layout.sense, np.asarray(reference), (force, couple))
-    found: list[dict[int, dict[str, Any]]] = [{order: {} for order in orders} for _ in sets]
+    results: list[dict[int, dict[str, Any]]] = [{order: {} for order in orders} for _ in sets]
     for name, load in loads._asdict().items():
         unit = _UNITS[name]
-        for of_set, amplitudes, phases in zip(found, load.amplitude.tolist(), load.phase_deg.tolist(), strict=True):
+        for of_set, amplitudes, phases in zip(results, load.amplitude.tolist(), load.phase_deg.tolist(), strict=True):
             for order, amplitude, phase in zip(orders, amplitudes, phases, strict=True):
                 of_set[order][name] = {f"amplitude_{unit}": amplitude, "phase_deg": phase}
-    return found
+    return results
 
 
 FOUNDATION_LOADS = Output("foundation_loads", "loads on the foundation by order", ORDERS.needs, foundation_loads)

@@ -182,7 +182,7 @@ def _turning(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | N
     parts = [(throw.position_m, throw.rotating_mass_kg) for throw in machine.throws]
     parts += [(throw.position_m + row.offset_m, row.rotating_kg) for throw in machine.throws for row in throw.rows]
     parts += [(part.position_m, part.mass_kg) for part in machine.shaft_parts]
-    places, masses = (stacked(each) for each in zip(*parts, strict=True))
+    places, masses = (stacked(column) for column in zip(*parts, strict=True))
     if fitted is None:
         return places, masses
     webs = scene.layout.webs

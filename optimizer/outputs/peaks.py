@@ -65,27 +65,27 @@ class Search(NamedTuple):
 
 def search(scene: Prepared, searches: Iterable[Search]) -> None:
     """Bracket the peaks of all searches of one machine at once, each as if it were alone, for its outputs to show."""
-    every = list({one.name: one for one in searches}.values())
+    every = list({item.name: item for item in searches}.values())
     if not every:
         return
     # what several outputs have in common stands there once
-    curves = list({id(one.curves): one.curves for one in every}.values())
+    curves = list({id(item.curves): item.curves for item in every}.values())
     batch = CurveBatch(tuple(curves))
     first = {id(some): number for some, number in zip(curves, batch.first.tolist(), strict=False)}
-    counts = [one.peak_count for one in every]
+    counts = [item.peak_count for item in every]
     ends = [0, *accumulate(counts)]
-    number = np.concatenate([one.number + first[id(one.curves)] for one in every])
-    offset = np.concatenate([one.offset for one in every])
-    sign = np.concatenate([np.zeros(one.number.size) + one.sign for one in every])
+    number = np.concatenate([item.number + first[id(item.curves)] for item in every])
+    offset = np.concatenate([item.offset for item in every])
+    sign = np.concatenate([np.zeros(item.number.size) + item.sign for item in every])
     group = np.concatenate(
         [
-            end + (np.arange(one.number.size) if one.group is None else one.group)
-            for one, end in zip(every, ends, strict=False)
+            end + (np.arange(item.number.size) if item.group is None else item.group)
+            for item, end in zip(every, ends, strict=False)
         ]
     )
     angle, value, lower, upper = batch.pieces.peaks(offset, TOLERANCE, number, group, sign)
-    scale = np.repeat([one.scale for one in every], counts)
-    rows = {one.name: slice(*own) for one, own in zip(every, pairwise(ends), strict=True)}
+    scale = np.repeat([item.scale for item in every], counts)
+    rows = {item.name: slice(*own) for item, own in zip(every, pairwise(ends), strict=True)}
     scene.peaks.add(rows, Bracket(_within_turns(scene, angle), value, lower * scale, upper * scale))
 
 
@@ -181,10 +181,10 @@ def of_shaft(scene: Prepared, curves: ShaftCurves, unbalance: Complex | None, gr
 
 def shaft_search(scene: Prepared, unbalances: Sequence[Complex | None]) -> Search:
     """Peaks of loads [N] and moments [N m] of one machine with several sets of counterweights."""
-    found = scene.shaft_curves
-    count, sets = found.curves.weights.shape[1], len(unbalances)
-    offset = np.concatenate([found.offsets(unbalance) for unbalance in unbalances])
-    return Search(_SHAFT, found.curves, np.tile(np.arange(count), sets), offset, scale=scene.omega_squared)
+    curves = scene.shaft_curves
+    count, sets = curves.curves.weights.shape[1], len(unbalances)
+    offset = np.concatenate([curves.offsets(unbalance) for unbalance in unbalances])
+    return Search(_SHAFT, curves.curves, np.tile(np.arange(count), sets), offset, scale=scene.omega_squared)
 
 
 def shaft_peaks(scene: Prepared, unbalances: Sequence[Complex | None]) -> list[PeakList]:
@@ -194,13 +194,13 @@ def shaft_peaks(scene: Prepared, unbalances: Sequence[Complex | None]) -> list[P
 
 def customary_search(scene: Prepared, customary: Complex) -> Search:
     """The largest load of a bearing, and the largest bending moment, of one machine with customary counterweights."""
-    found, bearings = scene.shaft_curves, len(scene.machine.bearings)
-    kind = np.minimum(np.arange(found.curves.weights.shape[1]) // bearings, 1)
+    shaft, bearings = scene.shaft_curves, len(scene.machine.bearings)
+    kind = np.minimum(np.arange(shaft.curves.weights.shape[1]) // bearings, 1)
     return Search(
         _CUSTOMARY,
-        found.curves,
+        shaft.curves,
         np.arange(kind.size),
-        found.offsets(customary),
+        shaft.offsets(customary),
         group=kind,
         scale=scene.omega_squared,
     )

@@ -32,14 +32,14 @@ def _columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
     if machine.drive_bearing.carries:
         # one pin or two hold nothing where the eccentric lies along them
         factor = np.where(pins < 3.0, np.nan, factor)
-    given: Any = machine.rotation_torque_Nm
+    load: Any = machine.rotation_torque_Nm
     if machine.tangential_gas_force_N is not None:
-        given = machine.tangential_gas_force_N
+        load = machine.tangential_gas_force_N
         factor = factor * gas_torques(np.ones(()), np.asarray(machine.orbit_radius_m))[0]
-    if isinstance(given, TorqueTable | ForceTable):
-        values = given.torque_Nm if isinstance(given, TorqueTable) else given.force_N
-        return {"peak_pin_load_N": factor * _largest_product(given.angle_deg, values, pins)}
-    return {"peak_pin_load_N": np.abs(given) * factor * _largest_product((0.0,), (1.0,), pins)}
+    if isinstance(load, TorqueTable | ForceTable):
+        values = load.torque_Nm if isinstance(load, TorqueTable) else load.force_N
+        return {"peak_pin_load_N": factor * _largest_product(load.angle_deg, values, pins)}
+    return {"peak_pin_load_N": np.abs(load) * factor * _largest_product((0.0,), (1.0,), pins)}
 
 
 def _largest_product(angle_deg: Sequence[Any], values: Sequence[Any], pins: Real) -> Real:

@@ -96,7 +96,7 @@ def fields(
     """
     outputs = tuple(dict.fromkeys(outputs))
     scene.peaks.clear()
-    search(scene, (each for name in outputs for each in OUTPUTS[name].searches(scene, unbalance)))
+    search(scene, (entry for name in outputs for entry in OUTPUTS[name].searches(scene, unbalance)))
     results = {name: OUTPUTS[name].figure(scene, unbalance) for name in outputs}
     if all(effect in scene.results for effect in FIRST_ORDER_EFFECTS):
         results["balance_quality"] = balance_quality(scene, unbalance)
@@ -118,13 +118,13 @@ def columns(request: Scene, unbalance: Complex, always: tuple[str, ...], wanted:
     wanted : keys of the columns that are (:func:`schemas.sweep.details.key`); what comes along beside them costs
         little.
     """
-    asked = column_groups(request, always, wanted)
-    samples = request.angles.count if any(each.sampled for each in asked) else 1
-    needs = {str(k): each.needs or () for k, each in enumerate(asked)}
+    groups = column_groups(request, always, wanted)
+    samples = request.angles.count if any(group.sampled for group in groups) else 1
+    needs = {str(k): group.needs or () for k, group in enumerate(groups)}
     scene = simulated(request, needs, samples, unbalance.shape[:1])
     results: dict[str, Real] = {}
-    for each in asked:
-        results |= each.values(scene, unbalance)
+    for group in groups:
+        results |= group.values(scene, unbalance)
     return results
 
 
@@ -136,7 +136,7 @@ def column_groups(request: Scene, always: tuple[str, ...], wanted: frozenset[str
         keys = usual_keys(name)
         if output.columns is not None and (not keys or not wanted.isdisjoint(keys)):
             results.append(replace(output.columns, needs=output.column_needs))
-        results += [each for each in DETAILED.get(name, ()) if not wanted.isdisjoint(each.keys)]
+        results += [group for group in DETAILED.get(name, ()) if not wanted.isdisjoint(group.keys)]
     return results
 
 

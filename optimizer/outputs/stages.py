@@ -126,8 +126,8 @@ def stages(
         fitted = counterweights(layout, unbalance).times(square)
         left, whole = [*_superpose(turning, first, fitted), second], both.plus(fitted)
     shown = [pair for part in (turning, first, second, *left, both, second, whole, second) for pair in part]
-    *found, of_force, of_moment = ellipses([*shown, *over_square])
-    was, now, of_all, all_left = found[:6], found[6:12], found[12:16], found[16:]
+    *figures, of_force, of_moment = ellipses([*shown, *over_square])
+    was, now, of_all, all_left = figures[:6], figures[6:12], figures[12:16], figures[16:]
     scale = _scale(layout)
     noise = (_ROUNDING * scale[0], _ROUNDING * scale[1])
     before, after, summed, what_is_left = (

@@ -63,9 +63,9 @@ class Cells(NamedTuple):
         first = np.cumsum(2**count) - 2**count
         # the numbers from 0 of the ways, as signs of the rows that are open
         way = (np.arange(again.member.size) - np.repeat(first, 2**count))[:, None]
-        open_, known = (np.repeat(array, 2**count, axis=0) for array in (seen.open, seen.signs))
+        open_, sign = (np.repeat(array, 2**count, axis=0) for array in (seen.open, seen.signs))
         digit = np.where(open_, np.cumsum(open_, axis=-1) - 1, 0)
-        signs = np.where(open_, 2.0 * (way >> digit & 1) - 1.0, known)
+        signs = np.where(open_, 2.0 * (way >> digit & 1) - 1.0, sign)
         return again._replace(
             cubic=again.cubic + np.sum(signs[..., None] * again.parts, axis=1),
             parts=np.zeros_like(again.parts),

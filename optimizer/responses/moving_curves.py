@@ -73,11 +73,11 @@ class MovingCurve:
         """Cubics (m, 4) of the curve in motion and what they leave out (m,), from those of the source."""
         from optimizer.responses.kernel.motion import in_motion
 
-        real = (in_order(np.asarray(each, float)) for each in (centre, half))
-        found: tuple[Complex, Real] = in_motion(
+        real = (in_order(np.asarray(array, float)) for array in (centre, half))
+        result: tuple[Complex, Real] = in_motion(
             self.motion, *real, in_order(np.asarray(cubic, complex)), in_order(np.asarray(rest, float))
         )
-        return found
+        return result
 
     def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
         cubic = self.source.cubics(curve + self.number, piece, centre, half)

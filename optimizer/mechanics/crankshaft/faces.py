@@ -105,10 +105,10 @@ class Planes:
 
 def cylinders_of(request: ShaftRequest) -> Cylinders:
     """The outer round faces; bores show nothing that counts here."""
-    found = [(n, face) for n, face in enumerate(request.faces) if isinstance(face, CylinderFace) and face.outer]
-    faces = [one for _, one in found]
+    pairs = [(n, face) for n, face in enumerate(request.faces) if isinstance(face, CylinderFace) and face.outer]
+    faces = [surface for _, surface in pairs]
     return Cylinders(
-        number=np.array([n for n, _ in found], dtype=np.intp),
+        number=np.array([n for n, _ in pairs], dtype=np.intp),
         point=_triples([face.centre_m for face in faces]),
         direction=_units([face.axis for face in faces]),
         radius=np.array([face.radius_m for face in faces]),
@@ -120,10 +120,10 @@ def cylinders_of(request: ShaftRequest) -> Cylinders:
 
 def planes_of(request: ShaftRequest) -> Planes:
     """The plane faces."""
-    found = [(n, face) for n, face in enumerate(request.faces) if isinstance(face, PlaneFace)]
-    faces = [one for _, one in found]
+    pairs = [(n, face) for n, face in enumerate(request.faces) if isinstance(face, PlaneFace)]
+    faces = [surface for _, surface in pairs]
     return Planes(
-        number=np.array([n for n, _ in found], dtype=np.intp),
+        number=np.array([n for n, _ in pairs], dtype=np.intp),
         point=_triples([face.centre_m for face in faces]),
         normal=_units([face.normal for face in faces]),
         area=np.array([np.nan if face.area_m2 is None else face.area_m2 for face in faces]),
@@ -142,6 +142,6 @@ def _triples(points: Sequence[Sequence[float]]) -> Real:
 
 def _units(directions: Sequence[Sequence[float]]) -> Real:
     """Directions of length 1; scaled first, that no square overflows or vanishes."""
-    found = _triples(directions)
-    found = found / np.max(np.abs(found), axis=-1, keepdims=True, initial=1e-300)
-    return found / np.linalg.norm(found, axis=-1, keepdims=True)
+    vectors = _triples(directions)
+    vectors = vectors / np.max(np.abs(vectors), axis=-1, keepdims=True, initial=1e-300)
+    return vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)

@@ -69,13 +69,13 @@ class Outline:
     def _extremes(self, opposite: complex | None) -> Iterator[complex]:
         for arc in self.arcs:
             yield from arc.extremes(opposite)
-        for one, other in self.sides:
-            yield one
+        for corner, other in self.sides:
+            yield corner
             yield other
             if opposite is not None:
-                a, b = ((point * opposite.conjugate()).real for point in (one, other))
+                a, b = ((point * opposite.conjugate()).real for point in (corner, other))
                 if a * b < 0.0:
-                    yield one + (other - one) * (a / (a - b))
+                    yield corner + (other - corner) * (a / (a - b))
 
 
 def outline(
@@ -113,10 +113,10 @@ def _arc(cylinders: Cylinders, n: int) -> Arc | None:
     points = cylinders.points[n]
     if len(points) < 2:
         return None
-    found = np.sort(np.angle(points[:, 0] + 1j * points[:, 1] - centre))
-    gaps = np.rad2deg(np.diff(found, append=found[0] + 2 * np.pi))
+    angles = np.sort(np.angle(points[:, 0] + 1j * points[:, 1] - centre))
+    gaps = np.rad2deg(np.diff(angles, append=angles[0] + 2 * np.pi))
     # what is left out lies between two neighbours
     fits = np.flatnonzero(np.abs(gaps - (360.0 - angle)) < _SAME_DEG)
     if len(fits) != 1:
         return None
-    return Arc(centre, radius, float(found[(fits[0] + 1) % len(found)]), np.deg2rad(angle))
+    return Arc(centre, radius, float(angles[(fits[0] + 1) % len(angles)]), np.deg2rad(angle))

@@ -52,15 +52,15 @@ class Plates:
 
 def plates(chain: Sequence[Stretch], flanks: Flanks, sides: Sides, tolerance: float) -> Plates:
     """The webs between neighbours of a chain."""
-    free, found, doubts = list(chain), [], []
+    free, webs, doubts = list(chain), [], []
     for n in range(len(chain) - 1):
-        one, other = chain[n : n + 2]
+        stretch, other = chain[n : n + 2]
         pins = tuple(k for k in (n, n + 1) if not chain[k].journal)
-        material = _material(one, other, flanks) if pins else flanks.between(one.high, other.low)
-        air = _air(one, other, material, flanks, tolerance)
+        material = _material(stretch, other, flanks) if pins else flanks.between(stretch.high, other.low)
+        air = _air(stretch, other, material, flanks, tolerance)
         if air is not None:
             message = f"{air * 1e3:.4g} mm of air between it and what follows along the shaft: not one shaft there"
-            doubts.append(doubt("air", one.faces[-1], message, serious=True))
+            doubts.append(doubt("air", stretch.faces[-1], message, serious=True))
         elif not pins:
             continue
         elif material is not None:
@@ -68,11 +68,11 @@ def plates(chain: Sequence[Stretch], flanks: Flanks, sides: Sides, tolerance: fl
             free[n] = replace(free[n], high=min(free[n].high, max(low, free[n].low)))
             free[n + 1] = replace(free[n + 1], low=max(free[n + 1].low, min(high, free[n + 1].high)))
             plate = _measured(chain, pins, low, high, sides, flanks, tolerance)
-            found.append(plate)
-            doubts += _doubts_about(plate, one)
+            webs.append(plate)
+            doubts += _doubts_about(plate, stretch)
         else:
-            doubts += _without_flanks(one, other, flanks, tolerance)
-    return Plates(tuple(found), tuple(free), tuple(doubts))
+            doubts += _without_flanks(stretch, other, flanks, tolerance)
+    return Plates(tuple(webs), tuple(free), tuple(doubts))
 
 
 def _material(first: Stretch, second: Stretch, flanks: Flanks) -> tuple[float, float] | None:

@@ -46,11 +46,11 @@ def _shown(request: ShaftRequest) -> Shaft:
     frame = _pin_frame(request, cylinders, tolerance) if request.frame is None else frame_of(request.frame)
     along, flanks, chain = _seen(request, cylinders, frame, tolerance)
     sides = Sides(along, planes_of(request).seen_from(frame), frame.points(other_points(request)))
-    found = plates(chain.chain, flanks, sides, tolerance)
+    webs = plates(chain.chain, flanks, sides, tolerance)
     z = along.tips[..., 2]
     if not np.ptp(z) > tolerance:
         refuse([FieldProblem(("faces",), "all round faces along the shaft are at one place: they have no length")])
-    return Shaft(frame, found, chain.doubts, (float(np.min(z)), float(np.max(z))))
+    return Shaft(frame, webs, chain.doubts, (float(np.min(z)), float(np.max(z))))
 
 
 def _pin_frame(request: ShaftRequest, cylinders: Cylinders, tolerance: float) -> Frame:

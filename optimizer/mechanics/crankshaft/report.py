@@ -51,7 +51,7 @@ def report(request: ShaftRequest, shaft: Shaft, rotor: RotorMoments | None) -> S
     """The answer to a request."""
     origin, (x, y, z) = shaft.frame.origin, shaft.frame.across
     chain = shaft.plates.chain
-    pins = [n for n, one in enumerate(chain) if not one.journal]
+    pins = [n for n, entry in enumerate(chain) if not entry.journal]
     webs = list(_webs(shaft.plates.plates, pins))
     bearings = dict(_bearings(chain))
     names = {n: _letters(k) for k, n in enumerate(bearings)}
@@ -63,13 +63,13 @@ def report(request: ShaftRequest, shaft: Shaft, rotor: RotorMoments | None) -> S
         bearings=tuple(_bearing(name, chain[n]) for n, name in names.items()),
         unbalances=() if rotor is None else tuple(_unbalances(rotor, request.planes_m or shaft.ends)),
         pins=tuple(_pin(k, chain[n]) for k, n in enumerate(pins)),
-        journals=tuple(_journal(one, names.get(n)) for n, one in enumerate(chain) if one.journal),
+        journals=tuple(_journal(entry, names.get(n)) for n, entry in enumerate(chain) if entry.journal),
         plates=tuple(plate for _, plate in webs),
         rotor=None if rotor is None else _rotor(rotor),
         doubts=(
             *shaft.doubts,
             *shaft.plates.doubts,
-            *(one for bearing in bearings.values() for one in bearing),
+            *(entry for bearing in bearings.values() for entry in bearing),
             *_sizes([chain[n] for n in pins]),
             *density_doubts(request.bodies),
         ),

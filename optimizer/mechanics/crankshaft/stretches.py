@@ -100,8 +100,8 @@ def _joined(cylinders: Cylinders, tolerance: float) -> Iterator[Stretch]:
     labels = np.column_stack([_clusters(column, tolerance) for column in measures.T])
     _, label = np.unique(labels, axis=0, return_inverse=True)
     label = label.reshape(-1)
-    for each in range(int(np.max(label, initial=-1)) + 1):
-        faces = np.flatnonzero(label == each)
+    for number in range(int(np.max(label, initial=-1)) + 1):
+        faces = np.flatnonzero(label == number)
         first = faces[np.argmax(cylinders.area[faces])]
         x, y, radius, low, high = (float(value) for value in measures[first])
         yield Stretch(
@@ -119,9 +119,9 @@ def _clusters(values: Real, tolerance: float) -> Numbers:
     """Which of the values that differ each is (n,), whatever their order."""
     order = np.argsort(values, kind="stable")
     step = np.diff(values[order], prepend=values[order[:1]]) > tolerance
-    found = np.empty(len(values), dtype=np.intp)
-    found[order] = np.cumsum(step)
-    return found
+    numbers = np.empty(len(values), dtype=np.intp)
+    numbers[order] = np.cumsum(step)
+    return numbers
 
 
 def _without_others(candidates: Sequence[Stretch], tolerance: float) -> tuple[list[Stretch], list[Doubt]]:

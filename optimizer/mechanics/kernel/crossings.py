@@ -73,22 +73,22 @@ def _by_cubics(cubic, half, level):  # type: ignore[no-untyped-def]
     curve, piece = np.empty(3 * number * pieces, np.int64), np.empty(3 * number * pieces, np.int64)
     place, between = np.empty(curve.size), np.empty((2, curve.size))
     jumped, at = np.empty(number * pieces, np.int64), np.empty(number * pieces, np.int64)
-    ends, value, one = np.empty(4), np.empty(4), np.empty(4)
+    ends, value, polynomial = np.empty(4), np.empty(4), np.empty(4)
     count, jumps = 0, 0
     for n in range(number):
         before = np.nan
         # what comes before the first piece is the last that has a width
         for p in range(pieces):
             if half[n, p] > 0.0:
-                _shifted(cubic[n, p], level[n], one)
-                before = _at(one, 1.0)
+                _shifted(cubic[n, p], level[n], polynomial)
+                before = _at(polynomial, 1.0)
         for p in range(pieces):
             if not half[n, p] > 0.0:
                 continue
-            _shifted(cubic[n, p], level[n], one)
-            _turning(one, ends)
+            _shifted(cubic[n, p], level[n], polynomial)
+            _turning(polynomial, ends)
             for k in range(4):
-                value[k] = _at(one, ends[k])
+                value[k] = _at(polynomial, ends[k])
             if before * value[0] <= 0.0:
                 jumped[jumps], at[jumps] = n, p
                 jumps += 1
@@ -98,7 +98,7 @@ def _by_cubics(cubic, half, level):  # type: ignore[no-untyped-def]
                 if value[k] * value[k + 1] < 0.0:
                     curve[count], piece[count] = n, p
                     between[0, count], between[1, count] = ends[k], ends[k + 1]
-                    place[count] = _root(one, ends[k], ends[k + 1], value[k])
+                    place[count] = _root(polynomial, ends[k], ends[k + 1], value[k])
                     count += 1
     jumped, at = jumped[:jumps].copy(), at[:jumps].copy()
     return curve[:count].copy(), piece[:count].copy(), place[:count].copy(), between[:, :count].copy(), jumped, at
@@ -129,10 +129,10 @@ def _turning(cubic, ends):  # type: ignore[no-untyped-def]
     square = bend * bend - 3.0 * slope * third
     # the larger root first, the smaller by it: nothing cancels
     larger = -(bend + np.copysign(np.sqrt(max(square, 0.0)), bend))
-    one, other = larger / (3.0 * third), slope / larger
-    one = min(max(one, -1.0), 1.0) if square > 0.0 and np.isfinite(one) else 1.0
+    root, other = larger / (3.0 * third), slope / larger
+    root = min(max(root, -1.0), 1.0) if square > 0.0 and np.isfinite(root) else 1.0
     other = min(max(other, -1.0), 1.0) if square > 0.0 and np.isfinite(other) else 1.0
-    ends[0], ends[1], ends[2], ends[3] = -1.0, min(one, other), max(one, other), 1.0
+    ends[0], ends[1], ends[2], ends[3] = -1.0, min(root, other), max(root, other), 1.0
 
 
 @inner

@@ -88,12 +88,12 @@ def sums_of_rows(rows, sums, curve, points, bounds, order, design, angles, half)
                     for p in range(angles):
                         off[p] += most * radius[n, r, p]
                 for k in range(last):
-                    one = series[0, k, n, r] if k < terms else bound[0, 0, n, r]
+                    component = series[0, k, n, r] if k < terms else bound[0, 0, n, r]
                     if parts > 1:
                         other = series[1, k, n, r] if k < terms else bound[1, 0, n, r]
-                        _add_vectors(weight, one, other, total[0, k], total[1, k])
+                        _add_vectors(weight, component, other, total[0, k], total[1, k])
                     else:
-                        _add_scalars(weight, one, total[0, k], total[1, k])
+                        _add_scalars(weight, component, total[0, k], total[1, k])
             constant, largest = sums.constant[curve[j]], 0.0
             for p in range(angles):
                 wide = 1.0
@@ -166,11 +166,11 @@ def series_of_curves(rows, sums, middle, curve, piece, angle, half, order):  # t
         design, centre, within = np.empty(stop - start, np.int64), np.empty(stop - start), np.empty(stop - start)
         wide, counted = np.empty(stop - start if bounded else 0), np.zeros((count_of_rows, stop - start), np.bool_)
         for q in range(stop - start):
-            one = first[start + q]
-            design[q], centre[q] = curve[one] // of_design, angle[one]
-            within[q] = middle[design[q], piece[one]]
+            place = first[start + q]
+            design[q], centre[q] = curve[place] // of_design, angle[place]
+            within[q] = middle[design[q], piece[place]]
             if bounded:
-                wide[q] = half[one]
+                wide[q] = half[place]
         for n in range(count):
             q = number[n] - start
             if q >= 0 and q < stop - start:
@@ -213,14 +213,14 @@ def _alike(weights, curve, design, piece, angle, half):  # type: ignore[no-untyp
     order, different, last = _rising(angle), 0, -1
     for row in range(rows + 1):
         for k in range(count):
-            one = order[k]
-            if kind[one] != row:
+            place = order[k]
+            if kind[place] != row:
                 continue
-            other = last < 0 or kind[last] != row or angle[one] != angle[last] or piece[one] != piece[last]
-            if other or design[one] != design[last] or (half.size > 0 and half[one] != half[last]):
-                first[different] = one
+            other = last < 0 or kind[last] != row or angle[place] != angle[last] or piece[place] != piece[last]
+            if other or design[place] != design[last] or (half.size > 0 and half[place] != half[last]):
+                first[different] = place
                 different += 1
-            number[one], last = different - 1, one
+            number[place], last = different - 1, place
     return number, first[:different].copy()
 
 
@@ -233,11 +233,11 @@ def _rising(values):  # type: ignore[no-untyped-def]
         # a factor of 2.2 between gaps (Tokuda)
         gap = max(int(gap / 2.2), 1)
         for k in range(gap, order.size):
-            one, place = order[k], k
-            while place >= gap and values[order[place - gap]] > values[one]:
+            number, place = order[k], k
+            while place >= gap and values[order[place - gap]] > values[number]:
                 order[place] = order[place - gap]
                 place -= gap
-            order[place] = one
+            order[place] = number
     return order
 
 

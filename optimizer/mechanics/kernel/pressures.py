@@ -116,20 +116,20 @@ def cycle(series, lane, exact, process, side, cranks, out, lanes, travels):  # t
 def _travel(series, lane, exact, side, cranks, out, lanes):  # type: ignore[no-untyped-def]
     """Own travel of a chamber of one side over the crank radius."""
     middle, _, bounded = series
-    ratio, short, one, f, g, h = lane[RATIO], lane[SHORT], lane[UNIT], lane[F], lane[G], lane[H]
+    ratio, short, unit, f, g, h = lane[RATIO], lane[SHORT], lane[UNIT], lane[F], lane[G], lane[H]
     if middle.shape[1] > 1:
         if not exact:
             sign = 1.0 if side == 0 else -1.0
             for p in range(lanes):
                 f[p], g[p] = sign * 0.5 * ratio[p], -sign
-            scaled(series, SIN_SQUARED, f, one, out, lanes)
+            scaled(series, SIN_SQUARED, f, unit, out, lanes)
             summed(series, out, COS, g, out, lanes)
         elif side == 0:
             # (1 - cos beta) / lam = lam sin^2 phi / (1 + cos beta)
-            scaled(series, COS_BETA, one, one, A, lanes)
+            scaled(series, COS_BETA, unit, unit, A, lanes)
             power(series, A, lane[OVER], B, lanes)
             product(series, SIN_SQUARED, B, C, lanes, ALL)
-            scaled(series, C, ratio, one, out, lanes)
+            scaled(series, C, ratio, unit, out, lanes)
             summed(series, out, COS, lane[OVER], out, lanes)
         else:
             # what motion() leaves to the inner dead centre: nothing cancels, however near lam is to 1
@@ -143,11 +143,11 @@ def _travel(series, lane, exact, side, cranks, out, lanes):  # type: ignore[no-u
                     if cranks[INSIDE, COSINE, p] < 0.0:
                         middle[A, k, p] = middle[B, k, p]
                         series.radius[A, k, p] = series.radius[B, k, p]
-            scaled(series, COS, one, one, B, lanes)
+            scaled(series, COS, unit, unit, B, lanes)
             product(series, B, A, C, lanes, ALL)
             for p in range(lanes):
                 f[p] = 1.0 + ratio[p]
-            scaled(series, A, one, f, A, lanes)
+            scaled(series, A, unit, f, A, lanes)
             power(series, A, lane[OVER], B, lanes)
             product(series, C, B, out, lanes, ALL)
             for p in range(lanes):

@@ -57,19 +57,19 @@ def row_series(rows, functions, design, angles, reading, terms):  # type: ignore
     A force is the acceleration times m r omega^2, the friction and the gas, each times one function of the motion.
     Where the functions of a row are not made its numbers mean nothing.
     """
-    count, kept, _, places = functions.middle.shape
+    count, function_count, _, places = functions.middle.shape
     bounded, parts = functions.radius.shape[1] > 0, 2 if reading in (ON_SHAFT, ON_FRAME) else 1
     number, first = design.size, terms - 1 if bounded else 0
     middle = np.empty((parts, terms - first, number, count, angles))
     radius = np.zeros((number if bounded else 0, count, angles))
-    shape = (_PRESSURES + kept - FUNCTIONS, terms, LANES)
+    shape = (_PRESSURES + function_count - FUNCTIONS, terms, LANES)
     series, lane = Series(np.zeros(shape), np.zeros(shape), bounded), np.zeros((_NUMBERS, LANES))
     lane[_UNIT] = 1.0
     # of every lane: its place in the result, and its design
     where = np.zeros((3, LANES), np.int64)
     moves = reading != ROD_AT_REST and reading != GAS
     rubs = moves and reading != ON_FRAME
-    pressed = reading != ROD_WITHOUT_GAS and reading != ON_FRAME and kept > FUNCTIONS
+    pressed = reading != ROD_WITHOUT_GAS and reading != ON_FRAME and function_count > FUNCTIONS
     # where designs have all of this in common, one after the other is made of it
     turns = number if places == angles else 1
     for r in range(count):
@@ -77,7 +77,7 @@ def row_series(rows, functions, design, angles, reading, terms):  # type: ignore
             lanes = min(LANES, places - start)
             if np.isnan(functions.way[r, start]):
                 continue
-            for f in range(kept if pressed else FUNCTIONS):
+            for f in range(function_count if pressed else FUNCTIONS):
                 if f < FUNCTIONS and not _MADE_OF[reading, f]:
                     continue
                 to = f if f < FUNCTIONS else f - FUNCTIONS + _PRESSURES
@@ -102,12 +102,12 @@ def row_series(rows, functions, design, angles, reading, terms):  # type: ignore
                 for turn in range(turns):
                     for p in range(lanes):
                         n = design[turn] if turns > 1 else where[_DESIGN, p]
-                        one = n if rows.scale.shape[0] > 1 else 0
-                        lane[_MASS, p] = rows.scale[one, r, 0]
-                        lane[_FRICTION, p] = rows.scale[one, r, 1] * functions.way[r, start + p]
+                        index = n if rows.scale.shape[0] > 1 else 0
+                        lane[_MASS, p] = rows.scale[index, r, 0]
+                        lane[_FRICTION, p] = rows.scale[index, r, 1] * functions.way[r, start + p]
                     if pressed and (turn == 0 or rows.area.shape[0] > 1):
                         constant(series, lane[_ZERO], _FORCE, lanes)
-                        for c in range(kept - FUNCTIONS):
+                        for c in range(function_count - FUNCTIONS):
                             for p in range(lanes):
                                 n = design[turn] if turns > 1 else where[_DESIGN, p]
                                 lane[_AREA, p] = rows.area[n if rows.area.shape[0] > 1 else 0, r, c]
@@ -153,9 +153,9 @@ def _with_part(first, off, part):  # type: ignore[no-untyped-def]
 @inner
 def _added(series, a, k, factor, value, off, lanes):  # type: ignore[no-untyped-def]
     """What a function adds, times a factor (LANES,)."""
-    one = series.middle[a, k]
+    middle = series.middle[a, k]
     for p in range(lanes):
-        value[p] += factor[p] * one[p]
+        value[p] += factor[p] * middle[p]
     if series.bounded:
         spread = series.radius[a, k]
         for p in range(lanes):

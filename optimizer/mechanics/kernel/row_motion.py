@@ -81,10 +81,10 @@ def _ranges(trig, lanes):  # type: ignore[no-untyped-def]
 @inner
 def _doubled(trig, cos, sin, lanes):  # type: ignore[no-untyped-def]
     """cos and sin of twice the angle in their place."""
-    one, other = trig[cos], trig[sin]
+    cosine, other = trig[cos], trig[sin]
     for p in range(lanes):
-        c, s = one[p], other[p]
-        one[p], other[p] = (c - s) * (c + s), 2.0 * s * c
+        c, s = cosine[p], other[p]
+        cosine[p], other[p] = (c - s) * (c + s), 2.0 * s * c
 
 
 @inner
@@ -145,9 +145,9 @@ def accelerate(series, lane, exact, lanes):  # type: ignore[no-untyped-def]
     summed(series, A, COS_4, f, A, lanes)
     if not series.bounded:
         # at 90 degrees the sum cancels, and what it is divided by may be as small
-        found, cos, cos_2 = series.middle[A, 0], series.middle[COS, 0], series.middle[COS_2, 0]
+        total, cos, cos_2 = series.middle[A, 0], series.middle[COS, 0], series.middle[COS_2, 0]
         for p in range(lanes):
-            found[p] = ratio[p] * (short[p] * cos_2[p] + square[p] * cos[p] ** 4)
+            total[p] = ratio[p] * (short[p] * cos_2[p] + square[p] * cos[p] ** 4)
     power(series, UPRIGHT, lane[OVER_CUBE], B, lanes)
     product(series, A, B, C, lanes, ALL)
     summed(series, COS, C, lane[UNIT], INERTIA, lanes)

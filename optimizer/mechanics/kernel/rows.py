@@ -141,14 +141,14 @@ def row_functions(rows, places, order, pressed, counted):  # type: ignore[no-unt
             last = np.int64(-1)
             for p in range(lanes):
                 q = first + p
-                one = places.design[q] if designs > 1 else np.int64(0)
-                motion = rows.motion[one, r]
+                index = places.design[q] if designs > 1 else np.int64(0)
+                motion = rows.motion[index, r]
                 angle, within = places.centre[q] + motion[0], places.within[q] + motion[0]
                 lane[RATIO, p], lane[SHORT, p] = motion[1], motion[2] * (1.0 + motion[1])
                 lane[OWN, p], lane[WITHIN, p] = angle, within
                 # many places of one piece stand side by side
-                repeats[p] = p > 0 and one == last and places.within[q] == places.within[q - 1]
-                last = one
+                repeats[p] = p > 0 and index == last and places.within[q] == places.within[q - 1]
+                last = index
                 if repeats[p]:
                     for f in range(4):
                         cranks[INSIDE, f, p] = cranks[INSIDE, f, p - 1]
@@ -179,8 +179,8 @@ def row_functions(rows, places, order, pressed, counted):  # type: ignore[no-unt
                                 for f in range(4):
                                     process[f, p] = process[f, p - 1]
                                 continue
-                            one = places.design[first + p] if designs > 1 else 0
-                            decide(rows.gas[one, t, c], lane, rows.exact, c % 2, cranks[INSIDE], process, p)
+                            index = places.design[first + p] if designs > 1 else 0
+                            decide(rows.gas[index, t, c], lane, rows.exact, c % 2, cranks[INSIDE], process, p)
                         travels = cycle(series, lane, rows.exact, process, c % 2, cranks, out, lanes, travels)
                     else:
                         indicated(series, rows.traces, places, trace, first, lane, out, lanes)

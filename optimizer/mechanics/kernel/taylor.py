@@ -71,9 +71,9 @@ def constant(series, value, out, lanes):  # type: ignore[no-untyped-def]
     """The same all the way: values (LANES,)."""
     middle, radius, _ = series
     for k in range(middle.shape[1]):
-        found, off = middle[out, k], radius[out, k]
+        result, off = middle[out, k], radius[out, k]
         for p in range(lanes):
-            found[p] = value[p] if k == 0 else 0.0
+            result[p] = value[p] if k == 0 else 0.0
             off[p] = 0.0
 
 
@@ -82,16 +82,16 @@ def scaled(series, a, factor, plus, out, lanes):  # type: ignore[no-untyped-def]
     """factor a + a number, (LANES,) each; a itself may be what comes out."""
     middle, radius, bounded = series
     for k in range(middle.shape[1]):
-        one, found = middle[a, k], middle[out, k]
+        source, result = middle[a, k], middle[out, k]
         for p in range(lanes):
-            found[p] = factor[p] * one[p]
+            result[p] = factor[p] * source[p]
         if bounded:
-            one, found = radius[a, k], radius[out, k]
+            source, result = radius[a, k], radius[out, k]
             for p in range(lanes):
-                found[p] = abs(factor[p]) * one[p]
-    found = middle[out, 0]
+                result[p] = abs(factor[p]) * source[p]
+    result = middle[out, 0]
     for p in range(lanes):
-        found[p] += plus[p]
+        result[p] += plus[p]
 
 
 @inner
@@ -99,13 +99,13 @@ def summed(series, a, b, factor, out, lanes):  # type: ignore[no-untyped-def]
     """a + factor b, factors (LANES,); either may be what comes out."""
     middle, radius, bounded = series
     for k in range(middle.shape[1]):
-        one, other, found = middle[a, k], middle[b, k], middle[out, k]
+        addend, other, result = middle[a, k], middle[b, k], middle[out, k]
         for p in range(lanes):
-            found[p] = one[p] + factor[p] * other[p]
+            result[p] = addend[p] + factor[p] * other[p]
         if bounded:
-            one, other, found = radius[a, k], radius[b, k], radius[out, k]
+            addend, other, result = radius[a, k], radius[b, k], radius[out, k]
             for p in range(lanes):
-                found[p] = one[p] + abs(factor[p]) * other[p]
+                result[p] = addend[p] + abs(factor[p]) * other[p]
 
 
 @inner
@@ -114,20 +114,20 @@ def product(series, a, b, out, lanes, first):  # type: ignore[no-untyped-def]
     out."""
     middle, radius, bounded = series
     for k in range(first, middle.shape[1]):
-        found, off = middle[out, k], radius[out, k]
+        result, off = middle[out, k], radius[out, k]
         for p in range(lanes):
-            found[p] = 0.0
+            result[p] = 0.0
         if bounded:
             for p in range(lanes):
                 off[p] = 0.0
         for i in range(k + 1):
-            one, other = middle[a, i], middle[b, k - i]
+            factor, other = middle[a, i], middle[b, k - i]
             for p in range(lanes):
-                found[p] += one[p] * other[p]
+                result[p] += factor[p] * other[p]
             if bounded:
-                one_off, other_off = radius[a, i], radius[b, k - i]
+                factor_off, other_off = radius[a, i], radius[b, k - i]
                 for p in range(lanes):
-                    off[p] += abs(one[p]) * other_off[p] + one_off[p] * (abs(other[p]) + other_off[p])
+                    off[p] += abs(factor[p]) * other_off[p] + factor_off[p] * (abs(other[p]) + other_off[p])
 
 
 @inner
@@ -144,31 +144,31 @@ def power(series, a, exponent, out, lanes):  # type: ignore[no-untyped-def]
             low, high = _raised(base[p] - spread[p], exponent[p]), _raised(base[p] + spread[p], exponent[p])
             first[p], of_first[p] = 0.5 * (low + high), 0.5 * abs(high - low)
     for k in range(1, middle.shape[1]):
-        found, off = middle[out, k], radius[out, k]
+        result, off = middle[out, k], radius[out, k]
         for p in range(lanes):
-            found[p] = 0.0
+            result[p] = 0.0
         if bounded:
             for p in range(lanes):
                 off[p] = 0.0
         for i in range(1, k + 1):
-            one, other = middle[a, i], middle[out, k - i]
+            factor, other = middle[a, i], middle[out, k - i]
             for p in range(lanes):
-                found[p] += (exponent[p] * i - (k - i)) * one[p] * other[p]
+                result[p] += (exponent[p] * i - (k - i)) * factor[p] * other[p]
             if bounded:
                 # in a loop of its own: of as many arrays as both have together none would be taken several at a time
-                one_off, other_off = radius[a, i], radius[out, k - i]
+                factor_off, other_off = radius[a, i], radius[out, k - i]
                 for p in range(lanes):
-                    wide = abs(one[p]) * other_off[p] + one_off[p] * (abs(other[p]) + other_off[p])
+                    wide = abs(factor[p]) * other_off[p] + factor_off[p] * (abs(other[p]) + other_off[p])
                     off[p] += abs(exponent[p] * i - (k - i)) * wide
         if bounded:
             for p in range(lanes):
                 low, high = 1.0 / (base[p] - spread[p]), 1.0 / (base[p] + spread[p])
                 inverse, wide = 0.5 * (low + high), 0.5 * (low - high)
-                off[p] = (abs(found[p]) * wide + off[p] * (inverse + wide)) / k
-                found[p] = found[p] * inverse / k
+                off[p] = (abs(result[p]) * wide + off[p] * (inverse + wide)) / k
+                result[p] = result[p] * inverse / k
         else:
             for p in range(lanes):
-                found[p] = found[p] / base[p] / k
+                result[p] = result[p] / base[p] / k
 
 
 @inner

@@ -51,14 +51,14 @@ def smallest(points):  # type: ignore[no-untyped-def]
 @inner
 def _farthest(points, middle, centre, per_extent):  # type: ignore[no-untyped-def]
     """Which point is farthest from a centre about the middle; of several the first."""
-    most, found = -1.0, 0
+    most, number = -1.0, 0
     for k in range(points.size):
         place = points[k] - middle - centre
         along, across = place.real * per_extent, place.imag * per_extent
         square = along * along + across * across
         if square > most:
-            most, found = square, k
-    return found
+            most, number = square, k
+    return number
 
 
 @inner
@@ -89,15 +89,15 @@ def _around(few, last, held, weights):  # type: ignore[no-untyped-def]
         for m in range(k + 1, last):
             # barycentric weights of the circumcentre: sin 2A : sin 2B : sin 2C, positive for an acute triangle
             a, b, c = abs(few[m] - few[last]) ** 2, abs(few[last] - few[k]) ** 2, abs(few[k] - few[m]) ** 2
-            one, two, three = a * (b + c - a), b * (c + a - b), c * (a + b - c)
-            if not min(one, two, three) > 0.0:
+            share, two, three = a * (b + c - a), b * (c + a - b), c * (a + b - c)
+            if not min(share, two, three) > 0.0:
                 continue
-            total = one + two + three
-            one, two, three = one / total, two / total, three / total
-            middle = one * few[k] + two * few[m] + three * few[last]
+            total = share + two + three
+            share, two, three = share / total, two / total, three / total
+            middle = share * few[k] + two * few[m] + three * few[last]
             size = max(abs(few[k] - middle), abs(few[m] - middle), abs(few[last] - middle))
             if size > radius:
                 centre, radius, number = middle, size, 3
                 held[0], held[1], held[2] = k, m, last
-                weights[0], weights[1], weights[2] = one, two, three
+                weights[0], weights[1], weights[2] = share, two, three
     return centre, radius, number

@@ -58,10 +58,10 @@ def _in_falling_order(values, order, other):  # type: ignore[no-untyped-def]
     while width < count:
         for begin in range(0, count, 2 * width):
             middle, end = min(begin + width, count), min(begin + 2 * width, count)
-            one, two = begin, middle
+            cursor, two = begin, middle
             for k in range(begin, end):
-                if two >= end or (one < middle and values[order[one]] >= values[order[two]]):
-                    other[k], one = order[one], one + 1
+                if two >= end or (cursor < middle and values[order[cursor]] >= values[order[two]]):
+                    other[k], cursor = order[cursor], cursor + 1
                 else:
                     other[k], two = order[two], two + 1
         for k in range(count):

@@ -41,11 +41,11 @@ def permute(numbers, count, bits, keys, places, beyond):  # type: ignore[no-unty
 @inner
 def _send(numbers, size, bits, keys):  # type: ignore[no-untyped-def]
     """Keyed permutation of 0..2^bits-1 of the first of some numbers, in place, all of them one round at a time."""
-    one = np.uint64(1)
+    unit = np.uint64(1)
     low_bits = np.uint64(bits // 2)
     high_bits = np.uint64(bits) - low_bits
     for key in keys:
-        low_mask, high_mask = (one << low_bits) - one, (one << high_bits) - one
+        low_mask, high_mask = (unit << low_bits) - unit, (unit << high_bits) - unit
         for n in range(size):
             high, low = numbers[n] >> low_bits, numbers[n] & low_mask
             # finaliser of splitmix64 (Steele, Lea, Flood 2014): every bit depends on every bit

@@ -11,8 +11,8 @@ _ABOVE = 1.0 + 1e-9
 
 
 @in_place
-def force_and_couple(forces, arm, smallest, found):  # type: ignore[no-untyped-def]
-    """Sums of forces (N, m, n), and of these times their arms (N, n), to be written to found (2, N, m).
+def force_and_couple(forces, arm, smallest, sums):  # type: ignore[no-untyped-def]
+    """Sums of forces (N, m, n), and of these times their arms (N, n), to be written to sums (2, N, m).
 
     Exactly 0 where the terms cancel up to rounding, as of :func:`optimizer.numerics.arrays.total`, to the last digit.
 
@@ -33,7 +33,7 @@ def force_and_couple(forces, arm, smallest, found):  # type: ignore[no-untyped-d
                         size += abs(_term(forces[n, i, k], arm[n, k], couple == 1))
                     if abs(value) <= max(_ROUNDING * size, smallest):
                         value = 0.0j
-                found[couple, n, i] = value
+                sums[couple, n, i] = value
 
 
 @inner
@@ -58,7 +58,7 @@ def _sum(forces, arm, couple):  # type: ignore[no-untyped-def]
         bound += abs(c.real) + abs(c.imag) + abs(d.real) + abs(d.imag)
     value = (first + second) + (third + fourth)
     for k in range(whole, terms):
-        each = _term(forces[k], arm[k], couple)
-        value += each
-        bound += abs(each.real) + abs(each.imag)
+        term = _term(forces[k], arm[k], couple)
+        value += term
+        bound += abs(term.real) + abs(term.imag)
     return value, bound

@@ -31,7 +31,7 @@ def _root_mean_square(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
     result = _bearing_curves(scene, variant(scene.results["whole_turn"], squared=True))
     of_blocks = (result.curves.of_designs(some) for some in _blocks(result))
     mean, variance = (
-        np.concatenate(each) for each in zip(*((one.mean, one.variance) for one in of_blocks), strict=True)
+        np.concatenate(values) for values in zip(*((curves.mean, curves.variance) for curves in of_blocks), strict=True)
     )
     rms = np.sqrt(variance + np.abs(mean + result.offsets(unbalance)) ** 2).reshape(result.webs.shape[:-1])
     square = scene.layout.omega[..., None] ** 2
@@ -48,8 +48,8 @@ def _floors(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
     for designs in _alike(result):
         number = designs[:, None] * group.size + np.arange(group.size)
         together = np.arange(len(designs))[:, None] * (count + 1) + group
-        found = floors(result.curves, FLOOR_TOLERANCE, number.reshape(-1), together.reshape(-1))
-        centre[designs], radius[designs] = found.centre.reshape(number.shape), found.radius.reshape(number.shape)
+        circles = floors(result.curves, FLOOR_TOLERANCE, number.reshape(-1), together.reshape(-1))
+        centre[designs], radius[designs] = circles.centre.reshape(number.shape), circles.radius.reshape(number.shape)
     radius *= square
     centre = (centre + result.offsets(unbalance).reshape(shape))[..., :count] * square
     return {

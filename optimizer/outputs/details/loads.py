@@ -28,7 +28,7 @@ def _over_the_turn(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
 def _sampled(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
     """What a single answer reads off the samples of the turn, off the same ones."""
     forces, piston = scene.results["piston_force"], of_rows(scene, "piston").magnitude.lower
-    gas, inertia = (np.max(np.abs(each), axis=-1) for each in (forces.gas, forces.inertia))
+    gas, inertia = (np.max(np.abs(series), axis=-1) for series in (forces.gas, forces.inertia))
     low, high = np.min(-forces.gas, axis=-1), np.max(-forces.gas, axis=-1)
     rows = {
         "largest_gas_N": gas,

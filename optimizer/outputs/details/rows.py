@@ -49,9 +49,9 @@ def _guides(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
 
 def _rods(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
     """Load cases of the rods, and the largest force of all of them."""
-    each = [of_rows(scene, reading) for reading in CASES.values()]
-    tension = np.maximum(np.stack([peaks.high.lower for peaks in each], axis=-1), 0.0)
-    compression = np.maximum(np.stack([peaks.low.lower for peaks in each], axis=-1), 0.0)
+    cases = [of_rows(scene, reading) for reading in CASES.values()]
+    tension = np.maximum(np.stack([peaks.high.lower for peaks in cases], axis=-1), 0.0)
+    compression = np.maximum(np.stack([peaks.low.lower for peaks in cases], axis=-1), 0.0)
     flat = (len(tension), -1)
     return {
         **by_part(scene, "rod_load_N", "rows", np.max(np.maximum(tension, compression), axis=-1)),

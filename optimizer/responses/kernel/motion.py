@@ -70,7 +70,7 @@ def moved(motion, curve, cubic, rest, centre, half):  # type: ignore[no-untyped-
 @inner
 def _along(motion, cubic, rest, centre, half):  # type: ignore[no-untyped-def]
     """The component along the axis in place of a vector."""
-    found = rest
+    remainder = rest
     for k in range(4):
         # a derivative is that of the polynomial and what that leaves out of it: i! / (i - k)!, and 4! / (4 - k)!
         largest, falling = 0.0, 1.0
@@ -79,7 +79,7 @@ def _along(motion, cubic, rest, centre, half):  # type: ignore[no-untyped-def]
         for i in range(k, 4):
             largest += falling * abs(cubic[i])
             falling *= (i + 1.0) / (i + 1.0 - k)
-        found += _BINOMIAL[k] * half ** (4.0 - k) * (largest + falling * rest)
+        remainder += _BINOMIAL[k] * half ** (4.0 - k) * (largest + falling * rest)
     angle = motion.sense * centre
     there = motion.unit * complex(np.cos(angle), np.sin(angle))
     for k in range(3, -1, -1):
@@ -88,4 +88,4 @@ def _along(motion, cubic, rest, centre, half):  # type: ignore[no-untyped-def]
             total += (term * cubic[i]).real
             term *= complex(0.0, motion.sense * half / (k - i + 1.0))
         cubic[k] = total
-    return found
+    return remainder

@@ -58,7 +58,7 @@ def outlines(cubics, number, held, group):  # type: ignore[no-untyped-def]
     lower, upper = np.empty(curves), np.empty(curves)
     curve, place, count = np.empty(3 * curves, np.int64), np.empty(3 * curves, np.int64), 0
     size = np.zeros(curves)
-    largest_of, known = np.full(curves, -1), np.full(curves, -np.inf)
+    largest_of, bounds = np.full(curves, -1), np.full(curves, -np.inf)
     for j in range(curves):
         centre[j], radius[j] = _box(cubics, number[j], held)
         if largest_of[group[j]] < 0 or radius[j] > radius[largest_of[group[j]]]:
@@ -68,7 +68,7 @@ def outlines(cubics, number, held, group):  # type: ignore[no-untyped-def]
         j = n % curves
         if (largest_of[group[j]] == j) != (n < curves):
             continue
-        if radius[j] < known[group[j]]:
+        if radius[j] < bounds[group[j]]:
             radius[j], lower[j], upper[j] = 0.0, 0.0, radius[j]
             continue
         for p in range(held.size):
@@ -95,7 +95,7 @@ def outlines(cubics, number, held, group):  # type: ignore[no-untyped-def]
             rest = max(rest, cubics.rest[number[j], held[p]])
             most = max(most, farthest + 0.125 * BETWEEN**2 * bend + cubics.rest[number[j], held[p]])
         lower[j], upper[j] = radius[j] - rest, most
-        known[group[j]] = max(known[group[j]], lower[j])
+        bounds[group[j]] = max(bounds[group[j]], lower[j])
     return Outlines(held, values, centre, radius, lower, upper, curve[:count].copy(), place[:count].copy(), size)
 
 
