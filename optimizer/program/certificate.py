@@ -101,19 +101,19 @@ def objective_lower_bound(statement: Statement, multipliers: Multipliers) -> Rea
 def best_proof(statement: Statement, proofs: Iterable[Multipliers]) -> tuple[Real, Multipliers]:
     """The highest of the lower bounds (...) that several multipliers prove, and those that prove it: the first of equal
     ones. All are evaluated at once, as many programs are."""
-    each = list(proofs)
-    every = together(each)
+    candidates = list(proofs)
+    every = together(candidates)
     bound = objective_lower_bound(statement, every)
     best = np.where(np.isnan(bound), -np.inf, bound).argmax(axis=0)
     if not np.count_nonzero(best):
-        return bound[0], each[0]
+        return bound[0], candidates[0]
     taken = (best, *np.indices(best.shape))
     return bound[taken], every.chosen(taken)
 
 
 def together(several: Iterable[Multipliers]) -> Multipliers:
     """Several multipliers of the same programs as those of one more leading axis."""
-    term, row, ceiling = zip(*(each.parts for each in several), strict=True)
+    term, row, ceiling = zip(*(multipliers.parts for multipliers in several), strict=True)
     return Multipliers(np.array(term), np.array(row), np.array(ceiling))
 
 
@@ -147,8 +147,8 @@ def affine_minorant(statement: Statement, multipliers: Multipliers) -> tuple[Rea
     constant (...) without its rounding, -inf where nothing is proven; slopes (..., K), Re(conj(slope_k) u_k) of the
     unbalances; and what the slopes may be off by (..., K).
     """
-    found = _minorants(statement, multipliers, counted=True, normal=True)
-    return found.constant, found.slope, found.rounding
+    minorant = _minorants(statement, multipliers, counted=True, normal=True)
+    return minorant.constant, minorant.slope, minorant.rounding
 
 
 def tolerance_allowance(statement: Statement, multipliers: Multipliers) -> Real:
@@ -171,10 +171,10 @@ def budget_price(statement: Statement, multipliers: Multipliers, mass_cost: floa
     ends = limits.budget_ends
     if not np.count_nonzero(ends):
         return np.zeros(ends.shape)
-    found = _minorants(statement, multipliers, counted=False, normal=False)
+    minorant = _minorants(statement, multipliers, counted=False, normal=False)
     # with the rounding of the slopes, as in the bound: at a lower price a web behind this one would gain something
     # a plate that is opened further adds a kilogram at its edge (section 18)
-    _, price = limits.spent(limits.margin * found.support - mass_cost)
+    _, price = limits.spent(limits.margin * minorant.support - mass_cost)
     return price
 
 
@@ -188,18 +188,18 @@ def ceiling_allowance(statement: Statement, multipliers: Multipliers, excess: Re
     """
     if not (excess > 0).any():
         return np.zeros(excess.shape[:-1])
-    usable, known = normalised(statement, multipliers)
+    usable, mask = normalised(statement, multipliers)
     over = np.maximum(excess, 0.0) * statement.ceilings.size
     allowance = np.add.reduce(np.where(over > 0, np.abs(usable.ceiling) * over, 0.0), axis=-1)
-    return np.where(known, allowance, 0.0)
+    return np.where(mask, allowance, 0.0)
 
 
 def normalised(statement: Statement, multipliers: Multipliers) -> tuple[Multipliers, np.ndarray]:
     """Admissible multipliers whose rows sum to 1 in every group, and where there are any (...)."""
     usable = multipliers.admissible(statement)
     total = usable.price(statement)
-    known = proves(total)
-    return usable.times(1.0 / np.where(known, total, 1.0)), known
+    mask = proves(total)
+    return usable.times(1.0 / np.where(mask, total, 1.0)), mask
 
 
 def proves(price: Real) -> np.ndarray:

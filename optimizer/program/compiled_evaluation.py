@@ -99,9 +99,9 @@ class Flat:
         """
         leading = self._of(u.shape[:-1])
         many = math.prod(leading)
-        found = np.empty((4, many))
-        _values().values(*_rows(leading, u), self.programs, found)
-        return found.reshape(4, *leading)
+        result = np.empty((4, many))
+        _values().values(*_rows(leading, u), self.programs, result)
+        return result.reshape(4, *leading)
 
     def bounds(self, term: Complex, row: Real, ceiling: Complex, target: Real | None = None) -> Real:
         """Lower bounds (..., *leading) on the objective, or on the mass.
@@ -115,11 +115,11 @@ class Flat:
 
         programs = self.programs
         leading = self._of(np.broadcast_shapes(row.shape[:-1], () if target is None else target.shape))
-        found = np.empty(math.prod(leading))
+        result = np.empty(math.prod(leading))
         most = programs.region.budget if target is None else in_order(spread(target, leading)).reshape(-1)
         cap = programs.cap if target is None else programs.counted
-        bounds(0.0 if target is None else 1.0, most, *_rows(leading, term, row, ceiling), programs, cap, found)
-        return found.reshape(leading)
+        bounds(0.0 if target is None else 1.0, most, *_rows(leading, term, row, ceiling), programs, cap, result)
+        return result.reshape(leading)
 
     def minorants(self, term: Complex, row: Real, ceiling: Complex, counted: bool, normal: bool) -> Minorants:
         """What multipliers prove for all counterweights (..., *leading).
@@ -153,7 +153,7 @@ class Flat:
             self.rows,
             programs.scalar,
             programs.numbers[0],
-            *(each.reshape(many, each.shape[-1]) for each in dual),
+            *(part.reshape(many, part.shape[-1]) for part in dual),
         )
 
     def least_masses(self, objective: Real) -> Real:
@@ -223,7 +223,7 @@ class Flat:
         """
         many, terms, webs = self.programs.influence.shape
         smallest, lightest = np.array(ends[0], order="C"), in_order(ends[1])
-        found, figures, bounds = np.empty((many, webs), complex), np.empty((4, many)), np.empty((3, many))
+        points, figures, bounds = np.empty((many, webs), complex), np.empty((4, many)), np.empty((3, many))
         certified, own = np.empty(many, bool), _in_order(solver)
         proof = np.empty_like(own[0]), np.empty_like(own[1]), np.empty_like(own[2])
         _judging().judge(
@@ -240,13 +240,13 @@ class Flat:
             np.abs(self.programs.constant[:, : own[0].shape[1]]),
             rungs,
             *settling_work(self.programs.region, terms, webs),
-            found,
+            points,
             figures,
             proof,
             bounds,
             certified,
         )
-        return Judgement(smallest, found, figures, proof, bounds[0], bounds[1], bounds[2], certified)
+        return Judgement(smallest, points, figures, proof, bounds[0], bounds[1], bounds[2], certified)
 
     def _of(self, axes: tuple[int, ...]) -> tuple[int, ...]:
         """Leading axes of what has these, which are those of the programs and others before them."""
@@ -324,7 +324,7 @@ def _in_order(dual: Dual) -> Dual:
 def _rows(leading: tuple[int, ...], *parts: np.ndarray) -> tuple[np.ndarray, ...]:
     """Arrays (..., n) as (M, n), of what has these leading axes."""
     many = math.prod(leading)
-    return tuple(in_order(spread(each, (*leading, each.shape[-1]))).reshape(many, each.shape[-1]) for each in parts)
+    return tuple(in_order(spread(part, (*leading, part.shape[-1]))).reshape(many, part.shape[-1]) for part in parts)
 
 
 # loads the compiler, a tenth of a second, and so at the first call; an import at each takes as long as a short loop

@@ -48,8 +48,8 @@ class Alike:
 
     def carried(self, of_units: Complex) -> Complex:
         """Unbalances of all webs (..., K) where the first of every unit carries these (..., U)."""
-        each = of_units[..., self.owner]
-        return self.turn * np.where(self.mirrored, np.conj(each), each)
+        unbalances = of_units[..., self.owner]
+        return self.turn * np.where(self.mirrored, np.conj(unbalances), unbalances)
 
     def means(self, u: Complex) -> Complex:
         """What the first webs of all units carry (..., U) in the nearest unbalances that are alike."""
@@ -78,12 +78,12 @@ class Alike:
     def only(self, webs: np.ndarray) -> "Alike":
         """Of some of the webs (K,) bool, of a unit all or none."""
         place = np.cumsum(webs) - 1
-        kept = np.flatnonzero(webs).tolist()
+        numbers = np.flatnonzero(webs).tolist()
         return Alike(
             self.turn[..., webs],
             self.ahead_deg[..., webs],
-            tuple(int(place[self.leader[k]]) for k in kept),
-            tuple(self.mirrored[k] for k in kept),
+            tuple(int(place[self.leader[k]]) for k in numbers),
+            tuple(self.mirrored[k] for k in numbers),
         )
 
     def pieces(self, web: np.ndarray) -> "Alike":

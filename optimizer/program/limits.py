@@ -173,9 +173,9 @@ class Limits:
 def within(region: Region, leading: tuple[int, ...], u: Complex) -> Complex:
     """Unbalances, of these leading axes, within all limits, close to those that are nearly so."""
     webs = u.shape[-1]
-    found = np.array(spread(u, (*leading, webs)), complex, order="C")
-    _regions().bring(found.reshape(math.prod(leading), webs), region, np.empty(webs, complex))
-    return found
+    points = np.array(spread(u, (*leading, webs)), complex, order="C")
+    _regions().bring(points.reshape(math.prod(leading), webs), region, np.empty(webs, complex))
+    return points
 
 
 # loads the compiler, a tenth of a second, and so at the first call; an import at each takes as long as a short loop

@@ -23,7 +23,7 @@ def worst_objectives(statement: Statement, u: Complex, angle: float, share: floa
     As they are; each off by up to an angle; and by up to a share of its mass. Of a sum of peaks no less than that.
     """
     flat = statement.flat
-    programs, found = flat.programs, np.empty((3, math.prod(flat.leading)))
+    programs, objectives = flat.programs, np.empty((3, math.prod(flat.leading)))
     _outlines().objectives(
         flat.rows,
         programs.scalar,
@@ -33,9 +33,9 @@ def worst_objectives(statement: Statement, u: Complex, angle: float, share: floa
         merged(flat.leading, u, 1),
         angle,
         share,
-        found,
+        objectives,
     )
-    return found.reshape(3, *flat.leading)
+    return objectives.reshape(3, *flat.leading)
 
 
 def worst_by_mass(norms: Norms, u: Complex, share: float) -> Real:

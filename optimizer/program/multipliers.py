@@ -71,22 +71,22 @@ def _nearest(influence: Real | Complex, multipliers: Complex | Real, worth: Comp
     scale = np.max(np.abs(influence), axis=1, keepdims=True)
     scale = np.where(scale > 0, scale, 1.0)
     basis, size, across = np.linalg.svd(influence / scale, full_matrices=False)
-    known = size > 1e-12 * size[0]
-    basis = basis[:, known]
+    mask = size > 1e-12 * size[0]
+    basis = basis[:, mask]
     weighted = multipliers * scale[:, 0]
-    found: Complex = (weighted - basis @ (np.conj(basis).T @ weighted)) / scale[:, 0]
+    result: Complex = (weighted - basis @ (np.conj(basis).T @ weighted)) / scale[:, 0]
     if np.any(worth):
-        found = found + (basis @ ((across[known] @ worth) / size[known])) / scale[:, 0]
-    return found
+        result = result + (basis @ ((across[mask] @ worth) / size[mask])) / scale[:, 0]
+    return result
 
 
 def _nearest_of_scalars(influence: Real | Complex, multipliers: Complex, worth: Complex, free: np.ndarray) -> Complex:
     """The same where multipliers are real: in their real parts and, of those that are ``free`` (n,), the imaginary."""
     turned = np.concatenate([influence, -1j * influence[free]])
     parts = np.concatenate([multipliers.real, multipliers.imag[free]])
-    found = _nearest(np.hstack([turned.real, -turned.imag]), parts, np.concatenate([worth.real, worth.imag]))
-    whole: Complex = found[: free.size].astype(complex)
-    whole[free] += 1j * found[free.size :]
+    values = _nearest(np.hstack([turned.real, -turned.imag]), parts, np.concatenate([worth.real, worth.imag]))
+    whole: Complex = values[: free.size].astype(complex)
+    whole[free] += 1j * values[free.size :]
     return whole
 
 
@@ -119,11 +119,11 @@ def supporting_multipliers(statement: Statement, u: Complex) -> Iterator[Multipl
     worth = -u[inside] / np.abs(u[inside]) / statement.limits.radius[inside]
     every = np.arange(size.size)
     for part in (every, every[terms:]) if statement.ceilings.names else (every,):
-        found = np.zeros(size.size, complex)
-        found[part] = np.linalg.lstsq(np.conj(influence[part] / size[part, None]).T, worth, rcond=None)[0] / size[part]
+        prices = np.zeros(size.size, complex)
+        prices[part] = np.linalg.lstsq(np.conj(influence[part] / size[part, None]).T, worth, rcond=None)[0] / size[part]
         row = np.zeros(statement.floor.size)
-        np.maximum.at(row, statement.row, np.abs(found[:terms]))
-        yield Multipliers(found[:terms], row, found[terms:])
+        np.maximum.at(row, statement.row, np.abs(prices[:terms]))
+        yield Multipliers(prices[:terms], row, prices[terms:])
 
 
 def _interior(statement: Statement, u: Complex) -> np.ndarray:

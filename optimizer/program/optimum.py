@@ -34,9 +34,9 @@ def optimum(
         return over_turn(program, relative_gap, least_mass, time_limit_s)
     statement = within_reach(stated)
     whole = statement.alone()
-    found = optima(whole, relative_gap, least_mass)
-    u = symmetric(whole, found.unbalance) if program.symmetric else found.unbalance
-    return solution(program, statement, found, u[0], least_mass)
+    answer = optima(whole, relative_gap, least_mass)
+    u = symmetric(whole, answer.unbalance) if program.symmetric else answer.unbalance
+    return solution(program, statement, answer, u[0], least_mass)
 
 
 def cone_program(program: Problem, least_mass: bool) -> Statement | None:

@@ -64,9 +64,9 @@ class Pieces(NamedTuple):
     def carried(self, u: Complex) -> Complex:
         """What the webs of the machine carry (..., K) where these carry (..., N), kg m."""
         first = np.flatnonzero(np.diff(self.owner, prepend=-1))
-        found = np.zeros((*u.shape[:-1], self.machine_webs), complex)
-        found[..., self.owner[first]] = np.add.reduceat(u, first, axis=-1)
-        return found
+        totals = np.zeros((*u.shape[:-1], self.machine_webs), complex)
+        totals[..., self.owner[first]] = np.add.reduceat(u, first, axis=-1)
+        return totals
 
 
 def total_mass(plates: Plates | None, radius: Real, u: Complex) -> float:
@@ -146,12 +146,12 @@ def pieces(whole: Statement, plates: Plates, webs: Webs, left: np.ndarray | None
     count = np.ones(limits.radius.shape[-1], int) if left is None else left.astype(int)
     is_plate = np.zeros(count.size, bool)
     is_plate[plates.webs] = True
-    kept = (webs.mass.T > 0) & (count[plates.webs, None] > 0)
-    count[plates.webs] = np.add.reduce(kept, axis=-1)
+    mask = (webs.mass.T > 0) & (count[plates.webs, None] > 0)
+    count[plates.webs] = np.add.reduce(mask, axis=-1)
     owner = np.repeat(np.arange(count.size), count)
     parts = {name: getattr(limits, name)[..., owner].copy() for name in OF_WEBS}
     cut = is_plate[owner]
-    parts["radius"][..., cut], parts["max_mass"][..., cut] = webs.radius.T[kept], webs.mass.T[kept]
+    parts["radius"][..., cut], parts["max_mass"][..., cut] = webs.radius.T[mask], webs.mass.T[mask]
     alike = None if limits.alike is None else limits.alike.pieces(owner)
     program = replace(
         whole,

@@ -145,4 +145,6 @@ def total_mass(limits: Limits) -> Row:
     radius = limits.radius
     of_web = np.eye(max(radius.size, 1), radius.size) / np.where(radius > 0, radius, 1.0)
     nothing = np.zeros(1, dtype=complex)
-    return Row("mass", tuple(WeightedPeak("mass", np.zeros(()), Norms(nothing, each[None])) for each in of_web))
+    return Row(
+        "mass", tuple(WeightedPeak("mass", np.zeros(()), Norms(nothing, influence[None])) for influence in of_web)
+    )

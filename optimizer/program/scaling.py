@@ -160,7 +160,7 @@ def _matrix(norms: Norms, statement: Statement, reach: Real) -> Real:
         of_first = (reach * limits.centre)[limits.alike.first]
         sine = limits.half_angle_sin[limits.alike.first]
         carried = (limits.alike.carried(of_first), limits.alike.carried(1j * of_first * sine))
-        along, across = (limits.alike.summed(norms.influence * each) for each in carried)
+        along, across = (limits.alike.summed(norms.influence * load) for load in carried)
     counts = ~np.array(norms.scalar, dtype=bool)[:, None] if any(norms.scalar) else 1.0
     return np.block([[along.real, across.real], [along.imag * counts, across.imag * counts]])
 

@@ -104,11 +104,11 @@ class Solutions:
     def put(self: Some, programs: np.ndarray, others: Some) -> None:
         """Others for some of the programs, in place."""
         for field in fields(self):
-            each, other = getattr(self, field.name), getattr(others, field.name)
-            if isinstance(each, Multipliers):
-                each.put(programs, other)
+            value, other = getattr(self, field.name), getattr(others, field.name)
+            if isinstance(value, Multipliers):
+                value.put(programs, other)
             else:
-                each[programs] = other
+                value[programs] = other
 
 
 def joined(parts: Sequence[Any], order: np.ndarray) -> Any:

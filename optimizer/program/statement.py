@@ -217,15 +217,17 @@ class Statement:
             constant = norms.constant + np.sum(norms.influence * points[..., None, :], axis=-1)
             return replace(norms, constant=constant, influence=spread(norms.influence, 2))
 
-        each = self.ceilings
-        each = replace(each, norms=moved(each.norms), cap=spread(each.cap, 1), size=spread(each.size, 1))
-        return replace(self, norms=moved(self.norms), floor=spread(self.floor, 1), ceilings=each)
+        ceilings = self.ceilings
+        ceilings = replace(
+            ceilings, norms=moved(ceilings.norms), cap=spread(ceilings.cap, 1), size=spread(ceilings.size, 1)
+        )
+        return replace(self, norms=moved(self.norms), floor=spread(self.floor, 1), ceilings=ceilings)
 
     def alone(self) -> "Statement":
         """One program as the only one of a leading axis (1,)."""
         webs = self.limits.radius.shape[-1]
         none = self.ceilings is no_ceilings((), webs)
-        found = Statement(
+        program = Statement(
             self.norms.mapped(_first),
             self.row,
             self.group,
@@ -235,10 +237,10 @@ class Statement:
             self.names,
         )
         # what is known of it is not found out again
-        known = vars(found)
-        known["at_rest"], known["single_reach"] = self.at_rest[None], self.single_reach[None]
-        known["flat"] = Flat((1,), self.flat.programs)
-        return found
+        attributes = vars(program)
+        attributes["at_rest"], attributes["single_reach"] = self.at_rest[None], self.single_reach[None]
+        attributes["flat"] = Flat((1,), self.flat.programs)
+        return program
 
     def chosen(self, programs: "int | tuple[int, ...] | np.ndarray") -> "Statement":
         """Some of the programs by their leading axes."""

@@ -121,12 +121,12 @@ def verdict(claim: Claim, tolerance: float) -> Verdict:
     bound, gap = np.minimum(claim.lower_bound, claim.value), np.maximum(-over, 0.0)
     relative = relative_gap(gap, claim.yardstick)
     relative = relative[..., 0] if relative.shape[-1] == 1 else np.maximum.reduce(relative, axis=-1)
-    mass_yardstick, kept = np.maximum(claim.mass, claim.mass_resolution), claim.excess <= CEILING_TOLERANCE
+    mass_yardstick, feasibility = np.maximum(claim.mass, claim.mass_resolution), claim.excess <= CEILING_TOLERANCE
     if claim.mass_lower_bound is None:
         mass_bound, mass_gap, light = np.zeros_like(claim.mass), np.zeros_like(claim.mass), np.ones_like(false)
     else:
         # the bound is of what keeps the ceilings
-        false = false | (kept & (claim.mass_lower_bound > claim.mass * (1.0 + _MASS_ROUNDING)))
+        false = false | (feasibility & (claim.mass_lower_bound > claim.mass * (1.0 + _MASS_ROUNDING)))
         mass_bound = np.minimum(claim.mass_lower_bound, claim.mass)
         mass_gap = relative_gap(claim.mass - mass_bound, mass_yardstick)
         light = mass_gap <= MASS_GAP
@@ -134,18 +134,18 @@ def verdict(claim: Claim, tolerance: float) -> Verdict:
         _LOG.error("a lower bound is above the value of an answer: %d of %d", np.sum(false), false.size)
     close = relative <= tolerance
     why = OPTIMAL if claim.mass_lower_bound is None else OPTIMAL_LIGHTEST
-    optimal = ~false & kept & close & light
+    optimal = ~false & feasibility & close & light
     if np.logical_and.reduce(optimal, axis=None) and tolerance < np.inf:
         # all is finite then
         every = spread(_OPTIMAL, optimal.shape), spread(np.asarray(why, dtype=object), optimal.shape)
         return Verdict(*every, bound, gap, relative, mass_bound, mass_gap, mass_yardstick)
     nothing = false | ~np.isfinite(relative)
     # the last of these that is so
-    said = np.maximum.reduce([1 * ~light, 2 * ~close, 3 * ~kept, 4 * false])
+    index = np.maximum.reduce([1 * ~light, 2 * ~close, 3 * ~feasibility, 4 * false])
     return Verdict(
         np.where(optimal, "optimal", "inaccurate"),
         # objects, as texts take the room of the longest in each design
-        np.asarray(np.array([why, NOT_LIGHT, NOT_CLOSE, ON_THE_BOUNDARY, CONTRADICTED], object)[said], object),
+        np.asarray(np.array([why, NOT_LIGHT, NOT_CLOSE, ON_THE_BOUNDARY, CONTRADICTED], object)[index], object),
         np.where(nothing[..., None], np.nan, bound),
         np.where(nothing[..., None], np.nan, gap),
         np.where(nothing, np.nan, relative),

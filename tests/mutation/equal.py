@@ -80,8 +80,8 @@ _PROGRAM: dict[str, str] = {
     " limits.max_total_mass) -> _ROOM_FOR_MASS * before.mass <= worth_less * np.minimum(limits.max_mass,"
     " limits.max_total_mass)": _STEERS,
     "methods/rounding.py RUNGS": _STEERS,
-    "cuts/empty_webs.py _without: found.mass <= max(point.mass, heaviest)"
-    " -> found.mass < max(point.mass, heaviest)": _ALIKE,
+    "cuts/empty_webs.py _without: candidate.mass <= max(point.mass, heaviest)"
+    " -> candidate.mass < max(point.mass, heaviest)": _ALIKE,
     "cuts/proof.py _MEAN: 64 * np.finfo(float).eps -> 65 * np.finfo(float).eps": _FINER,
     "reference/modelling.py _vector_duals: np.zeros(0, complex) -> np.zeros(1, complex)": "it is multiplied with the"
     " influences of none",
@@ -95,7 +95,7 @@ _FORMULATION: dict[str, str] = {
     "counterweights.py too_heavy: weight.mass_kg > most.get(str(weight.web), np.inf) * (1.0 + _ABOVE_ENVELOPE)"
     " -> weight.mass_kg >= most.get(str(weight.web), np.inf) * (1.0 + _ABOVE_ENVELOPE)": "a mass above what is held by"
     " 1e-12 exactly may be taken or not",
-    "groups.py _same_options: one[:, 1] - angle + 180.0 -> one[:, 1] - angle - 180.0": "a whole turn",
+    "groups.py _same_options: image[:, 1] - angle + 180.0 -> image[:, 1] - angle - 180.0": "a whole turn",
     "groups.py _masses: mass is not None and angle is None -> mass is not None or angle is None": "angles are"
     " compared with their masses beside",
     "groups.py _at_angles: mass or 0.0 -> mass or 0.001": "a mark of what is left open, the same of both that are"

@@ -39,20 +39,26 @@ class Brackets:
         tolerance : (quantities,) of upper - lower, relative to lower.
         chosen : which, by default all.
         """
-        asked = range(len(self._quantities)) if chosen is None else chosen
-        found: dict[int, Evaluation] = {}
-        for at, known in reversed(self._recent):
+        numbers = range(len(self._quantities)) if chosen is None else chosen
+        results: dict[int, Evaluation] = {}
+        for at, evaluations in reversed(self._recent):
             change = np.abs(u - at)
             if np.max(change, initial=0.0) <= _NEAR * np.max(np.abs(u), initial=0.0):
-                near = {q: self._near(q, known[q], change) for q in asked if q in known and q not in found}
-                found |= {q: each for q, each in near.items() if each.upper - each.lower <= tolerance[q] * each.lower}
-        sought = [q for q in asked if q not in found]
+                near = {
+                    q: self._near(q, evaluations[q], change) for q in numbers if q in evaluations and q not in results
+                }
+                results |= {
+                    q: evaluation
+                    for q, evaluation in near.items()
+                    if evaluation.upper - evaluation.lower <= tolerance[q] * evaluation.lower
+                }
+        sought = [q for q in numbers if q not in results]
         if sought:
             # half, so that rounding and what is near leave them as narrow as asked
             new = dict(zip(sought, self._bracketed(u, 0.5 * tolerance, sought), strict=True))
             self._recent = [*self._recent[1 - _REMEMBERED :], (u, new)]
-            found |= new
-        return tuple(found[q] for q in asked)
+            results |= new
+        return tuple(results[q] for q in numbers)
 
     def _near(self, q: int, reached: Evaluation, change: Real) -> Evaluation:
         influence = np.abs(self._quantities[q].response.influence)
@@ -61,15 +67,15 @@ class Brackets:
 
     def _bracketed(self, u: Complex, tolerance: Real, chosen: list[int]) -> tuple[Evaluation, ...]:
         quantities, scatter = self._quantities, self._scatter
-        found: dict[int, Evaluation] = {}
+        results: dict[int, Evaluation] = {}
         peak: list[int] = []
         for q in chosen:
             # a curve of rounding has the peak of what is added to it, at once where that stands still
             if quantities[q].measure == "rms":
-                found[q] = quantities[q].rms(u, scatter)
+                results[q] = quantities[q].rms(u, scatter)
             elif self._cancelled[q] and (quantities[q].response.turning is None or not np.any(u)):
                 size = abs(quantities[q].response.offset(u))
-                found[q] = quantities[q].peak(u, scatter, size, size, quantities[q].cut(0.0, 0j))
+                results[q] = quantities[q].peak(u, scatter, size, size, quantities[q].cut(0.0, 0j))
             else:
                 peak.append(q)
         scattered = [q for q in peak if quantities[q].masses > 0.0]
@@ -83,5 +89,5 @@ class Brackets:
                     else peaks_astray(responses, [quantities[q].masses for q in some], u, tolerance[some])
                 )
                 for q, angle, value, lower, upper in zip(some, *(part.tolist() for part in bracket), strict=True):
-                    found[q] = quantities[q].peak(u, scatter, lower, upper, quantities[q].cut(angle, value))
-        return tuple(found[q] for q in chosen)
+                    results[q] = quantities[q].peak(u, scatter, lower, upper, quantities[q].cut(angle, value))
+        return tuple(results[q] for q in chosen)

@@ -103,13 +103,13 @@ class Quantity:
             return ()
         if not self.response.scalar:
             return tuple(Cut(0j, np.where(turning == n, influence, 0.0), -largest) for n in np.unique(turning))
-        found = []
+        cuts = []
         for n in np.unique(np.abs(turning)):
             share = np.where(turning == n, 0.5, 0.0) + np.where(turning == -n, 0.5, 0.0)
             for quarter in (1.0, 1.0j) if n else (1.0,):
                 turned = np.where(turning < 0, np.conj(quarter), quarter)
-                found.append(Cut(0j, share * turned * influence, -largest, scalar=True))
-        return tuple(found)
+                cuts.append(Cut(0j, share * turned * influence, -largest, scalar=True))
+        return tuple(cuts)
 
     def peak(self, u: Complex, scatter: Scatter, lower: float, upper: float, cut: Cut) -> Evaluation:
         """The peak where counterweights scatter, from what it is where they do not."""
@@ -145,13 +145,13 @@ class Pool:
         """Take the cuts of every quantity whose true value is above what matters; whether any was new."""
         new = False
         for cuts, several, least in zip(self.cuts, evaluations, matters, strict=True):
-            above = [each for each in several if each.lower > least]
+            above = [evaluation for evaluation in several if evaluation.lower > least]
             if not above:
                 continue
-            known = max(cut.at(u, self.scatter) for cut in cuts) * (1.0 + 4 * np.finfo(float).eps)
-            for each in above:
-                if each.lower > known and not any(each.cut.alike(cut) for cut in cuts):
-                    cuts.append(each.cut)
+            level = max(cut.at(u, self.scatter) for cut in cuts) * (1.0 + 4 * np.finfo(float).eps)
+            for evaluation in above:
+                if evaluation.lower > level and not any(evaluation.cut.alike(cut) for cut in cuts):
+                    cuts.append(evaluation.cut)
                     new = True
         return new
 

@@ -35,9 +35,11 @@ def spare(groups: Sequence[Group], about: Real) -> Real:
     nothing that they do not; 0 of those that may decide."""
     left = np.full(about.size, np.inf)
     for group in groups:
-        level = max((each.offset + each.weight * about[each.quantity] for each in group.weighed), default=0.0)
-        for each in group.weighed:
-            left[each.quantity] = min(left[each.quantity], (level - each.offset) / each.weight - about[each.quantity])
+        level = max((member.offset + member.weight * about[member.quantity] for member in group.weighed), default=0.0)
+        for member in group.weighed:
+            left[member.quantity] = min(
+                left[member.quantity], (level - member.offset) / member.weight - about[member.quantity]
+            )
     return np.clip(_SHARE * left / np.maximum(about, _TINY), 0.0, _SHARE)
 
 
@@ -46,8 +48,9 @@ def deciding(groups: Sequence[Group], evaluations: Sequence[Evaluation]) -> np.n
     may = np.zeros(len(evaluations), dtype=bool)
     for group in groups:
         least = max(
-            (each.offset + each.weight * evaluations[each.quantity].lower for each in group.weighed), default=0.0
+            (member.offset + member.weight * evaluations[member.quantity].lower for member in group.weighed),
+            default=0.0,
         )
-        for each in group.weighed:
-            may[each.quantity] |= each.offset + each.weight * evaluations[each.quantity].upper > least
+        for member in group.weighed:
+            may[member.quantity] |= member.offset + member.weight * evaluations[member.quantity].upper > least
     return may

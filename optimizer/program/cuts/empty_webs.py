@@ -48,16 +48,16 @@ class EmptyWebs:
             nothing = self._dust(point)
             if not nothing.any():
                 return point
-            found = self._without(empty | nothing, point)
-            if found is None:
+            candidate = self._without(empty | nothing, point)
+            if candidate is None:
                 break
-            point, empty = found, empty | nothing
+            point, empty = candidate, empty | nothing
         for web in np.argsort(np.abs(point.unbalance) / self.program.limits.radius):
             if self._dust(point)[web]:
                 alone = empty | (np.arange(empty.size) == web)
-                found = self._without(alone, point)
-                if found is not None:
-                    point, empty = found, alone
+                candidate = self._without(alone, point)
+                if candidate is not None:
+                    point, empty = candidate, alone
         return point
 
     def _dust(self, point: Point) -> np.ndarray:
@@ -69,13 +69,13 @@ class EmptyWebs:
         bare = self.program.changed(limits=replace(limits, max_mass=np.where(empty, 0.0, limits.max_mass)))
         u = np.where(empty, 0.0, point.unbalance)
         start = Point(u, bare.values(u, self.width), _NO_POINT * point.mass)
-        kept = Levels(self.margin, self.most, self.most)
-        found = Search(bare, self.pool, kept, start, self.raised, self.until).run(self.enough).point
-        if found is start or found.mass >= start.mass:
+        levels = Levels(self.margin, self.most, self.most)
+        candidate = Search(bare, self.pool, levels, start, self.raised, self.until).run(self.enough).point
+        if candidate is start or candidate.mass >= start.mass:
             return None
         statement = replace(self.statement, limits=bare.limits)
-        found = settled_turn(bare, statement, found, self.most, self.mass_bound, self.width)
-        close = bool(np.all(found.values.goals <= np.maximum(self.most, point.values.goals)))
-        kept_too = found.values.excess <= max(point.values.excess, CEILING_ROUNDING)
+        candidate = settled_turn(bare, statement, candidate, self.most, self.mass_bound, self.width)
+        close = bool(np.all(candidate.values.goals <= np.maximum(self.most, point.values.goals)))
+        compliance = candidate.values.excess <= max(point.values.excess, CEILING_ROUNDING)
         heaviest = np.inf if self.mass_bound is None else self.mass_bound / (1.0 - _HEAVIER)
-        return found if close and kept_too and found.mass <= max(point.mass, heaviest) else None
+        return candidate if close and compliance and candidate.mass <= max(point.mass, heaviest) else None

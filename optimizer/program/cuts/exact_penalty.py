@@ -29,9 +29,9 @@ def under_levels(statement: Statement, program: Problem, most: Real, least: floa
         return statement
     units = program.units
     price = np.append(steep * units[-1] / units[:-1], 1.0)
-    found = times(statement, price[program.goal_of])
+    result = times(statement, price[program.goal_of])
     # once for every sum, however many groups it has
     _, first = np.unique(program.case_of, return_index=True)
     of_group = np.zeros(len(program.groups))
     of_group[first] = np.append(least - price[:-1] * most, 0.0)[program.goal_of_case]
-    return replace(found, floor=found.floor + of_group[found.group])
+    return replace(result, floor=result.floor + of_group[result.group])

@@ -20,7 +20,7 @@ def floor_multipliers(program: Problem, cuts: Cuts, statement: Statement) -> Mul
     ----------
     statement : of the program with these cuts, its groups times factors or not.
     """
-    points = [np.array([cut.constant for cut in each]) for each in cuts]
+    points = [np.array([cut.constant for cut in entry]) for entry in cuts]
     circles = [smallest_circle(point) for point in points]
     row = np.zeros(statement.floor.size)
     term = np.zeros(statement.row.size, complex)
@@ -28,12 +28,12 @@ def floor_multipliers(program: Problem, cuts: Cuts, statement: Statement) -> Mul
     start = 0
     for group in program.groups:
         # floor, first row, quantity
-        found = [(float(statement.floor[start + k]), start + k, -1) for k in range(len(group.rows))]
+        floors = [(float(statement.floor[start + k]), start + k, -1) for k in range(len(group.rows))]
         start += len(group.rows)
-        for each in group.weighed:
-            found.append((each.offset + each.weight * circles[each.quantity].radius, start, each.quantity))
-            start += len(cuts[each.quantity])
-        _, place, quantity = max(found)
+        for entry in group.weighed:
+            floors.append((entry.offset + entry.weight * circles[entry.quantity].radius, start, entry.quantity))
+            start += len(cuts[entry.quantity])
+        _, place, quantity = max(floors)
         if quantity < 0:
             row[place] = 1.0
             continue

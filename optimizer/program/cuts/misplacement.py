@@ -37,11 +37,11 @@ def largest_last_goals(
         (share, lambda norms: worst_by_mass(norms, u, share), lambda v: share * mass_corners(v)),
     )
     quantities = tuple(zip(program.quantities, reached, program.samples.cancelled, strict=True))
-    worst = [[_no_less(quantity, u, each, nothing, kind) for quantity, each, nothing in quantities] for kind in kinds]
+    worst = [[_no_less(quantity, u, entry, nothing, kind) for quantity, entry, nothing in quantities] for kind in kinds]
     sharp = [(k, q) for k, of_kind in enumerate(worst) for q in _matter(program, reached, of_kind)]
     for (k, q), peak in zip(sharp, _sharper(program, u, [(kinds[k], q) for k, q in sharp]), strict=True):
         worst[k][q] = min(worst[k][q], peak)
-    by_angle, by_mass = (_last_goal(program, size, each) for (_, size, _), each in zip(kinds, worst, strict=True))
+    by_angle, by_mass = (_last_goal(program, size, entry) for (_, size, _), entry in zip(kinds, worst, strict=True))
     return by_angle, by_mass
 
 
@@ -68,15 +68,21 @@ def _no_less(quantity: Quantity, u: Complex, reached: Evaluation, cancelled: boo
 
 def _matter(program: Problem, reached: Sequence[Evaluation], worst: Sequence[float]) -> list[int]:
     """Peaks that may decide the last goal, where what counterweights add stands still."""
-    found: set[int] = set()
+    numbers: set[int] = set()
     for group in program.goals[-1].groups:
-        least = max((each.offset + each.weight * reached[each.quantity].lower for each in group.weighed), default=0.0)
-        found |= {each.quantity for each in group.weighed if each.offset + each.weight * worst[each.quantity] > least}
+        least = max(
+            (member.offset + member.weight * reached[member.quantity].lower for member in group.weighed), default=0.0
+        )
+        numbers |= {
+            member.quantity
+            for member in group.weighed
+            if member.offset + member.weight * worst[member.quantity] > least
+        }
     peaks = [
         quantity.measure == "peak" and quantity.response.turning is None and not cancelled
         for quantity, cancelled in zip(program.quantities, program.samples.cancelled, strict=True)
     ]
-    return sorted(q for q in found if peaks[q])
+    return sorted(q for q in numbers if peaks[q])
 
 
 def _sharper(program: Problem, u: Complex, kinds: Sequence[tuple[_Kind, int]]) -> Iterator[float]:
@@ -99,7 +105,7 @@ def _last_goal(program: Problem, size: Callable[[Norms], Real], of_quantities: S
     largest = [
         max(
             [float(sum(peak.floor + np.sum(size(peak.norms)) for peak in row.peaks)) for row in group.rows]
-            + [each.offset + each.weight * of_quantities[each.quantity] for each in group.weighed]
+            + [member.offset + member.weight * of_quantities[member.quantity] for member in group.weighed]
         )
         for group in program.groups
     ]

@@ -226,9 +226,9 @@ class _Course:
         room = self.program.goals[n].allowance * float(self.program.units[n]) if last else 0.0
         self.so_far = _bounded(so_far, self.inside, most, room)
         margin = _TARGET_MARGIN * _SHARPNESS[0] * OPTIMUM_SHARE * self.program.units[:n]
-        found = self._run(Levels(margin, most - _RESERVED * self.program.units[:n], most), enough)
-        assert found is not None  # rest proves something of every objective
-        return found if proof is None or found.bound > proof.bound else proof
+        result = self._run(Levels(margin, most - _RESERVED * self.program.units[:n], most), enough)
+        assert result is not None  # rest proves something of every objective
+        return result if proof is None or result.bound > proof.bound else proof
 
     def keep(self, n: int, proof: Proof, share: float) -> None:
         """What a goal may come to from now on: so much above its bound."""
@@ -315,16 +315,16 @@ def _nearest(program: Problem, pool: Pool, until: float) -> StageEnd:
     still = _rest(excess)
     excess = _bounded(excess, still, np.zeros(0))
     none = np.zeros(0)
-    found = Search(excess, pool, Levels(none, none, none), still, False, until).run(
+    end = Search(excess, pool, Levels(none, none, none), still, False, until).run(
         _PRINTED, lambda value, bound: bound > CEILING_ROUNDING or value <= -max(_AMPLE, 0.5 * -bound)
     )
-    return found._replace(point=_again(program, found.point))
+    return end._replace(point=_again(program, end.point))
 
 
 def _again(program: Problem, point: Point) -> Point:
     """A point with what it comes to in another program."""
-    known = None if np.any(point.unbalance) else program.at_rest
-    return replace(point, values=known or program.values(point.unbalance, _PRINTED))
+    values = None if np.any(point.unbalance) else program.at_rest
+    return replace(point, values=values or program.values(point.unbalance, _PRINTED))
 
 
 def semicontinuous_limits(program: Problem, least: Real, most: Real) -> Limits:

@@ -82,8 +82,8 @@ def resting_proof(program: Problem, cuts: Cuts, statement: Statement) -> Proof:
     for case in last:
         scale = (program.case_of == case).astype(float)
         alone = times(statement, scale)
-        each = (*resting_multipliers(alone), floor_multipliers(program, cuts, alone))
-        bound, best = best_proof(alone, each)
+        candidates = (*resting_multipliers(alone), floor_multipliers(program, cuts, alone))
+        bound, best = best_proof(alone, candidates)
         proofs.append(Proof(float(bound), alone, best, 0.0, tuple(map(len, cuts)), scale=scale))
     return max(proofs, key=lambda proof: proof.bound)
 
@@ -104,8 +104,8 @@ def proofs(
     charge, prices, scale = float(np.sum(counted)), 1.0, None
     if program.goal_of_case.size > 1:
         statement, dual, charges = _charged(program, of_mass, statement, dual)
-        kept, scale = program.goal_of_case < counted.size, charges[program.case_of]
-        charge = float(np.sum(charges[kept] * counted[program.goal_of_case[kept]]))
+        cases, scale = program.goal_of_case < counted.size, charges[program.case_of]
+        charge = float(np.sum(charges[cases] * counted[program.goal_of_case[cases]]))
         prices = float(np.sum(charges[program.goal_of_case == len(program.goals) - 1]))
     sharper = mass_multipliers if of_mass else objective_multipliers
     for multipliers in sharper(statement, u, dual):
@@ -132,9 +132,9 @@ def _charged(
     if np.count_nonzero(last) > 1:
         # the largest sum is no less than their mean, whatever the rounding of the shares
         charges[last] *= _MEAN
-    each = np.where(price > 0, 1.0 / np.where(price > 0, price, 1.0), 0.0)[case_of]
+    factors = np.where(price > 0, 1.0 / np.where(price > 0, price, 1.0), 0.0)[case_of]
     multipliers = Multipliers(
-        dual.term * each[statement.group][statement.row], dual.row * each[statement.group], dual.ceiling / unit
+        dual.term * factors[statement.group][statement.row], dual.row * factors[statement.group], dual.ceiling / unit
     )
     return times(statement, charges[case_of]), multipliers, charges
 

@@ -64,7 +64,7 @@ def _settled(program: Problem, point: Point, u: Complex, most: Real, heaviest: f
     if mass > max(point.mass, heaviest):
         return None
     old, new = program.values(point.unbalance, width), program.values(u, width)
-    kept = np.all(new.goals <= np.maximum(most, old.goals))
-    kept &= new.over_budget <= max(old.over_budget, 0.0)
-    kept &= new.excess <= max(old.excess, CEILING_ROUNDING)
-    return replace(point, unbalance=u, values=new, mass=mass) if kept else None
+    verdict = np.all(new.goals <= np.maximum(most, old.goals))
+    verdict &= new.over_budget <= max(old.over_budget, 0.0)
+    verdict &= new.excess <= max(old.excess, CEILING_ROUNDING)
+    return replace(point, unbalance=u, values=new, mass=mass) if verdict else None

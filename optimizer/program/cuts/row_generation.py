@@ -40,25 +40,26 @@ def single_group(
         of_terms, np.searchsorted(statement.row, np.arange(statement.group.size)), axis=-1
     )
     level = np.array([np.sum(statement.largest(rows)[:, case_of == case], axis=-1) for case in np.unique(case_of)])
-    kept, slack, kinds = list[tuple[int, ...]](), list[float](), list[int]()
+    combinations, slack, kinds = list[tuple[int, ...]](), list[float](), list[int]()
     for case in np.unique(case_of):
         groups = np.flatnonzero(case_of == case)
         several = [np.flatnonzero(statement.group == group) for group in groups]
-        each_most = max(1, int(_TOGETHER ** (1.0 / len(several))))
+        group_share = max(1, int(_TOGETHER ** (1.0 / len(several))))
         some = [
-            each[_nearest(np.max(rows[:, each], axis=-1, keepdims=True) - rows[:, each], each_most)] for each in several
+            indices[_nearest(np.max(rows[:, indices], axis=-1, keepdims=True) - rows[:, indices], group_share)]
+            for indices in several
         ]
-        sums = list(itertools.product(*(each.tolist() for each in some)))
+        sums = list(itertools.product(*(indices.tolist() for indices in some)))
         values = np.sum(rows[:, np.array(sums)], axis=-1)
         of_kind = level[kind_of == kind_of[case]]
         below = np.min(np.max(of_kind, axis=0)[:, None] - values, axis=0)
-        kept, slack = kept + sums, slack + below.tolist()
+        combinations, slack = combinations + sums, slack + below.tolist()
         kinds += [int(kind_of[case])] * len(sums)
     every = np.unique(kinds)
-    each_kind = max(most // every.size, len(points))
+    kind_share = max(most // every.size, len(points))
     places = [np.flatnonzero(np.array(kinds) == kind) for kind in every]
-    some = [place[_nearest(np.array(slack)[None, place], each_kind)] for place in places]
-    chosen = [kept[n] for n in np.concatenate(some).tolist()]
+    some = [place[_nearest(np.array(slack)[None, place], kind_share)] for place in places]
+    chosen = [combinations[n] for n in np.concatenate(some).tolist()]
     return replace(_of_rows(statement, chosen), ceilings=_nearest_ceilings(statement.ceilings, points, most))
 
 
@@ -70,7 +71,7 @@ def _nearest(slack: Real, most: int) -> np.ndarray:
 def _of_rows(statement: Statement, sums: Sequence[tuple[int, ...]]) -> Statement:
     """The statement with a row for each of some sums of rows."""
     norms, names = statement.norms, statement.names
-    terms = [np.flatnonzero(np.isin(statement.row, each)) for each in sums]
+    terms = [np.flatnonzero(np.isin(statement.row, rows)) for rows in sums]
     every = np.concatenate(terms)
     scalar = scalars(norms)
     return replace(
@@ -80,10 +81,10 @@ def _of_rows(statement: Statement, sums: Sequence[tuple[int, ...]]) -> Statement
         ),
         row=np.repeat(np.arange(len(sums)), [term.size for term in terms]),
         group=np.zeros(len(sums), int),
-        floor=np.array([np.sum(statement.floor[list(each)]) for each in sums]),
+        floor=np.array([np.sum(statement.floor[list(rows)]) for rows in sums]),
         names=Names(
             tuple(names.terms[n] for n in every.tolist()),
-            tuple(" + ".join(names.rows[r] for r in each) for each in sums),
+            tuple(" + ".join(names.rows[r] for r in rows) for rows in sums),
         ),
     )
 

@@ -54,7 +54,7 @@ class _Maxima(NamedTuple):
     value: Complex  # about that of the curve
 
     def chosen(self, some: Index) -> "_Maxima":
-        return _Maxima._make(each[some] for each in self)
+        return _Maxima._make(field[some] for field in self)
 
 
 def _joined(maxima: Sequence[_Maxima | None]) -> _Maxima:
@@ -69,7 +69,7 @@ class _Curves:
         self.number: Index = np.array([response.number for response in responses], dtype=np.intp)
         self.source = pieces.source
         self.piece = np.flatnonzero(pieces.half[self.number[0]] > 0.0)
-        self.centre, self.half = (each[self.number[0], self.piece] for each in (pieces.centre, pieces.half))
+        self.centre, self.half = (array[self.number[0], self.piece] for array in (pieces.centre, pieces.half))
         self.angle = self.centre[:, None] + self.half[:, None] * _PLACES
         values = pieces.cubic[self.number[:, None], self.piece] @ _POWERS[:4]
         size = pieces.size[self.number]
@@ -122,12 +122,12 @@ class _Curves:
     def supports(self) -> _Maxima:
         """What holds the smallest circles, closely of those that are not much smaller than the largest."""
         # of a third of the places, to begin with
-        circles = [smallest_circle(each[:, ::3].ravel()) for each in self.values]
+        circles = [smallest_circle(entry[:, ::3].ravel()) for entry in self.values]
         least = np.full(len(circles), np.inf)
         held: list[_Maxima | None] = [None] * len(circles)
         open_ = list(range(len(circles)))
         for _ in range(_MOST_CIRCLES):
-            centre = np.array([each.centre for each in circles])
+            centre = np.array([entry.centre for entry in circles])
             every = self.maxima(_about(centre), least)
             still: list[int] = []
             for k in open_:
@@ -137,7 +137,7 @@ class _Curves:
                 before, circles[k] = circles[k].radius, circle
                 if abs(circle.radius - before) > _STEADY * circle.radius:
                     still.append(k)
-            most = max(each.radius for each in circles)
+            most = max(entry.radius for entry in circles)
             open_ = [k for k in still if circles[k].radius > _SMALL * most]
             if not open_:
                 break
@@ -160,8 +160,8 @@ def _vertex(around: Real, otherwise: Index) -> tuple[Real, Real]:
 
 def _at(polynomial: Complex, place: Real) -> Complex:
     """Polynomials (m, S) at places (m, n)."""
-    found: Complex = np.matmul(place[..., None] ** np.arange(_PLACES.size), polynomial[..., None])[..., 0]
-    return found
+    values: Complex = np.matmul(place[..., None] ** np.arange(_PLACES.size), polynomial[..., None])[..., 0]
+    return values
 
 
 class Samples:
@@ -187,28 +187,28 @@ class Samples:
 
     def first(self) -> tuple[tuple[Cut, ...], ...]:
         """Cuts to begin with: what holds the smallest circle, or the still and the moving part by themselves."""
-        found: list[list[Cut]] = [[] for _ in self.quantities]
+        cuts: list[list[Cut]] = [[] for _ in self.quantities]
         for q, quantity in enumerate(self.quantities):
             if quantity.measure == "rms":
                 mean, off, influence = quantity.response.mean, quantity.response.rms_error, quantity.response.influence
-                found[q] = [Cut(0j, 0.0 * influence, quantity.spread - off, share=0.0), Cut(mean, influence, -off)]
+                cuts[q] = [Cut(0j, 0.0 * influence, quantity.spread - off, share=0.0), Cut(mean, influence, -off)]
         for some, curves in self._curves:
             held = curves.supports()
             for n, angle, value in zip(
                 held.curve.tolist(), held.angle.tolist(), curves.true(held).tolist(), strict=True
             ):
-                found[some[n]].append(self.quantities[some[n]].cut(angle, value))
-        return tuple(map(tuple, found))
+                cuts[some[n]].append(self.quantities[some[n]].cut(angle, value))
+        return tuple(map(tuple, cuts))
 
     def sizes(self, u: Complex, scatter: Scatter) -> Real:
         """(quantities,) about what each comes to with an unbalance (K,) kg m."""
-        found = np.zeros(len(self.quantities))
+        magnitudes = np.zeros(len(self.quantities))
         for q, quantity in enumerate(self.quantities):
             more = scatter.of(quantity.response.influence, u)
-            found[q] = quantity.rms(u, scatter).lower if quantity.measure == "rms" else more
+            magnitudes[q] = quantity.rms(u, scatter).lower if quantity.measure == "rms" else more
         for some, curves in self._curves:
-            found[some] += np.sqrt(np.max(curves.squares(self._squares(some, u)), axis=(-2, -1)))
-        return found
+            magnitudes[some] += np.sqrt(np.max(curves.squares(self._squares(some, u)), axis=(-2, -1)))
+        return magnitudes
 
     def highest(self, u: Complex, scatter: Scatter, matters: Real) -> tuple[tuple[Evaluation, ...], ...]:
         """What every quantity comes to where it is largest, at least one place each, the highest first.
@@ -245,8 +245,8 @@ class Samples:
             moved = value + self._added(some, u, angle, curve)
             if alone.masses > 0.0:
                 parts = self._parts(some[0], angle)
-                flat, each = moved.ravel(), parts.reshape(-1, parts.shape[-1])
-                moved = moved + np.sum(worst_masses(flat, each) * each, axis=-1).reshape(moved.shape)
+                flat, matrix = moved.ravel(), parts.reshape(-1, parts.shape[-1])
+                moved = moved + np.sum(worst_masses(flat, matrix) * matrix, axis=-1).reshape(moved.shape)
             return _squared(moved.real if alone.response.scalar else moved)
 
         return squares
@@ -261,7 +261,7 @@ class Samples:
 
     def _parts(self, q: int, angle: Real) -> Complex:
         """What rows add at angles (...) where their masses are off (..., R)."""
-        response, (curves,) = self.quantities[q].response, (each for some, each in self._curves if some == [q])
+        response, (curves,) = self.quantities[q].response, (group for some, group in self._curves if some == [q])
         if angle is not curves.angle or q not in self._rows:
             parts = self.quantities[q].masses * response.curves.parts.at(response.number, angle.ravel())
             parts = parts.reshape(*angle.shape, -1)

@@ -207,9 +207,9 @@ class Problem:
     @cached_property
     def units(self) -> Real:
         """(goals,) what gaps are measured by on the way: the yardsticks, 1 where there is nothing to measure."""
-        given = [goal.unit for goal in self.goals]
-        if all(unit is not None for unit in given):
-            return np.array(given)
+        scales = [goal.unit for goal in self.goals]
+        if all(unit is not None for unit in scales):
+            return np.array(scales)
         return np.where(self.yardsticks > 0, self.yardsticks, 1.0)
 
     @cached_property
@@ -280,9 +280,9 @@ class Problem:
         for n, group in enumerate(self.groups):
             for row in group.rows:
                 terms.add(n, row)
-            for each in group.weighed:
-                for cut in cuts[each.quantity]:
-                    terms.add_cut(n, self.quantities[each.quantity], cut, each)
+            for member in group.weighed:
+                for cut in cuts[member.quantity]:
+                    terms.add_cut(n, self.quantities[member.quantity], cut, member)
         influence: Real | Complex = np.stack(terms.influence)  # type: ignore[assignment]  # real or complex
         # what is too small to divide by has no influence
         influence = np.where(np.abs(influence) > SMALLEST, influence, 0.0)
@@ -318,10 +318,10 @@ class Problem:
 
         0 of what is limited, and of what scatters, whose search wants cells to begin with.
         """
-        found = spare(self.groups, about)
-        found[[q for q, _ in self.limited]] = 0.0
-        found[[quantity.masses > 0.0 for quantity in self.quantities]] = 0.0
-        return found
+        widths = spare(self.groups, about)
+        widths[[q for q, _ in self.limited]] = 0.0
+        widths[[quantity.masses > 0.0 for quantity in self.quantities]] = 0.0
+        return widths
 
     def _decided(self, u: Complex, tolerance: Real, reached: tuple[Evaluation, ...], coarse: np.ndarray) -> Values:
         """What an unbalance comes to, by brackets of which those that are coarse (quantities,) are told again to a
@@ -330,16 +330,16 @@ class Problem:
         may[[q for q, _ in self.limited]] = True
         again = np.flatnonzero(coarse & may).tolist()
         closer = dict(zip(again, self.brackets.evaluate(u, tolerance, again), strict=True)) if again else {}
-        return self._values(u, tuple(closer.get(q, each) for q, each in enumerate(reached)), self.sizes)
+        return self._values(u, tuple(closer.get(q, evaluation) for q, evaluation in enumerate(reached)), self.sizes)
 
     @cached_property
     def _shares(self) -> Real:
         """(quantities,) how much of each is worth what goals and ceilings are measured by."""
         worth = np.full(len(self.quantities), np.inf)
         for group, n in zip(self.groups, self.goal_of.tolist(), strict=True):
-            for each in group.weighed:
-                share = float(self.units[n]) / len(self.goals[n].groups) / each.weight
-                worth[each.quantity] = min(worth[each.quantity], share)
+            for member in group.weighed:
+                share = float(self.units[n]) / len(self.goals[n].groups) / member.weight
+                worth[member.quantity] = min(worth[member.quantity], share)
         for (q, _), size in zip(self.limited, self.sizes[len(self.ceilings) :].tolist(), strict=True):
             worth[q] = min(worth[q], size)
         return worth
@@ -351,14 +351,14 @@ class Problem:
         ----------
         matters : (quantities,) above which more angles than one count.
         """
-        found = self.samples.highest(u, self.scatter, matters)
-        return self._values(u, tuple(each[0] for each in found), self.sizes), found
+        maxima = self.samples.highest(u, self.scatter, matters)
+        return self._values(u, tuple(evaluations[0] for evaluations in maxima), self.sizes), maxima
 
     def _values(self, u: Complex, reached: tuple[Evaluation, ...], sizes: Real) -> Values:
         largest = [
             max(
                 [_sum(row, u, self.scatter) for row in group.rows]
-                + [each.offset + each.weight * reached[each.quantity].upper for each in group.weighed]
+                + [member.offset + member.weight * reached[member.quantity].upper for member in group.weighed]
             )
             for group in self.groups
         ]

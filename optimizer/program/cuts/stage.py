@@ -260,12 +260,12 @@ class Search:
         over = self._excess(point.values)
         if np.all(over <= 0.0):
             return self.figure(point)
-        found = []
+        figures = []
         for inside in (self.inside, self.near):
             if inside is not None:
                 step = min(_step(over, self._excess(inside.values)), 1.0)
-                found.append(self.figure(point) + step * (self.figure(inside) - self.figure(point)))
-        return min(found)
+                figures.append(self.figure(point) + step * (self.figure(inside) - self.figure(point)))
+        return min(figures)
 
     def _stated_goals(self, statement: Statement, u: Complex) -> Real:
         """(goals,) what a point comes to by its statement."""
@@ -304,28 +304,28 @@ class Search:
             chosen = [case_of == case for case in np.flatnonzero(program.goal_of_case == n)]
             return [GroupLimit(case, (most - float(np.sum(highest[case]))) / scaling.objective) for case in chosen]
 
-        targets = [each for n, most in enumerate(aimed) for each in sums(n, most / self.unit[n])]
+        targets = [item for n, most in enumerate(aimed) for item in sums(n, most / self.unit[n])]
         of_target = program.goal_of_case[program.goal_of_case < aimed.size]
         last = len(program.goals) - 1
         left = max(self.until - time.thread_time(), _LAST_S)
         posed_as = data, attempt.tolerance, left, goal_of == last, targets, sums(last, 0.0)
         about = self.about if attempt.boosted else None
-        found = solved(*posed_as, about, attempt.regularization)
-        if isinstance(found, NoPoint) and about is not None:
+        result = solved(*posed_as, about, attempt.regularization)
+        if isinstance(result, NoPoint) and about is not None:
             # what was boosted about another point may be worse than what was not
-            found = solved(*posed_as)
-        if isinstance(found, NoPoint):
+            result = solved(*posed_as)
+        if isinstance(result, NoPoint):
             self.about = None
             return None
-        self.about = found.variables
+        self.about = result.variables
         worth = scaling.value / scaling.objective * (1.0 if self.of_mass else float(self.unit[-1]))
-        self.price = np.bincount(of_target, found.price, aimed.size) * worth / self.unit[: aimed.size]
-        u = posed.limits.into(scaling.unbalance(posed, found.solution))
+        self.price = np.bincount(of_target, result.price, aimed.size) * worth / self.unit[: aimed.size]
+        u = posed.limits.into(scaling.unbalance(posed, result.solution))
         began = time.perf_counter()
-        multipliers = scaling.multipliers(posed, found.solution)
+        multipliers = scaling.multipliers(posed, result.solution)
         proven = list(proofs(program, self.pool.cuts, laid.program, u, multipliers, self.levels.counted))
         if self.plates is not None:
-            u, proven = laid.carried(u), [each.of_webs(statement) for each in proven]
+            u, proven = laid.carried(u), [item.of_webs(statement) for item in proven]
         self.certify_s += time.perf_counter() - began
         return u, proven
 
@@ -335,8 +335,8 @@ class Search:
         least = np.full(len(program.quantities), np.inf)
         level = statement.largest(statement.rows(statement.norms.sizes(u)))
         for group, reached in zip(program.groups, level.tolist(), strict=True):
-            for each in group.weighed:
-                least[each.quantity] = min(least[each.quantity], (reached - each.offset) / each.weight)
+            for member in group.weighed:
+                least[member.quantity] = min(least[member.quantity], (reached - member.offset) / member.weight)
         for (q, cap), size in zip(program.limited, program.sizes[len(program.ceilings) :].tolist(), strict=True):
             least[q] = min(least[q], cap + (0.0 if self.raised else -_LOWERED) * size)
         return least
@@ -360,11 +360,11 @@ class Search:
         """The best that is kept between a point and those inside; later points are moved towards the nearest."""
         if np.all(self._excess(point.values) <= 0.0):
             self.near = point
-            found = [point] if self.beyond is None else [point, self._moved(self.beyond, point)]
+            points = [point] if self.beyond is None else [point, self._moved(self.beyond, point)]
         else:
             self.beyond = point
-            found = [self._moved(point, inside) for inside in (self.inside, self.near) if inside is not None]
-        return min(found, key=self.figure)
+            points = [self._moved(point, inside) for inside in (self.inside, self.near) if inside is not None]
+        return min(points, key=self.figure)
 
     def _moved(self, point: Point, inside: Point) -> Point:
         """The point moved towards one inside just so far that all is kept; all of it is convex."""
@@ -380,8 +380,8 @@ class Search:
 
     def _excess(self, values: Values) -> Real:
         """Over what has to be kept, each relative to its size (goals kept and ceilings,)."""
-        kept = self.levels.most
-        over = (values.goals[: kept.size] - kept) / self.program.units[: kept.size]
+        levels = self.levels.most
+        over = (values.goals[: levels.size] - levels) / self.program.units[: levels.size]
         return np.concatenate([over, values.over - self.allowed, [values.over_budget]])
 
 

@@ -84,12 +84,12 @@ def _load(programs, n, cost, where, t, web, peak, own):  # type: ignore[no-untyp
         for i in range(6):
             web[at + VX + i * LANES] = where[i * webs + k]
     for j in range(vectors):
-        one, at = peak[j], 6 * webs + 4 * j
-        one[t + CX], one[t + CX + LANES] = programs.constant[n, j, 0], programs.constant[n, j, 1]
-        one[t + CX + PAIR] = programs.multiple[n, j]
+        vector, at = peak[j], 6 * webs + 4 * j
+        vector[t + CX], vector[t + CX + LANES] = programs.constant[n, j, 0], programs.constant[n, j, 1]
+        vector[t + CX + PAIR] = programs.multiple[n, j]
         for i in range(4):
-            one[t + YX + i * LANES] = where[at + i]
-        one[t + OVER] = where[at + 2] - programs.cap[n, j - terms] if j >= terms else 0.0
+            vector[t + YX + i * LANES] = where[at + i]
+        vector[t + OVER] = where[at + 2] - programs.cap[n, j - terms] if j >= terms else 0.0
     own[t + PRICE], own[t + BUDGET] = where[at_prices], where[at_prices + 1]
 
 

@@ -178,9 +178,9 @@ def judge(  # type: ignore[no-untyped-def]
         counted, mass_bound = larger(chosen[0], lower) + share[n], 0.0
         if least_mass:
             # what can be kept up to rounding is not traded for their tolerance
-            kept = shares.rounding if light_figures[2] < shares.rounding else light_figures[2]
-            kept = shares.tolerance if kept > shares.tolerance else kept
-            if light_figures[1] < chosen[1] and light_figures[0] <= target and light_figures[2] <= kept:
+            allowance = shares.rounding if light_figures[2] < shares.rounding else light_figures[2]
+            allowance = shares.tolerance if allowance > shares.tolerance else allowance
+            if light_figures[1] < chosen[1] and light_figures[0] <= target and light_figures[2] <= allowance:
                 chosen = light_figures
                 copy(light, u)
             # moved towards the smallest just so far that the objective, which is convex, meets the target
@@ -192,10 +192,10 @@ def judge(  # type: ignore[no-untyped-def]
                         step * (best[k].real - light[k].real), step * (best[k].imag - light[k].imag)
                     )
                 near = value(nearer, programs, n)
-                if near[1] < chosen[1] and near[0] <= target and near[2] <= kept:
+                if near[1] < chosen[1] and near[0] <= target and near[2] <= allowance:
                     chosen = near
                     copy(nearer, u)
-            if rest[1] < chosen[1] and rest[0] <= target and rest[2] <= kept:
+            if rest[1] < chosen[1] and rest[0] <= target and rest[2] <= allowance:
                 chosen = rest
                 u[:] = 0.0
             mass_bound = bound(

@@ -88,8 +88,8 @@ def make_up(influence, across, region, n, room, left, work, scaled, u):  # type:
     change(scaled[0], work[2, : 2 * terms], _ONCE, row[: 2 * webs], scaled[1], made[: 2 * webs])
     for k in range(webs):
         first = region.leader[k]
-        each = room[first] * complex(made[first].real, made[webs + first].real)
-        u[k] += region.turn[n, k] * (each.conjugate() if region.mirrored[k] else each)
+        load = room[first] * complex(made[first].real, made[webs + first].real)
+        u[k] += region.turn[n, k] * (load.conjugate() if region.mirrored[k] else load)
 
 
 @folded

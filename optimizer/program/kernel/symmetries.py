@@ -43,7 +43,7 @@ class Work(NamedTuple):
 
 
 @in_place
-def means(constant, influence, limits, kinds, u, work, found):  # type: ignore[no-untyped-def]
+def means(constant, influence, limits, kinds, u, work, middle):  # type: ignore[no-untyped-def]
     """The mean of every program over its symmetries, and what it was where that is worse.
 
     Parameters
@@ -53,7 +53,7 @@ def means(constant, influence, limits, kinds, u, work, found):  # type: ignore[n
     kinds : (K,) webs of different numbers are never alike.
     u : (N, K) kg m.
     work : to be written to.
-    found : (N, K) the same as u, to be written to.
+    middle : (N, K) the same as u, to be written to.
     """
     number, terms, webs = influence.shape
     relative, along, own, moved = work.relative, work.along, work.own, work.moved
@@ -89,8 +89,8 @@ def means(constant, influence, limits, kinds, u, work, found):  # type: ignore[n
                 counted = True
                 for q in range(terms):
                     counts[q] = abs(constant[n, q]) > _NOTHING * _done(influence[n, q], u[n])
-            turn, known = _turn(constant[n], counts, signs, symmetry > 1)
-            if not known and symmetry > 0:
+            turn, success = _turn(constant[n], counts, signs, symmetry > 1)
+            if not success and symmetry > 0:
                 continue
             first, last = begin[symmetry % 2], end[symmetry % 2]
             for k in range(webs):
@@ -100,18 +100,18 @@ def means(constant, influence, limits, kinds, u, work, found):  # type: ignore[n
                     other = order[i]
                     if _is_image(relative, signs, limits, kinds, n, turn, symmetry > 1, k, other):
                         count += 1.0
-                        moved[k] += np.conj(found[n, other]) if symmetry > 1 else found[n, other]
+                        moved[k] += np.conj(middle[n, other]) if symmetry > 1 else middle[n, other]
                 if symmetry == 0:
                     own[k] = count
-                known = known and count == own[k]
+                success = success and count == own[k]
                 moved[k] = turn * moved[k] / max(count, 1.0)
-            if known:
+            if success:
                 for k in range(webs):
-                    found[n, k] = moved[k] if symmetry == 0 else 0.5 * (found[n, k] + moved[k])
-                    changed = changed or found[n, k] != u[n, k]
-        if changed and _worse(constant[n], influence[n], limits.radius[n], u[n], found[n]):
+                    middle[n, k] = moved[k] if symmetry == 0 else 0.5 * (middle[n, k] + moved[k])
+                    changed = changed or middle[n, k] != u[n, k]
+        if changed and _worse(constant[n], influence[n], limits.radius[n], u[n], middle[n]):
             for k in range(webs):
-                found[n, k] = u[n, k]
+                middle[n, k] = u[n, k]
 
 
 @inner
@@ -236,7 +236,7 @@ def _turn(constant, counts, signs, mirrored):  # type: ignore[no-untyped-def]
     ----------
     counts : (Q,) constants that are not 0.
     """
-    turn, known = 1.0 + 0.0j, False
+    turn, success = 1.0 + 0.0j, False
     for q in range(constant.size):
         if counts[q]:
             wanted = signs[q] + 0.0j
@@ -244,11 +244,11 @@ def _turn(constant, counts, signs, mirrored):  # type: ignore[no-untyped-def]
                 size = abs(constant[q])
                 unit = complex(constant[q].real / size, constant[q].imag / size)
                 wanted = signs[q] * (unit * unit)
-            if not known:
-                turn, known = wanted, True
+            if not success:
+                turn, success = wanted, True
             elif not abs(wanted - turn) <= _SAME:
                 return 1.0 + 0.0j, False
-    return turn, known
+    return turn, success
 
 
 @inner

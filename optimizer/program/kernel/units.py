@@ -108,8 +108,8 @@ def least_masses(owner, rows, influence, region, objective, size, least):  # typ
                         does += abs(influence[n, j, k]) * arm
                 most = max(most, does)
             if most > 0.0:
-                known = objective[n, min(r, objective.shape[1] - 1)] if r < rows else size[n, r - rows]
-                smallest = min(smallest, known / most)
+                magnitude = objective[n, min(r, objective.shape[1] - 1)] if r < rows else size[n, r - rows]
+                smallest = min(smallest, magnitude / most)
         least[n] = smallest if smallest < np.inf else 0.0
 
 

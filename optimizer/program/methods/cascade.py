@@ -51,13 +51,15 @@ def cascade(statement: Statement, target: Target, quick: StagePair) -> ConeSolut
     (if neither could be decided, on the very boundary, they are not); or the proof that they cannot be.
     """
     find = _under_ceilings if statement.ceilings.names else _by_all
-    found = find(statement, target, quick)
-    if found.conflict is not None:
-        return found
-    if target.least_mass and found.mass_multipliers is None:
+    solution = find(statement, target, quick)
+    if solution.conflict is not None:
+        return solution
+    if target.least_mass and solution.mass_multipliers is None:
         # nothing is proven about the mass but that it is not below 0
-        found = replace(found, mass_multipliers=nothing_proven(statement), mass_target=found.objective + target.share)
-    return _settled(statement, target, found)
+        solution = replace(
+            solution, mass_multipliers=nothing_proven(statement), mass_target=solution.objective + target.share
+        )
+    return _settled(statement, target, solution)
 
 
 def _settled(statement: Statement, target: Target, solution: ConeSolution) -> ConeSolution:
@@ -86,14 +88,14 @@ def _under_ceilings(statement: Statement, target: Target, quick: StagePair) -> C
     if target.least_mass and (rest := at_rest(statement, target, quick.smallest)):
         return replace(rest, certify_s=rest.certify_s + nearest.certify_s)
     if nearest.objective <= -AMPLE:
-        found = _by_all(statement, target, quick, nearest.unbalance, finer=False)
-        if enough(found, target):
-            return replace(found, certify_s=found.certify_s + nearest.certify_s)
+        solution = _by_all(statement, target, quick, nearest.unbalance, finer=False)
+        if enough(solution, target):
+            return replace(solution, certify_s=solution.certify_s + nearest.certify_s)
     # what stands on the edge, or is too steep to be proven, takes up the tolerance of its ceilings
     higher = raised(statement)
     quick = interior_point(higher, target, inside=nearest.unbalance)
-    found = quick.lightest if quick.certified else _by_all(higher, target, quick, nearest.unbalance)
-    return proven_again(statement, replace(found, certify_s=found.certify_s + nearest.certify_s))
+    solution = quick.lightest if quick.certified else _by_all(higher, target, quick, nearest.unbalance)
+    return proven_again(statement, replace(solution, certify_s=solution.certify_s + nearest.certify_s))
 
 
 def _by_all(
@@ -113,17 +115,17 @@ def _by_all(
     quick = lightened(statement, target, polished(statement, target, quick, inside))
     if quick.certified:
         return quick.lightest
-    found = smallest_objective(statement, _SHARPNESS * target.share, quick.smallest)
-    if statement.row.size == 1 and statement.limits.radius.size and found.gap > target.demand:
-        found = _single_term(statement, found)
-    if target.least_mass and found.below_ceilings:
-        found = least_mass(statement, found, target.share, _MASS_GAP, quick.lightest)
+    solution = smallest_objective(statement, _SHARPNESS * target.share, quick.smallest)
+    if statement.row.size == 1 and statement.limits.radius.size and solution.gap > target.demand:
+        solution = _single_term(statement, solution)
+    if target.least_mass and solution.below_ceilings:
+        solution = least_mass(statement, solution, target.share, _MASS_GAP, quick.lightest)
     precision = finest(statement.limits.radius.size) if finer and suits_kernel(statement) else None
-    if precision is None or enough(found, target):
-        return found
+    if precision is None or enough(solution, target):
+        return solution
     fine = polished(statement, target, interior_point(statement, target, precision, inside), inside)
     fine = lightened(statement, target, fine, precision)
-    return fine.lightest if fine.certified else _better_of(found, fine.lightest, target.share)
+    return fine.lightest if fine.certified else _better_of(solution, fine.lightest, target.share)
 
 
 def _single_term(statement: Statement, solution: ConeSolution) -> ConeSolution:
@@ -159,7 +161,12 @@ def _better_of(first: ConeSolution, second: ConeSolution, share: float) -> ConeS
     elif max(first.objective, second.objective) - bound > share:
         chosen = proof = min(both, key=lambda solution: solution.objective)
     else:
-        pairs = ((one_of, of) for one_of in both for of in both if of is one_of or one_of.objective <= of.mass_target)
+        pairs = (
+            (candidate, of)
+            for candidate in both
+            for of in both
+            if of is candidate or candidate.objective <= of.mass_target
+        )
         chosen, proof = min(pairs, key=lambda pair: pair[0].mass - pair[1].mass_lower_bound)
     return replace(
         chosen.bounded(bound, first.multipliers),

@@ -119,37 +119,37 @@ def unproven(statement: Statement, share: Real, least_mass: bool) -> tuple[Compl
     -------
     Unbalances (N, K) kg m, and multipliers (N, J + I) of the terms and ceilings in the last stage.
     """
-    found = _guess(statement, share, least_mass)
-    proof = found.mass_proof if least_mass else found.proof
+    guess = _guess(statement, share, least_mass)
+    proof = guess.mass_proof if least_mass else guess.proof
     prices = np.concatenate([proof.term, proof.ceiling], axis=-1)
-    return found.lightest if least_mass else found.smallest, prices
+    return guess.lightest if least_mass else guess.smallest, prices
 
 
 def ends(statement: Statement, share: Real, least_mass: bool) -> tuple[Complex, Complex]:
     """Where the first stage of N statements ends and where the last, guesses likewise (N, K) kg m."""
-    found = _guess(statement, share, least_mass)
-    return found.smallest, found.lightest
+    guess = _guess(statement, share, least_mass)
+    return guess.smallest, guess.lightest
 
 
 def _guess(statement: Statement, share: Real, least_mass: bool) -> "_Solved":
     if not suits_discs(statement, least_mass).all():
         return _solve(statement, share, least_mass, _DOUBLE)
-    found = _solve(statement, share, least_mass, _DOUBLE, _in_discs)
+    guess = _solve(statement, share, least_mass, _DOUBLE, _in_discs)
     # prices are above 0 where a stage has ended
-    last = found.mass_proof if least_mass else found.proof
-    left = np.flatnonzero(np.minimum(found.proof.row, last.row)[:, 0] <= 0.0)
+    last = guess.mass_proof if least_mass else guess.proof
+    left = np.flatnonzero(np.minimum(guess.proof.row, last.row)[:, 0] <= 0.0)
     if left.size:
-        found.put(left, _solve(statement.chosen(left), share[left], least_mass, _DOUBLE))
-    return found
+        guess.put(left, _solve(statement.chosen(left), share[left], least_mass, _DOUBLE))
+    return guess
 
 
 def _in_any_limits(statement: Statement, share: Real, demand: Real, least_mass: bool, at_least: Real) -> BothStages:
     """Both stages of programs of any limits; under ceilings what is left is tried once more."""
     solved = _solve(statement, share, least_mass, _DOUBLE, at_least=at_least)
-    found = _judged(statement, share, demand, least_mass, solved)
-    if not statement.ceilings.names or found.certified.all():
-        return found
-    left = np.flatnonzero(~found.certified)
+    stages = _judged(statement, share, demand, least_mass, solved)
+    if not statement.ceilings.names or stages.certified.all():
+        return stages
+    left = np.flatnonzero(~stages.certified)
     nearest = _solve(statement.chosen(left).excess(), np.full(left.size, CEILING_TOLERANCE), False, _DOUBLE).smallest
     room = points_at(statement.chosen(left), nearest).excess < 0
     left, inside = left[room], nearest[room]
@@ -162,15 +162,15 @@ def _in_any_limits(statement: Statement, share: Real, demand: Real, least_mass: 
         else:
             points = _solve(part, share[left], least_mass, tolerances, at_least=part.objective(inside))
         again = _judged(part, share[left], demand[left], least_mass, points.pulled(part, inside))
-        found.put(left[again.certified], again.chosen(again.certified))
+        stages.put(left[again.certified], again.chosen(again.certified))
         left, inside = left[~again.certified], inside[~again.certified]
-    return found
+    return stages
 
 
 def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, solved: "_Solved") -> BothStages:
     """Of the points of both stages the ones to take, with their proofs."""
     began = time.perf_counter()
-    found = statement.flat.judge(
+    judgement = statement.flat.judge(
         share,
         demand,
         _SHARES if least_mass else _SHARES_OF_ANY_MASS,
@@ -180,20 +180,20 @@ def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, s
         RUNGS,
     )
     certify_s = time.perf_counter() - began
-    objective, mass, excess, _ = found.figures
+    objective, mass, excess, _ = judgement.figures
     return BothStages(
-        unbalance=found.unbalance,
+        unbalance=judgement.unbalance,
         objective=objective,
-        lower_bound=found.lower_bound,
+        lower_bound=judgement.lower_bound,
         mass=mass,
-        mass_lower_bound=found.mass_lower_bound,
+        mass_lower_bound=judgement.mass_lower_bound,
         excess=excess,
-        multipliers=Multipliers(*found.proof),
+        multipliers=Multipliers(*judgement.proof),
         mass_multipliers=solved.mass_proof if least_mass else nothing_proven(statement),
-        mass_target=found.mass_target,
+        mass_target=judgement.mass_target,
         certify_s=np.zeros(share.shape) + certify_s / max(share.size, 1),
-        smallest=found.smallest,
-        certified=found.certified,
+        smallest=judgement.smallest,
+        certified=judgement.certified,
     )
 
 
@@ -233,11 +233,11 @@ def _solve(
         # nothing to choose
         nothing, proof = np.zeros(statement.limits.radius.shape, complex), nothing_proven(statement)
         return _Solved(nothing, nothing, proof, proof)
-    reach, unit, asked = _scales(statement, share, tolerances, at_least)
-    found = (method or _by_interior_point)(
-        statement, reach, unit, tolerances.ceilings, least_mass, *asked, tolerances.mass
+    reach, unit, demands = _scales(statement, share, tolerances, at_least)
+    result = (method or _by_interior_point)(
+        statement, reach, unit, tolerances.ceilings, least_mass, *demands, tolerances.mass
     )
-    points, (term, row, ceiling) = _physical(statement, (reach, unit), *found)
+    points, (term, row, ceiling) = _physical(statement, (reach, unit), *result)
     proofs = Multipliers(term[0], row[0], ceiling[0]), Multipliers(term[1], row[1], ceiling[1])
     return _Solved(points[0], points[1], *proofs)
 
@@ -255,9 +255,9 @@ def _physical(
     programs, points, stages = statement.flat.programs, np.empty(v.shape, complex), v.shape[:2]
     terms, ceilings = programs.owner.size, programs.size.shape[1]
     proof = np.empty((*stages, terms), complex), np.empty(row.shape), np.empty((*stages, ceilings), complex)
-    found = in_order(v), in_order(cone), in_order(row), in_order(mass_unit)
+    arrays = in_order(v), in_order(cone), in_order(row), in_order(mass_unit)
     mean = np.empty(v.shape[-1:], complex)
-    _units().physical(*found, *scales, programs.size, programs.region, mean, points, proof)
+    _units().physical(*arrays, *scales, programs.size, programs.region, mean, points, proof)
     return points, proof
 
 
@@ -267,7 +267,7 @@ def _scales(
     """How far webs reach (N, K), the unit of the objective (N,), and in that the share and the asked gap (2, N)."""
     region, influence = statement.flat.programs.region, in_order(statement.norms.influence)
     many, _, webs = influence.shape
-    reach, unit, asked = np.empty((many, webs)), np.empty(many), np.empty((2, many))
+    reach, unit, demands = np.empty((many, webs)), np.empty(many), np.empty((2, many))
     _disc_forms().scales(
         np.add.reduce(np.abs(statement.norms.constant), axis=-1),
         influence,
@@ -278,9 +278,9 @@ def _scales(
         (tolerances.sharpness, tolerances.finest, tolerances.coarsest),
         reach,
         unit,
-        asked,
+        demands,
     )
-    return reach, unit, asked
+    return reach, unit, demands
 
 
 def pulled(statement: Statement, u: Complex, inside: Complex) -> Complex:
@@ -303,8 +303,8 @@ def _in(precision: Precision) -> Method:
 
     def method(statement: Statement, reach: Real, unit: Real, margin: float, *stages: Any) -> tuple[Any, ...]:
         with np.errstate(all="ignore"):
-            found = solve_in(precision)(_programs(statement, reach, unit, margin), *stages)
-        return _in_frame(statement, *(np.asarray(values, dtype=float) for values in found))
+            arrays = solve_in(precision)(_programs(statement, reach, unit, margin), *stages)
+        return _in_frame(statement, *(np.asarray(values, dtype=float) for values in arrays))
 
     return method
 
@@ -318,16 +318,16 @@ def _in_frame(statement: Statement, v: Real, *rest: Any) -> tuple[Any, ...]:
 def _in_discs(statement: Statement, reach: Real, unit: Real, margin: float, *stages: Any) -> tuple[Any, ...]:
     least_mass, share, tolerance, mass_tolerance = stages
 
-    found, places = [], []
+    results, places = [], []
     for which, budgeted, programs in discs_of(statement, reach, unit, margin):
-        asked = (share, tolerance) if which is None else (share[which], tolerance[which])
-        v, p, price, mass_unit = _discs().solve(programs, budgeted, least_mass, *asked, mass_tolerance)
+        demands = (share, tolerance) if which is None else (share[which], tolerance[which])
+        v, p, price, mass_unit = _discs().solve(programs, budgeted, least_mass, *demands, mass_tolerance)
         if which is None:
             return v.view(complex)[..., 0], p, price, mass_unit
-        found.append((v.view(complex)[..., 0], p, price, mass_unit[None]))
+        results.append((v.view(complex)[..., 0], p, price, mass_unit[None]))
         places.append(which)
     order = np.argsort(np.concatenate(places))
-    v, p, price, mass_unit = (np.concatenate(each, axis=1)[:, order] for each in zip(*found, strict=True))
+    v, p, price, mass_unit = (np.concatenate(arrays, axis=1)[:, order] for arrays in zip(*results, strict=True))
     return v, p, price, mass_unit[0]
 
 

@@ -76,12 +76,12 @@ def discs_of(
     if many == 1 or (kinds == kinds[0]).all():
         normals = _frame(statement) if sectors[0] else none
         return [(None, bool(budgeted[0]), _disc_starts().Discs(pair.basis, *every, normals))]
-    frame, found = _frame(statement) if np.count_nonzero(sectors) else none, []
+    frame, parts = _frame(statement) if np.count_nonzero(sectors) else none, []
     for part in np.unique(kinds).tolist():
         which = np.flatnonzero(kinds == part)
         arrays = [values[which] for values in (*every, frame if part > 1 else none)]
-        found.append((which, part % 2 == 1, _disc_starts().Discs(pair.basis, *arrays)))
-    return found
+        parts.append((which, part % 2 == 1, _disc_starts().Discs(pair.basis, *arrays)))
+    return parts
 
 
 def _frame(statement: Statement) -> Real:

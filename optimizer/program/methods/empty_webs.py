@@ -74,15 +74,15 @@ def leave_empty(statement: Statement, solutions: Solutions, share: Real, least_m
     # of alike webs some may have dust, but not all
     for number in np.unique(count[count > 0]).tolist():
         (own,) = (count == number).nonzero()
-        kept, wanted = some.chosen(own), optimum.chosen(own)
-        new, found = _without(kept, empty[own], wanted, part[own], least_mass)
-        done = found & ~has_dust(kept.limits, new.unbalance)
+        subset, wanted = some.chosen(own), optimum.chosen(own)
+        new, success = _without(subset, empty[own], wanted, part[own], least_mass)
+        done = success & ~has_dust(subset.limits, new.unbalance)
         _put(solutions, programs[own[done]], new.chosen(done))
         for k in (~done).nonzero()[0].tolist():
-            one, n = np.array([k]), own[[k]]
+            place, n = np.array([k]), own[[k]]
             best = _emptied(
-                kept.chosen(one), old.chosen(n), new.chosen(one) if found[k] else None, empty[n],
-                wanted.chosen(one), part[n], least_mass,
+                subset.chosen(place), old.chosen(n), new.chosen(place) if success[k] else None, empty[n],
+                wanted.chosen(place), part[n], least_mass,
             )  # fmt: skip
             _put(solutions, programs[n], best)
 
@@ -114,8 +114,8 @@ def _emptied(
         if not nothing.any():
             return best
         if number:
-            point, found = _without(program, empty | nothing, optimum, share, least_mass)
-            new = point if found[0] else None
+            point, success = _without(program, empty | nothing, optimum, share, least_mass)
+            new = point if success[0] else None
         if new is None:
             break
         best, empty = new, empty | nothing
@@ -124,8 +124,8 @@ def _emptied(
         nothing = _dusty(program, best.unbalance)
         if nothing[0, web]:
             alone = nothing & _unit(program, int(web))
-            point, found = _without(program, empty | alone, optimum, share, least_mass)
-            if found[0]:
+            point, success = _without(program, empty | alone, optimum, share, least_mass)
+            if success[0]:
                 best, empty = point, empty | alone
     return best
 
@@ -147,9 +147,9 @@ def _without(
     programs: Statement, empty: np.ndarray, optimum: Optimum, share: Real, least_mass: bool
 ) -> tuple[Points, np.ndarray]:
     """Points of N programs without some webs (N, K) bool, of each as many, and whether they are optima (N,) bool."""
-    best, found = points_at(programs, np.zeros(empty.shape, complex)), np.zeros(share.size, bool)
+    best, success = points_at(programs, np.zeros(empty.shape, complex)), np.zeros(share.size, bool)
     if not suits_kernel(programs):
-        return best, found
+        return best, success
     part, left = programs.only(~empty), _WITH_ROOM * share
     tried = np.arange(share.size)
     for _ in range(2):
@@ -162,10 +162,10 @@ def _without(
         new = points_at(programs.chosen(tried), u)
         admitted = wanted.admits(new)
         best.put(tried, new)
-        found[tried] = admitted
+        success[tried] = admitted
         # the smallest objective without these webs is larger, and what is left for the mass is less
         again = ~admitted & (room > 0.0) & least_mass
         tried, left = tried[again], room[again]
         if not tried.size:
             break
-    return best, found
+    return best, success

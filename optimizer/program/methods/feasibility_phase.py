@@ -29,20 +29,20 @@ _PRINTED = 1e-13
 def smallest_excess(statement: Statement) -> ConeSolution:
     """The smallest largest excess over the ceilings, as far as its sign and the room below them are told."""
     program = statement.excess()
-    asked = Target(CEILING_TOLERANCE, CEILING_TOLERANCE, False)
-    found = interior_point(program, asked).smallest
-    if not _tells(found) and statement.limits.radius.size <= EXTENDED.most_webs:
+    target = Target(CEILING_TOLERANCE, CEILING_TOLERANCE, False)
+    solution = interior_point(program, target).smallest
+    if not _tells(solution) and statement.limits.radius.size <= EXTENDED.most_webs:
         # sharper than the reference solver, and less work than its tries
-        finer = interior_point(program, asked, EXTENDED).smallest
-        better, other = (finer, found) if finer.objective < found.objective else (found, finer)
-        found = better.bounded(other.lower_bound, other.multipliers)
-    return found if _tells(found) else smallest_objective(program, _PRINTED, found, _tells)
+        finer = interior_point(program, target, EXTENDED).smallest
+        better, other = (finer, solution) if finer.objective < solution.objective else (solution, finer)
+        solution = better.bounded(other.lower_bound, other.multipliers)
+    return solution if _tells(solution) else smallest_objective(program, _PRINTED, solution, _tells)
 
 
 def smallest_excesses(statement: Statement) -> BothStages:
     """The same of many programs at once, as far as the compiled interior point goes."""
-    program, asked = statement.excess(), np.full(statement.floor.shape[:-1], CEILING_TOLERANCE)
-    return both_stages(program, asked, asked, False)
+    program, tolerance = statement.excess(), np.full(statement.floor.shape[:-1], CEILING_TOLERANCE)
+    return both_stages(program, tolerance, tolerance, False)
 
 
 def _tells(excess: ConeSolution) -> bool:

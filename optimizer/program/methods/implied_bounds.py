@@ -98,9 +98,9 @@ def bounded(statement: Statement, level: float) -> Statement:
             return replace(statement, limits=replace(limits, max_mass=np.minimum(limits.max_mass, LARGEST)))
         together = united(statement, alike)
         proven = bounded(together, level).limits.max_mass
-        told = (proven != together.limits.max_mass)[alike.owner]
-        each = np.where(told, (proven / alike.count)[alike.owner], limits.max_mass)
-        return replace(statement, limits=replace(limits, max_mass=each))
+        mask = (proven != together.limits.max_mass)[alike.owner]
+        max_mass = np.where(mask, (proven / alike.count)[alike.owner], limits.max_mass)
+        return replace(statement, limits=replace(limits, max_mass=max_mass))
     far = far_limits(statement)
     while np.any(far):
         mass = np.minimum(_masses(statement, far, level), limits.max_total_mass)
@@ -124,8 +124,8 @@ def _masses(statement: Statement, far: np.ndarray, level: float) -> Real:
         return masses
     influence = rows * limits.radius
     together = carrying_mass(influence, limits, most, scalar)
-    each = _MARGIN * np.minimum(together, _masses_by_inverse(influence[~scalar], most[~scalar]))
-    masses[far] = np.where(np.isfinite(each), each, LARGEST)
+    bound = _MARGIN * np.minimum(together, _masses_by_inverse(influence[~scalar], most[~scalar]))
+    masses[far] = np.where(np.isfinite(bound), bound, LARGEST)
     return masses
 
 
@@ -154,10 +154,12 @@ def _scattered(statement: Statement, far: np.ndarray, level: float) -> float | N
     highest = statement.largest(statement.floor)
     others = np.sum(highest) - highest
     left = level - (statement.floor + others[statement.group])
-    each = norms.scatter * (statement.membership @ np.abs(norms.influence))[:, far]
-    each = np.concatenate([each, ceilings.norms.scatter * np.abs(ceilings.norms.influence)[:, far]])
+    growth = norms.scatter * (statement.membership @ np.abs(norms.influence))[:, far]
+    growth = np.concatenate([growth, ceilings.norms.scatter * np.abs(ceilings.norms.influence)[:, far]])
     left = np.maximum(np.concatenate([left, ceilings.cap + CEILING_TOLERANCE * ceilings.size]), 0.0)
-    most = np.where(each > 0, left[:, None] / np.where(each > 0, each, 1.0), np.inf) / statement.limits.radius[far]
+    most = (
+        np.where(growth > 0, left[:, None] / np.where(growth > 0, growth, 1.0), np.inf) / statement.limits.radius[far]
+    )
     of_webs = np.min(most, axis=0)
     mass = _MARGIN * float(np.max(of_webs[np.isfinite(of_webs)], initial=0.0))
     return min(mass, LARGEST)
@@ -235,8 +237,8 @@ def _in_planes(influence: Real, most: Real) -> float:
     apart = np.abs(a[:, None] * b - b[:, None] * a)
     apart = apart - 8 * _EPS * (np.abs(a[:, None] * b) + np.abs(b[:, None] * a))
     # a response that nothing bounds bounds a web only where that does not change it
-    each = _product(np.abs(b), most[0]) + _product(np.abs(a), most[1])
-    pairs = each[:, None] + each
+    products = _product(np.abs(b), most[0]) + _product(np.abs(a), most[1])
+    pairs = products[:, None] + products
     return float(np.min(np.where(apart > 0, pairs / np.where(apart > 0, apart, 1.0), np.inf)))
 
 
@@ -266,22 +268,22 @@ def _in_sectors(influence: Real, limits: Limits, most: Real, scalar: np.ndarray)
     rays, size = rays[size > 0] / size[size > 0, None], size[size > 0]
     reach = np.sqrt(len(most))  # of c, in these units
     n, d = rays.shape
-    found = linprog(
+    result = linprog(
         np.concatenate([np.zeros(d), -np.ones(n)]),
         A_ub=np.hstack([-rays, np.eye(n)]),
         b_ub=np.zeros(n),
         bounds=[(-_STEEP, _STEEP)] * d + [(0.0, 1.0)] * n,
     )
-    if found.x is None:
+    if result.x is None:
         return np.inf
-    outside = rays @ found.x[:d] > 0.5
+    outside = rays @ result.x[:d] > 0.5
     inside = rays[~outside]
     # the shortest that does the same
     both = np.hstack([rays, -rays])
-    found = linprog(np.ones(2 * d), A_ub=-both, b_ub=np.where(outside, -1.0, 0.0))
-    if found.x is None:
+    result = linprog(np.ones(2 * d), A_ub=-both, b_ub=np.where(outside, -1.0, 0.0))
+    if result.x is None:
         return np.inf
-    support = found.x[:d] - found.x[d:]
+    support = result.x[:d] - result.x[d:]
     along = rays @ support
     price = _price(inside)
     leak = max(0.0, -float(np.min(along[~outside], initial=0.0)))
@@ -309,10 +311,10 @@ def _price(rays: Real) -> float:
     for direction in basis:
         costs, errors = [], []
         for wanted in (direction, -direction):
-            found = linprog(np.ones(len(rays)), A_eq=rays.T, b_eq=wanted)
-            if found.x is None:
+            result = linprog(np.ones(len(rays)), A_eq=rays.T, b_eq=wanted)
+            if result.x is None:
                 return np.inf
-            share = np.maximum(found.x, 0.0)
+            share = np.maximum(result.x, 0.0)
             costs.append(float(np.sum(share)))
             errors.append(float(np.linalg.norm(wanted - share @ rays)))
         price, rest = price + max(costs), rest + max(errors)

@@ -46,13 +46,13 @@ def settle_without_slack_rows(
         part = both_stages(_of_rows(whole, ~pattern, terms), share[programs], demand[programs], least_mass)
         objective = points_at(whole, part.unbalance).objective
         # no row that was left out has become the largest
-        kept = part.certified & (objective <= part.objective)
+        success = part.certified & (objective <= part.objective)
         part = replace(
             part,
             multipliers=_over_all(whole, ~pattern, terms, part.multipliers),
             mass_multipliers=_over_all(whole, ~pattern, terms, part.mass_multipliers),
         )
-        stages.put(programs[kept], part.chosen(kept))
+        stages.put(programs[success], part.chosen(success))
 
 
 def _of_rows(statement: Statement, rows: np.ndarray, terms: np.ndarray) -> Statement:

@@ -88,8 +88,8 @@ def optima(statement: Statement, relative_gap: float, least_mass: bool) -> Optim
     alike = statement.limits.alike
     if alike is not None and alike.plain:
         # no proof says otherwise: the terms are the same, and so are the multipliers
-        found = optima(united(statement, alike), relative_gap, least_mass)
-        return replace(found, unbalance=apart(found.unbalance, alike))
+        answer = optima(united(statement, alike), relative_gap, least_mass)
+        return replace(answer, unbalance=apart(answer.unbalance, alike))
     carries = statement.limits.reach > 0
     if np.logical_and.reduce(carries, axis=None):
         return _optima(statement, relative_gap, least_mass)
@@ -110,17 +110,19 @@ def _optima(statement: Statement, relative_gap: float, least_mass: bool) -> Opti
     """Of programs whose webs can all carry something."""
     size = yardstick(statement)
     share, demand = min(OPTIMUM_SHARE, relative_gap) * size, relative_gap * size
-    found = both_stages(statement, share, demand, least_mass) if suits_kernel(statement) else None
-    if found is not None:
-        settle_without_slack_rows(statement, share, demand, least_mass, found)
-    answer = _nothing(statement) if found is None else _compiled(statement, found)
-    left = np.arange(size.size) if found is None else (~found.certified).nonzero()[0]
-    if found is not None and left.size and statement.ceilings.names:
+    stages = both_stages(statement, share, demand, least_mass) if suits_kernel(statement) else None
+    if stages is not None:
+        settle_without_slack_rows(statement, share, demand, least_mass, stages)
+    answer = _nothing(statement) if stages is None else _compiled(statement, stages)
+    left = np.arange(size.size) if stages is None else (~stages.certified).nonzero()[0]
+    if stages is not None and left.size and statement.ceilings.names:
         left = _without_unreachable(statement, answer, left)
     for n in left.tolist():
-        program, asked = statement.chosen(n), Target(float(share[n]), float(demand[n]), least_mass)
-        quick = interior_point(program, asked) if found is None else only(program, asked, found.chosen(np.array([n])))
-        _put(answer, n, cascade(program, asked, quick))
+        program, target = statement.chosen(n), Target(float(share[n]), float(demand[n]), least_mass)
+        quick = (
+            interior_point(program, target) if stages is None else only(program, target, stages.chosen(np.array([n])))
+        )
+        _put(answer, n, cascade(program, target, quick))
     if not np.count_nonzero(answer.unreachable):
         leave_empty(statement, answer, share, least_mass)
         return answer

@@ -25,7 +25,7 @@ def polished(statement: Statement, target: Target, stages: StagePair, inside: Co
     if statement.limits.radius.size == 0 or stages.certified:
         return stages
     began = time.perf_counter()
-    smallest, lightest = (_pulled(statement, each, inside) for each in (stages.smallest, stages.lightest))
+    smallest, lightest = (_pulled(statement, solution, inside) for solution in (stages.smallest, stages.lightest))
     for multipliers in objective_multipliers(statement, smallest.unbalance, smallest.multipliers):
         bound = float(objective_lower_bound(statement, multipliers))
         smallest, lightest = smallest.bounded(bound, multipliers), lightest.bounded(bound, multipliers)
@@ -42,7 +42,7 @@ def polished(statement: Statement, target: Target, stages: StagePair, inside: Co
     certified = smallest.gap <= enough and lightest.below_ceilings and lightest.gap <= target.share
     certified &= not target.least_mass or light(lightest)
     spent = time.perf_counter() - began
-    smallest, lightest = (replace(each, certify_s=each.certify_s + spent) for each in (smallest, lightest))
+    smallest, lightest = (replace(solution, certify_s=solution.certify_s + spent) for solution in (smallest, lightest))
     return StagePair(smallest, lightest, certified)
 
 

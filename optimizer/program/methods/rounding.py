@@ -38,9 +38,9 @@ def settled(statement: Statement, points: Points, target: Real, mass_bound: Real
     mass_bound : (N,) kg, no optimum is lighter; None where the mass does not count.
     """
     heaviest = np.full(target.shape, np.inf) if mass_bound is None else mass_bound / (1.0 - HEAVIER)
-    u, found = points.unbalance.copy(), np.array(points[1:])
-    statement.flat.settle(u, found, target, heaviest, CEILING_ROUNDING, RUNGS)
-    return Points(u, *found)
+    u, figures = points.unbalance.copy(), np.array(points[1:])
+    statement.flat.settle(u, figures, target, heaviest, CEILING_ROUNDING, RUNGS)
+    return Points(u, *figures)
 
 
 def dust(mass: Real) -> np.ndarray:

@@ -37,8 +37,8 @@ def within_semicontinuous_reach(statement: Statement, least: Real, level: float 
         return statement
     if level is None:
         nothing = np.zeros(far.shape, complex)
-        kept = bool(np.all(statement.ceilings.excess(nothing) <= 0))
-        level = level_above(statement, nothing) if kept else np.inf
+        feasibility = bool(np.all(statement.ceilings.excess(nothing) <= 0))
+        level = level_above(statement, nothing) if feasibility else np.inf
     while far.any():
         mass = np.minimum(np.maximum(_mass(statement, far, least, level), least), limits.max_total_mass)
         near = far & (limits.max_mass < mass)
@@ -58,8 +58,8 @@ def _mass(statement: Statement, far: np.ndarray, least: Real, level: float) -> f
         return 0.0
     influence = rows * limits.radius
     most = most + np.abs(influence) @ least[far]
-    each = (_subset_mass(influence, limits, list(webs), most, scalar) for webs in _subsets(influence, limits, scalar))
-    mass = _MARGIN * max(each, default=np.inf)
+    masses = (_subset_mass(influence, limits, list(webs), most, scalar) for webs in _subsets(influence, limits, scalar))
+    mass = _MARGIN * max(masses, default=np.inf)
     return mass if np.isfinite(mass) else LARGEST
 
 

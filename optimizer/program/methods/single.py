@@ -46,8 +46,8 @@ def interior_point(
         return StagePair(resting, resting, False)
     share, demand = np.array([target.share]), np.array([target.demand])
     at_least = 0.0 if inside is None else float(statement.objective(inside))
-    found = both_stages(statement.alone(), share, demand, target.least_mass, precision, at_least)
-    return only(statement, target, found, precision.name if precision else INTERIOR_POINT)
+    stages = both_stages(statement.alone(), share, demand, target.least_mass, precision, at_least)
+    return only(statement, target, stages, precision.name if precision else INTERIOR_POINT)
 
 
 def only(statement: Statement, target: Target, stages: BothStages, method: str = INTERIOR_POINT) -> StagePair:

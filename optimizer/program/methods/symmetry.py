@@ -40,7 +40,7 @@ def symmetric(statement: Statement, u: Complex, kinds: np.ndarray | None = None)
         numbers[:terms], own[0], own[1], np.empty(terms, bool), numbers[terms], numbers[terms + 1],
         np.empty(webs, complex), places[0], places[1:3], places[3:],
     )  # fmt: skip
-    found: Complex = np.array(u, complex, order="C")
+    means: Complex = np.array(u, complex, order="C")
     _symmetries().means(
         programs.constant,
         programs.influence,
@@ -48,9 +48,9 @@ def symmetric(statement: Statement, u: Complex, kinds: np.ndarray | None = None)
         np.zeros(u.shape[-1], np.int64) if kinds is None else kinds.astype(np.int64),
         in_order(u),
         work,
-        found,
+        means,
     )
-    return found
+    return means
 
 
 # loads the compiler, a tenth of a second, and so at the first call; an import at each takes as long as a short loop

@@ -108,10 +108,10 @@ class Assembly:
 
     def matrix(self) -> Real:
         """(rows, columns); dense, as cuts fill most of it."""
-        found = np.zeros((self._rows, self.columns))
+        array = np.zeros((self._rows, self.columns))
         for part in self._parts:
-            found[part.row, part.column] += part.value
-        return found
+            array[part.row, part.column] += part.value
+        return array
 
     def constant(self) -> Real:
         """(rows,)."""
@@ -152,29 +152,29 @@ class Assembly:
                 [clarabel.SecondOrderConeT(_PLANE)] * (rows // _PLANE) if plane else [clarabel.NonnegativeConeT(rows)]
             )
         # clarabel: A v + s = b with s in the cones
-        found = clarabel.DefaultSolver(
+        result = clarabel.DefaultSolver(
             _nothing(self.columns), cost, _by_columns(-matrix), constant, cones, settings
         ).solve()
-        v, dual, status = np.array(found.x), np.array(found.z), clarabel.SolverStatus
+        v, dual, status = np.array(result.x), np.array(result.z), clarabel.SolverStatus
         if boost is not None:
             dual = boost.of(dual)
-        if found.status == status.MaxTime:
+        if result.status == status.MaxTime:
             return NoPoint(f"not solved within {time_limit_s:.3g} s")
-        if found.status in (status.PrimalInfeasible, status.AlmostPrimalInfeasible):
+        if result.status in (status.PrimalInfeasible, status.AlmostPrimalInfeasible):
             return NoPoint("no counterweights keep the ceilings of this program")
         usable = (status.Solved, status.AlmostSolved, status.InsufficientProgress, status.MaxIterations)
-        if found.status not in usable or not (np.all(np.isfinite(v)) and np.all(np.isfinite(dual))):
-            return NoPoint(f"the solver ended with {found.status}")
+        if result.status not in usable or not (np.all(np.isfinite(v)) and np.all(np.isfinite(dual))):
+            return NoPoint(f"the solver ended with {result.status}")
         return v, dual
 
     def _first_rows(self) -> np.ndarray:
         """First row of every cone in the plane."""
-        found, start = [np.zeros(0, dtype=int)], 0
+        places, start = [np.zeros(0, dtype=int)], 0
         for plane, rows in self._cones:
             if plane:
-                found.append(np.arange(start, start + rows, _PLANE))
+                places.append(np.arange(start, start + rows, _PLANE))
             start += rows
-        return np.concatenate(found)
+        return np.concatenate(places)
 
 
 @cache
@@ -306,12 +306,12 @@ def solved(
         cost[levels:most_of_sums] = 1.0 if weighed is None else weighed.astype(float)
     if len(sums) > 1 and shape.stage == "objective":
         cost[levels:most_of_sums], cost[most_of_sums] = 0.0, 1.0
-        most = np.array([each.most for each in sums])
+        most = np.array([limit.most for limit in sums])
         program.nonnegative(most, dense(levels, -_membership(sums)), dense(most_of_sums, np.ones((len(sums), 1))))
-    found = program.solve(cost, tolerance, time_limit_s, about, regularization)
-    if isinstance(found, NoPoint):
-        return found
-    v, dual = found
+    result = program.solve(cost, tolerance, time_limit_s, about, regularization)
+    if isinstance(result, NoPoint):
+        return result
+    v, dual = result
     row_multiplier, term = np.zeros(group.size), np.zeros(row.size, complex)
     row_multiplier[row[single]], row_multiplier[summed] = dual[direct][::_PLANE], dual[rows]
     term[single], term[together] = vector_duals(dual[direct]), vector_duals(dual[cones])
@@ -321,4 +321,4 @@ def solved(
 
 def _membership(sums: Sequence[GroupLimit]) -> Real:
     """(sums, groups) 1 where a group belongs to a sum."""
-    return np.stack([each.groups for each in sums]).astype(float)
+    return np.stack([limit.groups for limit in sums]).astype(float)

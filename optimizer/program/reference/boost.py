@@ -31,11 +31,11 @@ def boosts(size: Real, vector: Real) -> Real:
     factor = np.where(length > _SMALLEST, factor, 1.0)
     along = vector / np.maximum(length, _SMALLEST)[:, None]
     even, odd = 0.5 * (factor + 1.0 / factor), 0.5 * (factor - 1.0 / factor)
-    found = np.empty((length.size, 3, 3))
-    found[:, 0, 0] = even
-    found[:, 0, 1:] = found[:, 1:, 0] = -odd[:, None] * along
-    found[:, 1:, 1:] = np.eye(2) + (even - 1.0)[:, None, None] * along[:, :, None] * along[:, None, :]
-    return found
+    matrices = np.empty((length.size, 3, 3))
+    matrices[:, 0, 0] = even
+    matrices[:, 0, 1:] = matrices[:, 1:, 0] = -odd[:, None] * along
+    matrices[:, 1:, 1:] = np.eye(2) + (even - 1.0)[:, None, None] * along[:, :, None] * along[:, None, :]
+    return matrices
 
 
 class Boost(NamedTuple):
@@ -52,6 +52,6 @@ class Boost(NamedTuple):
 
     def of(self, rows: Real) -> Real:
         """Rows (m,) or (m, k), boosted."""
-        found, shape = rows.copy(), (*self.place.shape, -1)
-        found[self.place] = (self.boosts @ rows[self.place].reshape(shape)).reshape(rows[self.place].shape)
-        return found
+        result, shape = rows.copy(), (*self.place.shape, -1)
+        result[self.place] = (self.boosts @ rows[self.place].reshape(shape)).reshape(rows[self.place].shape)
+        return result

@@ -118,8 +118,8 @@ def least_mass(
         return new.below_ceilings and new.objective <= target and new.mass < old.mass
 
     if start is not None:
-        known = first.weighed(start.mass_lower_bound, start.mass_multipliers, start.mass_target)
-        best = known.moved_to(statement, start.unbalance) if admit(best, start) else known
+        base = first.weighed(start.mass_lower_bound, start.mass_multipliers, start.mass_target)
+        best = base.moved_to(statement, start.unbalance) if admit(best, start) else base
     for multiplier in supporting_multipliers(statement, best.unbalance):
         best = best.weighed(float(mass_lower_bound(statement, multiplier, np.asarray(counted))), multiplier, counted)
     for attempt in _MASS_ATTEMPTS:
@@ -134,8 +134,8 @@ def least_mass(
                 best = best.weighed(bound, multiplier, counted)
             best = replace(best, certify_s=best.certify_s + time.perf_counter() - began)
         proof = best.mass_multipliers
-        given_up = 0.0 if proof is None else float(tolerance_allowance(statement, proof))
-        if best.mass - best.mass_lower_bound - given_up <= enough * best.mass:
+        allowance = 0.0 if proof is None else float(tolerance_allowance(statement, proof))
+        if best.mass - best.mass_lower_bound - allowance <= enough * best.mass:
             break
     return best
 
@@ -153,15 +153,15 @@ def _attempt(
     best, targets = replace(best, method=CONE_PROGRAM), []
     if data.shape.stage == "mass":
         targets = [GroupLimit(np.ones(data.shape.groups[-1] + 1, bool), float(data.target[0]))]
-    found = solved(data, tolerance, np.inf, targets=targets)
-    if isinstance(found, NoPoint):
+    result = solved(data, tolerance, np.inf, targets=targets)
+    if isinstance(result, NoPoint):
         return best, None
-    u = statement.limits.into(scaling.unbalance(statement, found.solution))
+    u = statement.limits.into(scaling.unbalance(statement, result.solution))
     for point in _tidied(u):
         new = evaluated(statement, point if blend is None else _blended(statement, point, *blend))
         if better(best, new):
             best = replace(best, unbalance=new.unbalance, objective=new.objective, mass=new.mass, excess=new.excess)
-    return best, (u, scaling.multipliers(statement, found.solution))
+    return best, (u, scaling.multipliers(statement, result.solution))
 
 
 def _better_objective(old: ConeSolution, new: ConeSolution) -> bool:
