@@ -32,7 +32,7 @@ class Catalogue:
         return statement
 
     def best(self, subproblem: Subproblem) -> Choice:
-        relaxed, *known = subproblem.points
+        relaxed, *points = subproblem.points
         chosen, result = search(
             subproblem.statement,
             self.stock.options,
@@ -41,7 +41,7 @@ class Catalogue:
             subproblem.relative_gap,
             subproblem.yardstick,
             subproblem.time_limit_s,
-            Prior(known, subproblem.below),
+            Prior(points, subproblem.below),
         )
         return self.picked(chosen, result)
 

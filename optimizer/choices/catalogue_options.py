@@ -58,8 +58,8 @@ def stock(machine: Machine) -> Stock:
             continue
         least = web.min_fitted_mass_kg or 0.0
         if own.pairs is not None:
-            pairs = sorted((each, at % 360.0) for each, at in own.pairs if 0.0 < each <= most and each >= least)
-            held.append((np.array([0.0, *(each for each, _ in pairs)]), np.array([0.0, *(at for _, at in pairs)])))
+            pairs = sorted((weight, at % 360.0) for weight, at in own.pairs if 0.0 < weight <= most and weight >= least)
+            held.append((np.array([0.0, *(weight for weight, _ in pairs)]), np.array([0.0, *(at for _, at in pairs)])))
             continue
         angles = np.mod(np.array(own.angles or (), dtype=float), 360.0)
         if own.angles is None:
@@ -76,11 +76,11 @@ def stock(machine: Machine) -> Stock:
         masses = np.array(
             [mass for mass in _masses(own.masses, catalogue, most) if 0.0 < mass <= most and mass >= least]
         )
-        each, at = np.meshgrid(masses, np.sort(angles), indexing="ij")
-        held.append((np.append(0.0, each), np.append(0.0, at)))
+        weight, at = np.meshgrid(masses, np.sort(angles), indexing="ij")
+        held.append((np.append(0.0, weight), np.append(0.0, at)))
     refuse(problems)
     most_options = max((mass.size for mass, _ in held), default=1)
-    mass, angle = (np.array([np.pad(one[n], (0, most_options - one[n].size)) for one in held]) for n in (0, 1))
+    mass, angle = (np.array([np.pad(entry[n], (0, most_options - entry[n].size)) for entry in held]) for n in (0, 1))
     mass, angle = mass.reshape(len(held), most_options), angle.reshape(len(held), most_options)
     radius = np.array([web.radius_m for web in machine.webs]).reshape(-1, 1)
     radius = radius if alike is None else radius[alike.first]
@@ -88,7 +88,7 @@ def stock(machine: Machine) -> Stock:
         unbalance=mass * radius * direction(angle),
         mass=mass if alike is None else mass * alike.count[:, None],
         part=_parts(mass),
-        exists=np.arange(most_options) < np.array([one.size for one, _ in held]).reshape(-1, 1),
+        exists=np.arange(most_options) < np.array([entry.size for entry, _ in held]).reshape(-1, 1),
         most_fitted=machine.max_counterweights,
         most_parts=catalogue.max_part_numbers,
         alike=alike,
@@ -116,6 +116,6 @@ def _parts(mass: Real) -> np.ndarray:
     order = np.argsort(mass, axis=None, kind="stable")
     sorted_masses = mass.ravel()[order]
     new = np.diff(sorted_masses, prepend=0.0) > _SAME * sorted_masses
-    found = np.empty(mass.size, int)
-    found[order] = np.cumsum(new) - 1
-    return np.where(mass > 0, found.reshape(mass.shape), -1)
+    numbers = np.empty(mass.size, int)
+    numbers[order] = np.cumsum(new) - 1
+    return np.where(mass > 0, numbers.reshape(mass.shape), -1)

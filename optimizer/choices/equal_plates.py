@@ -52,20 +52,20 @@ def alike(
     every[plates.webs[np.concatenate([cluster.places for cluster in clusters])]] = True
     if len(apart) > 1:
         # all at once, which mostly does
-        found = _opened(whole, plates, nodes, cut, every, apart, admitted)
-        if found is not None:
-            return found
-    one_by_one, held, left = cut, empty.copy(), False
+        result = _opened(whole, plates, nodes, cut, every, apart, admitted)
+        if result is not None:
+            return result
+    weights, held, left = cut, empty.copy(), False
     for cluster in clusters:
         held[plates.webs[cluster.places]] = True
         if cluster.high - cluster.low > SAME_SIZE * cluster.high:
-            found = _opened(whole, plates, nodes, one_by_one, held, [cluster], admitted)
-            one_by_one, left = found or one_by_one, left or found is None
+            result = _opened(whole, plates, nodes, weights, held, [cluster], admitted)
+            weights, left = result or weights, left or result is None
     if not left:
-        return one_by_one
+        return weights
     # an optimum may be nearer to the smallest objective, and is then turned as that is
     turned = _turned(whole, plates, nodes, cut, empty, admitted)
-    return _opened(whole, plates, nodes, turned, every, apart, admitted) or one_by_one
+    return _opened(whole, plates, nodes, turned, every, apart, admitted) or weights
 
 
 def emptied(whole: Statement, plates: Plates, cut: CutWeights, empty: np.ndarray) -> CutWeights:
@@ -192,5 +192,5 @@ def _others(
     if not left.any():
         return fixed
     laid = pieces(many.about(fixed), plates, tangents(plates, nodes), left)
-    found, _ = unproven(laid.program, np.full(len(u), share), least_mass)
-    return fixed + laid.carried(found)
+    solution, _ = unproven(laid.program, np.full(len(u), share), least_mass)
+    return fixed + laid.carried(solution)

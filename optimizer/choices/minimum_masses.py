@@ -41,12 +41,12 @@ class MinimumMasses:
         return within_semicontinuous_reach(replace(statement, limits=self.limits), self.least)
 
     def best(self, subproblem: Subproblem) -> Choice:
-        relaxed, *known = subproblem.points
+        relaxed, *points = subproblem.points
         statement, size = subproblem.statement, subproblem.yardstick
         share = OPTIMUM_SHARE * size if self.lightest else 0.0
-        asked = SearchGoal(subproblem.relative_gap * size, size, share, subproblem.time_limit_s)
+        goal = SearchGoal(subproblem.relative_gap * size, size, share, subproblem.time_limit_s)
         least = self.least * statement.limits.radius
-        u, result = search(statement, least, relaxed, subproblem.at_least, asked, known, subproblem.below)
+        u, result = search(statement, least, relaxed, subproblem.at_least, goal, points, subproblem.below)
         mass, angle = masses_and_angles(self.machine, u, statement.limits)
         mass = np.where(np.abs(mass - self.least) <= _ROUNDING * self.least, self.least, mass)
         return Choice(mass, angle, unbalance(mass, angle, self.limits.radius), result)

@@ -53,8 +53,8 @@ def guessed(whole: Statement, plates: Plates, nodes: Real, share: Real, least_ma
         whole, count = united(whole, alike), alike.count[unit[plates.webs]].astype(float)
     if not suits_kernel(laid.program) or not laid.program.limits.reach.any():
         return None
-    found, price = unproven(laid.program, share, least_mass)
-    u = laid.carried(found)[0]
+    solution, price = unproven(laid.program, share, least_mass)
+    u = laid.carried(solution)[0]
     if not np.isfinite(u).all() or not u.any():
         return None
     unit, first = unit[plates.webs], np.unique(unit[plates.webs], return_index=True)[1]

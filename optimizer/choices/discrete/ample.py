@@ -85,11 +85,11 @@ def offer_light_sets(
             incumbent.offer(chosen[None])
         PartSizes(incumbent, light, used, incumbent.options.most_parts or 0, enough, clock).run()
         return
-    for one in _PASSES:
-        for which in neighbourhoods(incumbent.options, light, one.near, one.many, one.others, one.several):
+    for stage in _PASSES:
+        for which in neighbourhoods(incumbent.options, light, stage.near, stage.many, stage.others, stage.several):
             if enough() or clock.spent():
                 return
-            exhaust(incumbent.options, which, incumbent, one.sums, PAIRS, clock)
+            exhaust(incumbent.options, which, incumbent, stage.sums, PAIRS, clock)
 
     # few sizes are few sums, and where any may be used they are among them
     PartSizes(incumbent, light, used, _SIZES, enough, Clock(_OF_SIZES * clock.left_s)).run()
@@ -97,7 +97,7 @@ def offer_light_sets(
     def close(slot: int, chosen: np.ndarray) -> np.ndarray:
         options = incumbent.options
         about = (options.unbalance[slot, chosen[slot]], light[slot])
-        near = [near_options(options, slot, complex(each), CLOSE) for each in about]
+        near = [near_options(options, slot, complex(point), CLOSE) for point in about]
         return np.unique(np.concatenate([*near, light_options(options, slot, CLOSE // 2)]))
 
     improve(incumbent, incumbent.options, close, enough, clock)

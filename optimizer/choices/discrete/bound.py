@@ -19,43 +19,43 @@ def proven(statement: Statement, options: Options, left: np.ndarray, multipliers
     """What multipliers prove of the options left (N, K, O) of N nodes (N,)."""
     constant, slope, rounding = affine_minorant(statement, multipliers)
     size = np.abs(options.unbalance)
-    each = _along(options.of_first(slope), options.unbalance) - options.together(rounding)[..., None] * size
-    each = np.where(left, each, np.inf)
+    value = _along(options.of_first(slope), options.unbalance) - options.together(rounding)[..., None] * size
+    value = np.where(left, value, np.inf)
     budget = options.budget(statement)
     charged = budget if np.isfinite(budget) else 0.0
 
     def least(price: Real) -> tuple[Real, Real]:
         """The least sum at a price of the mass (N,), and the mass that it takes."""
-        priced = each + price[:, None, None] * options.mass
+        priced = value + price[:, None, None] * options.mass
         place = np.argmin(priced, axis=-1)[..., None]
-        found = np.take_along_axis(priced, place, axis=-1)[..., 0]
+        minimum = np.take_along_axis(priced, place, axis=-1)[..., 0]
         mass = np.take_along_axis(np.broadcast_to(options.mass, left.shape), place, axis=-1)[..., 0]
         if options.limits_fitted:
             can_stay = left[..., 0]
-            gain = np.where(can_stay, np.minimum(found - priced[..., 0], 0.0), 0.0)
+            gain = np.where(can_stay, np.minimum(minimum - priced[..., 0], 0.0), 0.0)
             # those that gain most for each of their webs, and of the last the share that there is room for
             room = (options.most_fitted or 0) - np.sum(np.where(can_stay, 0, options.webs), axis=-1)
             order = np.argsort(gain / options.webs, axis=-1, kind="stable")
             webs = np.where(np.take_along_axis(can_stay, order, axis=-1), options.webs[order], 0)
             share = np.clip((room[:, None] - np.cumsum(webs, axis=-1) + webs) / np.maximum(webs, 1), 0.0, 1.0)
             share = np.take_along_axis(share, np.argsort(order, axis=-1, kind="stable"), axis=-1)
-            found = np.where(can_stay, priced[..., 0] + share * gain, found)
+            minimum = np.where(can_stay, priced[..., 0] + share * gain, minimum)
             mass = np.where(can_stay, share * mass, mass)
-        return np.sum(found, axis=-1) - price * charged, np.sum(mass, axis=-1)
+        return np.sum(minimum, axis=-1) - price * charged, np.sum(mass, axis=-1)
 
     def high() -> Real:
         """What every option could gain, by the lightest of all."""
         lightest = np.where(left, options.mass, np.inf)
-        step = np.max(np.where(left & (options.mass > 0), np.abs(each), 0.0), axis=(1, 2))
+        step = np.max(np.where(left & (options.mass > 0), np.abs(value), 0.0), axis=(1, 2))
         step = step / np.maximum(np.min(np.where(lightest > 0, lightest, np.inf), axis=(1, 2)), 1e-300)
         return np.where(np.isfinite(step), 2.0 * step, 0.0)
 
     taken, best = price_of_budget(least, budget, left.shape[0], high)
-    magnitude = np.abs(constant) + np.sum(np.max(np.where(left, np.abs(each), 0.0), axis=-1), axis=-1)
+    magnitude = np.abs(constant) + np.sum(np.max(np.where(left, np.abs(value), 0.0), axis=-1), axis=-1)
     constant = constant - 1e-14 * (magnitude + options.slots * taken * charged)
     bound = constant + best
     # of one option in place of the best of its slot, whatever number of counterweights
-    priced = each + taken[:, None, None] * options.mass
+    priced = value + taken[:, None, None] * options.mass
     lowest = np.min(priced, axis=-1, keepdims=True)
     apart = constant + np.sum(lowest[..., 0], axis=-1) - taken * charged
     with np.errstate(invalid="ignore"):
@@ -76,11 +76,11 @@ def uphill(
     budget = options.budget(statement)
 
     def lowest(slope: Complex) -> tuple[Real, Complex]:
-        each = _along(options.of_first(slope), u) + cost
-        taken = np.argmin(each, axis=-1)[..., None]
+        total = _along(options.of_first(slope), u) + cost
+        taken = np.argmin(total, axis=-1)[..., None]
         there = np.take_along_axis(u, taken, axis=-1)[..., 0]
         webs = there if options.alike is None else options.alike.carried(there)
-        return np.sum(np.take_along_axis(each, taken, axis=-1)[..., 0], axis=-1), webs
+        return np.sum(np.take_along_axis(total, taken, axis=-1)[..., 0], axis=-1), webs
 
     charge = price * budget if np.isfinite(budget) else np.zeros_like(price)
     return uphill_by(statement, multipliers, charge, lowest, target)

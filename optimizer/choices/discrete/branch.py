@@ -204,12 +204,12 @@ class _Work:
             return []
         off = np.where(left, np.abs(self.options.unbalance - near[..., None]), np.inf)
         first, bits = np.packbits(self._first(left, near, off), axis=-1), np.packbits(left, axis=-1)
-        found = []
+        splits = []
         for n, node in enumerate(which.tolist()):
             own = _Node(bits[n], nodes[node].parts, multipliers.chosen(n))
             by_part = self._by_part(own, left[n], off[n]) if self.options.limits_parts else None
-            found.append((float(bound[node]), by_part or _Split(own, first[n])))
-        return found
+            splits.append((float(bound[node]), by_part or _Split(own, first[n])))
+        return splits
 
     def _by_part(self, node: _Node, left: np.ndarray, off: Real) -> _Split | None:
         """Split by whether a part number is used, where not all that are left may be."""
@@ -247,9 +247,9 @@ class _Work:
         count = np.sum(first, axis=-1)
         level = (count == 0) | (count == np.sum(some, axis=-1))
         half = some & (np.cumsum(some, axis=-1) <= np.sum(some, axis=-1, keepdims=True) // 2)
-        kept = left.copy()
-        kept[node, k] = np.where(level[:, None], half, first)
-        return kept
+        remainder = left.copy()
+        remainder[node, k] = np.where(level[:, None], half, first)
+        return remainder
 
     def children(self, split: _Split) -> Iterator[_Node]:
         """The two halves of a node, as far as anything is left in them."""

@@ -39,8 +39,8 @@ def at_most(cost: Real, may_cost: Real) -> Real:
     share = np.minimum(cost / may_cost[:, None, None], _MANY)
     left = np.isfinite(cost)
     logs = [x + np.sum(np.log(np.sum(np.exp(-x * share), axis=-1, where=left)), axis=-1) for x in _EXPONENTS]
-    found: Real = np.exp(np.min(logs, axis=0))
-    return found
+    count: Real = np.exp(np.min(logs, axis=0))
+    return count
 
 
 def offer_few(statement: Statement, incumbent: Incumbent, cost: Real, may_cost: float) -> float:
@@ -64,11 +64,11 @@ def offer_few(statement: Statement, incumbent: Incumbent, cost: Real, may_cost: 
     taken, steps = np.zeros(1), []
     for k in several:
         some = np.flatnonzero(left[k])
-        each = taken[:, None] + cost[k, some]
-        within = each <= may_cost
-        others = min(others, float(np.min(each, where=~within, initial=np.inf)))
+        sums = taken[:, None] + cost[k, some]
+        within = sums <= may_cost
+        others = min(others, float(np.min(sums, where=~within, initial=np.inf)))
         before, digit = np.nonzero(within)
-        taken = each[before, digit]
+        taken = sums[before, digit]
         terms = terms[before] + options.effect(k, some, norms.influence)[digit]
         steps.append((k, before, some[digit]))
     value = statement.objective_of(np.abs(terms))

@@ -162,8 +162,8 @@ def lightened(incumbent: Incumbent, chosen: np.ndarray, limit: float) -> np.ndar
         sets = np.repeat(chosen[None], len(lighter), axis=0)
         sets[np.arange(len(lighter)), [k for _, k, _ in lighter]] = [option for _, _, option in lighter]
         u = options.carried(sets)
-        kept = options.counts(statement, sets) & (statement.objective(u) <= limit)
-        kept &= np.all(statement.ceilings.excess(u) <= statement.ceilings.tolerance, axis=-1)
-        if not kept.any():
+        mask = options.counts(statement, sets) & (statement.objective(u) <= limit)
+        mask &= np.all(statement.ceilings.excess(u) <= statement.ceilings.tolerance, axis=-1)
+        if not mask.any():
             return chosen
-        chosen = sets[int(np.argmax(kept))]
+        chosen = sets[int(np.argmax(mask))]

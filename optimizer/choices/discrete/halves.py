@@ -70,7 +70,7 @@ def halves(
     single = np.ones(options.slots, bool)
     single[many] = False
     rest = np.sum(options.of(effect, fixed)[single], axis=0)
-    pace, found, sides = Pace(clock), list[Half](), list[Sides]()
+    pace, results, sides = Pace(clock), list[Half](), list[Sides]()
     split_sides = many[::2], many[1::2]
     if not np.isfinite(most_kg):
         # what is given up in the end is not begun: lists are shorter by equal sums, but not by more
@@ -85,10 +85,10 @@ def halves(
         inner = None if outer is None else sums_of(options, effect, which, split[1], pace, most_sums, most_kg)
         if outer is None or inner is None or outer.code.size * inner.code.size > most_sums:
             return None
-        found.append(Half(outer, inner))
+        results.append(Half(outer, inner))
         sides.append(split)
     terms = incumbent.statement.norms.constant + lever @ rest
-    return Halves(found[0], found[1], lever, terms, fixed, (sides[0], sides[1]), which)
+    return Halves(results[0], results[1], lever, terms, fixed, (sides[0], sides[1]), which)
 
 
 def exhaust(

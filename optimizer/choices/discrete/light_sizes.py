@@ -94,7 +94,7 @@ class LightSizes:
         """A lighter set (K,) of some sizes, what is likely to be lightest first; None where there is none."""
         better: np.ndarray | None = None
         mass = np.inf if self.chosen is None else self._mass(self.chosen)
-        for sizes in sorted((one for one in several if one not in self.tried), key=self._likely):
+        for sizes in sorted((candidate for candidate in several if candidate not in self.tried), key=self._likely):
             least = len(self.used) * float(self.mass[sizes.main[0]]) + _FEWEST * float(self.mass[sizes.small])
             for which in self._options(sizes) if least < mass else ():
                 if self.clock.spent():
@@ -117,12 +117,12 @@ class LightSizes:
 
     def _middles(self) -> set[tuple[int, ...]]:
         """Main sizes of slots of the optimum, in one heap fewer than there may be sizes, or in as many."""
-        most, found = self.options.most_parts or 0, set()
+        most, middles = self.options.most_parts or 0, set()
         for number in (most - 1, most):
             # of fewer slots than sizes a heap is left for trims; as many may keep the limit without any
             if number >= 1 and (number < most or self.own.size >= most):
-                found.add(tuple(sorted({self._nearest(float(np.mean(heap))) for heap in _heaps(self.own, number)})))
-        return found
+                middles.add(tuple(sorted({self._nearest(float(np.mean(heap))) for heap in _heaps(self.own, number)})))
+        return middles
 
     def _of(self, chosen: np.ndarray) -> tuple[int, ...]:
         """Sizes of a set."""
@@ -131,7 +131,7 @@ class LightSizes:
 
     def _about(self, middles: set[tuple[int, ...]], far: int) -> list[Sizes]:
         """Main sizes so far from some, with a small one where there may be another."""
-        found = set[Sizes]()
+        neighbours = set[Sizes]()
         for middle in middles:
             apart = len(middle) <= _APART
             steps = product(_STEPS, repeat=len(middle)) if apart else ((step,) * len(middle) for step in _STEPS)
@@ -141,8 +141,10 @@ class LightSizes:
                 if not main or not 0 <= main[0] <= main[-1] < self.mass.size:
                     continue
                 fewer = len(main) < (self.options.most_parts or 0)
-                found.update(Sizes(main, small) for small in (range(min(_SMALL, main[0])) if fewer else (main[0],)))
-        return sorted(found)
+                neighbours.update(
+                    Sizes(main, small) for small in (range(min(_SMALL, main[0])) if fewer else (main[0],))
+                )
+        return sorted(neighbours)
 
     def _options(self, sizes: Sizes) -> Iterator[list[np.ndarray]]:
         """Options of every slot (K): near ones of those of the optimum, small ones of as many others as can be."""

@@ -125,14 +125,14 @@ class _LightestSet:
             return
         u = self.options.carried(sets)
         value = self.statement.objective(u)
-        kept = (value <= self.level) & np.all(
+        mask = (value <= self.level) & np.all(
             self.statement.ceilings.excess(u) <= self.statement.ceilings.tolerance, axis=-1
         )
         mass = np.sum(self.options.of(self.options.mass, sets), axis=-1)
-        kept &= mass <= self.mass * (1.0 + _ROUNDING)
-        if not kept.any():
+        mask &= mass <= self.mass * (1.0 + _ROUNDING)
+        if not mask.any():
             return
-        sets, mass, value = sets[kept], mass[kept], value[kept]
+        sets, mass, value = sets[mask], mass[mask], value[mask]
         slots = np.count_nonzero(sets, axis=-1)
         steps = np.round(mass / (_LIGHTER * (np.max(mass) or 1.0)))
         n = int(np.lexsort((value, slots, steps))[0])
@@ -150,14 +150,14 @@ def _compared(
     most_pairs: int = _PAIRS,
 ) -> bool:
     """Whether all pairs of sums that are no heavier than so much were offered where they are near the level."""
-    one, other = split.first, split.second
-    if not one.size or not other.size:
+    half, other = split.first, split.second
+    if not half.size or not other.size:
         return True
 
     def offered(i: np.ndarray, j: np.ndarray) -> None:
-        light = one.mass(i) + other.mass(j) <= cap * (1.0 + _ROUNDING)
+        light = half.mass(i) + other.mass(j) <= cap * (1.0 + _ROUNDING)
         if np.any(light):
             offer(split.sets(i[light], j[light]))
 
-    pairs = Pairs(within.statement, one, other, split.lever, split.terms, within, offered)
+    pairs = Pairs(within.statement, half, other, split.lever, split.terms, within, offered)
     return pairs.near(most_pairs, clock)

@@ -71,8 +71,8 @@ class Options:
 
     def of(self, array: np.ndarray, chosen: np.ndarray) -> np.ndarray:
         """What an array (K, O) holds for the options chosen (..., K)."""
-        found: np.ndarray = array[np.arange(self.slots), chosen]
-        return found
+        values: np.ndarray = array[np.arange(self.slots), chosen]
+        return values
 
     @cached_property
     def on_webs(self) -> Complex:
@@ -96,20 +96,20 @@ class Options:
     def effect(self, slot: int, some: np.ndarray | slice, influence: Real | Complex) -> Complex:
         """What some options of a slot do to J terms (some, J), of influences of the webs (J, W)."""
         webs = np.array([slot]) if self.alike is None else np.flatnonzero(self.alike.owner == slot)
-        found: Complex = self.on_webs[webs][:, some].T @ influence[:, webs].T
-        return found
+        result: Complex = self.on_webs[webs][:, some].T @ influence[:, webs].T
+        return result
 
     def counts(self, statement: Statement, chosen: np.ndarray) -> np.ndarray:
         """Whether sets (..., K) keep budget and counts."""
         mass = self.of(self.mass, chosen)
-        kept = np.sum(mass, axis=-1) <= self.budget(statement)
+        mask = np.sum(mass, axis=-1) <= self.budget(statement)
         if self.limits_fitted:
-            kept &= (chosen > 0) @ self.webs <= self.most_fitted
+            mask &= (chosen > 0) @ self.webs <= self.most_fitted
         if self.limits_parts:
             parts = np.sort(self.of(self.part, chosen), axis=-1)
             new = np.concatenate([parts[..., :1] >= 0, (np.diff(parts, axis=-1) > 0)], axis=-1)
-            kept &= np.sum(new, axis=-1) <= self.most_parts
-        return kept
+            mask &= np.sum(new, axis=-1) <= self.most_parts
+        return mask
 
     def nearest(self, u: Complex) -> np.ndarray:
         """The option of every slot that is nearest to an unbalance of its first web (..., K)."""
@@ -152,8 +152,8 @@ class Incumbent:
         statement = self.statement
         highest = statement.largest(statement.floor)
         others = np.sum(highest) - highest
-        found: Real = self.level + more - others[statement.group] - statement.floor
-        return found
+        room: Real = self.level + more - others[statement.group] - statement.floor
+        return room
 
     def offer(self, chosen: np.ndarray) -> None:
         """Take the best of sets (M, K), or stay."""
@@ -162,8 +162,8 @@ class Incumbent:
         if not len(chosen):
             return
         u = options.carried(chosen)
-        kept = np.all(statement.ceilings.excess(u) <= statement.ceilings.tolerance, axis=-1)
-        value = np.where(kept, statement.objective(u), np.inf)
+        mask = np.all(statement.ceilings.excess(u) <= statement.ceilings.tolerance, axis=-1)
+        value = np.where(mask, statement.objective(u), np.inf)
         near = value <= min(float(np.min(value)), self.least) + self.resolution
         if not np.any(near & np.isfinite(value)):
             return
@@ -181,5 +181,5 @@ class Incumbent:
         mass = np.sum(self.options.of(self.options.mass, chosen), axis=-1)
         square = np.sum(np.abs(self.options.carried(chosen)) ** 2, axis=-1)
         # in steps, so that sums in another order do not differ
-        steps = [np.round(each / (1e-9 * (np.max(each) or 1.0))) for each in (mass, square)]
+        steps = [np.round(measure / (1e-9 * (np.max(measure) or 1.0))) for measure in (mass, square)]
         return int(np.lexsort((*chosen.T[::-1], steps[1], steps[0]))[0])

@@ -59,8 +59,10 @@ class Pairs:
     def rounding(self) -> float:
         """What objectives from sums may be off by."""
         size = self.first.largest + self.second.largest
-        each = np.sum(np.abs(self.lever) @ size) + np.sum(np.abs(self.terms)) + np.max(np.abs(self.statement.floor))
-        return _ROUNDING * float(each)
+        magnitude = (
+            np.sum(np.abs(self.lever) @ size) + np.sum(np.abs(self.terms)) + np.max(np.abs(self.statement.floor))
+        )
+        return _ROUNDING * float(magnitude)
 
     @property
     def at_once(self) -> int:
@@ -111,7 +113,7 @@ class Pairs:
         # the compiler is loaded when it is first needed
         from optimizer.choices.discrete.kernel.near_sums import ALL, gridded, near
 
-        count, found, at_once = share * self.first.size, 0, min(_FIRST, self.at_once)
+        count, hits, at_once = share * self.first.size, 0, min(_FIRST, self.at_once)
         taken = ALL if share == 1.0 else np.uint64(int(share * 2**64))
         reach = self._radius(ball)
         for slab in ball.slabs(count, reach):
@@ -125,14 +127,14 @@ class Pairs:
                 reach = self._radius(ball)
                 if reach is None:
                     return True
-                met, start, looked = near(
+                met, start, effort = near(
                     first, sums, *ball.second.lists, grid.slab, *grid.cut, taken, start, reach**2,
                     np.array([at_once, _SUMS_A_LOOK]),
                 )  # fmt: skip
-                looks, found, at_once = looks - looked, found + met.shape[1], min(2 * at_once, self.at_once)
+                looks, hits, at_once = looks - effort, hits + met.shape[1], min(2 * at_once, self.at_once)
                 if met.shape[1]:
                     self.evaluated(ball.first.place(*places[:, met[0]]), ball.second.place(met[1], met[2]))
-                if found > most or looks < 0 or clock.spent():
+                if hits > most or looks < 0 or clock.spent():
                     return False
         return True
 
@@ -157,9 +159,9 @@ class Pairs:
             return None
         # nothing of an objective is this small beside its terms
         unit = np.maximum(left, self.rounding + SMALLEST)
-        each = unit[self.statement.row]
-        lever: Real | Complex = self.lever / each[:, None]
-        scaled: Real | Complex = self.terms / each
+        units = unit[self.statement.row]
+        lever: Real | Complex = self.lever / units[:, None]
+        scaled: Real | Complex = self.terms / units
         scalar = np.array(self.statement.norms.scalar, dtype=bool)
         apart = bool(np.any(scalar))
         if apart:
@@ -173,13 +175,13 @@ class Pairs:
         def points(z: Complex) -> Real:
             return _real((_real(z) if apart else z) @ scale.T)
 
-        one = [points(sums.z) for sums in self.first]
+        half = [points(sums.z) for sums in self.first]
         other = [-points(sums.z) for sums in self.second]
         other[0] = other[0] - _real(centre)
         # the widest first, by which they are told apart best
-        wide = sum(np.ptp(part, axis=0) for part in (*one, *other))
+        wide = sum(np.ptp(part, axis=0) for part in (*half, *other))
         order = np.argsort(-wide, kind="stable")
-        return _Ball(_Points.of(*(p[:, order] for p in one)), _Points.of(*(p[:, order] for p in other)), unit, beside)
+        return _Ball(_Points.of(*(p[:, order] for p in half)), _Points.of(*(p[:, order] for p in other)), unit, beside)
 
 
 class _Points(NamedTuple):

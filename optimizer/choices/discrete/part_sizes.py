@@ -24,7 +24,7 @@ Sizes = tuple[int, ...]
 
 def _half_of(which: Sequence[np.ndarray]) -> float:
     """Sums of a half, about."""
-    return float(np.sqrt(np.prod([float(each.size) for each in which])))
+    return float(np.sqrt(np.prod([float(options.size) for options in which])))
 
 
 class PartSizes:
@@ -66,7 +66,7 @@ class PartSizes:
         # sizes in as many heaps, where nothing is left for a small one
         heaps = np.array_split(np.sort(self.mass[own]), most) if own.size >= most > 1 else []
         several = np.unique(np.array([self._nearest(float(np.mean(heap))) for heap in heaps], int))
-        starts: list[Sizes] = list(dict.fromkeys(tuple(each.tolist()) for each in (main, several) if each.size))
+        starts: list[Sizes] = list(dict.fromkeys(tuple(choice.tolist()) for choice in (main, several) if choice.size))
         for n, sizes in enumerate(starts):
             self._climb(sizes, Clock(self.clock.left_s / (len(starts) - n)))
         improve(self.incumbent, self.loose, self._in_use, self.enough, self.clock)

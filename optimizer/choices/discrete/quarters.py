@@ -47,16 +47,16 @@ def quarters(incumbent: Incumbent, enough: Callable[[], bool], clock: Clock) -> 
         before, chosen, measure = incumbent.least, incumbent.chosen, _Measure(incumbent, incumbent.chosen)
         some = _near(options, chosen, _SUMS)
         dealt = [_quarter(measure, chosen, slots, some) for slots in _dealt(some, _SUMS, chance)]
-        middle = [np.mean(each.points, axis=0) for each in dealt]
+        middle = [np.mean(entry.points, axis=0) for entry in dealt]
         about = chance.random() * _MOVED * (middle[0] + middle[1] + 0.5 * (measure.wanted - sum(middle)))
-        which = nearest_sums([each.points for each in dealt], about, measure.wanted)
+        which = nearest_sums([entry.points for entry in dealt], about, measure.wanted)
         left -= 1
         if which.size:
             sets = np.tile(chosen, (which.shape[1], 1))
             for quarter, place in zip(dealt, which, strict=True):
-                digits = np.unravel_index(place, [each.size for each in quarter.some])
-                for slot, each, digit in zip(quarter.slots, quarter.some, digits, strict=True):
-                    sets[:, slot] = each[digit]
+                digits = np.unravel_index(place, [entry.size for entry in quarter.some])
+                for slot, entry, digit in zip(quarter.slots, quarter.some, digits, strict=True):
+                    sets[:, slot] = entry[digit]
             incumbent.offer(sets)
         if incumbent.least < before:
             left = _PATIENCE
@@ -83,7 +83,7 @@ def _dealt(some: list[np.ndarray], most: int, chance: np.random.Generator) -> li
     """Four lists of slots with a choice, each of at most so many sums."""
     dealt: list[list[int]] = [[], [], [], []]
     size = np.ones(4)
-    for slot in chance.permutation([k for k, each in enumerate(some) if each.size > 1]).tolist():
+    for slot in chance.permutation([k for k, options in enumerate(some) if options.size > 1]).tolist():
         smallest = int(np.argmin(size))
         if size[smallest] * some[slot].size <= most:
             dealt[smallest].append(slot)
@@ -94,9 +94,9 @@ def _dealt(some: list[np.ndarray], most: int, chance: np.random.Generator) -> li
 def _near(options: Options, chosen: np.ndarray, most: int) -> list[np.ndarray]:
     """Of every slot what is there and what is nearest to it, so few that quarters of all slots have so many sums."""
     useful = int(np.sum(np.sum(options.exists, axis=-1) > 1))
-    each = max(int(most ** (4.0 / useful)), _FEWEST_OPTIONS)
+    count = max(int(most ** (4.0 / useful)), _FEWEST_OPTIONS)
     off = np.abs(options.unbalance - options.of(options.unbalance, chosen)[:, None])
-    order = np.argsort(np.where(options.exists, off, np.inf), axis=-1, kind="stable")[:, :each]
+    order = np.argsort(np.where(options.exists, off, np.inf), axis=-1, kind="stable")[:, :count]
     return [some[exists[some]] for some, exists in zip(order, options.exists, strict=True)]
 
 

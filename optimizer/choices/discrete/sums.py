@@ -43,8 +43,8 @@ class Half(NamedTuple):
     @property
     def largest(self) -> Real:
         """The largest of every coordinate (s,), at most."""
-        found: Real = sum(np.max(np.abs(sums.z), axis=0, initial=0.0) for sums in self)
-        return found
+        extent: Real = sum(np.max(np.abs(sums.z), axis=0, initial=0.0) for sums in self)
+        return extent
 
     def at(self, place: np.ndarray) -> Complex:
         """Sums (M, s) by their places (M,)."""
@@ -101,7 +101,7 @@ def sums_of(
             (sums.code[:, None] * some.size + np.arange(some.size)).ravel(),
         )
         within: np.ndarray = _counted(options, longer) & (longer.mass <= most_kg)
-        sums = _merged(Sums(*(each[within] for each in longer)))
+        sums = _merged(Sums(*(column[within] for column in longer)))
         pace.took(max(count, 1))
     return None if sums.code.size > most else sums
 
@@ -133,6 +133,6 @@ def _merged(sums: Sums) -> Sums:
     order = np.lexsort((sums.square[alike], mass, *keys.T))
     keys = keys[order]
     again = np.concatenate([np.zeros(1, bool), np.all(keys[1:] == keys[:-1], axis=-1)])
-    kept: np.ndarray = np.ones(number.size, bool)
-    kept[alike[order[again]]] = False
-    return Sums(*(each[kept] for each in sums))
+    mask: np.ndarray = np.ones(number.size, bool)
+    mask[alike[order[again]]] = False
+    return Sums(*(column[mask] for column in sums))

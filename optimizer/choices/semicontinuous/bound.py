@@ -33,25 +33,25 @@ def proven(statement: Statement, places: Places, multipliers: Multipliers) -> No
         return 2.0 * np.max(limits.radius * (np.abs(slope) + rounding), axis=-1)
 
     price, best = price_of_budget(least, budget, constant.size, high)
-    each = price[:, None] / limits.radius - rounding
-    value, _ = places.lowest(slope, each)
+    rate = price[:, None] / limits.radius - rounding
+    value, _ = places.lowest(slope, rate)
     total = np.sum(value, axis=-1)
     size = np.abs(constant) + np.sum(np.abs(slope) * places.most, axis=-1) + price * charged
     lowest = constant - _EPS * (64 + 8 * limits.radius.size) * size
     bound = lowest + best
     value = places.together(value)
     apart = (lowest + total - price * charged)[:, None] - value
-    forced = np.stack([apart, apart + places.together(places.when_fitted(slope, each))], axis=-1)
+    forced = np.stack([apart, apart + places.together(places.when_fitted(slope, rate))], axis=-1)
     nothing = ~np.isfinite(bound)
     return NodeBounds(np.where(nothing, -np.inf, bound), np.where(nothing[:, None, None], -np.inf, forced), price)
 
 
 def uphill(statement: Statement, places: Places, multipliers: Multipliers, price: Real, target: float) -> Multipliers:
     """Multipliers of the terms that prove more of what is left, as far as ``target``."""
-    limits, each = statement.limits, price[:, None] / statement.limits.radius
+    limits, rate = statement.limits, price[:, None] / statement.limits.radius
 
     def lowest(slope: Complex) -> tuple[Real, Complex]:
-        of_webs, u = places.lowest(places.slopes(slope), each)
+        of_webs, u = places.lowest(places.slopes(slope), rate)
         return np.sum(of_webs, axis=-1), u
 
     charge = price * limits.max_total_mass if np.isfinite(limits.max_total_mass) else np.zeros_like(price)

@@ -45,13 +45,13 @@ class BestPoint:
         """Take the best of points (M, K) kg m, or stay; their objectives (M,), inf of what breaks a limit."""
         u = u if self.places.alike is None else self.places.alike.nearest(u)
         statement, size = self.statement, np.abs(u)
-        kept = np.all(statement.ceilings.excess(u) <= statement.ceilings.tolerance, axis=-1)
-        kept &= statement.mass(u) <= statement.limits.max_total_mass * (1.0 + _ROUNDING)
+        mask = np.all(statement.ceilings.excess(u) <= statement.ceilings.tolerance, axis=-1)
+        mask &= statement.mass(u) <= statement.limits.max_total_mass * (1.0 + _ROUNDING)
         places = self.places
         within = (size >= places.least * (1.0 - _ROUNDING)) & (size <= places.most * (1.0 + _ROUNDING))
         within &= np.abs(wrapped(np.angle(u) - places.centre)) <= places.half + _ROUNDING
-        kept &= np.all((size == 0) | (within & ~places.out), axis=-1)
-        value = np.where(kept, statement.objective(u), np.inf)
+        mask &= np.all((size == 0) | (within & ~places.out), axis=-1)
+        value = np.where(mask, statement.objective(u), np.inf)
         near = np.flatnonzero(value <= min(float(np.min(value, initial=np.inf)), self.least) + self.resolution)
         near = near[np.isfinite(value[near])]
         if near.size:
@@ -83,16 +83,16 @@ def improved(incumbent: BestPoint, u: Complex, fitted: np.ndarray, clock: Clock)
 
 def _tangent(incumbent: BestPoint, u: Complex, fitted: np.ndarray, clock: Clock) -> Complex:
     """The best beyond the tangents at the directions of points (M, K); of the first ones alone where the time ends."""
-    found: list[Complex] = []
+    points: list[Complex] = []
     for first in range(0, len(u), _AT_ONCE):
-        if found and clock.spent():
+        if points and clock.spent():
             break
         some = slice(first, first + _AT_ONCE)
         base, room, program = _beyond(incumbent, u[some], fitted[some])
         share, gap = np.full(len(base), 1e-9), np.zeros(len(base))
         # what is a speck is nothing
-        found.append(base + np.where(room, incumbent.solved(program, share, gap, False).unbalance, 0.0))
-    return np.concatenate(found)
+        points.append(base + np.where(room, incumbent.solved(program, share, gap, False).unbalance, 0.0))
+    return np.concatenate(points)
 
 
 def lightened(incumbent: BestPoint, u: Complex, share: float, clock: Clock) -> Complex:
@@ -100,19 +100,19 @@ def lightened(incumbent: BestPoint, u: Complex, share: float, clock: Clock) -> C
 
     What is beyond the least is no heavier than the least and it together, and as heavy where it is along the least.
     """
-    statement, each = incumbent.statement, np.array([share / _LIGHTER])
+    statement, step = incumbent.statement, np.array([share / _LIGHTER])
     if share <= 0:
         return u
     for _ in range(_LIGHTER):
         base, room, program = _beyond(incumbent, u[None], np.abs(u[None]) > 0)
-        found = base + np.where(room, incumbent.solved(program, each, np.zeros(1), True).unbalance, 0.0)
+        trial = base + np.where(room, incumbent.solved(program, step, np.zeros(1), True).unbalance, 0.0)
         # offered alone, as it is no better
         alone = BestPoint(statement, incumbent.places, 0.0)
-        alone.offer(found)
-        before, after = float(statement.mass(u)), float(statement.mass(found[0]))
+        alone.offer(trial)
+        before, after = float(statement.mass(u)), float(statement.mass(trial[0]))
         if alone.least > incumbent.least + share or after >= before:
             break
-        u = found[0]
+        u = trial[0]
         if before - after <= _HARDLY * before or clock.spent():
             break
     return u

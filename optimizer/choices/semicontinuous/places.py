@@ -40,22 +40,23 @@ class Places:
     def beside(self, *others: "Places") -> "Places":
         """All nodes in one."""
         per_node: dict[str, Any] = {
-            name: np.concatenate([getattr(self, name), *(getattr(each, name) for each in others)]) for name in _OF_NODES
+            name: np.concatenate([getattr(self, name), *(getattr(places, name) for places in others)])
+            for name in _OF_NODES
         }
         return replace(self, **per_node)
 
     def without(self, node: int, web: int) -> "Places":
         """A node alone (1, K), nothing on a web."""
-        one = self.chosen([node])
-        one.out[0, self.beside_web(web)] = True
-        return one
+        places = self.chosen([node])
+        places.out[0, self.beside_web(web)] = True
+        return places
 
     def within(self, node: int, web: int, centre: float, half: float) -> "Places":
         """A node alone (1, K), something on a web, in a piece of its sector."""
-        one, webs = self.chosen([node]), self.beside_web(web)
-        one.fitted[0, webs], one.half[0, webs] = True, half
-        one.centre[0, webs] = centre if self.alike is None else self.alike.angles(web, centre)[webs]
-        return one
+        places, webs = self.chosen([node]), self.beside_web(web)
+        places.fitted[0, webs], places.half[0, webs] = True, half
+        places.centre[0, webs] = centre if self.alike is None else self.alike.angles(web, centre)[webs]
+        return places
 
     def beside_web(self, web: int) -> np.ndarray:
         """The webs that are alike with one, itself among them."""

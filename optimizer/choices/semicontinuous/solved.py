@@ -38,16 +38,16 @@ def solved(program: Statement, alike: Alike | None, share: Real, gap: Real, leas
     nowhere = np.zeros(gap.shape, bool)
     whole = program if alike is None else united(program, alike) if alike.plain else None
     if whole is not None and suits_kernel(whole):
-        found = both_stages(whole, share, gap, least_mass)
-        u = found.unbalance if least_mass else found.smallest
-        return Relaxations(np.nan_to_num(u if alike is None else apart(u, alike)), found.multipliers, nowhere)
+        result = both_stages(whole, share, gap, least_mass)
+        u = result.unbalance if least_mass else result.smallest
+        return Relaxations(np.nan_to_num(u if alike is None else apart(u, alike)), result.multipliers, nowhere)
     points, multipliers = np.zeros(program.limits.radius.shape, complex), nothing_proven(program)
     for n in range(len(points)):
-        one = program.chosen(n)
-        one = replace(one, limits=replace(one.limits, alike=alike))
-        near = max(float(share[n]), _CLOSE * float(one.at_rest))
-        asked = Target(near, max(float(gap[n]), near), least_mass)
-        answer = cascade(one, asked, interior_point(one, asked))
+        statement = program.chosen(n)
+        statement = replace(statement, limits=replace(statement.limits, alike=alike))
+        near = max(float(share[n]), _CLOSE * float(statement.at_rest))
+        target = Target(near, max(float(gap[n]), near), least_mass)
+        answer = cascade(statement, target, interior_point(statement, target))
         points[n] = answer.unbalance
         if answer.conflict is None:
             multipliers.put(n, answer.multipliers)

@@ -69,20 +69,22 @@ def _bounded(
     count = inherited.size
     program = relaxed(statement, places)
     close = max(gap, _CLOSE)
-    found = incumbent.solved(program, np.full(count, 1e-3 * close), np.full(count, 0.1 * close), False)
-    near = np.where(places.out, 0.0, found.unbalance)
-    multipliers = replace(found.multipliers, ceiling=found.multipliers.ceiling[:, : statement.ceilings.cap.size])
+    relaxations = incumbent.solved(program, np.full(count, 1e-3 * close), np.full(count, 0.1 * close), False)
+    near = np.where(places.out, 0.0, relaxations.unbalance)
+    multipliers = replace(
+        relaxations.multipliers, ceiling=relaxations.multipliers.ceiling[:, : statement.ceilings.cap.size]
+    )
     _offer(incumbent, places, near, inherited, clock)
     target = incumbent.least - gap
-    known = proven(statement, places, multipliers)
-    raised = proven(statement, places, uphill(statement, places, multipliers, known.price, target))
-    better = raised.bound > known.bound
-    bound = np.maximum(inherited, np.where(better, raised.bound, known.bound))
-    bound = np.where(found.nowhere, np.inf, bound)
+    bounds = proven(statement, places, multipliers)
+    raised = proven(statement, places, uphill(statement, places, multipliers, bounds.price, target))
+    better = raised.bound > bounds.bound
+    bound = np.maximum(inherited, np.where(better, raised.bound, bounds.bound))
+    bound = np.where(relaxations.nowhere, np.inf, bound)
     closed = np.inf
     # what one web rules out by itself
     undecided = places.undecided
-    forced = np.maximum(np.where(better[:, None, None], raised.forced, known.forced), bound[:, None, None])
+    forced = np.maximum(np.where(better[:, None, None], raised.forced, bounds.forced), bound[:, None, None])
     without, fitted = forced[..., 0], forced[..., 1]
     never = places.whole(undecided & (fitted >= target))
     if np.any(never):

@@ -130,19 +130,19 @@ def _first(rung: Rung, left_s: float, enough: str | None) -> None:
     if enough is not None or left_s <= 0:
         rung.skipped = enough or f"the {LADDER_S:.0f} s of the whole ladder were used up"
         return
-    found = _timed(rung, left_s)
-    if isinstance(found, Nothing):
-        rung.skipped = found.reason
+    outcome = _timed(rung, left_s)
+    if isinstance(outcome, Nothing):
+        rung.skipped = outcome.reason
     else:
-        rung.made = found
+        rung.made = outcome
 
 
 def _timed(rung: Rung, left_s: float) -> Made | Nothing:
     # of this thread alone, as limits of time are
     start = time.thread_time()
-    found = rung.run(left_s)
+    outcome = rung.run(left_s)
     rung.times_s.append(time.thread_time() - start)
-    return found
+    return outcome
 
 
 @dataclass(frozen=True)
@@ -175,7 +175,7 @@ class _Ways:
             yield Rung("service", f"relative gap {gap:.0e}", "gap", self._service(gap, longest))
         if machine.choice is not None:
             # groups and plates alone are no search
-            for limit in (*(each for each in LIMITS_S if each < longest), longest):
+            for limit in (*(seconds for seconds in LIMITS_S if seconds < longest), longest):
                 yield Rung("service", f"{limit:g} s", "time", self._service(_CLOSEST, limit))
         if plates(machine) is None:
             yield Rung("rounding", "nearest", "none", lambda _: self._rounded())
@@ -192,11 +192,11 @@ class _Ways:
         return run
 
     def _optimum(self, task: Task) -> Made | Nothing:
-        found = solve(task, self.scene, in_full=False)
-        if isinstance(found, Infeasible):
-            return Nothing(_UNREACHABLE if found.status == "infeasible" else found.reason)
-        mass, proof = found.mass, found.certificate
-        return Made(mass, proof.objective, proof.lower_bound, self._keeps_limits(mass, found.unbalance), found.status)
+        answer = solve(task, self.scene, in_full=False)
+        if isinstance(answer, Infeasible):
+            return Nothing(_UNREACHABLE if answer.status == "infeasible" else answer.reason)
+        mass, proof = answer.mass, answer.certificate
+        return Made(mass, proof.objective, proof.lower_bound, self._keeps_limits(mass, answer.unbalance), answer.status)
 
     def _rounded(self) -> Made | Nothing:
         """The optimum of any masses, of a group the mean, each on what is nearest of its web."""
@@ -215,10 +215,10 @@ class _Ways:
 
     def judged(self, rungs: Sequence[Rung]) -> Ladder:
         """What is known of all rows together, and each against it."""
-        found = [rung.made for rung in rungs if rung.made is not None]
+        results = [rung.made for rung in rungs if rung.made is not None]
         rest = float(self.program.at_rest) * self.scene.omega_squared
-        objective = min((each.objective for each in found if each.feasible), default=np.nan)
-        bound = max((each.bound for each in found if each.bound is not None), default=-np.inf)
+        objective = min((entry.objective for entry in results if entry.feasible), default=np.nan)
+        bound = max((entry.bound for entry in results if entry.bound is not None), default=-np.inf)
         if not bound <= objective + EQUAL * rest:
             _LOG.error("a lower bound is above the value of an answer: %.17g above %.17g", bound, objective)
             return Ladder(None, (), False)
@@ -237,7 +237,7 @@ class _Ways:
             for rung, figure in zip(rungs, figures, strict=True)
         ]
         fastest = frontier(candidates, reference.resolution)
-        rows = tuple(_row(*each) for each in zip(rungs, figures, fastest, strict=True))
+        rows = tuple(_row(*entry) for entry in zip(rungs, figures, fastest, strict=True))
         return Ladder(reference, rows, False)
 
 

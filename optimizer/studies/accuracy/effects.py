@@ -74,7 +74,9 @@ def effects_ladder(machine: Machine, layout: Layout, repeats: int) -> tuple[Effe
     has_gas = complete and not any(rule.broken for rule in rules)
     turns = cycle_turns(machine) if has_gas else 1
     torque = _torque if has_gas else _inertia_torque
-    exact, cut_off = (partial(torque, machine, layout, each) for each in (Fidelity(), Fidelity(kinematics="order_2")))
+    exact, cut_off = (
+        partial(torque, machine, layout, fidelity) for fidelity in (Fidelity(), Fidelity(kinematics="order_2"))
+    )
     breaks = _breaks(machine, layout, has_gas)
     ways = [
         TorqueMethod("panels", "exact kinematics", lambda: _by_panels(exact, breaks, turns)),

@@ -158,10 +158,10 @@ def frontier(points: Sequence[tuple[float, float] | None], resolution: float) ->
     points : None is no candidate.
     resolution : errors below it are the same.
     """
-    known = [None if point is None else (point[0], max(point[1], resolution)) for point in points]
-    candidates = [one for one in known if one is not None]
+    pairs = [None if point is None else (point[0], max(point[1], resolution)) for point in points]
+    candidates = [pair for pair in pairs if pair is not None]
 
     def beaten(point: tuple[float, float]) -> bool:
         return any(other != point and other[0] <= point[0] and other[1] <= point[1] for other in candidates)
 
-    return [one is not None and not beaten(one) for one in known]
+    return [pair is not None and not beaten(pair) for pair in pairs]

@@ -142,10 +142,10 @@ def _proven(statement: Statement, best: ConeSolution, bounds: list[float], objec
 def _judged(
     task: LadderProgram, trials: list[Trial], best: ConeSolution, rest: float, square: float
 ) -> tuple[Reference | None, tuple[AccuracyRow, ...]]:
-    kept = [one for trial in trials for one in trial.judged if one.excess <= CEILING_TOLERANCE]
-    objective = min([best.objective, *(one.objective for one in kept)])
-    bounds = [best.lower_bound, *(one.bound for trial in trials for one in trial.judged)]
-    excess = max([best.excess, *(one.excess for one in kept)])
+    results = [result for trial in trials for result in trial.judged if result.excess <= CEILING_TOLERANCE]
+    objective = min([best.objective, *(result.objective for result in results)])
+    bounds = [best.lower_bound, *(result.bound for trial in trials for result in trial.judged)]
+    excess = max([best.excess, *(result.excess for result in results)])
     bound = _proven(task.statement, best, bounds, objective, excess)
     if np.isnan(bound):
         return None, ()
@@ -162,7 +162,7 @@ def _judged(
         for trial, figure in zip(trials, figures, strict=True)
     ]
     fastest = frontier(points, reference.resolution)
-    return reference, tuple(_row(*each) for each in zip(trials, figures, fastest, strict=True))
+    return reference, tuple(_row(*arguments) for arguments in zip(trials, figures, fastest, strict=True))
 
 
 class _MethodFigures(NamedTuple):
@@ -182,15 +182,15 @@ _NOTHING: Mapping[str, None] = dict.fromkeys(_MethodFigures._fields)
 def _figures(trial: Trial, bound: float, rest: float, has_ceilings: bool) -> _MethodFigures | None:
     if trial.skipped is not None:
         return None
-    gaps = [(one.objective - one.bound) / rest for one in trial.judged]
-    claims = [(one.claimed - one.objective) / rest for one in trial.judged if one.claimed is not None]
+    gaps = [(result.objective - result.bound) / rest for result in trial.judged]
+    claims = [(result.claimed - result.objective) / rest for result in trial.judged if result.claimed is not None]
     return _MethodFigures(
         median_ms(trial.times_s, trial.method.programs),
         (trial.worst.objective - bound) / rest,
         (trial.judged[0].objective - bound) / rest,
         max(gaps) if np.all(np.isfinite(gaps)) else None,
         max(claims, key=abs, default=None),
-        max(one.excess for one in trial.judged) if has_ceilings else None,
+        max(result.excess for result in trial.judged) if has_ceilings else None,
     )
 
 

@@ -123,8 +123,8 @@ def _interior_point(relative_gap: float, precision: Precision | None) -> Run:
         if precision is not None and webs > precision.most_webs:
             return f"too large: {webs} webs, at most {precision.most_webs} are tried"
         alone = task.statement.alone()
-        asked = relative_gap * _rest(alone)
-        return _first(both_stages(alone, asked, asked, False, precision))
+        gap = relative_gap * _rest(alone)
+        return _first(both_stages(alone, gap, gap, False, precision))
 
     return run
 
@@ -136,8 +136,8 @@ def _batch(relative_gap: float) -> Run:
         nonlocal batch
         # put together in the first run; the rounds time what solves it
         batch = batch or _lighter(task.statement, np.linspace(1.0, 0.9, BATCH))
-        asked = relative_gap * _rest(batch)
-        return _first(both_stages(batch, asked, asked, False))
+        gap = relative_gap * _rest(batch)
+        return _first(both_stages(batch, gap, gap, False))
 
     return run
 

@@ -73,7 +73,7 @@ def peaks_ladder(machine: Machine, layout: Layout, repeats: int) -> tuple[PeakRo
         for way in _ways(quantity, whole, curves, friction if quantity == "peak_torque" else 0j)
     ]
     result, first, times = timed([way.peak for way in ways], repeats)
-    sharpest = {way.quantity: one.lower for way, one in zip(ways, result, strict=True) if way.setting == _SHARPEST}
+    sharpest = {way.quantity: peak.lower for way, peak in zip(ways, result, strict=True) if way.setting == _SHARPEST}
     return tuple(
         PeakRow(
             quantity=way.quantity,
@@ -136,10 +136,10 @@ def _ways(quantity: Quantity, whole: WholeTurn, curves: Curves, offset: complex)
 def _bracketed(fresh: Callable[[], TurnCurves], offset: complex, tolerance: float) -> Peak:
     pieces = fresh().pieces
     count = len(pieces.half)
-    one_peak = np.zeros(count, dtype=np.intp)
+    group = np.zeros(count, dtype=np.intp)
     # of the torque, a scalar, the offset is real
     shift = np.full(count, offset.real)
-    bracket = pieces.peaks(shift, tolerance, None, one_peak)
+    bracket = pieces.peaks(shift, tolerance, None, group)
     return Peak(float(bracket.lower[0]), float(bracket.upper[0]))
 
 

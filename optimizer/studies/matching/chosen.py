@@ -74,11 +74,11 @@ class Chosen:
         """
         row_mass = self.problem.row_masses(mass)
         program = self._programs(row_mass)
-        found = optima(program, _GAP, False)
-        below = self._minorants(program, found.multipliers, mass)
+        answer = optima(program, _GAP, False)
+        below = self._minorants(program, answer.multipliers, mass)
         if not self.as_made:
-            return Solved(found.objective, found.lower_bound, below, [None] * len(mass))
-        value, bound = np.full(len(mass), np.inf), found.lower_bound.copy()
+            return Solved(answer.objective, answer.lower_bound, below, [None] * len(mass))
+        value, bound = np.full(len(mass), np.inf), answer.lower_bound.copy()
         fitted_there: list[Solution | None] = [None] * len(mass)
         for n in np.argsort(bound, kind="stable").tolist():
             late = time.thread_time() >= self.until and np.isfinite(best)
@@ -125,15 +125,15 @@ class Chosen:
 
     def _minorants(self, program: Statement, multipliers: Multipliers, mass: Real) -> Minorants:
         """The bounds as functions of the vectors of the parts."""
-        usable, known = normalised(program, multipliers)
+        usable, mask = normalised(program, multipliers)
         problem, proven = self.problem, objective_lower_bound(program, multipliers)
         floor = problem.terms < 0
         weight = np.where(floor, usable.row[:, problem.row], 0.0)
         slope = np.where(floor, 0.0, usable.term[:, np.maximum(problem.terms, 0)])
         v = problem.vectors(mass)
         constant = proven - np.sum(np.real(np.conj(slope) * v) + weight * np.abs(v), axis=-1)
-        known &= np.isfinite(constant)
-        return Minorants(constant[known], slope[known], weight[known])
+        mask &= np.isfinite(constant)
+        return Minorants(constant[mask], slope[mask], weight[mask])
 
 
 def with_masses(machine: ReciprocatingMachine, added: Real) -> ReciprocatingMachine:

@@ -67,9 +67,9 @@ class _Search:
     def solve(self, mass: Real) -> None:
         """Solve assignments (N, T), and add what they prove of all."""
         result = self.chosen.at(mass, self.best.value if self._evaluations else np.inf)
-        each = zip(result.value.tolist(), result.lower_bound.tolist(), mass, result.fitted, strict=True)
-        for one in each:
-            self._evaluations[self._key(one[2])] = _Assignment(*one)
+        rows = zip(result.value.tolist(), result.lower_bound.tolist(), mass, result.fitted, strict=True)
+        for row in rows:
+            self._evaluations[self._key(row[2])] = _Assignment(*row)
         self.below = self.below.plus(result.below)
 
     def values(self, mass: Real) -> Real:
@@ -78,8 +78,8 @@ class _Search:
 
     def unknown(self, mass: Real) -> Real:
         """Those of some assignments (N, T) that are not known yet, each once."""
-        new = {self._key(one): one for one in mass}
-        return np.array([one for key, one in new.items() if key not in self._evaluations])
+        new = {self._key(assignment): assignment for assignment in mass}
+        return np.array([assignment for key, assignment in new.items() if key not in self._evaluations])
 
     def _key(self, mass: Real) -> bytes:
         return self.problem.row_masses(mass).tobytes()

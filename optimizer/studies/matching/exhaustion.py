@@ -52,11 +52,11 @@ def halves(problem: Problem) -> tuple[Half, Half] | None:
         return None
     sizes, every = [float(len(mass)) for mass in masses], range(len(masses))
     splits = [some for count in range(len(masses)) for some in combinations(every, count)]
-    one = min(splits, key=lambda some: max(np.prod([sizes[c] for c in some]), _rest(sizes, some)))
-    other = tuple(c for c in every if c not in one)
-    if max(np.prod([sizes[c] for c in one]), np.prod([sizes[c] for c in other])) > _SUMS:
+    half = min(splits, key=lambda some: max(np.prod([sizes[c] for c in some]), _rest(sizes, some)))
+    other = tuple(c for c in every if c not in half)
+    if max(np.prod([sizes[c] for c in half]), np.prod([sizes[c] for c in other])) > _SUMS:
         return None
-    return _half(problem, one, masses), _half(problem, other, masses)
+    return _half(problem, half, masses), _half(problem, other, masses)
 
 
 def _rest(sizes: list[float], some: tuple[int, ...]) -> float:
@@ -84,26 +84,26 @@ def candidates(problem: Problem, minorants: Minorants, value: float, cut: Plane)
     parts = halves(problem)
     if parts is None:
         return None
-    one, other = parts
+    half, other = parts
     base = problem.start + other.sums
-    pairs = _pairs(problem, minorants, value, cut, one.sums, base)
+    pairs = _pairs(problem, minorants, value, cut, half.sums, base)
     if pairs is None:
         return None
     first, second = pairs
-    kept, values = [], []
+    places, values = [], []
     for at in range(0, first.size, _CHUNK):
         part = slice(at, at + _CHUNK)
-        result = minorants.at(one.sums[first[part]] + base[second[part]])
+        result = minorants.at(half.sums[first[part]] + base[second[part]])
         below = np.flatnonzero(result < value)
-        kept.append(below + at)
+        places.append(below + at)
         values.append(result[below])
-    chosen, worth = np.concatenate([*kept, np.zeros(0, int)]), np.concatenate([*values, np.zeros(0)])
+    chosen, worth = np.concatenate([*places, np.zeros(0, int)]), np.concatenate([*values, np.zeros(0)])
     # of one that is exactly the best known many may be equal: those are no better, and not here
     order = np.argsort(worth, kind="stable")[:_CHUNK]
     if chosen.size > _CHUNK:
         return None
     masses = [
-        _assignment(problem, one.mass(int(first[n])) | other.mass(int(second[n]))) for n in chosen[order].tolist()
+        _assignment(problem, half.mass(int(first[n])) | other.mass(int(second[n]))) for n in chosen[order].tolist()
     ]
     return np.array(masses).reshape(-1, problem.listed.size), worth[order]
 

@@ -39,10 +39,10 @@ def near_to_nothing(problem: Problem, mass: Real, enough: float, spent: Callable
         groups = _dealt(problem, chance)
         if len(groups) < 4:
             break
-        every = one, two, three, four = [_orders(rows, mass, places) for places in groups]
+        every = first, second, third, fourth = [_orders(rows, mass, places) for places in groups]
         wanted = -axes @ _real(problem, problem.vectors(mass))
-        middle = np.mean(one.points, axis=0) + np.mean(two.points, axis=0)
-        rest = wanted - np.mean(three.points, axis=0) - np.mean(four.points, axis=0)
+        middle = np.mean(first.points, axis=0) + np.mean(second.points, axis=0)
+        rest = wanted - np.mean(third.points, axis=0) - np.mean(fourth.points, axis=0)
         # any share will do that is as near to the middle of both pairs
         about = chance.random() * 0.5 * (middle + rest)
         which = nearest_sums([group.points for group in every], about, wanted)

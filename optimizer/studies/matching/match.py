@@ -155,10 +155,10 @@ def _evaluated(request: MatchRequest, machine: ReciprocatingMachine, chosen: Sol
         close = {"relative_gap": min(request.accuracy.relative_gap, 1e-6)}
         answer = optimize(OptimizeRequest(machine=machine, objective=goal, accuracy=Accuracy(**close)))
     else:
-        given = tuple(GivenCounterweight(**counterweight) for counterweight in _counterweights(request, chosen))
-        answer = analyze(AnalyzeRequest(machine=machine, counterweights=given))
+        weights = tuple(GivenCounterweight(**counterweight) for counterweight in _counterweights(request, chosen))
+        answer = analyze(AnalyzeRequest(machine=machine, counterweights=weights))
     fitted = answer.counterweights
-    mass, angle = np.array([one.mass_kg for one in fitted]), np.array([one.angle_deg for one in fitted])
+    mass, angle = np.array([weight.mass_kg for weight in fitted]), np.array([weight.angle_deg for weight in fitted])
     cut = fitted_masses(machine, mass)
     plan = layout(cut)
     first = responses(plan, rotating(plan).plus(reciprocating(plan, 1)), goal)

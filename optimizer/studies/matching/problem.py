@@ -128,17 +128,17 @@ def stated(request: MatchRequest, machine: Machine, fitted: Real, angle_deg: Rea
     u = unbalance(fitted, angle_deg, plan.webs.radius)
     wanted, across = weights(machine, goal), goal.direction_weights
     base = responses(plan, rotating(plan).plus(reciprocating(plan, 1)), goal)
-    one = responses(plan, reciprocating(_per_kilogram(plan), 1), goal)
-    weighed = [k for k, each in enumerate(base) if wanted[each.name] > 0]
+    unit = responses(plan, reciprocating(_per_kilogram(plan), 1), goal)
+    weighed = [k for k, response in enumerate(base) if wanted[response.name] > 0]
     p, q = 0.5 * (across.x + across.y), 0.5 * (across.x - across.y)
     start, of_row, start_size, size_of_row, terms, row = [], [], [], [], [], []
     for number, k in enumerate(weighed):
         weight = wanted[base[k].name]
-        (f, b), (f_one, b_one) = _pair(base[k], u), _pair(one[k], None)
+        (f, b), (f_unit, b_unit) = _pair(base[k], u), _pair(unit[k], None)
         start.append(weight * _vectors(f, b, p, q))
-        of_row.append(weight * _vectors(f_one, b_one, p, q))
+        of_row.append(weight * _vectors(f_unit, b_unit, p, q))
         start_size.append(weight * _vectors(np.abs(f), np.abs(b), p, abs(q)).real)
-        size_of_row.append(weight * _vectors(np.abs(f_one), np.abs(b_one), p, abs(q)).real)
+        size_of_row.append(weight * _vectors(np.abs(f_unit), np.abs(b_unit), p, abs(q)).real)
         terms += [number, -1] if q == 0 else [2 * number, 2 * number + 1]
         row += [number if goal.combine == "max" else 0] * 2
     owner = np.array(row)

@@ -66,11 +66,11 @@ def exhausted(problem: Problem, cut: Plane, value: float, near: float, spent: Ca
     peaks, size = Peaks(problem.start, effect, problem.peaks.weight), lever.size
     orders = _orders((size + 1) // 2), _orders(size // 2)
     best, bound, result = value, cut.least, None
-    for one, lowest in zip(masses, least.tolist(), strict=True):
+    for mass, lowest in zip(masses, least.tolist(), strict=True):
         bound = max(bound, min(best, lowest))
         if best - bound <= near or spent():
             return Exhausted(result, best, bound, bound >= best)
-        reached, put = best_below(window, peaks, one, lowest, orders, best)
+        reached, put = best_below(window, peaks, mass, lowest, orders, best)
         if reached < best:
             best, result = float(reached), np.empty_like(put)
             result[place] = put

@@ -79,15 +79,15 @@ def _doubly_swapped(problem: Problem, minorants: Minorants, mass: Real, pairs: n
     change: Complex = (place[:, i] - place[:, k]).T
     touches = np.zeros((i.size, mass.size), bool)
     touches[np.arange(i.size), i] = touches[np.arange(i.size), k] = True
-    one, other = np.nonzero(np.triu(touches.astype(int) @ touches.T.astype(int) == 0, 1))
+    swap, other = np.nonzero(np.triu(touches.astype(int) @ touches.T.astype(int) == 0, 1))
     mass = mass.copy()
     for _ in range(_ROUNDS):
         v = problem.vectors(mass)
         shift = (mass[k] - mass[i])[:, None] * change
-        values = minorants.at(v + shift[one] + shift[other]) if one.size else np.array([np.inf])
+        values = minorants.at(v + shift[swap] + shift[other]) if swap.size else np.array([np.inf])
         best = int(np.argmin(values))
         if not values[best] < minorants.at(v):
             break
-        for pair in (one[best], other[best]):
+        for pair in (swap[best], other[best]):
             mass[i[pair]], mass[k[pair]] = mass[k[pair]], mass[i[pair]]
     return mass

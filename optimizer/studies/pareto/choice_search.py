@@ -94,7 +94,7 @@ class ChoiceSearch:
         size : (D,) what gaps are relative to.
         """
         counts = ~self.is_mass
-        weights = {name: 1.0 / float(each) for name, each in zip(self.names, unit, strict=True) if name != "mass"}
+        weights = {name: 1.0 / float(scale) for name, scale in zip(self.names, unit, strict=True) if name != "mass"}
         # gaps are relative to the largest share without counterweights, and are asked for of every response
         yardstick = float(np.max((self.at_rest / unit)[counts])) or 1.0
         gap = self.gap * float(np.min((size / unit)[counts])) / yardstick
@@ -139,7 +139,7 @@ class ChoiceSearch:
         objective = self.task.objective
         if "objective" in weights:
             own = own_weights(self.task.machine, objective)
-            more = {name: float(each) * weights["objective"] for name, each in own.items()}
+            more = {name: float(weight) * weights["objective"] for name, weight in own.items()}
             return weighing(objective, more)
         inside = {field: weights.get(name, 0.0) for name, field in _INSIDE.items()}
         return weighing(objective, weights, combine="max", **inside, **ceilings)

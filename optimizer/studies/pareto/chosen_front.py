@@ -84,7 +84,11 @@ class _Boxes(ChoiceSearch):
         size = sizes(self.at_rest, np.maximum(self.gross(force), self.gross(moment)), self.square)
         bounds = force.corner[0], moment.corner[1]
         optima, reason = self._between(self._corner(force, 0, size), self._corner(moment, 1, size), size, count)
-        first, last, points = optima[0].values, optima[-1].values, tuple(self._point(each, size) for each in optima)
+        first, last, points = (
+            optima[0].values,
+            optima[-1].values,
+            tuple(self._point(optimum, size) for optimum in optima),
+        )
         return ParetoFront(
             max_total_mass_kg=machine.max_total_mass_kg,
             status="optimal" if all(point.status == "optimal" for point in points) else "inaccurate",
@@ -129,11 +133,11 @@ class _Boxes(ChoiceSearch):
             return optima, "reached_together"
         undecided = False
         for _ in range(_SEARCHES * points):
-            boxes = [each for each in boxes if np.all(each.size > self.gap * size)]
+            boxes = [candidate for candidate in boxes if np.all(candidate.size > self.gap * size)]
             left_s = self.left_s
             if not boxes or len(optima) >= points or left_s <= 0.0:
                 break
-            box = boxes.pop(int(np.argmax([np.prod(each.size / size) for each in boxes])))
+            box = boxes.pop(int(np.argmax([np.prod(candidate.size / size) for candidate in boxes])))
             inside = self.first_along(box.edges, size, left_s / (points - len(optima)))
             if isinstance(inside, ChosenPoint) and np.all(inside.values < box.edges * (1.0 - _INSIDE)):
                 optima = _undominated([*optima, inside])

@@ -111,8 +111,8 @@ def _smallest(task: Task, scene: Prepared) -> BestSet:
         return none_of(task.machine, best.status, best.reason, best.nodes, best.method)
     proof, fitted = best.certificate, best.shown.counterweights
     return BestSet(
-        np.array([each.mass_kg for each in fitted]),
-        np.array([each.angle_deg for each in fitted]),
+        np.array([weight.mass_kg for weight in fitted]),
+        np.array([weight.angle_deg for weight in fitted]),
         proof.objective,
         np.nan if proof.lower_bound is None else proof.lower_bound,
         np.nan if proof.relative_gap is None else proof.relative_gap,

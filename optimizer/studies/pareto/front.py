@@ -98,11 +98,11 @@ def front(trade: Trade, count: int, relative_gap: float, least_mass: bool) -> Fr
     if isinstance(smallest, ConeSolution):
         return smallest
     trade, alone = smallest
-    ideal = np.array([_bound(each, result) for each, result in zip(trade.alone, alone, strict=True)])
+    ideal = np.array([_bound(program, result) for program, result in zip(trade.alone, alone, strict=True)])
     proofs = _of_ends(trade, alone)
-    size = _size(trade, np.array([one.unbalance for one in alone]))
+    size = _size(trade, np.array([solution.unbalance for solution in alone]))
     try:
-        if not all(one.keeps_ceilings for one in alone):
+        if not all(solution.keeps_ceilings for solution in alone):
             raise _Undecided
         points = _between(trade, ideal, proofs, size, count, min(OPTIMUM_SHARE, relative_gap), least_mass)
     except _Undecided:
@@ -125,7 +125,7 @@ def _smallest(trade: Trade) -> tuple[Trade, list[ConeSolution]] | ConeSolution:
         result = _alone(within)
         if isinstance(result, ConeSolution):
             return result
-        u = np.array([one.unbalance for one in result[1]])
+        u = np.array([solution.unbalance for solution in result[1]])
         peaks = np.max([*trade.peaks(u), _size(trade, u)], axis=0)
         if np.all(peaks <= within.cap):
             break
@@ -136,10 +136,10 @@ def _smallest(trade: Trade) -> tuple[Trade, list[ConeSolution]] | ConeSolution:
 def _alone(trade: Trade) -> tuple[Trade, list[ConeSolution]] | ConeSolution:
     results: list[ConeSolution] = []
     for program in trade.alone:
-        one = optima(program.alone(), _SHARPNESS, True).single()
-        if one.conflict is not None:
-            return one
-        results.append(one)
+        solution = optima(program.alone(), _SHARPNESS, True).single()
+        if solution.conflict is not None:
+            return solution
+        results.append(solution)
     return trade, results
 
 

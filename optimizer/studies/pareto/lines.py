@@ -57,10 +57,10 @@ class Lines:
                 ends.append(traded.values(result.point.unbalance))
                 gross = np.maximum(gross, traded.gross(result.point.unbalance))
                 smallest.append((result.goals[0].value, result.goals[0].proof.bound))
-            known = sizes(traded.at_rest, gross)
-            if np.all(known == size):
+            scale = sizes(traded.at_rest, gross)
+            if np.all(scale == size):
                 break
-            size = known
+            size = scale
         value, bound = np.array(smallest).T
         return TradeEnds(np.array(ends), value, bound, size, traded.at_rest, self.square, self.there)
 
@@ -109,7 +109,9 @@ class Lines:
             total_mass_kg=mass + self.fixed,
             counterweights=counterweights(self.task.machine, *on_crank),
             certificate=TradedCertificate(
-                corner=tuple(finite_or_null(each) for each in judged.lower_bound * self.square + self.there),
+                corner=tuple(
+                    finite_or_null(coordinate) for coordinate in judged.lower_bound * self.square + self.there
+                ),
                 relative_gap=finite_or_null(judged.relative_gap),
                 mass_lower_bound_kg=finite_or_null(judged.mass_lower_bound + self.fixed) if least else None,
                 mass_relative_gap=finite_or_null(judged.mass_gap) if least else None,

@@ -97,7 +97,7 @@ class Measures:
 
     def along(self, anchor: Real, unit: Real) -> Problem:
         """min max_i (R_i - anchor_i)/unit_i: the first attainable point on the line anchor + t unit, (D,) both."""
-        rows = [_along(*each) for each in zip(self.groups, anchor.tolist(), unit.tolist(), strict=True)]
+        rows = [_along(*arguments) for arguments in zip(self.groups, anchor.tolist(), unit.tolist(), strict=True)]
         return replace(self.program, goals=(Goal("trade", (_largest(rows),), 1.0),))
 
 
@@ -113,10 +113,10 @@ def measures(task: Task, names: tuple[Traded, ...], scene: Prepared) -> Measures
         name: Group(
             tuple(row for row in every if row.name == name),
             tuple(
-                each
+                member
                 for group in program.groups
-                for each in group.weighed
-                if _traded(program.quantities[each.quantity].name) == name
+                for member in group.weighed
+                if _traded(program.quantities[member.quantity].name) == name
             ),
         )
         for name in names
@@ -139,8 +139,8 @@ def sizes(at_rest: Real, gross: Real, unit: Reals = 1.0) -> Real:
     gross : (D,) the most that counterweights do one by one, summed.
     unit : (D,) what gaps are relative to where they do nothing either.
     """
-    known = np.where(at_rest > OPTIMUM_SHARE * gross, at_rest, gross)
-    return np.where(known > SMALLEST, known, unit)
+    size = np.where(at_rest > OPTIMUM_SHARE * gross, at_rest, gross)
+    return np.where(size > SMALLEST, size, unit)
 
 
 def unit_of(name: Traded, objective: Objective) -> str:
@@ -171,5 +171,6 @@ def _scaled(row: Row, anchor: float, unit: float) -> Row:
 def _largest(groups: Sequence[Group]) -> Group:
     """The largest of several groups."""
     return Group(
-        tuple(row for group in groups for row in group.rows), tuple(each for group in groups for each in group.weighed)
+        tuple(row for group in groups for row in group.rows),
+        tuple(member for group in groups for member in group.weighed),
     )

@@ -60,15 +60,19 @@ def pareto(request: ParetoRequest) -> ParetoAnswer:
     machines = _machines(request)
     plain = request.responses is None and request.counts is None
     made = [_front(request, machine, scene) for machine in machines if plain]
-    fronts = tuple(one.front for one in made)
-    solved, certified = sum(one.solve_s for one in made), sum(one.certify_s for one in made)
+    fronts = tuple(entry.front for entry in made)
+    solved, certified = sum(entry.solve_s for entry in made), sum(entry.certify_s for entry in made)
     trading = time.perf_counter()
     names, counted = request.responses, request.counts
     trades = () if names is None else tuple(traded_front(request, names, machine, scene) for machine in machines)
     counts = () if counted is None else tuple(count_front(request, counted, machine, scene) for machine in machines)
     end = time.perf_counter()
     solved += end - trading
-    worst = [*(one.status for one in fronts), *(one.status for one in trades), *(count.status for count in counts)]
+    worst = [
+        *(entry.status for entry in fronts),
+        *(entry.status for entry in trades),
+        *(count.status for count in counts),
+    ]
     before = scene.first_order()
     return ParetoAnswer(
         status=max(worst, key=_WORST.index),

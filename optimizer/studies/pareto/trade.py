@@ -44,7 +44,7 @@ class Trade:
 
     def rounding(self, u: Complex) -> Real:
         """What each peak may change by where masses and angles are rounded (..., 2)."""
-        return np.stack([each.rounding(u) for each in self.alone], axis=-1)
+        return np.stack([program.rounding(u) for program in self.alone], axis=-1)
 
     @property
     def at_rest(self) -> Real:
@@ -70,7 +70,7 @@ class Trade:
     @property
     def far(self) -> bool:
         """Whether a web has no limit, or one beyond any need, for a peak alone or for both."""
-        return any(np.any(far_limits(each)) for each in (*self.alone, self.both))
+        return any(np.any(far_limits(program)) for program in (*self.alone, self.both))
 
     def along(self, anchor: Real, unit: Real) -> Statement:
         """min max_i (P_i - anchor_i)/unit_i: the first attainable point on the line anchor + t unit.
@@ -112,9 +112,11 @@ class Trade:
 def trade(machine: Machine, objective: Objective, responses: Sequence[Response], omega_squared: float) -> Trade:
     """The trade of a machine: direction weights and ceilings count, the weights of force and moment do not."""
     across = objective.direction_weights
-    caps = [(each, np.asarray(allowed / omega_squared)) for each, allowed in limited(responses, objective)]
+    caps = [(quantity, np.asarray(allowed / omega_squared)) for quantity, allowed in limited(responses, objective)]
     pair = (response for response in responses if response.name in PAIR)
-    force, moment = (weighted_peak(each, np.ones(()), np.asarray(across.x), np.asarray(across.y)) for each in pair)
+    force, moment = (
+        weighted_peak(quantity, np.ones(()), np.asarray(across.x), np.asarray(across.y)) for quantity in pair
+    )
     bounds = limits(machine)
     return Trade(
         both=statement(combined([force, moment], "max"), caps, bounds),

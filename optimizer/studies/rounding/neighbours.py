@@ -75,8 +75,8 @@ def sides(machine: Machine, mass_kg: Real, angle_deg: Real, mass_step: float, an
 
 def nearest(every: list[Sides]) -> tuple[Real, Real]:
     """The nearest masses [kg] and angles [deg] of all webs (K,)."""
-    mass = np.array([(*each.masses_kg, 0.0)[0] for each in every])
-    return mass, np.array([(*each.angles_deg, 0.0)[0] for each in every])
+    mass = np.array([(*web.masses_kg, 0.0)[0] for web in every])
+    return mass, np.array([(*web.angles_deg, 0.0)[0] for web in every])
 
 
 def _steps(places: float) -> list[int]:

@@ -111,20 +111,20 @@ class _Judge:
 
 
 def _rounding(request: RoundRequest) -> RoundAnswer:
-    asked = request.request
-    free = optimize(asked)
+    problem = request.request
+    free = optimize(problem)
     if free.certificate is None:
         return _answer(free, None)
-    optimum, judge = _Set.of(free), _Judge.of(asked)
-    near = sides(asked.machine, *optimum, request.mass_step_kg, request.angle_step_deg)
-    answer = optimize(_among(asked, near))
+    optimum, judge = _Set.of(free), _Judge.of(problem)
+    near = sides(problem.machine, *optimum, request.mass_step_kg, request.angle_step_deg)
+    answer = optimize(_among(problem, near))
     if answer.certificate is None:
         return _answer(answer, None)
     plain, certificate = judge.weights(_Set(*nearest(near))), answer.certificate
     better = plain.limits_kept and plain.objective < certificate.objective
     if better and len(judge.program.goals) == 1:
         # the time ended the search before it came to what is nearest
-        only = optimize(_among(asked, [each.nearest for each in near]))
+        only = optimize(_among(problem, [web.nearest for web in near]))
         if only.certificate is not None:
             answer = with_fields(only, _of_search(answer, certificate, only.certificate))
     return _answer(answer, _cost(request, judge, free, answer, plain))
@@ -175,7 +175,7 @@ def _cost(
 ) -> Rounding:
     """What rounding costs."""
     optimum, best = _Set.of(free), _Set.of(answer)
-    least, value = (judge.objective(each) for each in (optimum, best))
+    least, value = (judge.objective(choice) for choice in (optimum, best))
     there = np.where(best.mass > 0.0, best.angle, optimum.angle)
     rise = value - least
     return Rounding(

@@ -77,15 +77,15 @@ class Rows:
             if name not in self._labels:
                 self._own(name)[design] = self._blank[name]
         self._own("status")[design] = "failed"
-        said = f"{type(error).__name__}: {error}"
-        self._own("message")[design] = f"internal fault: {said}"
-        self._faults.setdefault(said, ([], error))[0].append(int(self._columns["index"][design]))
+        text = f"{type(error).__name__}: {error}"
+        self._own("message")[design] = f"internal fault: {text}"
+        self._faults.setdefault(text, ([], error))[0].append(int(self._columns["index"][design]))
 
     def tell_faults(self) -> None:
         """Log what designs broke down for, once for all that say the same."""
-        for said, (designs, error) in self._faults.items():
+        for text, (designs, error) in self._faults.items():
             _LOG.error(
-                "%d design(s) of a sweep broke down, %d first: %s", len(designs), designs[0], said, exc_info=error
+                "%d design(s) of a sweep broke down, %d first: %s", len(designs), designs[0], text, exc_info=error
             )
 
     def _missing(self, name: str) -> NDArray[Any]:
@@ -219,7 +219,7 @@ def _fill_analyzed(table: Rows, group: Group[AnalyzeRequest], designs: Designs) 
 def _over_the_turn(group: Group[OptimizeRequest], designs: Designs) -> dict[int, OptimizeRequest]:
     """Those designs whose objective looks at the whole turn, each by itself."""
     alone = ((design, group.single(design)) for design in (designs.tolist() if group.turns else ()))
-    return {design: one for design, one in alone if one.objective.over_the_turn}
+    return {design: request for design, request in alone if request.objective.over_the_turn}
 
 
 def _fill_optima(table: Rows, group: Group[OptimizeRequest], designs: Designs) -> None:
@@ -240,8 +240,8 @@ def _fill_optima(table: Rows, group: Group[OptimizeRequest], designs: Designs) -
         return
     cut = np.isin(designs, list(turning))
     if np.any(cut):
-        found, unbalance = single_optima([turning[int(design)] for design in designs[cut]], group.multipliers)
-        table.put(designs[cut], found)
+        results, unbalance = single_optima([turning[int(design)] for design in designs[cut]], group.multipliers)
+        table.put(designs[cut], results)
         _fill_outputs(table, group, designs[cut], unbalance)
     if not np.all(cut):
         _fill_first_order(table, group, designs[~cut])
@@ -275,8 +275,8 @@ def _fill_first_order(table: Rows, group: Group[OptimizeRequest], designs: Desig
     keys = shape_keys(group.of(designs), designs.size)
     for key in keys[:1] if (keys == keys[:1]).all() else np.unique(keys):
         alike = _among(designs, keys == key)
-        found, unbalance = optimal(group.of(alike), alike.size, group.multipliers)
-        table.put(alike, found)
+        results, unbalance = optimal(group.of(alike), alike.size, group.multipliers)
+        table.put(alike, results)
         _fill_outputs(table, group, alike, unbalance)
 
 

@@ -55,8 +55,8 @@ def _row(request: OptimizeRequest, best: Solution | Infeasible, multipliers: boo
         field, _, goal = column.name.removeprefix("goal_").partition(".")
         row[column.name] = _or_nan(getattr(by_name.get(goal), field, None))
     fitted = () if shown is None else shown.counterweights
-    masses = {one.web: (one.mass_kg, one.angle_deg) for one in fitted}
-    openings = {one.web: one.shape.half_angle_deg for one in fitted if one.shape is not None}
+    masses = {weight.web: (weight.mass_kg, weight.angle_deg) for weight in fitted}
+    openings = {weight.web: weight.shape.half_angle_deg for weight in fitted if weight.shape is not None}
     for web in request.machine.webs:
         if web.envelope is not None:
             row[f"half_angle_deg.{web.name}"] = openings.get(web.name, np.nan)

@@ -20,9 +20,9 @@ def sweep_table(request: SweepRequest) -> pa.Table:
     MissingInput
         if the machine lacks what a requested output needs.
     """
-    asked = request.model_dump_json().encode()
+    document = request.model_dump_json().encode()
     plan(request)
-    tables = (run_chunk(asked, start, stop) for start, stop in blocks(asked, 0, request.total))
+    tables = (run_chunk(document, start, stop) for start, stop in blocks(document, 0, request.total))
     if request.top is None and request.pareto is None:
         return pa.concat_tables(tables)
     chosen = reducer(request)

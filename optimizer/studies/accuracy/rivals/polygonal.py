@@ -52,7 +52,7 @@ def polygonal(statement: Statement, sides: int, position: float, time_limit_s: f
 
     cost = np.zeros(program.columns)
     cost[value] = 1.0
-    found = linprog(
+    result = linprog(
         cost,
         A_ub=-program.matrix(),
         b_ub=program.constant(),
@@ -60,17 +60,17 @@ def polygonal(statement: Statement, sides: int, position: float, time_limit_s: f
         method="highs",
         options={"time_limit": time_limit_s},
     )
-    if found.status == _TIME_LIMIT:
+    if result.status == _TIME_LIMIT:
         return NoPoint(f"not solved within {time_limit_s:.3g} s")
-    if found.status == _INFEASIBLE:
+    if result.status == _INFEASIBLE:
         return NoPoint("no counterweights keep the ceilings of this program")
-    if found.x is None:
-        return NoPoint(f"the solver ended with: {found.message}")
-    dual = -found.ineqlin.marginals
+    if result.x is None:
+        return NoPoint(f"the solver ended with: {result.message}")
+    dual = -result.ineqlin.marginals
     term = dual[around].reshape(terms, sides) @ normal
     ceiling = dual[caps].reshape(ceilings, sides) @ normal
-    claimed = found.x[value] + float(np.max(statement.floor)) / scaling.objective
-    return point(statement, scaling, found.x, claimed, dual[rows], term, ceiling)
+    claimed = result.x[value] + float(np.max(statement.floor)) / scaling.objective
+    return point(statement, scaling, result.x, claimed, dual[rows], term, ceiling)
 
 
 def _along(normal: Complex, matrix: Real, constant: Real) -> tuple[Real, Real]:
@@ -91,10 +91,10 @@ def _along(normal: Complex, matrix: Real, constant: Real) -> tuple[Real, Real]:
 def _discs(normal: Complex, inner: float, sine: Real) -> Part:
     """Polygons inside the discs |(x_k, sine_k y_k)| <= fraction_k, the sides of one web together."""
     webs, sides = sine.size, normal.size
-    each, web = np.arange(webs * sides), np.repeat(np.arange(webs), sides)
+    rows, web = np.arange(webs * sides), np.repeat(np.arange(webs), sides)
     across = np.repeat(sine, sides) * np.tile(normal.imag, webs)
     return Part(
-        np.tile(each, 3),
+        np.tile(rows, 3),
         np.concatenate([web, webs + web, 2 * webs + web]),
-        np.concatenate([-np.tile(normal.real, webs), -across, np.full(each.size, inner)]),
+        np.concatenate([-np.tile(normal.real, webs), -across, np.full(rows.size, inner)]),
     )

@@ -138,4 +138,4 @@ def _terms(multiplier: Complex, grid: Real, peak: WeightedResponse) -> Complex:
     """
     back = np.exp(-1j * grid)
     both = (multiplier,) if peak.weight_x == peak.weight_y else (multiplier, np.conj(multiplier))
-    return np.array([np.sum(each * back) for each in both])
+    return np.array([np.sum(part * back) for part in both])
