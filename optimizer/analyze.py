@@ -32,12 +32,12 @@ def analyze(request: AnalyzeRequest) -> AnalyzeAnswer:
     machine = fitted_masses(request.machine, mass)
     scene = prepare(request, request.outputs, machine=machine)
     reporting = time.perf_counter()
-    given = fitted(machine, mass, angle)
-    found = fields(scene.beside(given.on_shafts), given.on_crank, request.outputs)
+    counterweights = fitted(machine, mass, angle)
+    figures = fields(scene.beside(counterweights.on_shafts), counterweights.on_crank, request.outputs)
     end = time.perf_counter()
     return AnalyzeAnswer(
-        **found,
-        **given.fields,
+        **figures,
+        **counterweights.fields,
         reference_plane_m=float(scene.layout.reference_plane),
         effects=scene.simulated.uses,
         timing=Timing(

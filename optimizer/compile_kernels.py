@@ -59,15 +59,15 @@ def proofs() -> None:
     from optimizer.program.scaling import least_change
     from optimizer.program.statement import Names, Statement
 
-    one, first, vector = np.ones(1), np.zeros(1, int), np.ones(1, complex)
-    limits, none = Limits(one, one, one > 0, vector, one, one, np.array(1.0)), Norms(vector[:0], np.ones((0, 1)))
-    no_ceilings = Ceilings((), none, one[:0], one[:0])
-    program = Statement(Norms(vector, np.ones((1, 1))), first, first, one, no_ceilings, limits, Names((), ()))
+    unit, first, vector = np.ones(1), np.zeros(1, int), np.ones(1, complex)
+    limits, none = Limits(unit, unit, unit > 0, vector, unit, unit, np.array(1.0)), Norms(vector[:0], np.ones((0, 1)))
+    no_ceilings = Ceilings((), none, unit[:0], unit[:0])
+    program = Statement(Norms(vector, np.ones((1, 1))), first, first, unit, no_ceilings, limits, Names((), ()))
     affine_minorant(program, nothing_proven(program))
     objective_lower_bound(program, nothing_proven(program))
     near_limits(limits, np.ones((1, 1, 1)), np.ones((1, 1), complex), 0.0, 0.0)
     least_change(np.ones((1, 1, 1), complex), np.ones((1, 1), complex), 1)
-    settled(program.alone(), points_at(program.alone(), np.zeros((1, 1), complex)), one, None)
+    settled(program.alone(), points_at(program.alone(), np.zeros((1, 1), complex)), unit, None)
 
 
 def moving_curves() -> None:

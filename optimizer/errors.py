@@ -23,6 +23,6 @@ class OutOfRange(NotComputable):
 
 def refuse(problems: Iterable[FieldProblem]) -> None:
     """Raise :class:`OutOfRange` if there are any problems."""
-    found = list(problems)
-    if found:
-        raise OutOfRange(found)
+    faults = list(problems)
+    if faults:
+        raise OutOfRange(faults)

@@ -57,20 +57,20 @@ def optimize(request: OptimizeRequest, outputs: Sequence[str] | None = None) -> 
         left_s = task.time_limit_s - (time.thread_time() - began)
         cheaper = alternatives(task, request.alternatives, scene, best.unbalance, left_s)
     reporting = time.perf_counter()
-    there, on_crank, told, u, report_s = best.cut or scene, None, best.answer, None, 0.0
+    there, on_crank, answer, u, report_s = best.cut or scene, None, best.answer, None, 0.0
     if isinstance(best, Solution):
         there, on_crank = there.beside(best.shown.on_shafts), best.shown.on_crank
         u, report_s = best.unbalance, best.report_s
         if task.tolerances is not None and not task.robust:
-            told |= nothing_off(task, scene, u, best.certificate.objective)
-    figures = fields(there, on_crank, names, told)
+            answer |= nothing_off(task, scene, u, best.certificate.objective)
+    figures = fields(there, on_crank, names, answer)
     if task.objective.orders == "all":
         figures["residual"] = with_turn(figures["residual"], scene, u)
     end = time.perf_counter()
     return OptimizeAnswer(
         status=best.status,
         status_reason=best.reason,
-        **told,
+        **answer,
         **figures,
         alternatives=cheaper,
         reference_plane_m=float(scene.layout.reference_plane),

@@ -74,7 +74,7 @@ class Fitted(NamedTuple):
         self, of_machine: tuple[MachineLimit, ...]
     ) -> dict[str | None, tuple[WebLimit | MachineLimit, ...]]:
         """Limits that are touched on each web, and by None those of the machine."""
-        return {None: of_machine} | {each.web: each.active_limits for each in self.all_of_them}
+        return {None: of_machine} | {weight.web: weight.active_limits for weight in self.all_of_them}
 
     @property
     def fields(self) -> dict[str, object]:
@@ -145,6 +145,6 @@ def fitted(machine: Machine, mass_kg: Real, angle_deg: Real, vectors: Complex | 
 def _gearing(shaft: BalanceShaft, fitted_there: Sequence[Counterweight]) -> str:
     """Which way a shaft turns, how fast, and how its unbalances stand when the crankshaft is as drawn."""
     way = "with" if shaft.speed_ratio > 0 else "against"
-    there = [one for one in fitted_there if one.mass_kg > 0]
-    stand = ", ".join(f"{one.web} at {one.angle_deg:.2f} deg" for one in there) or "it carries nothing"
+    there = [weight for weight in fitted_there if weight.mass_kg > 0]
+    stand = ", ".join(f"{weight.web} at {weight.angle_deg:.2f} deg" for weight in there) or "it carries nothing"
     return f"Turns {way} the crankshaft {_TURNS[abs(shaft.speed_ratio)]}; at shaft angle 0 {stand}."

@@ -83,14 +83,14 @@ RESPONSES: dict[str, Weighable] = {name: Weighable(fields, SHARES[name]) for nam
 
 def counted(objective: Objective) -> tuple[Weighable, ...]:
     """Force and moment, and of the others those that an objective weighs or limits."""
-    return tuple(RESPONSES[each.name] for each in fields_that_count(objective))
+    return tuple(RESPONSES[field.name] for field in fields_that_count(objective))
 
 
 def added(objective: Objective) -> tuple[Weighable, ...]:
     """Those that count beside force and moment."""
     if len(RESPONSES) == len(PAIR):
         return ()
-    return tuple(each for each in counted(objective) if each.name not in PAIR)
+    return tuple(response for response in counted(objective) if response.name not in PAIR)
 
 
 def responses(layout: Layout, baseline: Wrench, objective: Objective) -> tuple[Response, ...]:
@@ -102,24 +102,25 @@ def responses(layout: Layout, baseline: Wrench, objective: Objective) -> tuple[R
     """
     force, moment = first_order_responses(layout, baseline)
     return tuple(
-        first_order(each.name, each.unit, each.shares(layout, objective), force, moment) for each in counted(objective)
+        first_order(response.name, response.unit, response.shares(layout, objective), force, moment)
+        for response in counted(objective)
     )
 
 
 def of_all_orders(turn: WholeTurn, layout: Layout, objective: Objective) -> tuple[TurnResponse, ...]:
     """The same of all orders, of one machine."""
-    named = {each.name: (each.unit, each.shares(layout, objective)) for each in counted(objective)}
+    named = {response.name: (response.unit, response.shares(layout, objective)) for response in counted(objective)}
     return shaking(turn, layout, named)
 
 
 def weights(machine: Machine, objective: Objective) -> Mapping[str, Reals]:
     """Weight of each response, by name: 1/N and 1/(N m)."""
-    return {each.name: each.weight(machine, objective) for each in RESPONSES.values()}
+    return {response.name: response.weight(machine, objective) for response in RESPONSES.values()}
 
 
 def with_weights_of(machine: Machine, objective: Objective) -> Objective:
     """The objective with the weights given that a machine decides by default."""
-    fields = (each.fields.weight for each in RESPONSES.values())
+    fields = (response.fields.weight for response in RESPONSES.values())
     usual: dict[Path, float] = {
         (field,): 1.0 / float(span(machine)) for field in fields if getattr(objective, field) is None
     }
@@ -128,7 +129,7 @@ def with_weights_of(machine: Machine, objective: Objective) -> Objective:
 
 def weighing(objective: Objective, weights: Mapping[str, float], **update: object) -> Objective:
     """The objective that weighs these responses on the frame and no others."""
-    wanted = {each.fields.weight: weights.get(each.name, 0.0) for each in RESPONSES.values()}
+    wanted = {response.fields.weight: weights.get(response.name, 0.0) for response in RESPONSES.values()}
     return objective.model_copy(update=wanted | update)
 
 

@@ -124,25 +124,25 @@ def formulate(
     """
     quantities: list[Quantity] = []
     wanted = weights(machine, objective)
-    asked = [_CaseQuantities(case, objective, fidelity, wanted, omega_squared, quantities) for case in cases]
-    groups: dict[str, list[tuple[Group, ...]]] = {"external": [each.external(apart) for each in asked]}
+    case_quantities = [_CaseQuantities(case, objective, fidelity, wanted, omega_squared, quantities) for case in cases]
+    groups: dict[str, list[tuple[Group, ...]]] = {"external": [entry.external(apart) for entry in case_quantities]}
     if objective.bearing_weight > 0:
-        groups["bearings"] = [(each.weighed_bearings(),) for each in asked]
+        groups["bearings"] = [(entry.weighed_bearings(),) for entry in case_quantities]
     if objective.bending_weight > 0:
-        groups["bending"] = [(each.weighed_bending(),) for each in asked]
-    limited = tuple(one for each in asked for one in each.limited())
+        groups["bending"] = [(entry.weighed_bending(),) for entry in case_quantities]
+    limited = tuple(ceiling for entry in case_quantities for ceiling in entry.limited())
     chosen = _in_order(objective, groups)
     # of all orders the ceilings are among what is limited over the turn
     stated = objective.orders == "first" and objective_ceilings(objective)
     exact = tuple(
         [
-            (each, allowed / case.omega_squared)
+            (entry, allowed / case.omega_squared)
             for case in (cases if stated else ())
             for responses in case.variants
-            for each, allowed in limited_responses(responses, objective)
+            for entry, allowed in limited_responses(responses, objective)
         ]
     )
-    capped = tuple((each.quantity, each.ceiling / each.omega_squared) for each in limited)
+    capped = tuple((entry.quantity, entry.ceiling / entry.omega_squared) for entry in limited)
     cut, most = plates(machine), limits(closed(machine), np.shape(omega_squared))
     program = Problem(tuple(quantities), chosen, exact, capped, most, scatter, cut, objective.symmetric)
     return Goals(program, limited, tuple(cases))
@@ -226,9 +226,9 @@ class _CaseQuantities:
         if self.objective.orders == "all":
             places = [(self.quantities[q].response.name, q) for q in self._of_shaking()]
             weighed = [Weighed(q, float(wanted[name])) for name, q in places if name in weighs]
-            return tuple(Group(weighed=(each,)) for each in weighed)
+            return tuple(Group(weighed=(entry,)) for entry in weighed)
         variants = [
-            [weighted_peak(each, wanted[each.name], across.x, across.y) for each in of if each.name in weighs]
+            [weighted_peak(entry, wanted[entry.name], across.x, across.y) for entry in of if entry.name in weighs]
             for of in self.case.variants
         ]
         if not variants[0]:
@@ -236,7 +236,7 @@ class _CaseQuantities:
         if not apart:
             (peaks,) = variants
             rows = combined(peaks, self.objective.combine)
-            return tuple(Group(rows=tuple(_called(row, self.case.scenario) for row in each)) for each in rows)
+            return tuple(Group(rows=tuple(_called(row, self.case.scenario) for row in entry)) for entry in rows)
         results = [
             tuple(_called(Row(peak.name, (peak,)), self.case.scenario, n) for n, peak in enumerate(of_response))
             for of_response in zip(*variants, strict=True)
@@ -255,8 +255,8 @@ class _CaseQuantities:
 
     def limited(self) -> Iterator[Limited]:
         """Ceilings, whatever is weighed on peaks."""
-        for each, allowed in objective_ceilings(self.objective) if self.objective.orders == "all" else ():
-            yield self._limited(each.field, each.limit, self._of_frame_under(each), allowed)
+        for response, allowed in objective_ceilings(self.objective) if self.objective.orders == "all" else ():
+            yield self._limited(response.field, response.limit, self._of_frame_under(response), allowed)
         load, specific = self.objective.bearing_ceiling_N, self.objective.specific_load_ceiling_Pa
         if load is not None:
             for q in self._of_bearings("peak"):
@@ -350,7 +350,7 @@ def _largest(name: str, cases: Sequence[tuple[Group, ...]]) -> Goal:
 def _merged(groups: Sequence[Group]) -> Group:
     """The largest of several groups."""
     rows = tuple(row for group in groups for row in group.rows)
-    return Group(rows, tuple(each for group in groups for each in group.weighed))
+    return Group(rows, tuple(member for group in groups for member in group.weighed))
 
 
 def _in_order(objective: Objective, groups: dict[str, list[tuple[Group, ...]]]) -> tuple[Goal, ...]:
@@ -363,14 +363,14 @@ def _in_order(objective: Objective, groups: dict[str, list[tuple[Group, ...]]]) 
     if objective.priorities:
         *earlier, last = objective.priorities
         # nothing uses what the very last allows
-        order = [*((each.goal, each.allowance) for each in earlier), (last.goal, 0.0)]
+        order = [*((entry.goal, entry.allowance) for entry in earlier), (last.goal, 0.0)]
         return tuple(
             _largest(name, groups[name])._replace(allowance=allowance) for name, allowance in order if name not in COSTS
         )
-    every = [tuple(group for one in of_case for group in one) for of_case in zip(*groups.values(), strict=True)]
+    every = [tuple(group for part in of_case for group in part) for of_case in zip(*groups.values(), strict=True)]
     # several goals in their order are never combined: their quantities are of one kind
     if objective.combine == "max":
-        every = [(_merged(each),) for each in every]
+        every = [(_merged(entry),) for entry in every]
     return (_largest("all", every),)
 
 

@@ -43,10 +43,10 @@ def alike_webs(machine: Machine) -> Alike | None:
     refuse(problem for i, group in enumerate(groups) for problem in _problems(machine, cranks, i, group))
     count = len(machine.webs)
     ahead, leader, mirrored = np.zeros(count), list(range(count)), [False] * count
-    for group, asked in zip(groups, machine.web_groups, strict=True):
+    for group, web_group in zip(groups, machine.web_groups, strict=True):
         first = cranks[group[0]] or 0.0
         for n, k in enumerate(group):
-            leader[k], mirrored[k] = group[0], asked.mirrors(n)
+            leader[k], mirrored[k] = group[0], web_group.mirrors(n)
             # d_k w with w = u conj(d) of the first at d, or d_k conj(w)
             own = cranks[k] or 0.0
             ahead[k] = (own + first if mirrored[k] else own - first) % 360.0
@@ -65,11 +65,11 @@ def _problems(machine: Machine, cranks: Sequence[float | None], i: int, group: S
         if not _same_sector(first.sector, at or 0.0, web.sector, cranks[k] or 0.0, mirrored):
             unlike.append("sector, counted from the own crank,")
         for name, kind in CHOICES.items():
-            one, other = (
+            options, other = (
                 [] if own is None else kind.options(own) for own in (getattr(first, name), getattr(web, name))
             )
-            if not _same_options(one, at or 0.0, other, cranks[k] or 0.0, mirrored):
-                counted = any(angle is not None for _, angle in (*one, *other))
+            if not _same_options(options, at or 0.0, other, cranks[k] or 0.0, mirrored):
+                counted = any(angle is not None for _, angle in (*options, *other))
                 unlike.append(f"{name}, counted from the own crank," if counted else name)
         if unlike:
             words = " and ".join(unlike)
@@ -78,12 +78,12 @@ def _problems(machine: Machine, cranks: Sequence[float | None], i: int, group: S
 
 def _same_options(first: Sequence[Option], at: float, other: Sequence[Option], there: float, mirrored: bool) -> bool:
     """Whether options are the same, in the same places or each other's mirror images as seen from the own cranks."""
-    sign, one, two = -1.0 if mirrored else 1.0, _at_angles(first, at), _at_angles(other, there)
-    one[:, 1] *= sign
-    alike = len(one) == len(two) and _masses(first) == _masses(other)
+    sign, image, two = -1.0 if mirrored else 1.0, _at_angles(first, at), _at_angles(other, there)
+    image[:, 1] *= sign
+    alike = len(image) == len(two) and _masses(first) == _masses(other)
     # a hair below a whole turn is 0
     return alike and all(
-        bool(np.any((one[:, 0] == mass) & (np.abs((one[:, 1] - angle + 180.0) % 360.0 - 180.0) <= 1e-9)))
+        bool(np.any((image[:, 0] == mass) & (np.abs((image[:, 1] - angle + 180.0) % 360.0 - 180.0) <= 1e-9)))
         for mass, angle in two.tolist()
     )
 

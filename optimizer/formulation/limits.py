@@ -140,8 +140,8 @@ def _largest_unbalances(machine: Machine) -> Real:
 
 def _largest_force(machine: Machine) -> Real:
     """Largest centrifugal force of every web (..., K), N."""
-    given = (web.max_centrifugal_force_N for web in machine.webs)
-    return stacked([np.inf if force is None else force for force in given])
+    forces = (web.max_centrifugal_force_N for web in machine.webs)
+    return stacked([np.inf if force is None else force for force in forces])
 
 
 def _force_per_kg(machine: Machine) -> Real:
@@ -195,8 +195,8 @@ def limit_sizes(machine: Machine) -> dict[WebLimit, LimitSize]:
 @remembered
 def largest_mass(machine: Machine) -> Real:
     """Largest mass of every web (..., K), the smallest of what its limits allow, kg; inf where there is none."""
-    given = (size.limit for size in limit_sizes(machine).values())
-    allowed = [each.mass(machine) for each in given if isinstance(each, MassLimit)]
+    entries = (size.limit for size in limit_sizes(machine).values())
+    allowed = [limit.mass(machine) for limit in entries if isinstance(limit, MassLimit)]
     mass = reduce(np.minimum, allowed) if allowed else np.full(len(machine.webs), np.inf)
     if any_fixed(machine):
         # nothing is chosen there

@@ -180,7 +180,9 @@ class Prepared:
     @cached_property
     def added(self) -> tuple[tuple[ResponseFields, Shares], ...]:
         """Responses that count beside force and moment, with what they have of both."""
-        return tuple((each.fields, each.shares(self.layout, self.objective)) for each in added(self.objective))
+        return tuple(
+            (response.fields, response.shares(self.layout, self.objective)) for response in added(self.objective)
+        )
 
     @property
     def first_turn_deg(self) -> Real:
@@ -208,15 +210,15 @@ def simulated(
     start = time.perf_counter()
     machine = request.machine if machine is None else machine
     plan, needs = layout(machine), [need for needs in outputs.values() for need in needs]
-    known: dict[str, Wrench] = {}
+    wrenches: dict[str, Wrench] = {}
     if leading and not set(FIRST_ORDER).isdisjoint(closure(machine, needs)):
         # of what the designs have in common once, and once for the program and for the outputs
-        known = dict(zip(FIRST_ORDER, (each.spread(leading) for each in first_order(plan)), strict=True))
+        wrenches = dict(zip(FIRST_ORDER, (wrench.spread(leading) for wrench in first_order(plan)), strict=True))
     if leading:
         plan = spread(plan, leading)
     turns = turns_over(machine, needs)
     angle, radians = _sampled(samples, turns)
-    result = simulate(machine, plan, outputs, request.fidelity, radians, known)
+    result = simulate(machine, plan, outputs, request.fidelity, radians, wrenches)
     objective = request.objective if isinstance(request, OptimizeRequest) else Objective()
     spent_ms = (time.perf_counter() - start) * 1e3
     return Prepared(request, machine, objective, plan, angle, result, spent_ms, turns=turns)

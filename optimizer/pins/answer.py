@@ -93,9 +93,9 @@ def _torques(request: PinLoadsRequest) -> tuple[PeriodicTable, PeriodicTable | N
     force = request.tangential_gas_force_N
     if force is None:
         return _periodic(request.rotation_torque_Nm), None
-    given = _periodic(force)
-    rotation, resistance = gas_torques(given.value, np.asarray(request.orbit_radius_m))
-    return PeriodicTable(given.angle_deg, rotation), PeriodicTable(given.angle_deg, resistance)
+    table = _periodic(force)
+    rotation, resistance = gas_torques(table.value, np.asarray(request.orbit_radius_m))
+    return PeriodicTable(table.angle_deg, rotation), PeriodicTable(table.angle_deg, resistance)
 
 
 def _periodic(torque: float | TorqueTable | ForceTable | None) -> PeriodicTable:
@@ -136,10 +136,10 @@ def _refined_peaks(size: Callable[[Real], Real], grid_deg: Real) -> tuple[Real, 
     half, pin = _GRID_DEG, np.arange(best.size)
     for _ in range(_REFINEMENTS):
         near = best[:, None] + half * np.linspace(-1.0, 1.0, _PARTS + 1)
-        found = size(near)[pin[:, None], np.arange(_PARTS + 1), pin[:, None]]
-        best = near[pin, np.argmax(found, axis=-1)]
+        values = size(near)[pin[:, None], np.arange(_PARTS + 1), pin[:, None]]
+        best = near[pin, np.argmax(values, axis=-1)]
         half *= 2.0 / _PARTS
-    return np.max(found, axis=-1), np.mod(best, 360.0)
+    return np.max(values, axis=-1), np.mod(best, 360.0)
 
 
 def _equilibrium(pattern: Pattern, torque: PeriodicTable, angle: Real) -> PinEquilibrium:

@@ -52,7 +52,7 @@ def compared(
 def _ring(keys: Keys, speed: float, loss: float) -> OldhamLoads:
     return OldhamLoads(
         frame_key_N=tuple(keys.frame.tolist()),
-        scroll_keys_N=tuple((one, other) for one, other in keys.scroll.tolist()),
+        scroll_keys_N=tuple((key, other) for key, other in keys.scroll.tolist()),
         frame_speed_m_s=tuple(keys.frame_speed.tolist()),
         scroll_speed_m_s=tuple(keys.scroll_speed.tolist()),
         peak_key_N=float(max(np.max(np.abs(keys.frame)), np.max(np.abs(keys.scroll)))),

@@ -231,10 +231,12 @@ class LoadShapes:
         quarter = [self.phase_deg + 90.0]
         if self.eccentricity > 1e-6:
             twice = 2.0 * np.deg2rad(self.axis_deg)
-            one = 0.5 * np.exp(-1j * phase) - 0.75 * self.eccentricity * np.exp(1j * (phase - twice))
+            fundamental = 0.5 * np.exp(-1j * phase) - 0.75 * self.eccentricity * np.exp(1j * (phase - twice))
             three = 0.25 * self.eccentricity * np.exp(-1j * (phase + twice))
             companion = np.zeros((phase.size, 3, 3), dtype=complex)
-            companion[:, 0, :] = -np.stack([one, np.conj(one), np.conj(three)], axis=-1) / three[:, None]
+            companion[:, 0, :] = (
+                -np.stack([fundamental, np.conj(fundamental), np.conj(three)], axis=-1) / three[:, None]
+            )
             companion[:, 1, 0] = companion[:, 2, 1] = 1.0
             quarter += list(np.rad2deg(0.5 * np.angle(np.linalg.eigvals(companion))).T)
             # roots of a pattern near a line crowd about its axis and lose half their digits
@@ -264,9 +266,9 @@ def peaks(shapes: LoadShapes, torque: PeriodicTable) -> tuple[Real, Real]:
         middle = 0.5 * (low + high)
         same = np.sign(piece.derivative(middle)) == sign
         low, high = np.where(same, middle, low), np.where(same, high, middle)
-    found = left.copy()
-    found[crosses] = (0.5 * (low + high))[:, 0]
-    return _largest(shapes, torque, np.mod(np.concatenate([edges, found], axis=-1), 360.0))
+    roots = left.copy()
+    roots[crosses] = (0.5 * (low + high))[:, 0]
+    return _largest(shapes, torque, np.mod(np.concatenate([edges, roots], axis=-1), 360.0))
 
 
 @dataclass(frozen=True)

@@ -84,14 +84,14 @@ class Pattern:
 
 def pattern_of(request: PinLoadsRequest) -> Pattern:
     """Pins as they are given. One pin alone on a free bearing has the formula of even pins, there is no other."""
-    given = request.drive_bearing
-    drive = {"free": 0.0, "rigid": np.inf, "elastic": given.stiffness_N_per_m or 0.0}[given.type]
+    bearing = request.drive_bearing
+    drive = {"free": 0.0, "rigid": np.inf, "elastic": bearing.stiffness_N_per_m or 0.0}[bearing.type]
     if request.pins is None:
         count, ones = request.pin_count or 0, np.ones(request.pin_count or 0)
         phase, radius = 360.0 * np.arange(count) / count, (request.pin_circle_radius_m or 0.0) * ones
         stiffness, clearance, error, even = ones, 0.0 * ones, 0.0 * ones, True
         # equal pins give a bearing nothing to carry, or all it carries: no stiffness of theirs makes a difference
-        drive = 1.0 if given.type == "elastic" else drive
+        drive = 1.0 if bearing.type == "elastic" else drive
     else:
         pins = request.pins
         phase = np.array([pin.angle_deg % 360.0 for pin in pins])
@@ -100,8 +100,8 @@ def pattern_of(request: PinLoadsRequest) -> Pattern:
         clearance = np.array([pin.clearance_m for pin in pins])
         error = np.array([pin.eccentricity_error_m for pin in pins])
         even = len(pins) == 1
-    found = Pattern(phase, radius, stiffness, clearance, error, even and drive == 0.0, drive, np.zeros(0))
-    return replace(found, dead_deg=_dead(found, even))
+    pattern = Pattern(phase, radius, stiffness, clearance, error, even and drive == 0.0, drive, np.zeros(0))
+    return replace(pattern, dead_deg=_dead(pattern, even))
 
 
 def _dead(pattern: Pattern, even: bool) -> Real:

@@ -53,7 +53,7 @@ def build(request: RatingRequest, designs: Sequence[StageDesign]) -> list[StageB
     corrected = [_corrected(design, *corrections[i : i + 2]) for i, design in enumerate(designs)]
     refuse(_order_problems(corrected))
     reference = [_reference_losses(request, design) for design in designs]
-    losses = [_losses(request, one) for one in reference]
+    losses = [_losses(request, stage_losses) for stage_losses in reference]
     refuse(_loss_problems(losses))
     in_cylinder = [
         _in_cylinder(design, state, loss) for design, state, loss in zip(designs, corrected, losses, strict=True)
@@ -79,8 +79,8 @@ def _sizes(request: RatingRequest, designs: Sequence[StageDesign]) -> list[Cylin
         FieldProblem(
             ("stages", i, "piston_rod_diameter_m"), f"must be smaller than the bore, which is rounded to {bore:.4g} m"
         )
-        for i, (one, bore) in enumerate(zip(designs, bores, strict=True))
-        if not one.piston.rod < bore
+        for i, (stage_design, bore) in enumerate(zip(designs, bores, strict=True))
+        if not stage_design.piston.rod < bore
     )
     return [design.piston.size(bore) for design, bore in zip(designs, bores, strict=True)]
 
@@ -124,8 +124,8 @@ def _order_problems(states: Sequence[StageState]) -> Iterator[FieldProblem]:
 
 
 def _loss_problems(losses: Sequence[PressureLosses]) -> Iterator[FieldProblem]:
-    for i, one in enumerate(losses):
-        for name, loss in (("suction", one.suction), ("discharge", one.discharge)):
+    for i, pair in enumerate(losses):
+        for name, loss in (("suction", pair.suction), ("discharge", pair.discharge)):
             if not loss < 1.0:
                 message = f"becomes {loss:.3g} times the pressure at this mean piston speed and density"
                 yield FieldProblem(("stages", i, f"{name}_pressure_loss"), message)

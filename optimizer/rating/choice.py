@@ -38,11 +38,11 @@ def chosen(request: RatingRequest, rated: Rated) -> RatingAnswer:
         if the largest of a table do not suffice, or none of the motors runs at about the asked speed.
     """
     motors, table = _motors(request), request.piston_rods
-    given = [stage.piston_rod_diameter_m for stage in request.stages]
-    state = _State((0,) * len(given), 0)
+    entries = [stage.piston_rod_diameter_m for stage in request.stages]
+    state = _State((0,) * len(entries), 0)
     steps: list[ChoiceStep] = []
     while True:
-        diameters = [table[k].diameter_m if own is None else own for own, k in zip(given, state.rods, strict=True)]
+        diameters = [table[k].diameter_m if own is None else own for own, k in zip(entries, state.rods, strict=True)]
         motor = motors[state.motor] if motors else None
         speed = request.speed_rpm if motor is None or motor.speed_rpm is None else motor.speed_rpm
         answer = rated(with_fields(request, {("speed_rpm",): speed}), diameters)
@@ -71,14 +71,14 @@ def _motors(request: RatingRequest) -> Sequence[Motor]:
     """Motors that run at about the asked speed, the weakest first."""
     if not request.motors:
         return ()
-    asked = request.speed_rpm
+    speed = request.speed_rpm
     near = [
         motor
         for motor in request.motors
-        if motor.speed_rpm is None or abs(motor.speed_rpm - asked) <= SPEED_TOLERANCE * asked
+        if motor.speed_rpm is None or abs(motor.speed_rpm - speed) <= SPEED_TOLERANCE * speed
     ]
     if not near:
-        message = f"none runs within {SPEED_TOLERANCE:.0%} of {asked:.5g} rpm, the speed that is asked for"
+        message = f"none runs within {SPEED_TOLERANCE:.0%} of {speed:.5g} rpm, the speed that is asked for"
         refuse([FieldProblem(("motors",), message)])
     return near
 

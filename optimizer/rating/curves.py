@@ -44,17 +44,21 @@ TEMPERATURE_COEFFICIENT, TEMPERATURE_SOURCE = 0.96, f"{SOURCE}, 1.3.3"
 
 def suction_losses(request: RatingRequest) -> Curve:
     """The curve for losses at suction: that of the request, or the customary one."""
-    given = request.suction_loss_curve
-    return SUCTION if given is None else Curve(given.pressure_Pa, given.relative_loss, given.source, 0.99)
+    readings = request.suction_loss_curve
+    return SUCTION if readings is None else Curve(readings.pressure_Pa, readings.relative_loss, readings.source, 0.99)
 
 
 def discharge_losses(request: RatingRequest) -> Curve:
     """The same at discharge."""
-    given = request.discharge_loss_curve
-    return DISCHARGE if given is None else Curve(given.pressure_Pa, given.relative_loss, given.source, 0.99)
+    readings = request.discharge_loss_curve
+    return DISCHARGE if readings is None else Curve(readings.pressure_Pa, readings.relative_loss, readings.source, 0.99)
 
 
 def temperature_coefficients(request: RatingRequest) -> Curve | None:
     """The curve of temperature coefficients over pressure ratios; None where there is none."""
-    given = request.temperature_curve
-    return None if given is None else Curve(given.pressure_ratio, given.temperature_coefficient, given.source, 1.0)
+    readings = request.temperature_curve
+    return (
+        None
+        if readings is None
+        else Curve(readings.pressure_ratio, readings.temperature_coefficient, readings.source, 1.0)
+    )

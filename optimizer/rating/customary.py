@@ -25,24 +25,24 @@ def stage_warnings(
     request: RatingRequest, designs: Sequence[StageDesign], built: Sequence[StageBuilt], gas_loads: Sequence[float]
 ) -> Iterator[RatingWarning]:
     """Warnings about single stages; ``gas_loads`` [N] are their largest gas forces."""
-    for i, (one, actual) in enumerate(zip(designs, built, strict=True)):
+    for i, (plan, actual) in enumerate(zip(designs, built, strict=True)):
         number = i + 1
         temperature, limit = actual.in_cylinder.discharge_temperature_K, request.discharge_temperature_limit_K
         if temperature > limit:
             message = f"the gas leaves the cylinder at {temperature:.2f} K, above {limit:.2f} K"
             yield RatingWarning(code="discharge_temperature", message=message, stage=number)
-        c = one.coefficients
+        c = plan.coefficients
         if message := _outside(c.pressure, *PRESSURE_COEFFICIENTS[min(i, 1)]):
             yield RatingWarning(code="pressure_coefficient", message=message, stage=number)
         if message := _outside(c.temperature, *TEMPERATURE_COEFFICIENTS):
             yield RatingWarning(code="temperature_coefficient", message=message, stage=number)
         curve = temperature_coefficients(request)
-        if one.stage.temperature_coefficient is None and curve and not curve.covers(one.nominal.pressure_ratio):
-            message = f"it is extrapolated beyond the readings to a pressure ratio of {one.nominal.pressure_ratio:.4g}"
+        if plan.stage.temperature_coefficient is None and curve and not curve.covers(plan.nominal.pressure_ratio):
+            message = f"it is extrapolated beyond the readings to a pressure ratio of {plan.nominal.pressure_ratio:.4g}"
             yield RatingWarning(code="temperature_coefficient", message=message, stage=number)
         if message := _outside(c.leakage, *LEAKAGE_COEFFICIENTS):
             yield RatingWarning(code="leakage_coefficient", message=message, stage=number)
-        if sides := " and ".join(_extrapolated(request, one)):
+        if sides := " and ".join(_extrapolated(request, plan)):
             message = f"the loss at {sides} is extrapolated beyond the readings of the chart; give it"
             yield RatingWarning(code="pressure_losses", message=message, stage=number)
         rated = request.rated_rod_load_N
@@ -56,9 +56,9 @@ def machine_warnings(request: RatingRequest, capacity_share: float, motor_power:
     if abs(capacity_share - 1.0) > CAPACITY_TOLERANCE:
         message = f"the built machine delivers {capacity_share:.1%} of the capacity asked for"
         yield RatingWarning(code="capacity", message=message, stage=None)
-    given, own = request.mean_piston_speed_m_s, mean_piston_speed(request.stroke_m, request.speed_rpm)
-    if given is not None and abs(given / own - 1.0) > SPEED_TOLERANCE:
-        message = f"losses are corrected for {given:.4g} m/s, but stroke and speed make {own:.4g} m/s"
+    speed, own = request.mean_piston_speed_m_s, mean_piston_speed(request.stroke_m, request.speed_rpm)
+    if speed is not None and abs(speed / own - 1.0) > SPEED_TOLERANCE:
+        message = f"losses are corrected for {speed:.4g} m/s, but stroke and speed make {own:.4g} m/s"
         yield RatingWarning(code="mean_piston_speed", message=message, stage=None)
     installed = request.installed_motor_power_W
     if installed is not None and motor_power > installed:
@@ -71,8 +71,8 @@ def _outside(value: float, low: float, high: float) -> str:
 
 
 def _extrapolated(request: RatingRequest, design: StageDesign) -> Iterator[str]:
-    given, nominal = design.stage, design.nominal
-    if given.suction_pressure_loss is None and not suction_losses(request).covers(nominal.suction_pressure_Pa):
+    stage, nominal = design.stage, design.nominal
+    if stage.suction_pressure_loss is None and not suction_losses(request).covers(nominal.suction_pressure_Pa):
         yield "suction"
-    if given.discharge_pressure_loss is None and not discharge_losses(request).covers(nominal.discharge_pressure_Pa):
+    if stage.discharge_pressure_loss is None and not discharge_losses(request).covers(nominal.discharge_pressure_Pa):
         yield "discharge"

@@ -143,19 +143,19 @@ def _saturation(request: RatingRequest) -> list[float] | None:
     """Saturation pressure [Pa] at every suction; None where the gas is dry."""
     if request.relative_humidity == 0.0:
         return None
-    found = [saturation_pressure(stage.suction_temperature_K) for stage in request.stages]
-    if not request.relative_humidity * found[0] < request.suction_pressure_Pa:
-        message = f"too large: at saturation the vapour has {found[0]:.4g} Pa, and the gas at suction has less"
+    pressures = [saturation_pressure(stage.suction_temperature_K) for stage in request.stages]
+    if not request.relative_humidity * pressures[0] < request.suction_pressure_Pa:
+        message = f"too large: at saturation the vapour has {pressures[0]:.4g} Pa, and the gas at suction has less"
         refuse([FieldProblem(("relative_humidity",), message)])
-    return found
+    return pressures
 
 
 def _size_problems(designs: Sequence[StageDesign]) -> Iterator[FieldProblem]:
-    for i, one in enumerate(designs):
-        bore = one.size.bore_m
+    for i, stage_design in enumerate(designs):
+        bore = stage_design.size.bore_m
         if not SMALLEST_BORE_M <= bore <= LARGEST_BORE_M:
             message = f"would take a bore of {bore:.4g} m in stage {i + 1}; {SMALLEST_BORE_M} to {LARGEST_BORE_M} m do"
             yield FieldProblem(("capacity_m3_per_min",), message)
-        elif not one.piston.rod < bore:
+        elif not stage_design.piston.rod < bore:
             message = f"must be smaller than the bore, which is calculated to be {bore:.4g} m"
             yield FieldProblem(("stages", i, "piston_rod_diameter_m"), message)

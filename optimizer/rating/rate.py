@@ -31,9 +31,9 @@ def rate(request: RatingRequest) -> RatingAnswer:
     OutOfRange
         if no machine can do what is asked; names the fields.
     """
-    given = [stage.piston_rod_diameter_m for stage in request.stages]
-    diameters = [one for one in given if one is not None]
-    if request.motors or len(diameters) < len(given):
+    entries = [stage.piston_rod_diameter_m for stage in request.stages]
+    diameters = [diameter for diameter in entries if diameter is not None]
+    if request.motors or len(diameters) < len(entries):
         return chosen(request, _rated)
     return _rated(request, diameters)
 
@@ -42,7 +42,7 @@ def _rated(request: RatingRequest, rods: Sequence[float]) -> RatingAnswer:
     """The machine at the speed of the request, with piston rods of these diameters [m]."""
     designs = design(request, rods)
     built = build(request, designs)
-    stages = tuple(_stage(request, one, actual) for one, actual in zip(designs, built, strict=True))
+    stages = tuple(_stage(request, stage_design, actual) for stage_design, actual in zip(designs, built, strict=True))
     capacity = suction_flow(
         built[0].size.swept_volume_m3, request.speed_rpm, built[0].coefficients.delivery
     ) / suction_per_capacity(request)
@@ -69,11 +69,11 @@ def _rated(request: RatingRequest, rods: Sequence[float]) -> RatingAnswer:
 
 
 def _stage(request: RatingRequest, design: StageDesign, actual: StageBuilt) -> StageRating:
-    given, nominal, inside = design.stage, design.nominal, actual.in_cylinder
+    stage, nominal, inside = design.stage, design.nominal, actual.in_cylinder
     ambient = request.ambient_pressure_Pa
     return StageRating(
-        name=given.name,
-        cylinders=given.cylinders,
+        name=stage.name,
+        cylinders=stage.cylinders,
         nominal=nominal,
         expansion_exponent=design.m,
         design_coefficients=design.coefficients,
@@ -81,7 +81,7 @@ def _stage(request: RatingRequest, design: StageDesign, actual: StageBuilt) -> S
         condensate_coefficient=design.condensate,
         calculated=design.size,
         nominal_loads=gas_loads(
-            nominal.suction_pressure_Pa, nominal.discharge_pressure_Pa, ambient, given.acting, design.size
+            nominal.suction_pressure_Pa, nominal.discharge_pressure_Pa, ambient, stage.acting, design.size
         ),
         actual=actual.size,
         suction_pressure_correction=actual.corrections[0],
@@ -91,13 +91,13 @@ def _stage(request: RatingRequest, design: StageDesign, actual: StageBuilt) -> S
         losses=actual.losses,
         in_cylinder=inside,
         polytropic_temperature_K=None
-        if given.polytropic_exponent is None
-        else discharge_temperature(given.suction_temperature_K, inside.pressure_ratio, given.polytropic_exponent),
+        if stage.polytropic_exponent is None
+        else discharge_temperature(stage.suction_temperature_K, inside.pressure_ratio, stage.polytropic_exponent),
         actual_coefficients=actual.coefficients,
         actual_loads=gas_loads(
-            inside.suction_pressure_Pa, inside.discharge_pressure_Pa, ambient, given.acting, actual.size
+            inside.suction_pressure_Pa, inside.discharge_pressure_Pa, ambient, stage.acting, actual.size
         ),
-        sources=_sources(request, given),
+        sources=_sources(request, stage),
         indicated_power_W=indicated_power(
             inside.suction_pressure_Pa,
             actual.size.swept_volume_m3,

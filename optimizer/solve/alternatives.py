@@ -51,16 +51,16 @@ def alternatives(
 
     wanted = task.of_any_mass
     robust = Robust(task, scene, wanted._replace(time_limit_s=_SPARE * max(left_s, 0.0)))
-    known = [u]
+    points = [u]
     for _ in range(MOST_ROUNDS):
         robust.learnt(u)
-        found = list(_cheaper(allowances, robust, choices, known))
+        candidates = list(_cheaper(allowances, robust, choices, points))
         # of masses that scatter, what makes one of these worse than is known so far
-        worse = [robust.learnt(one.choice.unbalance) for one in found]
+        worse = [robust.learnt(candidate.choice.unbalance) for candidate in candidates]
         if not any(worse):
             break
-        known += [one.choice.unbalance for one in found]
-    return tuple(_described(task.machine, scene, one) for one in found)
+        points += [candidate.choice.unbalance for candidate in candidates]
+    return tuple(_described(task.machine, scene, candidate) for candidate in candidates)
 
 
 class _Cheap(NamedTuple):

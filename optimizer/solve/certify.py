@@ -52,10 +52,10 @@ def certified(
     omega_squared : (N,) rad^2/s^2.
     """
     program = within_reach(cone_program(machine, goal, responses, omega_squared))
-    found = optima(program, wanted.relative_gap, wanted.least_mass)
+    answer = optima(program, wanted.relative_gap, wanted.least_mass)
     if goal.symmetric:
-        found = replace(found, unbalance=symmetric(program, found.unbalance))
-    mass, angle, u, best, claimed, judged = judgement(machine, wanted, program, found)
+        answer = replace(answer, unbalance=symmetric(program, answer.unbalance))
+    mass, angle, u, best, claimed, judged = judgement(machine, wanted, program, answer)
     certificate = figures(machine, claimed, judged, program.at_rest, best.mass_target, omega_squared)
     certificate["method"] = best.method
     status, reason = judged.status, judged.reason

@@ -124,17 +124,17 @@ class Costs:
 
     def _bisection(self, kind: Cost, level: float, seconds: float) -> float:
         """Look for the fewest: the number that they are at least."""
-        clock, known = Clock(seconds), self.cheapest(kind, level)
-        high = self.program.limits.radius.size + 1 if known is None else int(cost(known, kind))
+        clock, incumbent = Clock(seconds), self.cheapest(kind, level)
+        high = self.program.limits.radius.size + 1 if incumbent is None else int(cost(incumbent, kind))
         at_least = self._at_least(kind, level, high)
         low = at_least
         while low < high and not clock.spent():
             number = (low + high) // 2
             steps = math.ceil(math.log2(high - low + 1))
             bound = self._with_so_few(kind, number, level, clock.left_s / steps)
-            known = self.cheapest(kind, level)
-            if known is not None and cost(known, kind) <= number:
-                high = int(cost(known, kind))
+            incumbent = self.cheapest(kind, level)
+            if incumbent is not None and cost(incumbent, kind) <= number:
+                high = int(cost(incumbent, kind))
                 continue
             low = number + 1
             if bound > level or bound == np.inf:
@@ -149,11 +149,11 @@ class Costs:
 
     def _lighten(self, kind: Cost, level: float, clock: Clock) -> None:
         """Make the cheapest choice lighter, under a level of one goal of the first order."""
-        known, choices = self.cheapest(kind, level), self.caps.of(self.choices(self.best.limits))
-        if known is None or level == np.inf or self.program.finite is None or not isinstance(choices, Catalogue):
+        incumbent, choices = self.cheapest(kind, level), self.caps.of(self.choices(self.best.limits))
+        if incumbent is None or level == np.inf or self.program.finite is None or not isinstance(choices, Catalogue):
             return
         options, limits = choices.stock.options, self.caps.within(self.best.limits)
-        u = known.unbalance if options.alike is None else options.alike.means(known.unbalance)
+        u = incumbent.unbalance if options.alike is None else options.alike.means(incumbent.unbalance)
         if kind == "sizes":
             options = _of_parts(options, options.nearest(u))
         light = lightened(replace(self.program.finite, limits=limits), options, options.nearest(u), level, clock)
@@ -189,8 +189,8 @@ class Costs:
                 bound = max(bound, self._on_few_webs(few, statement, choices, level, clock))
             elif kind == "sizes" and isinstance(choices, Catalogue):
                 self._light_sizes(choices, level, Clock(_FIRST * seconds))
-            known = self.cheapest(kind, level)
-            if bound > level or (known is not None and cost(known, kind) <= number):
+            incumbent = self.cheapest(kind, level)
+            if bound > level or (incumbent is not None and cost(incumbent, kind) <= number):
                 self.proven[kind, number] = bound
                 return bound
             choice, result = in_rounds(
@@ -241,26 +241,26 @@ class Costs:
 
     def _lightest(self, level: float, seconds: float) -> float:
         """Look for the lightest: what none is lighter than, kg."""
-        clock, known = Clock(seconds), self.cheapest("mass", level)
+        clock, incumbent = Clock(seconds), self.cheapest("mass", level)
         goals = () if level == np.inf else self.program.goals
         mass = Goal("mass", (Group((total_mass(self.program.limits),)),))
         weighed = self.program.changed(goals=(*goals, mass), limits=self.caps.within(self.best.limits))
         reached = [*self.reached, self.best.goals[-1]._replace(most=level)] if goals else []
         any_mass: CertifiedOptimum | Conflict
-        if known is not None and reached:
-            any_mass = next_goal(weighed, reached, known.unbalance, _SHARP, seconds)
+        if incumbent is not None and reached:
+            any_mass = next_goal(weighed, reached, incumbent.unbalance, _SHARP, seconds)
         else:
             any_mass = over_turn(weighed, _SHARP, False, seconds)
         if isinstance(any_mass, Conflict):
-            if known is None:
+            if incumbent is None:
                 return np.inf
-            _LOG.error("no masses are proven to keep ceilings that a choice of %g kg keeps", cost(known, "mass"))
+            _LOG.error("no masses are proven to keep ceilings that a choice of %g kg keeps", cost(incumbent, "mass"))
             return 0.0
         bound = max(any_mass.proof.bound, 0.0)
         choices = self.caps.of(self.choices(any_mass.limits))
-        if self.program.finite is not None and known is not None and isinstance(choices, Catalogue):
+        if self.program.finite is not None and incumbent is not None and isinstance(choices, Catalogue):
             statement = replace(self.program.finite, limits=self.caps.within(self.best.limits))
-            return self._compared(statement, choices, known, level, bound, any_mass.point.unbalance, clock)
+            return self._compared(statement, choices, incumbent, level, bound, any_mass.point.unbalance, clock)
         size = max(any_mass.point.mass, bound) or 1.0
         choice, result = in_rounds(
             weighed,
@@ -269,7 +269,7 @@ class Costs:
             _LIGHT,
             size,
             lambda: clock.left_s,
-            Start(known),
+            Start(incumbent),
         )
         if result.feasible:
             self.offer(choice)

@@ -88,5 +88,5 @@ def implied_masses(machine: Machine, limits: Limits) -> dict[str, float]:
         return implied
     # within rounding of what is cut
     mass = cut.mass_of(limits.reach[cut.webs]) * _CUT
-    of_plates = {machine.webs[k].name: float(each) for k, each in zip(cut.webs, mass, strict=True)}
-    return {name: of_plates.get(name, each) for name, each in implied.items()}
+    of_plates = {machine.webs[k].name: float(value) for k, value in zip(cut.webs, mass, strict=True)}
+    return {name: of_plates.get(name, value) for name, value in implied.items()}

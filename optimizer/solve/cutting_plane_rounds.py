@@ -147,7 +147,7 @@ def _first_cuts(program: Problem) -> list[list[Cut]]:
 def _learn(program: Problem, pool: Pool, u: Complex) -> bool:
     """Take the cuts that tell what an unbalance (K,) comes to; whether any is new."""
     reached = program.values(u, _CLOSE).reached
-    _, places = program.seen(u, _HIGH * np.array([each.lower for each in reached]))
+    _, places = program.seen(u, _HIGH * np.array([evaluation.lower for evaluation in reached]))
     all_of_them = np.full(len(reached), -np.inf)
-    new = pool.add([(each,) for each in reached], u, all_of_them)
+    new = pool.add([(evaluation,) for evaluation in reached], u, all_of_them)
     return pool.add(places, u, all_of_them) or new

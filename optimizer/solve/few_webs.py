@@ -57,10 +57,10 @@ def few_webs(program: Problem, limits: Limits, number: int) -> FewWebs:
         subsets[n, list(some)] = True
     programs = replace(statement, limits=limits).alone().chosen(np.zeros(len(subsets), int))
     programs = replace(programs, limits=replace(programs.limits, max_mass=subsets * limits.max_mass))
-    found = optima(programs, _GAP, False)
-    lower_bound = np.where(found.unreachable, np.inf, found.lower_bound)
-    best = np.argsort(np.where(found.unreachable, np.inf, found.objective), kind="stable")
-    return FewWebs(lower_bound[best], found.unbalance[best], subsets[best])
+    answer = optima(programs, _GAP, False)
+    lower_bound = np.where(answer.unreachable, np.inf, answer.lower_bound)
+    best = np.argsort(np.where(answer.unreachable, np.inf, answer.objective), kind="stable")
+    return FewWebs(lower_bound[best], answer.unbalance[best], subsets[best])
 
 
 def compare_on_few_webs(
@@ -117,8 +117,8 @@ def lightened(statement: Statement, options: Options, chosen: np.ndarray, level:
         for k in fitted.tolist():
             which[k] = near_options(options, k, complex(options.unbalance[k, chosen[k]]), count)
         mass = float(np.sum(options.of(options.mass, chosen)))
-        found = lighter(statement, options, which, level, mass, clock, most_pairs=_PAIRS)
-        if found.chosen is None:
+        result = lighter(statement, options, which, level, mass, clock, most_pairs=_PAIRS)
+        if result.chosen is None:
             break
-        chosen = found.chosen
+        chosen = result.chosen
     return chosen

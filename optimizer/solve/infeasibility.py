@@ -88,22 +88,22 @@ def report(
     impossible = [ceiling for ceiling in ceilings if least[ceiling.response].lower_bound > ceiling.allowed]
     left = replace(scene, shafts=shown.on_shafts).first_order(shown.on_crank)
     return Infeasibility(
-        conflict=tuple(dict.fromkeys(each.field for each in impossible or together)),
+        conflict=tuple(dict.fromkeys(entry.field for entry in impossible or together)),
         **smallest_peaks(
-            {name: each.value for name, each in least.items()},
-            {name: each.lower_bound for name, each in least.items()},
+            {name: entry.value for name, entry in least.items()},
+            {name: entry.lower_bound for name, entry in least.items()},
         ),
         smallest=tuple(
             SmallestPeak(
-                response=each.response,
-                ceiling_field=each.field,
-                ceiling=each.allowed,
-                smallest=least[each.response].value,
-                lower_bound=least[each.response].lower_bound,
-                multipliers=least[each.response].multipliers,
+                response=entry.response,
+                ceiling_field=entry.field,
+                ceiling=entry.allowed,
+                smallest=least[entry.response].value,
+                lower_bound=least[entry.response].lower_bound,
+                multipliers=least[entry.response].multipliers,
             )
-            for each in dict.fromkeys(ceilings)
-            if each.listed
+            for entry in dict.fromkeys(ceilings)
+            if entry.listed
         ),
         implied_max_mass_kg=implied.together,
         smallest_implied_max_mass_kg=implied.alone,
@@ -115,7 +115,7 @@ def report(
             responses=added_peaks(scene, left),
         ),
         multipliers=InfeasibilityMultipliers(
-            conflict=conflict, **smallest_proofs({name: each.multipliers for name, each in least.items()})
+            conflict=conflict, **smallest_proofs({name: entry.multipliers for name, entry in least.items()})
         ),
     )
 
@@ -212,7 +212,7 @@ def _scenarios(program: Problem, failure: Conflict) -> tuple[str, ...]:
 def _under(program: Problem, scenario: str) -> CertifiedOptimum | Conflict:
     """The program under the ceilings of one scenario alone, as far as whether they can be kept."""
     ceilings = tuple(ceiling for ceiling in program.ceilings if ceiling[0].scenario == scenario)
-    limited = tuple(each for each in program.limited if program.quantities[each[0]].scenario == scenario)
+    limited = tuple(pair for pair in program.limited if program.quantities[pair[0]].scenario == scenario)
     return optimum(program.changed(goals=program.goals[-1:], ceilings=ceilings, limited=limited), 1.0, False)
 
 

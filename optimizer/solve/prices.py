@@ -52,11 +52,11 @@ def touched_limits(
     ----------
     mass_kg, unbalance : (K,) kg and kg m, of the counterweights.
     """
-    peaks = (each.to(unbalance).peak * omega_squared for each, _ in limited(responses, objective))
-    given = zip(objective_ceilings(objective), peaks, strict=True)
+    peaks = (entry.to(unbalance).peak * omega_squared for entry, _ in limited(responses, objective))
+    pairs = zip(objective_ceilings(objective), peaks, strict=True)
     return (
         *touched_by_mass(machine, mass_kg),
-        *(each.limit for (each, allowed), peak in given if peak >= allowed * (1.0 - TOUCHED)),
+        *(entry.limit for (entry, allowed), peak in pairs if peak >= allowed * (1.0 - TOUCHED)),
     )
 
 
@@ -78,10 +78,10 @@ class ObjectiveUnit(NamedTuple):
 
 def _quantity(machine: Machine, objective: Objective) -> ObjectiveUnit:
     """Force, moment where the force has no weight, and what else is weighed where neither has."""
-    for each in RESPONSES.values():
-        weight = float(each.weight(machine, objective))
+    for response in RESPONSES.values():
+        weight = float(response.weight(machine, objective))
         if weight > 0:
-            return ObjectiveUnit(weight, each.unit)
+            return ObjectiveUnit(weight, response.unit)
     if objective.bearing_weight > 0:
         return ObjectiveUnit(objective.bearing_weight, "Pa" if objective.bearing_measure == "specific" else "N")
     return ObjectiveUnit(objective.bending_weight or objective.roll_weight, "N m")
@@ -152,21 +152,21 @@ def _of_ceilings(objective: Objective, prices: Real, omega_squared: float) -> It
     ----------
     prices : (M,) of the M ceilings of the first order alone, whatever else a program limits.
     """
-    for (each, allowed), price in zip(objective_ceilings(objective), prices.tolist(), strict=True):
+    for (entry, allowed), price in zip(objective_ceilings(objective), prices.tolist(), strict=True):
         # an objective over omega^2 per ceiling over omega^2
-        yield Priced(each.limit, None, price / omega_squared, allowed, _per(each.unit))
+        yield Priced(entry.limit, None, price / omega_squared, allowed, _per(entry.unit))
 
 
 def _of_limited(objective: Objective, cuts: Sequence[tuple[Limited, int]], prices: Real) -> Iterator[Priced]:
     """Every ceiling over the turn: raising it raises the caps of all cuts (M,) of all that it limits."""
     first, totals = 0, dict[CeilingField, tuple[MachineLimit, float]]()
-    for each, count in cuts:
-        allowed = getattr(objective, each.field)
+    for entry, count in cuts:
+        allowed = getattr(objective, entry.field)
         # of specific loads the area of the bearing
-        share = each.ceiling / allowed if allowed > 0 else 1.0
-        of_cuts = float(np.sum(prices[first : first + count])) * share / each.omega_squared
+        share = entry.ceiling / allowed if allowed > 0 else 1.0
+        of_cuts = float(np.sum(prices[first : first + count])) * share / entry.omega_squared
         first += count
-        totals[each.field] = each.limit, totals.get(each.field, (each.limit, 0.0))[1] + of_cuts
+        totals[entry.field] = entry.limit, totals.get(entry.field, (entry.limit, 0.0))[1] + of_cuts
     for field, (limit, price) in totals.items():
         yield Priced(limit, None, price, getattr(objective, field), _per(_UNIT_OF[field]))
 

@@ -67,8 +67,8 @@ def physical(
     omega_squared : (...) rad^2/s^2.
     speeds : of all scenarios, where there are any.
     """
-    (found,) = physical_bounds(statement, {bounded: multipliers}, omega_squared, speeds)
-    return found
+    (result,) = physical_bounds(statement, {bounded: multipliers}, omega_squared, speeds)
+    return result
 
 
 def _squares(scenarios: Iterable[str | None], speeds: Speeds) -> Real:
@@ -85,22 +85,22 @@ def physical_bounds(
     """The same of several bounds on the same programs at once, in their order."""
     scenarios = statement.ceilings.scenarios
     over = omega_squared / _squares(scenarios, speeds) if speeds and scenarios else None
-    found, ends = together(bounds.values()), statement.limits.budget_ends
-    priced, factor = np.zeros(found.row.shape[:-1], bool), np.empty(found.row.shape[:-1])
+    stack, ends = together(bounds.values()), statement.limits.budget_ends
+    priced, factor = np.zeros(stack.row.shape[:-1], bool), np.empty(stack.row.shape[:-1])
     factor[:] = 1.0 / np.asarray(omega_squared)
     for n, name in enumerate(bounds):
         priced[n] = name == "objective"
-    statement.flat.printed(priced, factor, _INSIDE, found.parts)
+    statement.flat.printed(priced, factor, _INSIDE, stack.parts)
     spent, nothing = np.count_nonzero(ends), np.zeros(ends.shape)
     for n, (name, multipliers) in enumerate(bounds.items()):
         if not spent:
             budget = nothing
         elif name == "objective":
-            budget = budget_price(statement, found.chosen(n), 0.0) * omega_squared
+            budget = budget_price(statement, stack.chosen(n), 0.0) * omega_squared
         else:
             budget = budget_price(statement, multipliers, 1.0 if name == "mass" else 0.0)
-        ceiling = found.ceiling[n] if over is None else found.ceiling[n] * over
-        yield PhysicalMultipliers(found.term[n], found.row[n], ceiling, budget)
+        ceiling = stack.ceiling[n] if over is None else stack.ceiling[n] * over
+        yield PhysicalMultipliers(stack.term[n], stack.row[n], ceiling, budget)
 
 
 def conflict(statement: Statement, excess: Multipliers, omega_squared: Reals) -> PhysicalMultipliers:

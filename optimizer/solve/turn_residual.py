@@ -48,5 +48,5 @@ def _pair(peak: Mapping[str, float]) -> TurnPeaks:
 def _peaks(responses: Sequence[TurnResponse], layout: Layout, unbalance: Complex | None = None) -> dict[str, float]:
     """Of one machine with the weights that are in its layout, by name."""
     u = np.zeros(responses[0].influence.shape, complex) if unbalance is None else unbalance
-    found: Real = peaks(responses, u, _WIDTH).lower * layout.omega**2
-    return dict(zip((response.name for response in responses), found.tolist(), strict=True))
+    values: Real = peaks(responses, u, _WIDTH).lower * layout.omega**2
+    return dict(zip((response.name for response in responses), values.tolist(), strict=True))

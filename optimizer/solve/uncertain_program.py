@@ -80,8 +80,10 @@ class MachineOfCase:
         every = self.scene.responses
         if self.space.objective.orders == "all":
             # nothing is mirrored
-            every = tuple(each.unmirrored() for each in every)
-        return every if self.scenario is None else tuple(replace(each, scenario=self.scenario) for each in every)
+            every = tuple(response.unmirrored() for response in every)
+        return (
+            every if self.scenario is None else tuple(replace(response, scenario=self.scenario) for response in every)
+        )
 
     @cached_property
     def parts(self) -> tuple[Phasors, ...]:
@@ -170,21 +172,23 @@ class Robust:
         return replace(goals, of_all_masses=self._of_all_masses) if self.scatters and self._measures else goals
 
     def _goals(self, signs: Sequence[Sequence[Real]]) -> Goals:
-        cases = [machine.case(known) for machine, known in zip(self.machines, signs, strict=True)]
+        cases = [machine.case(changes) for machine, changes in zip(self.machines, signs, strict=True)]
         (machine, objective), fidelity = self.space, self.task.fidelity
         return formulate(machine, objective, cases, self.scene.omega_squared, fidelity, self.scatter, self.scatters)
 
     def _of_all_masses(self) -> Problem:
-        every = [np.concatenate([machine.corners(each) for each in self._measures]) for machine in self.machines]
+        every = [np.concatenate([machine.corners(measure) for measure in self._measures]) for machine in self.machines]
         return self._goals([list(np.unique(corners, axis=0)) for corners in every]).program
 
     def learnt(self, u: Complex) -> bool:
         """Whether counterweights (K,) have shown changes of masses that are worse than those known before."""
         if not self.scatters:
             return False
-        new = [list(self._worse(machine, known, u)) for machine, known in zip(self.machines, self._signs, strict=True)]
-        for known, more in zip(self._signs, new, strict=True):
-            known += more
+        new = [
+            list(self._worse(machine, changes, u)) for machine, changes in zip(self.machines, self._signs, strict=True)
+        ]
+        for changes, more in zip(self._signs, new, strict=True):
+            changes += more
         return any(new)
 
     def _worse(self, machine: MachineOfCase, signs: Sequence[Real], u: Complex) -> Iterator[Real]:
@@ -200,14 +204,14 @@ class Robust:
         """The program with all changes of masses that matter, and its proof."""
         gap, least = self.wanted.relative_gap, self.wanted.least_mass
         for _ in range(MOST_ROUNDS):
-            asked = self.goals()
-            found = self._cut(asked.program) or optimum(asked.program, gap, least, self.left_s)
-            if isinstance(found, Conflict) or not self.learnt(found.point.unbalance):
-                return asked, found
-            if found.timed_out:
+            goals = self.goals()
+            result = self._cut(goals.program) or optimum(goals.program, gap, least, self.left_s)
+            if isinstance(result, Conflict) or not self.learnt(result.point.unbalance):
+                return goals, result
+            if result.timed_out:
                 break
         # judged by all that is known: the gap tells what is left open
-        return self.goals(), found
+        return self.goals(), result
 
     def _cut(self, program: Problem) -> CertifiedOptimum | Conflict | None:
         """The optimum of a cone program of plates; None of other problems.
@@ -237,7 +241,7 @@ def _measures(task: Task) -> Iterator[Measure]:
     if objective.orders == "all":
         return
     across, wanted = objective.direction_weights, weights(task.machine, objective)
-    names = [each.name for each in counted(objective)]
+    names = [quantity.name for quantity in counted(objective)]
     for r, name in enumerate(names):
         if wanted[name] > 0:
             yield Measure(r, across.x, across.y)

@@ -47,11 +47,11 @@ def best_of_any_mass(task: Task, scene: Prepared, in_full: bool = True) -> Solut
         if a machine lacks what the objective needs.
     """
     robust = Robust(task, scene, task.demand)
-    asked, found = robust.solved()
-    if isinstance(found, Conflict):
-        return out_of_reach(task, scene, asked, found)
-    told = fitted(task, scene, asked, found, robust.wanted, in_full)
-    return _beside_nominal(robust, asked, told) if task.robust else told
+    goals, result = robust.solved()
+    if isinstance(result, Conflict):
+        return out_of_reach(task, scene, goals, result)
+    solution = fitted(task, scene, goals, result, robust.wanted, in_full)
+    return _beside_nominal(robust, goals, solution) if task.robust else solution
 
 
 def _beside_nominal(robust: Robust, goals: Goals, solution: Solution) -> Solution:
@@ -127,8 +127,8 @@ def _worst_case(robust: Robust, u: Complex, objective: float) -> WorstCase:
     """Peaks in the worst case, each by itself, with counterweights (K,) kg m."""
     on_frame = counted(robust.task.objective)
     peaks = {
-        each.name: max(_external(robust, machine, k, u) for machine in robust.machines)
-        for k, each in enumerate(on_frame)
+        response.name: max(_external(robust, machine, k, u) for machine in robust.machines)
+        for k, response in enumerate(on_frame)
     }
     bearings = robust.machines if robust.task.objective.of_the_shaft else []
     loads = [_peak(robust, machine, list(_bearing_responses(machine, robust.task.fidelity)), u) for machine in bearings]
@@ -136,8 +136,10 @@ def _worst_case(robust: Robust, u: Complex, objective: float) -> WorstCase:
         force_peak_N=peaks["force"],
         moment_peak_Nm=peaks["moment"],
         responses=tuple(
-            ResponsePeak(response=each.name, label=each.fields.label, unit=each.unit, peak=peaks[each.name])
-            for each in added(robust.task.objective)
+            ResponsePeak(
+                response=response.name, label=response.fields.label, unit=response.unit, peak=peaks[response.name]
+            )
+            for response in added(robust.task.objective)
         ),
         bearing_peak_N=max(loads) if loads else None,
         objective=objective,
@@ -161,11 +163,13 @@ def _peak(robust: Robust, machine: MachineOfCase, responses: Sequence[TurnRespon
     most = np.inf
     for width in (_ABOUT, _CLOSE):
         no = [False] * len(quantities)
-        found = Brackets(quantities, no, robust.scatter).evaluate(u, np.full(len(quantities), width))
-        least = max(each.lower for each in found)
+        brackets = Brackets(quantities, no, robust.scatter).evaluate(u, np.full(len(quantities), width))
+        least = max(bracket.lower for bracket in brackets)
         # a narrow bracket that is not reached may be wider than one that was
-        most = min(most, max(each.upper for each in found))
-        quantities = [quantity for quantity, each in zip(quantities, found, strict=True) if each.upper >= least]
+        most = min(most, max(bracket.upper for bracket in brackets))
+        quantities = [
+            quantity for quantity, bracket in zip(quantities, brackets, strict=True) if bracket.upper >= least
+        ]
     return float(most) * machine.scene.omega_squared
 
 
@@ -179,11 +183,11 @@ def _nominal_optimum(robust: Robust) -> tuple[CertifiedOptimum | None, bool]:
     nominal, wanted, left = _nominal(robust), robust.wanted, robust.left_s
     if left == 0.0:
         return None, True
-    found = optimum(nominal.program, wanted.relative_gap, wanted.least_mass, left)
-    if isinstance(found, Conflict) or found.timed_out:
-        return None, isinstance(found, CertifiedOptimum)
+    result = optimum(nominal.program, wanted.relative_gap, wanted.least_mass, left)
+    if isinstance(result, Conflict) or result.timed_out:
+        return None, isinstance(result, CertifiedOptimum)
     # what is neither kept nor proven to be out of reach is no optimum
-    return found if found.point.values.excess <= CEILING_TOLERANCE else None, False
+    return result if result.point.values.excess <= CEILING_TOLERANCE else None, False
 
 
 def _price(robust: Robust, u: Complex, best: Complex | None) -> dict[str, float | None]:
