@@ -127,8 +127,8 @@ class Computation:
     @property
     def asks(self) -> "type[Model]":
         """Model of the request."""
-        found: type[Model] = _object(self.request)
-        return found
+        model: type[Model] = _object(self.request)
+        return model
 
     @property
     def answers(self) -> "type[Model] | None":
@@ -138,8 +138,8 @@ class Computation:
     @property
     def function(self) -> Callable[[Any], Any]:
         """What makes the answer."""
-        found: Callable[[Any], Any] = _object(self.compute)
-        return found
+        operation: Callable[[Any], Any] = _object(self.compute)
+        return operation
 
 
 def _document(suffix: str, media_type: str, write: Reference, styles: str = "", compressed: bool = False) -> Form:

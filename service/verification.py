@@ -40,8 +40,8 @@ def checker() -> ModuleType:
 
 def _files() -> Iterable[str]:
     """The files, each behind those that it imports."""
-    each = (directory() / "client").glob("verify*.py")
-    return TopologicalSorter({path.stem: _IMPORTED.findall(path.read_text("utf-8")) for path in each}).static_order()
+    paths = (directory() / "client").glob("verify*.py")
+    return TopologicalSorter({path.stem: _IMPORTED.findall(path.read_text("utf-8")) for path in paths}).static_order()
 
 
 def _loaded(name: str) -> ModuleType:

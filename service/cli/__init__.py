@@ -56,9 +56,9 @@ def command_line() -> typer.Typer:
         pretty_exceptions_enable=False,
     )
     made.callback()(_options)
-    for one in COMPUTATIONS.values():
-        if one.chapters is not None:
-            made.command(name=one.title)(command(one))
+    for computation in COMPUTATIONS.values():
+        if computation.chapters is not None:
+            made.command(name=computation.title)(command(computation))
     for other in (sweep, plot, report, draw, table, template, verify, effects, examples, schema, serve):
         made.command()(other)
     made.add_typer(key, name="key")
@@ -79,8 +79,8 @@ def main() -> None:
     except Exception as error:
         if os.environ.get(_LOG_LEVEL, "").lower() == "debug":
             traceback.print_exc()
-        said = f"{type(error).__name__}: {error}".partition("\n")[0]
-        typer.echo(f"internal fault, not of the input: {said} ({_LOG_LEVEL}=debug logs where)", err=True)
+        message = f"{type(error).__name__}: {error}".partition("\n")[0]
+        typer.echo(f"internal fault, not of the input: {message} ({_LOG_LEVEL}=debug logs where)", err=True)
         raise SystemExit(FAULT) from None
     finally:
         # the interpreter looks through all that is loaded before it ends: a sixth of a first answer

@@ -47,12 +47,12 @@ def schema(
 
     from service.documents.catalogue import documents
 
-    known = documents()
+    index = documents()
     if name is None:
         from service.report.chapters.catalogue import names
 
-        show(names("Documents", [(key, document.meaning) for key, document in known.items()]))
-    elif name in known:
-        put(json.dumps(known[name].json_schema(), indent=2))
+        show(names("Documents", [(key, document.meaning) for key, document in index.items()]))
+    elif name in index:
+        put(json.dumps(index[name].json_schema(), indent=2))
     else:
-        fail(f"there is no document of this name; there are {', '.join(known)}")
+        fail(f"there is no document of this name; there are {', '.join(index)}")

@@ -20,10 +20,10 @@ _PLACED = ("web", "mass_kg", "angle_deg")
 
 def draw(file: File, to: Target, of: AnswerOption = None) -> None:
     """Draw the counterweights of a machine for a workshop and for other CAD: DXF, SVG, STEP, bill of material."""
-    one = COMPUTATIONS["drawings"]
-    given = {} if of is None else {"counterweights": _fitted(of)}
-    drawn = answer(one.function, question(one.asks, file, given))
-    written = resolve_name(one.forms[0].write)(drawn)
+    computation = COMPUTATIONS["drawings"]
+    fields = {} if of is None else {"counterweights": _fitted(of)}
+    drawn = answer(computation.function, question(computation.asks, file, fields))
+    written = resolve_name(computation.forms[0].write)(drawn)
     try:
         to.write_bytes(written)
     except OSError as error:
@@ -39,6 +39,6 @@ def _fitted(file: str) -> list[dict[str, Any]]:
             *body["counterweights"],
             *(counterweight for shaft in body["balance_shafts"] for counterweight in shaft["counterweights"]),
         ]
-        return [{name: one[name] for name in _PLACED} for one in every]
+        return [{name: item[name] for name in _PLACED} for item in every]
     except (KeyError, TypeError):
         fail(f"{file} is not the answer to an optimisation or an analysis")

@@ -48,8 +48,8 @@ def create(
         fail(*(f"{detail['loc'][0]}: {detail['msg']}" for detail in error.errors(include_input=False)))
     except ValueError as error:
         fail(str(error))
-    with _changed(where, new=True) as known:
-        known.append(record)
+    with _changed(where, new=True) as records:
+        records.append(record)
     put(made)
 
 
@@ -79,11 +79,11 @@ def revoke(
 ) -> None:
     """Remove a key."""
     where = _file(file)
-    with _changed(where) as known:
-        left = [record for record in known if record.id != identity]
-        if len(left) == len(known):
+    with _changed(where) as records:
+        left = [record for record in records if record.id != identity]
+        if len(left) == len(records):
             fail(f"there is no key of the id {identity}")
-        known[:] = left
+        records[:] = left
 
 
 def _file(path: Path | None) -> Path:
@@ -107,8 +107,8 @@ def _changed(file: Path, new: bool = False) -> Iterator["list[KeyRecord]"]:
     from service.guard.keys import BadKeyFile, changed
 
     try:
-        with changed(file, new) as known:
-            yield known
+        with changed(file, new) as records:
+            yield records
     except BadKeyFile as error:
         fail(str(error))
     except OSError as error:

@@ -53,8 +53,8 @@ def _read(rows: Path) -> "pa.Table":
     try:
         # without threads: one of Arrow's that is left when the process ends aborts it
         if rows.suffix == ".parquet":
-            with pq.ParquetFile(rows) as found:
-                return found.read(use_threads=False)
+            with pq.ParquetFile(rows) as parquet:
+                return parquet.read(use_threads=False)
         if rows.suffix == ".arrow":
             with pa.OSFile(str(rows)) as file:
                 return pa.ipc.open_file(file, options=pa.ipc.IpcReadOptions(use_threads=False)).read_all()

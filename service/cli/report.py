@@ -18,11 +18,11 @@ Target = Annotated[Path, typer.Option("-o", "--to", metavar="FILE", help="Docume
 
 def report(file: File, to: Target, output: OutputOptions = None) -> None:
     """Write a document on a machine and its counterweights, to be read, printed and filed."""
-    one = COMPUTATIONS["report"]
-    form = next((form for form in one.forms if form.suffix == to.suffix.lower()), None)
+    computation = COMPUTATIONS["report"]
+    form = next((form for form in computation.forms if form.suffix == to.suffix.lower()), None)
     if form is None:
-        fail(f"the name of the document must end in {' or '.join(form.suffix for form in one.forms)}")
-    made = answer(one.function, question(one.asks, file, {"outputs": output} if output else {}))
+        fail(f"the name of the document must end in {' or '.join(form.suffix for form in computation.forms)}")
+    made = answer(computation.function, question(computation.asks, file, {"outputs": output} if output else {}))
     try:
         to.write_bytes(resolve_name(form.write)(made))
     except OSError as error:

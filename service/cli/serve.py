@@ -31,17 +31,17 @@ def serve(
     from service.wire.server import listen, run, url
 
     options = {"host": host, "port": port, "engine": engine}
-    given: dict[str, Any] = {key: value for key, value in options.items() if value is not None}
+    values: dict[str, Any] = {key: value for key, value in options.items() if value is not None}
     unknown = list(unknown_variables(os.environ))
     if unknown:
         fail(*unknown)
     try:
-        settings = Settings(**given)
+        settings = Settings(**values)
         logs.configure(settings)
         app = create_app(settings)
         socket = listen(settings)
     except ValidationError as error:
-        fail(*wrong_values(error, given))
+        fail(*wrong_values(error, values))
     except ValueError as error:
         fail(str(error))
     except OSError as error:

@@ -62,21 +62,21 @@ def _sweep(
 ) -> None:
     from schemas.sweep.request import SweepRequest
 
-    asked = question(SweepRequest, file)
-    if dry_run or asked.dry_run:
-        _estimate(asked, workers, as_json)
+    request = question(SweepRequest, file)
+    if dry_run or request.dry_run:
+        _estimate(request, workers, as_json)
         return
     if output is None:
         fail("say where the rows shall go: --output results.parquet")
     _require_writable(output)
-    _require_fits(output, asked)
+    _require_fits(output, request)
     place = folder or output.with_name(output.name + ".sweep")
     desk = _desk(place, workers, engine)
     try:
         jobs = desk.of()
-        job = _run(jobs, asked, place, quiet=as_json)
+        job = _run(jobs, request, place, quiet=as_json)
         if job.state == "done":
-            counts = _finish(jobs, job, asked, output, as_json)
+            counts = _finish(jobs, job, request, output, as_json)
     finally:
         desk.close()
     if job.state != "done":
@@ -137,8 +137,8 @@ def _desk(place: Path, workers: int | None, engine: str | None) -> "JobService":
     from service.settings import Settings
 
     multiprocessing.set_forkserver_preload(["service.jobs.preload"])
-    given: dict[str, Any] = {} if workers is None else {"sweep_workers": workers}
-    settings = Settings(data_dir=place, database_url=None, engine=engine or "processes", **_ALONE, **given)
+    options: dict[str, Any] = {} if workers is None else {"sweep_workers": workers}
+    settings = Settings(data_dir=place, database_url=None, engine=engine or "processes", **_ALONE, **options)
     try:
         return JobService(settings)
     except ValueError as error:
@@ -187,16 +187,16 @@ def _watch(desk: "OwnerJobs", job: "Job", quiet: bool) -> "Job":
     )
     with Progress(*columns, console=Console(stderr=True), disable=quiet) as progress:
         bar = progress.add_task("designs", total=job.total, completed=job.done, failed=job.failed, invalid=job.invalid)
-        heard = time.monotonic()
+        contact = time.monotonic()
         while job.active:
             time.sleep(_POLL_S)
             try:
                 job = desk.get(job.id)
             except DatabaseUnavailable as error:
-                if time.monotonic() - heard > _PATIENCE_S:
+                if time.monotonic() - contact > _PATIENCE_S:
                     fail(f"{error}; the same command goes on from there")
                 continue
-            heard = time.monotonic()
+            contact = time.monotonic()
             progress.update(bar, completed=job.done, failed=job.failed, invalid=job.invalid)
     return job
 
@@ -240,8 +240,8 @@ def _counts(desk: "OwnerJobs", job: "Job", schema: "pa.Schema") -> dict[str, int
 
     counts: Counter[str] = Counter()
     for batch in desk.rows(job, pa.schema([schema.field("status")])).batches:
-        for one in batch.column("status").value_counts().to_pylist():
-            counts[one["values"]] += one["counts"]
+        for entry in batch.column("status").value_counts().to_pylist():
+            counts[entry["values"]] += entry["counts"]
     return dict(counts)
 
 

@@ -22,9 +22,9 @@ def table(name: NameOfTable, file: File, to: Target = None) -> None:
     """Optimise a machine and write one table of the answer as CSV."""
     if name not in NAMES:
         fail(f"there is no table {name}; these are {', '.join(NAMES)}")
-    one = COMPUTATIONS[_PREFIX + name]
-    request, where = read_input(one.asks, file)
-    written = resolve_name(one.forms[0].write)(answer(one.function, request, where))
+    computation = COMPUTATIONS[_PREFIX + name]
+    request, where = read_input(computation.asks, file)
+    written = resolve_name(computation.forms[0].write)(answer(computation.function, request, where))
     if to is None:
         put(written.decode().replace("\r\n", "\n").rstrip("\n"))
         return

@@ -61,14 +61,14 @@ def _cells(file: str) -> "tuple[Any, Callable[[FieldProblem], str]]":
     from service.workbook.sheets import REQUEST, Misplaced, read
 
     try:
-        found = read(workbook_sheets(_read(file), names=REQUEST))
+        request = read(workbook_sheets(_read(file), names=REQUEST))
     except OSError as error:
         fail(f"cannot read {file}: {error.strerror}")
     except UnreadableWorkbook as error:
         fail(f"{file}: {error}")
     except Misplaced as error:
         fail(*error.lines)
-    return found.body, found.where
+    return request.body, request.where
 
 
 def _pointer(problem: "FieldProblem") -> str:

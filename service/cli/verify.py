@@ -17,15 +17,15 @@ def verify(file: File, answer: Answer, as_json: AsJson = False) -> None:
     from service.verification import checker
 
     try:
-        found = VerifyAnswer.model_validate(checker().verify(checker().read(file), checker().read(answer)))
+        result = VerifyAnswer.model_validate(checker().verify(checker().read(file), checker().read(answer)))
     except OSError as error:
         fail(f"cannot read {error.filename}: {error.strerror}")
     except ValueError as error:
         fail(str(error))
     if as_json:
-        put(found.model_dump_json())
+        put(result.model_dump_json())
     else:
         from service.report.chapters.verification import verified
 
-        show(verified(found), "answer", found.verdict)
-    raise typer.Exit(checker().CODES[found.verdict])
+        show(verified(result), "answer", result.verdict)
+    raise typer.Exit(checker().CODES[result.verdict])

@@ -31,16 +31,16 @@ class Networks:
 
     def __init__(self, listed: Iterable[str]) -> None:
         self._names = frozenset(listed)
-        self._networks = tuple(found for found in map(_network, self._names) if found is not None)
+        self._networks = tuple(network for network in map(_network, self._names) if network is not None)
 
     def __contains__(self, address: str) -> bool:
         if "*" in self._names or address in self._names:
             return True
         try:
-            found = ipaddress.ip_address(address)
+            host = ipaddress.ip_address(address)
         except ValueError:
             return False
-        return any(found in network for network in self._networks)
+        return any(host in network for network in self._networks)
 
 
 def _network(text: str) -> ipaddress.IPv4Network | ipaddress.IPv6Network | None:

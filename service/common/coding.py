@@ -17,5 +17,5 @@ def coded(content: bytes, coding: Coding) -> bytes:
     # asked for alone by few clients, and half as large as all else that a worker holds
     import pyarrow as pa
 
-    found: bytes = pa.compress(content, codec=coding, asbytes=True)
-    return found
+    data: bytes = pa.compress(content, codec=coding, asbytes=True)
+    return data

@@ -6,13 +6,13 @@ from typing import Any
 
 def header(scope: MutableMapping[str, Any], name: bytes) -> str | None:
     """The first of a name; None if there is none."""
-    for each, value in scope["headers"]:
-        if each == name:
-            found: str = value.decode("latin-1")
-            return found
+    for key, value in scope["headers"]:
+        if key == name:
+            text: str = value.decode("latin-1")
+            return text
     return None
 
 
 def joined(scope: MutableMapping[str, Any], name: bytes) -> str:
     """All of a name as one list (RFC 9110, 5.3); empty if there is none."""
-    return b",".join([value for each, value in scope["headers"] if each == name]).decode("latin-1")
+    return b",".join([value for key, value in scope["headers"] if key == name]).decode("latin-1")

@@ -48,8 +48,8 @@ def slice_s() -> float:
     OSError
         if the system has no slices.
     """
-    found = _call(1, bytes(_ATTRIBUTES.size), _ATTRIBUTES.size, 0)
-    return float(_ATTRIBUTES.unpack(found)[5]) / 1e9
+    buffer = _call(1, bytes(_ATTRIBUTES.size), _ATTRIBUTES.size, 0)
+    return float(_ATTRIBUTES.unpack(buffer)[5]) / 1e9
 
 
 def _call(which: int, attributes: bytes, *more: int) -> bytes:
@@ -57,6 +57,6 @@ def _call(which: int, attributes: bytes, *more: int) -> bytes:
     if numbers is None:
         raise OSError(errno.ENOSYS, "no time slices here")
     buffer = ctypes.create_string_buffer(attributes, len(attributes))
-    if _LIBRARY.syscall(ctypes.c_long(numbers[which]), 0, buffer, *(ctypes.c_uint(each) for each in more)):
+    if _LIBRARY.syscall(ctypes.c_long(numbers[which]), 0, buffer, *(ctypes.c_uint(argument) for argument in more)):
         raise OSError(ctypes.get_errno(), os.strerror(ctypes.get_errno()))
     return buffer.raw

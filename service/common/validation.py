@@ -64,9 +64,9 @@ class InvalidRequest(ValueError):
     """The JSON does not describe a valid request; ``problems`` name fields by paths from the root of the body."""
 
     def __init__(self, problems: Iterable[FieldProblem]) -> None:
-        found = list(islice(problems, MAX_ERRORS + 1))
-        self.problems = found[:MAX_ERRORS]
-        self.more = len(found) > MAX_ERRORS
+        errors = list(islice(problems, MAX_ERRORS + 1))
+        self.problems = errors[:MAX_ERRORS]
+        self.more = len(errors) > MAX_ERRORS
         super().__init__("invalid request")
 
 
@@ -219,9 +219,9 @@ def _unknown_field(path: Path, name: str) -> FieldProblem:
 
 def message_of(detail: ErrorDetails) -> str:
     """The rule that is broken, in our words."""
-    known = _MESSAGES.get(detail["type"])
-    if known is not None:
-        return known.format_map(detail.get("ctx", {}))
+    template = _MESSAGES.get(detail["type"])
+    if template is not None:
+        return template.format_map(detail.get("ctx", {}))
     return _AFTERTHOUGHT.sub("", _SUBJECT.sub("must", detail["msg"]))
 
 

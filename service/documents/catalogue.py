@@ -39,8 +39,11 @@ def documents() -> Mapping[str, Document]:
 
 
 def _of_computations() -> Iterator[tuple[str, Document]]:
-    for one in COMPUTATIONS.values():
+    for computation in COMPUTATIONS.values():
         # a computation that answers with a document takes the request of another
-        if one.answers is not None:
-            yield one.title, Document(one.asks, "validation", f"request of {one.path}")
-            yield f"{one.title}-answer", Document(one.answers, "serialization", f"answer of {one.path}")
+        if computation.answers is not None:
+            yield computation.title, Document(computation.asks, "validation", f"request of {computation.path}")
+            yield (
+                f"{computation.title}-answer",
+                Document(computation.answers, "serialization", f"answer of {computation.path}"),
+            )

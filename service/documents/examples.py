@@ -73,7 +73,7 @@ def _describe(name: str, root_path: str) -> Example:
         name=name,
         title=machine.get("name") or name,
         description=machine.get("description") or "",
-        gas=any({"cylinder", "cylinders"} & row.keys() for each in machine.get("throws", ()) for row in each["rows"]),
+        gas=any({"cylinder", "cylinders"} & row.keys() for throw in machine.get("throws", ()) for row in throw["rows"]),
         links=ExampleLinks.model_validate(
             {"self": f"{root_path}/v1/examples/{name}", "optimize": f"{root_path}/v1/optimize"}
         ),

@@ -36,12 +36,12 @@ def rows(drawn: DrawingSet) -> Iterator[tuple[Cell, ...]]:
 def _rows(drawn: DrawingSet) -> Iterator[tuple[Cell, ...]]:
     """The counterweights that are drawn, part by part, then those without a plate."""
     for part in drawn.parts:
-        for one in part.places:
-            yield part.number, len(part.places), *_placed(one), *_made(part, one), part.name
+        for counterweight in part.places:
+            yield part.number, len(part.places), *_placed(counterweight), *_made(part, counterweight), part.name
     drawn_webs = {place.web for part in drawn.parts for place in part.places}
-    for one in drawn.fitted:
-        if one.web not in drawn_webs:
-            yield None, 1, *_placed(one), *(None,) * 7, "none: the web has no envelope"
+    for counterweight in drawn.fitted:
+        if counterweight.web not in drawn_webs:
+            yield None, 1, *_placed(counterweight), *(None,) * 7, "none: the web has no envelope"
 
 
 def _placed(weight: Counterweight) -> tuple[Cell, ...]:

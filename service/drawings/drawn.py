@@ -46,24 +46,24 @@ def drawings(request: DrawingsRequest) -> DrawingSet:
     built = as_built(request, answer) if isinstance(answer, OptimizeAnswer) else None
     optimum = chain(answer.counterweights, *(shaft.counterweights for shaft in answer.balance_shafts))
     every = optimum if built is None else built.counterweights
-    fitted = tuple(one for one in every if one.mass_kg > 0)
-    found = parts(request.machine, fitted)
-    if not found:
+    fitted = tuple(counterweight for counterweight in every if counterweight.mass_kg > 0)
+    plates = parts(request.machine, fitted)
+    if not plates:
         raise OutOfRange(
             [FieldProblem(_origin(request), "no counterweight is cut from a plate: there is none to draw")]
         )
     status = getattr(answer, "status", "given")
-    return DrawingSet(request.machine.name or "machine without a name", status, found, fitted, built)
+    return DrawingSet(request.machine.name or "machine without a name", status, plates, fitted, built)
 
 
 def _answer(request: DrawingsRequest) -> OptimizeAnswer | AnalyzeAnswer:
     if request.counterweights is not None:
         return analyze(AnalyzeRequest(machine=request.machine, counterweights=request.counterweights))
-    found = optimize(request, outputs=("residual",))
-    if found.status == "infeasible":
+    optimum = optimize(request, outputs=("residual",))
+    if optimum.status == "infeasible":
         message = "no counterweights within the limits keep the ceilings: there are none to draw"
         raise OutOfRange([FieldProblem(("objective",), message)])
-    return found
+    return optimum
 
 
 def _origin(request: DrawingsRequest) -> tuple[str | int, ...]:

@@ -84,7 +84,9 @@ def _reach(layout: Layout) -> float:
     """Radius of what is drawn to scale, m; the axes of rows go on beyond it."""
     machine = layout.machine
     radii = [1.22 * web.reach_m for web in machine.places if web.reach_m]
-    radii += [1.22 * one.radius_m for one in (*layout.best, *layout.built) if one.shape is None]
+    radii += [
+        1.22 * counterweight.radius_m for counterweight in (*layout.best, *layout.built) if counterweight.shape is None
+    ]
     if isinstance(machine, CrankMachine):
         return max([*radii, *(1.25 * crank.crank_radius_m for _, crank in machine.cranks)], default=1.0)
     guide = machine.anti_rotation
@@ -186,7 +188,7 @@ def _cranks(drawing: Drawing, view: _View, machine: CrankMachine) -> list[Crank]
     drawn = []
     thin = len(cranks) > _MAX_NAMES
     for angle, group in _grouped(cranks):
-        for radius in sorted({each[2] for each in group}, reverse=True):
+        for radius in sorted({member[2] for member in group}, reverse=True):
             names, pin = [name for _, name, own in group if own == radius], view(radius, angle)
             with drawing.group("throw", f"throw {_joined(names)} at {digits(angle)}°"):
                 drawing.line([view.centre, pin], INK, 1.0 if thin else 4.0)
@@ -254,10 +256,10 @@ def _grouped(items: Iterable[Entry]) -> Iterator[tuple[float, list[Entry]]]:
 
 def _joined(names: Iterable[str]) -> str:
     """Names as far as there is room for them."""
-    found = [shortened(name, 18) for name in dict.fromkeys(names)]
+    texts = [shortened(name, 18) for name in dict.fromkeys(names)]
     shown: list[str] = []
-    for name in found:
+    for name in texts:
         if shown and (len(shown) == 6 or sum(map(len, shown)) + len(name) > 36):
             break
         shown.append(name)
-    return ", ".join(shown) + (f" and {len(found) - len(shown)} more" if len(shown) < len(found) else "")
+    return ", ".join(shown) + (f" and {len(texts) - len(shown)} more" if len(shown) < len(texts) else "")

@@ -35,10 +35,10 @@ def labels(drawing: Drawing, wanted: Sequence[Label], shapes: Sequence[Shape]) -
     bounded = [(_around(shape), shape) for shape in shapes]
     with drawing.group("names"):
         for label in wanted:
-            found = _room(drawing, label, taken, bounded)
-            if found is not None:
-                taken.append(found)
-                _write(drawing, label, found)
+            box = _room(drawing, label, taken, bounded)
+            if box is not None:
+                taken.append(box)
+                _write(drawing, label, box)
 
 
 def _room(drawing: Drawing, label: Label, taken: Sequence[Box], shapes: Sequence[tuple[Box, Shape]]) -> Box | None:

@@ -235,7 +235,7 @@ class Layout(_Part):
             return machine.reference_plane_m
         if isinstance(machine, OrbitMachine):
             return machine.orbiting_position_m
-        planes = [one.position_m for _, one in machine.cranks] or [place.position_m for place in machine.places]
+        planes = [crank.position_m for _, crank in machine.cranks] or [place.position_m for place in machine.places]
         return (min(planes) + max(planes)) / 2.0
 
 
@@ -270,9 +270,9 @@ def partial_layout(typed: dict[str, Any]) -> tuple[Layout | None, list[FieldProb
 def _copied(value: Any, deep: int) -> Any:
     """JSON as far down as anything is drawn: what somebody types may be nested as deeply as can be read."""
     if isinstance(value, dict):
-        return {key: _copied(each, deep - 1) for key, each in value.items()} if deep else None
+        return {key: _copied(item, deep - 1) for key, item in value.items()} if deep else None
     if isinstance(value, list | tuple):
-        return [_copied(each, deep - 1) for each in value] if deep else None
+        return [_copied(item, deep - 1) for item in value] if deep else None
     return value
 
 

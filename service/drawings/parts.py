@@ -39,20 +39,20 @@ class Part:
 
 def parts(machine: Machine, fitted: Iterable[Counterweight]) -> tuple[Part, ...]:
     """The counterweights that are cut from plates, part by part, in the order of their webs."""
-    found: list[Part] = []
-    for envelope, half_angle, one in _cut(machine, fitted):
-        for k, part in enumerate(found):
+    plates: list[Part] = []
+    for envelope, half_angle, counterweight in _cut(machine, fitted):
+        for k, part in enumerate(plates):
             if part.envelope == envelope and isclose(part.half_angle, half_angle, rel_tol=_ALIKE):
-                found[k] = Part(part.number, envelope, part.half_angle, (*part.places, one))
+                plates[k] = Part(part.number, envelope, part.half_angle, (*part.places, counterweight))
                 break
         else:
-            found.append(Part(len(found) + 1, envelope, half_angle, (one,)))
-    return tuple(found)
+            plates.append(Part(len(plates) + 1, envelope, half_angle, (counterweight,)))
+    return tuple(plates)
 
 
 def _cut(machine: Machine, fitted: Iterable[Counterweight]) -> Iterator[tuple[Envelope, float, Counterweight]]:
     envelopes = {web.name: web.envelope for web in machine.webs}
-    for one in fitted:
-        envelope = envelopes.get(one.web)
-        if envelope is not None and one.shape is not None:
-            yield envelope, radians(one.shape.half_angle_deg), one
+    for counterweight in fitted:
+        envelope = envelopes.get(counterweight.web)
+        if envelope is not None and counterweight.shape is not None:
+            yield envelope, radians(counterweight.shape.half_angle_deg), counterweight

@@ -169,9 +169,9 @@ def _side(drawing: Drawing, view: _View, part: Part) -> None:
 
 
 def _notes(part: Part) -> Iterator[str]:
-    one, envelope = part.places[0], part.envelope
+    piece, envelope = part.places[0], part.envelope
     many = f"{len(part.places)} pieces" if len(part.places) > 1 else "1 piece"
-    yield f"{many}, {one.mass_kg:.6g} kg each at {envelope.density_kg_m3:g} kg/m³, {one.mass_radius_kg_m:.6g} kg m"
+    yield f"{many}, {piece.mass_kg:.6g} kg each at {envelope.density_kg_m3:g} kg/m³, {piece.mass_radius_kg_m:.6g} kg m"
     for place in part.places:
         yield _place(place)
 

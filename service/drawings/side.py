@@ -64,8 +64,8 @@ def side(layout: Layout, dimensions: bool = False) -> Drawing:
     below = _BOTTOM + (_DIMENSIONS if dimensions else 0.0)
     lines = list(_lines(view, named))
     height = below + 14.0 + _LINE * max([2, *(row + 1 for _, _, row in lines)])
-    told = ", ".join(f"{plane.name} at {digits(plane.position_m)} m" for plane in planes)
-    drawing = Drawing(WIDTH, height, f"From the side: {told}.")
+    caption = ", ".join(f"{plane.name} at {digits(plane.position_m)} m" for plane in planes)
+    drawing = Drawing(WIDTH, height, f"From the side: {caption}.")
     with drawing.group("reference", f"reference plane of moments, {digits(reference)} m"):
         drawing.line([(view.z(reference), 14), (view.z(reference), _BOTTOM - 2)], SERIES[2], 1.0, "9 3 2 3")
         late = view.z(reference) > WIDTH - 130
@@ -159,25 +159,27 @@ def _bearings(drawing: Drawing, view: _View, machine: CrankMachine) -> None:
 
 def _weights(drawing: Drawing, view: _View, layout: Layout) -> None:
     best, built = layout.best, layout.built
-    carrying = {one.web.name for one in best}
+    carrying = {weight.web.name for weight in best}
     for web in layout.machine.places:
         if web.name not in carrying:
             with drawing.group("free", f"{web.name}: nothing"):
                 drawing.line([(view.z(web.position_m), _MIDDLE + aside) for aside in (-7, 7)], AFTER, 1.2)
-    heaviest = max((one.mass_kg for one in (*best, *built)), default=0.0)
-    for one in best:
-        words = f"{digits(round(one.mass_kg, 4))} kg at {digits(round(one.angle_deg, 2))}°"
-        kind = f"counterweight{' fixed' if one.fixed else ''}{' unknown' if one.shape is None else ''}"
-        with drawing.group(kind, f"{one.web.name}: {words}, plane {digits(one.web.position_m)} m"):
-            ground, edge = (MUTED, INK) if one.fixed else (AFTER, AFTER)
-            place, plate = one.web.position_m, _plate(view, one, heaviest)
+    heaviest = max((weight.mass_kg for weight in (*best, *built)), default=0.0)
+    for weight in best:
+        words = f"{digits(round(weight.mass_kg, 4))} kg at {digits(round(weight.angle_deg, 2))}°"
+        kind = f"counterweight{' fixed' if weight.fixed else ''}{' unknown' if weight.shape is None else ''}"
+        with drawing.group(kind, f"{weight.web.name}: {words}, plane {digits(weight.web.position_m)} m"):
+            ground, edge = (MUTED, INK) if weight.fixed else (AFTER, AFTER)
+            place, plate = weight.web.position_m, _plate(view, weight, heaviest)
             drawing.line([view(place, 0.0, 0.0), _mean(plate[:2])], FAINT, 1.0)
-            drawing.area(plate, ground, 0.3, edge, 1.6, "5 3" if one.shape is None else None)
-            drawing.circle(view(place, one.radius_m, one.angle_deg), 2.2, edge, edge)
-    for one in built:
-        words = f"{digits(round(one.mass_kg, 4))} kg at {digits(round(one.angle_deg, 2))}°"
-        with drawing.group("counterweight built", f"{one.web.name} as built: {words}"):
-            drawing.area(_plate(view, one._replace(shape=None), heaviest), "none", stroke=BUILT, width=1.6, dash="6 3")
+            drawing.area(plate, ground, 0.3, edge, 1.6, "5 3" if weight.shape is None else None)
+            drawing.circle(view(place, weight.radius_m, weight.angle_deg), 2.2, edge, edge)
+    for weight in built:
+        words = f"{digits(round(weight.mass_kg, 4))} kg at {digits(round(weight.angle_deg, 2))}°"
+        with drawing.group("counterweight built", f"{weight.web.name} as built: {words}"):
+            drawing.area(
+                _plate(view, weight._replace(shape=None), heaviest), "none", stroke=BUILT, width=1.6, dash="6 3"
+            )
 
 
 def _plate(view: _View, fitted: Fitted, heaviest: float) -> list[Point]:

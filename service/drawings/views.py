@@ -15,5 +15,5 @@ def views(request: LayoutRequest) -> LayoutAnswer:
     return LayoutAnswer(
         front=None if layout is None else front(layout).svg(),
         side=None if layout is None else side(layout).svg(),
-        missing=tuple(FieldError(pointer=pointer(one.path), message=one.message) for one in missing),
+        missing=tuple(FieldError(pointer=pointer(problem.path), message=problem.message) for problem in missing),
     )

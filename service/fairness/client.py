@@ -22,9 +22,9 @@ def client_of_request(scope: Scope, owner: str | None) -> str:
 def client_network(address: str) -> str:
     """Which client an address belongs to: itself, or its network of IPv6; what is no address is itself."""
     try:
-        found = ipaddress.ip_address(address)
+        host = ipaddress.ip_address(address)
     except ValueError:
         return address
-    if found.version == 4 or found.is_loopback:
-        return str(found)
-    return str(found.ipv4_mapped or ipaddress.ip_network((int(found), _PREFIX), strict=False))
+    if host.version == 4 or host.is_loopback:
+        return str(host)
+    return str(host.ipv4_mapped or ipaddress.ip_network((int(host), _PREFIX), strict=False))

@@ -170,9 +170,9 @@ class FairQueue:
             longest = max(self._waiting.values(), key=len, default=None)
             if longest is None or len(longest) <= own + 1:
                 raise Full
-            given_up = longest[-1]
-            self._leave(given_up)
-            given_up.decided.set()
+            victim = longest[-1]
+            self._leave(victim)
+            victim.decided.set()
         if not own:
             self._waiting[turn.owner] = deque()
             self._since[turn.owner] = self._clock()

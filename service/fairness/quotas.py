@@ -26,8 +26,10 @@ class Quota:
         many : it stands for many clients, who have more than what is there for each.
         """
         share, then = self.share, self._held[client] + amount
-        kept = share.reserve if then <= share.assured else 0
-        if self._total + amount > share.altogether + kept or not (many or then <= max(share.per_client, share.assured)):
+        reserve = share.reserve if then <= share.assured else 0
+        if self._total + amount > share.altogether + reserve or not (
+            many or then <= max(share.per_client, share.assured)
+        ):
             return False
         self._held[client] = then
         self._total += amount
@@ -85,5 +87,5 @@ class Holding:
 
 def holding(request: Request) -> Holding:
     """What a request holds; :class:`~service.guard.access.Access` has made it, and ends it."""
-    found: Holding = request.state.holding
-    return found
+    result: Holding = request.state.holding
+    return result

@@ -70,15 +70,15 @@ class FairScheduler:
 
     async def turn(self, client: str) -> None:
         """Wait for a turn of the event loop that is a client's."""
-        given = asyncio.get_running_loop().create_future()
+        future = asyncio.get_running_loop().create_future()
 
         def give() -> None:
             # who waited may be gone
-            if not given.done():
-                given.set_result(None)
+            if not future.done():
+                future.set_result(None)
 
         if not self.ask(client, give):
-            await given
+            await future
 
     def _next(self) -> None:
         if not (self._few or self._many):

@@ -61,8 +61,8 @@ class SingleFlight:
         # who leaves takes nothing away from the others
         await asyncio.wait((shared,))
         await self._turn(who)
-        found: Result = shared.result()
-        return found
+        result: Result = shared.result()
+        return result
 
     async def _taken(
         self, loop: asyncio.AbstractEventLoop, who: str, what: Hashable, look: Callable[[], Result]
@@ -83,9 +83,9 @@ class SingleFlight:
         await own.acquire()
         try:
             async with self._queue.turn(who) as turn:
-                found = await to_thread.run_sync(work, limiter=self._threads)
+                result = await to_thread.run_sync(work, limiter=self._threads)
                 turn.computed_s = computed_s
-            return found
+            return result
         finally:
             others = self._others(who)
             loop.call_later(_REST * (computed_s + others * took_s), self._go_on, who, own)

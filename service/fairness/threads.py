@@ -54,5 +54,5 @@ def in_threads(work: Callable[..., Result]) -> Callable[..., Any]:
 
 def threads_of(request: Request) -> Threads:
     """The threads of the application."""
-    found: Threads = request.app.state.threads
-    return found
+    threads: Threads = request.app.state.threads
+    return threads

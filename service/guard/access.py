@@ -101,22 +101,22 @@ class Access:
             return ANYONE, None
         if path in PUBLIC or path.startswith(PUBLIC_FOLDERS):
             return NOBODY, None
-        given = _key(Headers(scope=scope))
-        caller = None if given is None else keys.caller(given)
+        key = _key(Headers(scope=scope))
+        caller = None if key is None else keys.caller(key)
         if caller is None:
-            if given is not None:
+            if key is not None:
                 await self._limits.refused(client_of_request(scope, None))
-            raise Unauthorized(given is not None)
+            raise Unauthorized(key is not None)
         return caller, await self._limits.count(caller.key or "", caller.rate_limit)
 
 
 def _saying(rate: Rate, send: Send) -> Send:
     """State with an answer what is left of the rate of its key."""
-    told = [(name.lower().encode(), value.encode()) for name, value in rate.headers.items()]
+    headers = [(name.lower().encode(), value.encode()) for name, value in rate.headers.items()]
 
     async def say(message: Message) -> None:
         if message["type"] == "http.response.start":
-            message["headers"] = [*message.get("headers", ()), *told]
+            message["headers"] = [*message.get("headers", ()), *headers]
         await send(message)
 
     return say

@@ -34,11 +34,11 @@ class Hosts:
         ------
         ForeignHost
         """
-        asked = header(scope, b"host")
-        if asked is None or "*" in self._others:
+        text = header(scope, b"host")
+        if text is None or "*" in self._others:
             return
-        found = _HOST.fullmatch(asked)
-        host = (found[1] or found[2]).lower().removesuffix(".") if found else ""
+        match = _HOST.fullmatch(text)
+        host = (match[1] or match[2]).lower().removesuffix(".") if match else ""
         came_to = (scope.get("server") or ("",))[0]
         if not (host in self._others or is_loopback(host) or host.endswith(".localhost") or (host and host == came_to)):
             raise ForeignHost

@@ -102,14 +102,14 @@ NOBODY = Caller(None, None, frozenset())
 
 def caller_of(request: Request) -> Caller:
     """Whose request it is; :class:`~service.guard.access.Access` has found out."""
-    found: Caller = request.state.caller
-    return found
+    caller: Caller = request.state.caller
+    return caller
 
 
 def still_admitted(request: Request) -> bool:
     """Whether the key of a request that takes long is still right; it may have been revoked, or have expired."""
-    found: bool = request.state.still_admitted()
-    return found
+    result: bool = request.state.still_admitted()
+    return result
 
 
 def make(
@@ -148,16 +148,16 @@ def read(file: Path) -> list[KeyRecord]:
         lines = file.read_text("utf-8").splitlines()
     except (OSError, UnicodeDecodeError) as error:
         raise BadKeyFile(f"cannot read the keys in {file}: {getattr(error, 'strerror', None) or error}") from None
-    found = []
+    records = []
     for number, line in enumerate(lines, 1):
         if line.strip():
             try:
-                found.append(_RECORD.validate_json(line))
+                records.append(_RECORD.validate_json(line))
             except ValidationError as error:
                 first = error.errors(include_input=False)[0]
                 where = ".".join(map(str, first["loc"])) or "line"
                 raise BadKeyFile(f"{file}, line {number}: {where}: {first['msg']}") from None
-    return found
+    return records
 
 
 def write(file: Path, records: list[KeyRecord]) -> None:
@@ -261,10 +261,10 @@ class Keys:
 
     def _stamped(self) -> tuple[int, int, int]:
         try:
-            found = self._file.stat()
+            status = self._file.stat()
         except OSError:
             return (0, 0, 0)
-        return found.st_mtime_ns, found.st_size, found.st_ino
+        return status.st_mtime_ns, status.st_size, status.st_ino
 
 
 def keys(settings: Settings) -> Keys | None:

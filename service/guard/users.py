@@ -43,10 +43,10 @@ def user_of(scope: Scope) -> str | None:
     BadHeader
         if it is no name, or more than one: a proxy has to put its own in place of what a client sent.
     """
-    header, given = scope.get("state", {}).get("users", ("", []))
-    if not given:
+    header, names = scope.get("state", {}).get("users", ("", []))
+    if not names:
         return None
-    if len(given) > 1 or _USER.fullmatch(given[0]) is None:
+    if len(names) > 1 or _USER.fullmatch(names[0]) is None:
         raise BadHeader(f"{header} must be one name of 1 to 128 visible ASCII characters.")
-    found: str = given[0]
-    return found
+    user: str = names[0]
+    return user

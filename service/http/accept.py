@@ -40,9 +40,9 @@ def preferred(header: str, offered: Sequence[Name]) -> Name | None:
 
 def _preferred(header: str, offered: tuple[Name, ...]) -> Name | None:
     ranges = dict(_range(part) for part in header.split(",") if part.strip()) or {"*/*": 1.0}
-    liked = {each: _quality(each, ranges) for each in offered}
-    best = max(offered, key=liked.__getitem__)
-    return best if liked[best] > 0 else None
+    qualities = {name: _quality(name, ranges) for name in offered}
+    best = max(offered, key=qualities.__getitem__)
+    return best if qualities[best] > 0 else None
 
 
 _cached = lru_cache(_CACHE_SIZE)(_preferred)
@@ -72,8 +72,8 @@ def _ranges(name: str) -> Iterator[str]:
 
 def _range(part: str) -> tuple[str, float]:
     name, *parameters = (piece.strip().lower() for piece in part.split(";"))
-    given = dict(parameter.replace(" ", "").partition("=")[::2] for parameter in parameters)
+    values = dict(parameter.replace(" ", "").partition("=")[::2] for parameter in parameters)
     try:
-        return name, float(given.get("q", "1"))
+        return name, float(values.get("q", "1"))
     except ValueError:
         return name, 0.0

@@ -40,15 +40,15 @@ class CachedDocument:
 
     def answer(self, request: Request, cache: str = ASKS_AGAIN, **headers: str) -> Response:
         """The document, or that the client has it already."""
-        told = {"Cache-Control": cache, "ETag": self.tag, "Vary": "Accept-Encoding", **headers}
+        fields = {"Cache-Control": cache, "ETag": self.tag, "Vary": "Accept-Encoding", **headers}
         if self._has_it(request):
-            return Response(status_code=304, headers=told)
+            return Response(status_code=304, headers=fields)
         content = self.content
         # a client that says nothing takes the document as it is
         accepted = request.headers.get("accept-encoding") or "identity"
         if len(content) > SMALL_BYTES and preferred(accepted, ("gzip",)):
-            content, told["Content-Encoding"] = self.compressed, "gzip"
-        return Response(content, media_type=self.media_type, headers=told)
+            content, fields["Content-Encoding"] = self.compressed, "gzip"
+        return Response(content, media_type=self.media_type, headers=fields)
 
     def _has_it(self, request: Request) -> bool:
         """Whether a client has it; of two tags only the text counts (RFC 9110, 13.1.2)."""
@@ -82,9 +82,9 @@ class Shelf(Generic[Name]):
         """A document with all that is sent of it; who asks while it is made waits for the same."""
         with self._making:
             if name not in self._there:
-                found = self._make(name)
+                document = self._make(name)
                 # most ask for it compressed
-                if len(found.content) > SMALL_BYTES:
-                    found.compressed  # noqa: B018
-                self._there[name] = found
+                if len(document.content) > SMALL_BYTES:
+                    document.compressed  # noqa: B018
+                self._there[name] = document
         return self._there[name]

@@ -82,9 +82,9 @@ class Computing:
         ------
         UnreadableJson, InvalidRequest
         """
-        asked = read_request(model, body)
-        self.limits.require(asked)
-        return asked
+        question = read_request(model, body)
+        self.limits.require(question)
+        return question
 
     async def answer(self, request: Request, computation: Computation) -> Response:
         """The answer to the question in the body, or a job if the client prefers to be answered later.
@@ -171,8 +171,8 @@ def _form(request: Request, computation: Computation) -> Form:
 
 def computing_of(request: Request) -> Computing:
     """The application's :class:`Computing`."""
-    found: Computing = request.app.state.computing
-    return found
+    result: Computing = request.app.state.computing
+    return result
 
 
 async def computing(request: Request) -> Computing:

@@ -59,7 +59,11 @@ class Documented(FastAPI):
         schemas = document["components"]["schemas"]
         # the framework keeps the document and makes a new one when routes are added
         if Problem.__name__ not in schemas:
-            models: list[type[Model]] = [*(one.asks for one in COMPUTATIONS.values()), SweepRequest, Problem]
+            models: list[type[Model]] = [
+                *(computation.asks for computation in COMPUTATIONS.values()),
+                SweepRequest,
+                Problem,
+            ]
             _, made = models_json_schema([(model, "validation") for model in models], ref_template=MODEL_REF)
             # a model that is asked and answered, as a cylinder, is described as it is asked: that holds for both
             schemas |= made["$defs"]
@@ -95,7 +99,7 @@ class Documented(FastAPI):
         """Answer with the document."""
 
         async def answer(request: Request) -> Response:
-            found = await self._written.take(request, request.scope.get("root_path", ""))
-            return found.answer(request)
+            document = await self._written.take(request, request.scope.get("root_path", ""))
+            return document.answer(request)
 
         self.add_route("/openapi.json", answer, include_in_schema=False)

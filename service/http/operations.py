@@ -117,7 +117,7 @@ def headers(*names: str) -> Described:
 
 def accept(*media_types: str) -> Described:
     """The header by which a client chooses a form; generators that follow the specification leave it out."""
-    listed = ", ".join(f"`{one}`" for one in media_types)
+    listed = ", ".join(f"`{media_type}`" for media_type in media_types)
     what = f"the forms of the answer that the client takes: {listed}; the first one where it takes any"
     return _in_header("Accept", what, type="string", examples=list(media_types))
 
@@ -136,10 +136,10 @@ def _more(status: int | str) -> Described:
 
 def unchanged(content: Described | None = None, *others: str, description: str = "the document") -> Responses:
     """A document that is sent once: with its tag, or 304 to a client that has it."""
-    found: Described = {"description": description, "headers": headers("ETag", *others)}
+    response: Described = {"description": description, "headers": headers("ETag", *others)}
     if content is not None:
-        found["content"] = content
-    return {200: found, 304: {"description": "the client has the document already", "headers": headers("ETag")}}
+        response["content"] = content
+    return {200: response, 304: {"description": "the client has the document already", "headers": headers("ETag")}}
 
 
 def on_disk(description: str) -> Responses:

@@ -87,8 +87,8 @@ def announced(request: Request, other: str | None = None) -> str:
     if other is not None and kind == other:
         return other
     if not (kind == "application/json" or (kind.startswith("application/") and kind.endswith("+json"))):
-        known = "application/json" + ("" if other is None else f" or {other}")
-        raise UnsupportedMedia(f"Send the body as Content-Type: {known}.")
+        choices = "application/json" + ("" if other is None else f" or {other}")
+        raise UnsupportedMedia(f"Send the body as Content-Type: {choices}.")
     # charset* and charset*0 are forms of mail, which HTTP does not have here
     if any(name.startswith("charset") and (name, value) not in _UTF_8 for name, value in parameters):
         raise UnsupportedMedia("Send the body in UTF-8.")
@@ -97,14 +97,14 @@ def announced(request: Request, other: str | None = None) -> str:
 
 def _media_type(announced: str) -> tuple[str, list[tuple[str, str]]]:
     """Kind and parameters of a ``Content-Type`` in small letters; an empty kind if it is none."""
-    found = _MEDIA_TYPE.fullmatch(announced)
-    if found is None:
+    match = _MEDIA_TYPE.fullmatch(announced)
+    if match is None:
         return "", []
     parameters, end = [], 0
-    for one in _PARAMETER.finditer(found[2]):
-        if one.start() != end:
+    for parameter in _PARAMETER.finditer(match[2]):
+        if parameter.start() != end:
             break
-        end = one.end()
-        if one[1]:
-            parameters.append((one[1].lower(), one[2].strip('"').lower()))
-    return (found[1].lower(), parameters) if end == len(found[2]) else ("", [])
+        end = parameter.end()
+        if parameter[1]:
+            parameters.append((parameter[1].lower(), parameter[2].strip('"').lower()))
+    return (match[1].lower(), parameters) if end == len(match[2]) else ("", [])

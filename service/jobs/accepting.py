@@ -18,8 +18,8 @@ _PREFERS = re.compile(r"(?:^|[,;])\s*respond-async\s*(?:$|[,;])", re.IGNORECASE)
 def desk_of(request: Request) -> OwnerJobs:
     """The jobs that belong to whoever asks."""
     caller = caller_of(request)
-    found: OwnerJobs = request.app.state.desk.of(caller.owner, sees_all=caller.may("admin"))
-    return found
+    desk: OwnerJobs = request.app.state.desk.of(caller.owner, sees_all=caller.may("admin"))
+    return desk
 
 
 def prefix(request: Request) -> str:

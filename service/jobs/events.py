@@ -107,14 +107,14 @@ async def events(
     closing : whether the service is about to stop.
     """
     yield b"retry: 2000\n\n"
-    now, told, heard = first, last, time.monotonic()
+    now, version, beat = first, last, time.monotonic()
     while not closing():
-        if now.job.version != told:
+        if now.job.version != version:
             yield now.event
-            told, heard = now.job.version, time.monotonic()
-        elif time.monotonic() - heard > _HEARTBEAT_S:
+            version, beat = now.job.version, time.monotonic()
+        elif time.monotonic() - beat > _HEARTBEAT_S:
             yield b": nothing new\n\n"
-            heard = time.monotonic()
+            beat = time.monotonic()
         if not now.job.active:
             return
         try:

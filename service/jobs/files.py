@@ -58,14 +58,14 @@ def verified(path: Path, record: Record) -> BinaryIO:
             file = refused.enter_context(_open(path))
             if not S_ISREG(os.fstat(file.fileno()).st_mode):
                 raise Damaged(record, "no file")
-            found = hashlib.file_digest(file, "sha256").hexdigest()
+            checksum = hashlib.file_digest(file, "sha256").hexdigest()
             file.seek(0)
         except OSError as error:
             damage = _damage(path, error)
             if damage is not None:
                 raise Damaged(record, damage) from None
             raise FilesUnavailable(f"the files of the sweeps cannot be read: {error.strerror}") from error
-        if record.digest is not None and found != record.digest:
+        if record.digest is not None and checksum != record.digest:
             raise Damaged(record, "damaged")
         refused.pop_all()
     return file

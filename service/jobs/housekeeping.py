@@ -59,10 +59,10 @@ class Housekeeping:
         for job in [job for job in ended if job not in self._tidy_jobs][:_AT_A_TIME]:
             with suppress(UnknownJob):
                 # listed before the records are, which are known before a job ends
-                names, found = self._files.names(job), self._store.get(job)
-                if not found.active:
+                names, entry = self._files.names(job), self._store.get(job)
+                if not entry.active:
                     self._files.tidy(job, names, self._records(job))
-                    self._tidy_jobs[job] = found.version
+                    self._tidy_jobs[job] = entry.version
 
     def remove(self, job: str, record: Record) -> None:
         """Remove a file unless the database knows it. Others are left alone: another service may be about to tell it

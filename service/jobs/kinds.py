@@ -46,7 +46,7 @@ def _later(model: "Callable[[], type[BaseModel]]") -> Callable[[bytes], bool]:
         try:
             model().model_validate_json(request)
         except ValidationError as error:
-            return any(each["type"] in _UNKNOWN for each in error.errors(include_url=False, include_input=False))
+            return any(detail["type"] in _UNKNOWN for detail in error.errors(include_url=False, include_input=False))
         return False
 
     return later
@@ -78,19 +78,19 @@ def _failed_rows(request: bytes, start: int, stop: int, reason: str) -> ChunkRes
     from schemas.base.target import pointer
     from schemas.sweep.request import SweepRequest
 
-    asked = SweepRequest.model_validate_json(request)
-    known = {
+    sweep = SweepRequest.model_validate_json(request)
+    cells = {
         "index": range(start, stop),
         "status": ["failed"] * (stop - start),
         "message": [reason] * (stop - start),
         **{
             pointer(target.path): values
-            for target, values in zip(asked.targets, axis_values(asked, start, stop), strict=True)
+            for target, values in zip(sweep.targets, axis_values(sweep, start, stop), strict=True)
         },
     }
     nothing = [None] * (stop - start)
-    schema = result_schema(asked, request)
-    columns = [pa.array(known.get(field.name, nothing), field.type) for field in schema]
+    schema = result_schema(sweep, request)
+    columns = [pa.array(cells.get(field.name, nothing), field.type) for field in schema]
     return _piece(pa.Table.from_arrays(columns, schema=schema))
 
 

@@ -50,8 +50,8 @@ class Leases:
 
     def claim(self, owner: str, lease_s: float, attempted: bool = False, others: Collection[str] = ()) -> Chunk | None:
         """Lease one chunk, see :meth:`claim_some`."""
-        found = self.claim_some(owner, lease_s, 1, attempted, others)
-        return found[0] if found else None
+        batch = self.claim_some(owner, lease_s, 1, attempted, others)
+        return batch[0] if batch else None
 
     def claim_some(
         self, owner: str, lease_s: float, most: int, attempted: bool = False, others: Collection[str] = ()
@@ -72,21 +72,21 @@ class Leases:
             candidates: list[str] = list(connection.scalars(_waiting(attempted), {"others": [*others], **times}))
         for job in candidates:
             with self._database.write() as connection:
-                found = rows.find(connection, job, lock=True)
-                if found is None or not found.active:
+                entry = rows.find(connection, job, lock=True)
+                if entry is None or not entry.active:
                     continue
                 spans = _free(connection, attempted, {"job": job, "most": most, **times})
                 if not spans and not attempted:
-                    spans = _made(connection, found)[:most]
+                    spans = _made(connection, entry)[:most]
                 if spans:
                     starts = [start for start, _, _ in spans]
                     these = and_(chunks.c.job == job, chunks.c.start.in_(starts))
                     lease = {"state": "leased", "lease_owner": owner, "lease_until": now + lease_s}
                     connection.execute(update(chunks).where(these).values(lease))
-                    if found.state == "queued":
-                        rows.change(connection, job, state="running", started=found.started or now)
+                    if entry.state == "queued":
+                        rows.change(connection, job, state="running", started=entry.started or now)
                     request = bytes(connection.scalar(select(jobs.c.request).where(jobs.c.id == job)) or b"")
-                    return [Chunk(job, found.kind, request, *span) for span in spans]
+                    return [Chunk(job, entry.kind, request, *span) for span in spans]
         return []
 
     def renew(self, owner: str, held: Sequence[Chunk], lease_s: float) -> None:
@@ -121,30 +121,30 @@ class Leases:
             return []
         job = computed[0].chunk.job
         with self._database.write() as connection:
-            found = rows.find(connection, job, lock=True)
-            if found is None or not found.active:
+            entry = rows.find(connection, job, lock=True)
+            if entry is None or not entry.active:
                 return [False] * len(computed)
             now = self._clock()
-            counted = [_mark_done(connection, one, now) for one in computed]
-            new = [one for one, counts in zip(computed, counted, strict=True) if counts]
+            counted = [_mark_done(connection, piece, now) for piece in computed]
+            new = [piece for piece, counts in zip(computed, counted, strict=True) if counts]
             if new:
                 counts = {
-                    "done": jobs.c.done + sum(one.chunk.rows for one in new),
-                    "failed": jobs.c.failed + sum(one.failed for one in new),
-                    "invalid": jobs.c.invalid + sum(one.invalid for one in new),
-                    "bytes": jobs.c.bytes + sum(on_disk(one.bytes) for one in new),
+                    "done": jobs.c.done + sum(piece.chunk.rows for piece in new),
+                    "failed": jobs.c.failed + sum(piece.failed for piece in new),
+                    "invalid": jobs.c.invalid + sum(piece.invalid for piece in new),
+                    "bytes": jobs.c.bytes + sum(on_disk(piece.bytes) for piece in new),
                 }
                 rows.change(connection, job, **counts)
-                self._settle(connection, found)
+                self._settle(connection, entry)
             return counted
 
     def _settle(self, connection: Connection, job: Job) -> None:
         rows.settle(connection, job.id, self._clock(), self._limits.keep_s)
         quota = self._limits.quota_bytes
-        found = rows.get(connection, job.id)
-        if quota is not None and found.active and room.exceeds(connection, job.owner, quota):
+        entry = rows.get(connection, job.id)
+        if quota is not None and entry.active and room.exceeds(connection, job.owner, quota):
             error = f"the {quota / 1e6:.1f} MB of its owner on disk are used up; remove sweeps, then resume this one"
-            rows.end(connection, found, "failed", error, self._clock(), self._limits.keep_s)
+            rows.end(connection, entry, "failed", error, self._clock(), self._limits.keep_s)
 
     def finish_selection(self, chunk: Chunk, covered: int, remaining: int, file: Record) -> Record | None:
         """The file of the rows that were selected is on disk. It does not count if the job has ended, or another
@@ -174,21 +174,21 @@ class Leases:
     def refuse_selection(self, chunk: Chunk, reason: str) -> None:
         """There will be no selection; the job goes on without."""
         with self._database.write() as connection:
-            found = rows.find(connection, chunk.job, lock=True)
-            if found is not None and found.active:
+            job = rows.find(connection, chunk.job, lock=True)
+            if job is not None and job.active:
                 gone = {"state": "done", "digest": None, "lease_owner": None}
                 connection.execute(update(chunks).where(_this(chunk)).values(gone))
-                rows.change(connection, chunk.job, selected=found.total, kept=0, error=reason)
-                self._settle(connection, found)
+                rows.change(connection, chunk.job, selected=job.total, kept=0, error=reason)
+                self._settle(connection, job)
 
     def postpone(self, chunk: Chunk) -> None:
         """Select rows later: when those that are computed anew are there, which they may be by now."""
         with self._database.write() as connection:
-            found = rows.find(connection, chunk.job, lock=True)
+            job = rows.find(connection, chunk.job, lock=True)
             mine = and_(_this(chunk), chunks.c.state == "leased")
             connection.execute(update(chunks).where(mine).values(state="waiting", lease_owner=None))
-            if found is not None:
-                self._settle(connection, found)
+            if job is not None:
+                self._settle(connection, job)
 
     def give_back(self, chunk: Chunk, attempts: int) -> None:
         """A chunk went wrong ``attempts`` times by now and shall be tried again."""
@@ -225,27 +225,27 @@ class Leases:
         whether it is news: not if another has said so before.
         """
         with self._database.write() as connection:
-            found = rows.find(connection, job, lock=True)
+            entry = rows.find(connection, job, lock=True)
             selection = record.rows == 0
             this = and_(chunks.c.job == job, chunks.c.start == record.start, chunks.c.stop == record.stop)
-            known = and_(this, chunks.c.digest == record.digest, chunks.c.state.in_(["done", "waiting"]))
-            row = connection.execute(select(chunks.c.failed, chunks.c.invalid, chunks.c.bytes).where(known)).first()
-            if found is None or row is None:
+            condition = and_(this, chunks.c.digest == record.digest, chunks.c.state.in_(["done", "waiting"]))
+            row = connection.execute(select(chunks.c.failed, chunks.c.invalid, chunks.c.bytes).where(condition)).first()
+            if entry is None or row is None:
                 return False
             sizes = {"bytes": 0, "failed": 0, "invalid": 0}
             blank = {**sizes, "digest": None, "attempts": 0, "finished": None, "lease_owner": None}
             state = "waiting" if selection else "pending"
             connection.execute(update(chunks).where(this).values(state=state, **blank))
             counts = {
-                "done": found.done - record.rows,
-                "failed": found.failed - row.failed,
-                "invalid": found.invalid - row.invalid,
+                "done": entry.done - record.rows,
+                "failed": entry.failed - row.failed,
+                "invalid": entry.invalid - row.invalid,
             }
             if selection:
                 counts |= {"selected": 0, "kept": 0}
-            if found.state == "done":
+            if entry.state == "done":
                 counts |= {"state": "running", "ended": None, "expires": None}
-            rows.change(connection, job, repaired=found.repaired + 1, bytes=found.bytes - row.bytes, **counts)
+            rows.change(connection, job, repaired=entry.repaired + 1, bytes=entry.bytes - row.bytes, **counts)
             rows.settle(connection, job, self._clock(), self._limits.keep_s)
             return True
 
@@ -302,14 +302,14 @@ def _free_of_job(attempted: bool) -> tuple[Select[Any], ...]:
     """Start, stop and attempts of chunks of a job that may be given out, at most so many."""
     free, tried = _available(attempted)
     wanted = select(chunks.c.start, chunks.c.stop, chunks.c.attempts).where(chunks.c.job == bindparam("job"), tried)
-    return tuple(wanted.where(one).order_by(chunks.c.start).limit(bindparam("most")) for one in free)
+    return tuple(wanted.where(condition).order_by(chunks.c.start).limit(bindparam("most")) for condition in free)
 
 
 def _free(connection: Connection, attempted: bool, about: Mapping[str, Any]) -> list[tuple[int, int, int]]:
     for wanted in _free_of_job(attempted):
-        found = connection.execute(wanted, about).all()
-        if found:
-            return [(row.start, row.stop, row.attempts) for row in found]
+        matches = connection.execute(wanted, about).all()
+        if matches:
+            return [(row.start, row.stop, row.attempts) for row in matches]
     return []
 
 

@@ -133,9 +133,9 @@ class OwnerJobs:
         return self._submit(Order(kind, request, its, expected_bytes=len(request), owner=self._owner, key=key))
 
     def _submit(self, order: Order) -> tuple[Job, bool]:
-        found = self._parts.store.submit(order)
+        result = self._parts.store.submit(order)
         self._parts.coordinator.start()
-        return found
+        return result
 
     # ---- jobs
 
@@ -145,10 +145,10 @@ class OwnerJobs:
         ------
         UnknownJob, DatabaseUnavailable
         """
-        found = self._parts.store.get(job)
-        if not self._sees_all and found.owner != self._owner:
+        entry = self._parts.store.get(job)
+        if not self._sees_all and entry.owner != self._owner:
             raise UnknownJob(job)
-        return self._judged(found)
+        return self._judged(entry)
 
     def those(self, ids: Collection[str]) -> list[Job]:
         """Those of some jobs that there are, of whoever they may be.
@@ -205,9 +205,9 @@ class OwnerJobs:
     def resume(self, job: str) -> Job:
         """Go on with a job that was cancelled or has failed."""
         self.get(job)
-        found = self._parts.store.resume(job)
+        entry = self._parts.store.resume(job)
         self._parts.coordinator.start()
-        return found
+        return entry
 
     def state(self, job: Job, prefix: str = "") -> SweepState:
         """What is answered about a job; ``prefix`` is the path that a proxy strips."""
@@ -260,8 +260,8 @@ class OwnerJobs:
 
         from optimizer.studies.sweep.table import REQUEST
 
-        found = pa.ipc.read_schema(pa.py_buffer(self._parts.store.columns(job.id)))
-        return found.with_metadata({REQUEST: self._parts.store.request(job.id), **(found.metadata or {})})
+        columns = pa.ipc.read_schema(pa.py_buffer(self._parts.store.columns(job.id)))
+        return columns.with_metadata({REQUEST: self._parts.store.request(job.id), **(columns.metadata or {})})
 
     def rows(self, job: Job, schema: "pa.Schema", first: int = 0, last: int | None = None) -> Rows:
         """The rows with first <= index < last that are finished, in order.
@@ -341,10 +341,10 @@ class OwnerJobs:
             raise FilesUnavailable(f"a file of job {job.id} cannot be given its name: {error.strerror}") from error
         except Damaged:
             rows = record.start, record.stop
-            for found in self._parts.store.pieces(job.id):
+            for piece in self._parts.store.pieces(job.id):
                 # another reader has been faster
-                if (found.start, found.stop) == rows and found.digest is not None:
-                    return found
+                if (piece.start, piece.stop) == rows and piece.digest is not None:
+                    return piece
             raise
         self._parts.leases.adopt(job.id, record, str(named.digest), named.bytes)
         self._parts.files.drop(job.id, record)

@@ -79,9 +79,9 @@ def rows_of(
     import pyarrow.parquet as pq
 
     position = 0
-    with opened() as file, pq.ParquetFile(file) as found:
+    with opened() as file, pq.ParquetFile(file) as parquet:
         # without threads: one of Arrow's that lets go of Python's bytes while the interpreter ends aborts the process
-        for batch in found.iter_batches(batch_rows(schema), columns=schema.names, use_threads=False):
+        for batch in parquet.iter_batches(batch_rows(schema), columns=schema.names, use_threads=False):
             begin = max(first - position, 0)
             end = batch.num_rows if last is None else min(last - position, batch.num_rows)
             position += batch.num_rows

@@ -49,10 +49,10 @@ def get(connection: Connection, job: str, lock: bool = False) -> Job:
     ------
     UnknownJob
     """
-    found = find(connection, job, lock)
-    if found is None:
+    entry = find(connection, job, lock)
+    if entry is None:
         raise UnknownJob(job)
-    return found
+    return entry
 
 
 def change(connection: Connection, job: str, **values: object) -> None:
@@ -70,12 +70,12 @@ def end(connection: Connection, job: Job, state: State, error: str | None, now: 
 
 def settle(connection: Connection, job: str, now: float, keep_s: float | None) -> None:
     """End a job that has all it needs; have rows selected when there are all, or twice as many as the last time."""
-    found = get(connection, job)
-    if not found.active:
+    entry = get(connection, job)
+    if not entry.active:
         return
-    whole = found.done == found.total
-    if whole and (not found.selects or found.selected == found.total):
-        end(connection, found, "done", found.error, now, keep_s)
-    elif found.selects and found.done > found.selected and (whole or found.done >= 2 * found.selected):
-        selection = and_(chunks.c.job == job, chunks.c.start == found.total, chunks.c.state == "waiting")
+    whole = entry.done == entry.total
+    if whole and (not entry.selects or entry.selected == entry.total):
+        end(connection, entry, "done", entry.error, now, keep_s)
+    elif entry.selects and entry.done > entry.selected and (whole or entry.done >= 2 * entry.selected):
+        selection = and_(chunks.c.job == job, chunks.c.start == entry.total, chunks.c.state == "waiting")
         connection.execute(update(chunks).where(selection).values(state="pending"))

@@ -37,8 +37,8 @@ def prepare(connection: Connection) -> None:
     WrongSchema
         if the database is newer than this service, or has tables that no version of it made.
     """
-    known = set(inspect(connection).get_table_names())
-    if "schema" in known:
+    tables = set(inspect(connection).get_table_names())
+    if "schema" in tables:
         _require_columns(connection, "schema")
         number = connection.scalar(select(schema.c.number))
         if number == 2:
@@ -46,11 +46,11 @@ def prepare(connection: Connection) -> None:
             connection.execute(update(schema).values(number=NUMBER))
         elif number != NUMBER:
             raise WrongSchema(f"the job database has schema {number}; this service knows {NUMBER}")
-    elif "jobs" in known:
-        found = _columns(connection, "jobs")
-        if found != _OLD_JOBS:
+    elif "jobs" in tables:
+        columns = _columns(connection, "jobs")
+        if columns != _OLD_JOBS:
             raise WrongSchema(
-                f"the job database has a table jobs of no known schema: {', '.join(sorted(found ^ _OLD_JOBS))}"
+                f"the job database has a table jobs of no known schema: {', '.join(sorted(columns ^ _OLD_JOBS))}"
             )
         _from_1(connection)
         _number(connection)
@@ -105,10 +105,10 @@ def _selections_of_1(connection: Connection) -> None:
     sweeps = select(jobs.c.id).where(jobs.c.kind == "sweep", jobs.c.state != "removed")
     for job in connection.scalars(sweeps).all():
         row = connection.execute(select(jobs.c.request, jobs.c.state, jobs.c.total).where(jobs.c.id == job)).one()
-        asked = json.loads(row.request)
+        request = json.loads(row.request)
         this = update(jobs).where(jobs.c.id == bindparam("job"))
-        selects = asked.get("top") is not None or asked.get("pareto") is not None
-        connection.execute(this.values(seed=asked.get("seed", 0), selects=selects), {"job": job})
+        selects = request.get("top") is not None or request.get("pareto") is not None
+        connection.execute(this.values(seed=request.get("seed", 0), selects=selects), {"job": job})
         if selects:
             ready = row.state == "done"
             chunk = {"job": job, "start": row.total, "stop": row.total, "state": "pending" if ready else "waiting"}

@@ -47,7 +47,7 @@ def select(
     from service.jobs.kinds import table_bytes
     from service.jobs.results import rows_of
 
-    asked, schema = SweepRequest.model_validate_json(request), pa.ipc.read_schema(pa.py_buffer(columns))
+    sweep, schema = SweepRequest.model_validate_json(request), pa.ipc.read_schema(pa.py_buffer(columns))
     where, until = Path(flag), time.monotonic() + longest_s
     most = max(1, _CELLS // len(schema))
 
@@ -57,9 +57,9 @@ def select(
         if time.monotonic() > until:
             raise Unanswerable(f"selecting rows takes longer than {longest_s:g} s; read all of them")
 
-    compared = {"index", *(asked.pareto or ()), *(() if asked.top is None else (asked.top.by,))}
+    compared = {"index", *(sweep.pareto or ()), *(() if sweep.top is None else (sweep.top.by,))}
     narrow = pa.schema([field for field in schema if field.name in compared])
-    tool = reducer(asked, narrow, most, proceed)
+    tool = reducer(sweep, narrow, most, proceed)
     try:
         for path, record in pieces:
             proceed()
@@ -68,12 +68,12 @@ def select(
     except TooManyRows:
         raise Unanswerable(f"more than {most} rows would be kept; read all of them, or ask for fewer columns") from None
 
-    found = [schema.empty_table()]
+    tables = [schema.empty_table()]
     for path, record in _holding(pieces, index.to_numpy()):
         proceed()
         whole = pa.Table.from_batches(rows_of(partial(verified, path, record), schema), schema)
-        found.append(whole.filter(pc.is_in(whole["index"], value_set=index)))
-    rows = pa.concat_tables(found)
+        tables.append(whole.filter(pc.is_in(whole["index"], value_set=index)))
+    rows = pa.concat_tables(tables)
     # in the order of the selection
     rows = rows.take(pc.index_in(index, value_set=rows["index"].combine_chunks()))
     return ChunkResult(table_bytes(rows), 0, rows.num_rows)

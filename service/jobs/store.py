@@ -58,20 +58,20 @@ class Store:
         """
         try:
             with self._database.write() as connection:
-                known = _by_key(connection, order)
-                if known is None:
+                entry = _by_key(connection, order)
+                if entry is None:
                     self._require_room(connection, order)
                     return self._insert(connection, order), True
         except IntegrityError:
             # another service took the same key in the same moment
             with self._database.read() as connection:
-                known = _by_key(connection, order)
-            if known is None:
+                entry = _by_key(connection, order)
+            if entry is None:
                 raise
-        found, its_fingerprint, its_request = known
-        if found.kind != order.kind or not same(order, its_fingerprint, its_request):
+        job, its_fingerprint, its_request = entry
+        if job.kind != order.kind or not same(order, its_fingerprint, its_request):
             raise KeyReused("This Idempotency-Key came with another request before; take a new key.")
-        return found, False
+        return job, False
 
     def _require_room(self, connection: Connection, order: Order) -> None:
         active = select(func.count()).select_from(jobs).where(jobs.c.state.in_(ACTIVE))
@@ -180,8 +180,8 @@ class Store:
             .group_by(jobs.c.state)
         )
         with self._database.read() as connection:
-            found = connection.execute(wanted)
-            return {state: (count, int(done), int(failed), int(wrong)) for state, count, done, failed, wrong in found}
+            result = connection.execute(wanted)
+            return {state: (count, int(done), int(failed), int(wrong)) for state, count, done, failed, wrong in result}
 
     def pieces(self, job: str) -> list[Record]:
         """The files of the rows that are there, in order."""
@@ -189,14 +189,14 @@ class Store:
 
     def selection(self, job: str) -> Record | None:
         """The file of the rows that were selected last, if there is one."""
-        found = self._records(job, chunks.c.stop == chunks.c.start, chunks.c.digest.is_not(None))
-        return found[0] if found else None
+        records = self._records(job, chunks.c.stop == chunks.c.start, chunks.c.digest.is_not(None))
+        return records[0] if records else None
 
     def _records(self, job: str, *conditions: ColumnElement[bool]) -> list[Record]:
         wanted = select(chunks.c.start, chunks.c.stop, chunks.c.digest, chunks.c.bytes)
         with self._database.read() as connection:
-            found = connection.execute(wanted.where(chunks.c.job == job, *conditions).order_by(chunks.c.start))
-            return [Record(row.start, row.stop, row.digest, row.bytes) for row in found]
+            result = connection.execute(wanted.where(chunks.c.job == job, *conditions).order_by(chunks.c.start))
+            return [Record(row.start, row.stop, row.digest, row.bytes) for row in result]
 
     def last_finished(self, job: str, most: int) -> list[tuple[float, int]]:
         """When the last chunks were finished [s since 1970], and how many rows each of them has; the latest first."""
@@ -225,9 +225,9 @@ class Store:
 
     def _ended(self, job: str, state: State, error: str | None) -> Job:
         with self._database.write() as connection:
-            found = rows.get(connection, job, lock=True)
-            if found.active:
-                rows.end(connection, found, state, error, self._clock(), self._limits.keep_s)
+            entry = rows.get(connection, job, lock=True)
+            if entry.active:
+                rows.end(connection, entry, state, error, self._clock(), self._limits.keep_s)
             return rows.get(connection, job)
 
     def resume(self, job: str) -> Job:
@@ -238,8 +238,8 @@ class Store:
         UnknownJob
         """
         with self._database.write() as connection:
-            found = rows.get(connection, job, lock=True)
-            if found.state in ("cancelled", "failed"):
+            entry = rows.get(connection, job, lock=True)
+            if entry.state in ("cancelled", "failed"):
                 open_chunk = and_(chunks.c.job == job, chunks.c.state.not_in(["done", "waiting"]))
                 values = {"state": "pending", "attempts": 0, "lease_owner": None}
                 connection.execute(update(chunks).where(open_chunk).values(values))

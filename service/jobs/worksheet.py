@@ -106,8 +106,8 @@ def worksheet(schema: "pa.Schema", batches: "Iterable[pa.RecordBatch]") -> Gener
 
 
 def _about(field: "pa.Field") -> list[str]:
-    known = field.metadata or {}
-    return [known.get(key, b"").decode() for key in (b"unit", b"meaning")]
+    metadata = field.metadata or {}
+    return [metadata.get(key, b"").decode() for key in (b"unit", b"meaning")]
 
 
 def _row(texts: Iterable[str]) -> str:

@@ -30,10 +30,10 @@ _FRAMES = b"<!-- frames -->"
 
 def _schemas() -> str:
     """What the form is made from: of the service's document, which is ten times as long, what it needs."""
-    _, found = models_json_schema(
+    _, document = models_json_schema(
         [(OptimizeRequest, "validation"), (ParetoRequest, "validation")], ref_template="#/components/schemas/{model}"
     )
-    return json.dumps(found["$defs"], ensure_ascii=False, separators=(",", ":"))
+    return json.dumps(document["$defs"], ensure_ascii=False, separators=(",", ":"))
 
 
 _OWN: Mapping[str, Callable[[], str]] = {

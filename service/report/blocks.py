@@ -203,8 +203,8 @@ def extremes(title: str, angle_deg: Sequence[float], series: Iterable[tuple[str,
     """Largest and smallest sample of every series, and where first."""
     rows = []
     for name, values in series:
-        known = [(value, angle) for value, angle in zip(values, angle_deg, strict=True) if value is not None]
-        result = (*max(known, key=itemgetter(0)), *min(known, key=itemgetter(0))) if known else (None,) * 4
+        samples = [(value, angle) for value, angle in zip(values, angle_deg, strict=True) if value is not None]
+        result = (*max(samples, key=itemgetter(0)), *min(samples, key=itemgetter(0))) if samples else (None,) * 4
         rows.append((name, *result))
     return table(title, ["", "#largest", "#at, deg", "#smallest", "#at, deg"], rows)
 

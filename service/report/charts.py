@@ -205,7 +205,7 @@ def spread(values: Sequence[float], factor: float = 1.0) -> tuple[float, float, 
 
 def _round_step(rough: float) -> float:
     power = 10.0 ** math.floor(math.log10(rough))
-    return next(each * power for each in (1.0, 2.0, 2.5, 5.0, 10.0) if each * power >= rough * (1 - 1e-9))
+    return next(factor * power for factor in (1.0, 2.0, 2.5, 5.0, 10.0) if factor * power >= rough * (1 - 1e-9))
 
 
 def _ends(places: Sequence[float], ticks: Sequence[float] | None) -> tuple[float, float]:
@@ -230,13 +230,13 @@ def _pieces(places: Sequence[float], values: Sequence[float | None]) -> list[lis
 def _thinned(points: list[Point]) -> list[Point]:
     if len(points) <= 2 * _BINS:
         return points
-    kept = []
+    extremes = []
     for index in range(_BINS):
         bin_ = range(index * len(points) // _BINS, (index + 1) * len(points) // _BINS)
         # in the order of the line, which may come back
         ends = {choose(bin_, key=lambda k: points[k][1]) for choose in (min, max)}
-        kept += [points[k] for k in sorted(ends)]
-    return [points[0], *kept, points[-1]]
+        extremes += [points[k] for k in sorted(ends)]
+    return [points[0], *extremes, points[-1]]
 
 
 def tick(value: float) -> str:

@@ -118,8 +118,8 @@ def document(
 
 def _file_stem(request: ReportRequest) -> str:
     """What a file of the document is called: machine, number, revision."""
-    known = (request.machine.name or "counterweights", request.document.number, request.document.revision)
-    return " ".join(each for each in known if each is not None)
+    parts = (request.machine.name or "counterweights", request.document.number, request.document.revision)
+    return " ".join(part for part in parts if part is not None)
 
 
 def _chapters(

@@ -148,7 +148,7 @@ def _fit(value: Any) -> Any:
     if isinstance(value, str):
         return plain(value)
     if isinstance(value, dict):
-        return {key: _fit(each) for key, each in value.items()}
+        return {key: _fit(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
-        return [_fit(each) for each in value]
+        return [_fit(item) for item in value]
     return value

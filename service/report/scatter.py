@@ -36,7 +36,7 @@ def scatter(across: Column, upward: Column) -> Drawing:
         PAGE_WIDTH, _TOP + _HEIGHT + 42.0, f"{count} designs by {across.name} and {upward.name}, and their front"
     )
     bottom, right = _TOP + _HEIGHT, PAGE_WIDTH - _RIGHT
-    (large_x, unit_x), (large_y, unit_y) = (prefix(max(map(abs, one.values))) for one in (across, upward))
+    (large_x, unit_x), (large_y, unit_y) = (prefix(max(map(abs, column.values))) for column in (across, upward))
     low_x, high_x, marks_x = spread(across.values, large_x)
     low_y, high_y, marks_y = spread(upward.values, large_y)
 

@@ -120,12 +120,12 @@ def _vector(drawing: Drawing, vector: Acting, largest: float, sense: float, stro
 def _iron(drawing: Drawing, iron: Sequence[StageIron]) -> None:
     """Mass times radius in both planes: against rotating masses solid, for the whole reciprocating force dashed."""
     parts = [
-        (complex(one.rotating_x_kg_m, one.rotating_y_kg_m), complex(one.reciprocating_x_kg_m, one.reciprocating_y_kg_m))
-        for one in iron
+        (complex(web.rotating_x_kg_m, web.rotating_y_kg_m), complex(web.reciprocating_x_kg_m, web.reciprocating_y_kg_m))
+        for web in iron
     ]
-    largest = max((abs(each) for pair in parts for each in pair), default=0.0)
+    largest = max((abs(vector) for pair in parts for vector in pair), default=0.0)
     y = _BELOW
-    for k, (one, pair) in enumerate(zip(iron, parts, strict=True)):
+    for k, (web, pair) in enumerate(zip(iron, parts, strict=True)):
         stroke = SERIES[k]
         for value, dash in zip(pair, (None, "5 3"), strict=True):
             if largest and abs(value) > 0.02 * largest:
@@ -134,7 +134,7 @@ def _iron(drawing: Drawing, iron: Sequence[StageIron]) -> None:
                 drawing.line([_CENTRE, tip], stroke, 1.8, dash)
                 _head(drawing, tip, away, stroke)
         sizes = " + k ".join(digits(abs(value)) for value in pair)
-        drawing.text((0, y), f"z = {digits(one.position_m)} m: {sizes}", size=8.5, fill=stroke)
+        drawing.text((0, y), f"z = {digits(web.position_m)} m: {sizes}", size=8.5, fill=stroke)
         y += 11
     words = "kg m: rotating + k reciprocating" if iron else "no webs"
     drawing.text((0, y), words, size=8.5, fill=MUTED)

@@ -14,24 +14,24 @@ from service.http.parameters import require_parameters
 
 def endpoints() -> dict[str, Endpoint]:
     """What answers all computations, by path."""
-    return {one.path: _endpoint(one) for one in COMPUTATIONS.values()}
+    return {computation.path: _endpoint(computation) for computation in COMPUTATIONS.values()}
 
 
 def router() -> APIRouter:
     """The routes of all computations, as they are documented; requests come to them by :mod:`service.http.direct`."""
     made = APIRouter()
-    for one in COMPUTATIONS.values():
-        answers, about = of_computation(one)
+    for computation in COMPUTATIONS.values():
+        answers, about = of_computation(computation)
         made.add_api_route(
-            one.path,
-            _endpoint(one),
+            computation.path,
+            _endpoint(computation),
             methods=["POST"],
-            operation_id=one.name,
-            summary=one.summary,
-            description=one.remark,
-            tags=[one.tag],
-            response_model=one.answers,
-            response_class=Response if one.answers is None else JSONResponse,
+            operation_id=computation.name,
+            summary=computation.summary,
+            description=computation.remark,
+            tags=[computation.tag],
+            response_model=computation.answers,
+            response_class=Response if computation.answers is None else JSONResponse,
             responses=answers,
             openapi_extra=about,
         )

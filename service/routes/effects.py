@@ -21,8 +21,8 @@ router = APIRouter(tags=["counterweights"])
 )
 async def list_effects(request: Request) -> Response:
     """Only the effects that the outputs of a request need are simulated, and only their inputs are asked for."""
-    found = await _LISTS.take(request, "effects")
-    return found.answer(request)
+    document = await _LISTS.take(request, "effects")
+    return document.answer(request)
 
 
 def _listed(_: str) -> CachedDocument:

@@ -22,8 +22,8 @@ _POLICY = (
 async def home(request: Request) -> Response:
     """One page that asks the service what everyone can ask."""
     origins: tuple[str, ...] = request.app.state.frame_origins
-    found = await _PAGES.take(request, origins)
-    return found.answer(request, **{"Content-Security-Policy": _POLICY + (" ".join(origins) or "'none'")})
+    document = await _PAGES.take(request, origins)
+    return document.answer(request, **{"Content-Security-Policy": _POLICY + (" ".join(origins) or "'none'")})
 
 
 @router.get("/portal/{of}/{name:path}")
@@ -31,15 +31,15 @@ async def file(request: Request, of: str, name: str) -> Response:
     """A file of the page. A page of another release gets the files of this one, but may not keep them."""
     if name not in names():
         raise HTTPException(404)
-    found = await _FILES.take(request, name)
-    return found.answer(request, FOR_EVER if of == release() else ASKS_AGAIN)
+    document = await _FILES.take(request, name)
+    return document.answer(request, FOR_EVER if of == release() else ASKS_AGAIN)
 
 
 def _file(name: str) -> CachedDocument:
     # computed from all files, once: here no client waits for it on the event loop
     release()
-    found = asset(name)
-    return CachedDocument(found.content, found.media_type)
+    resource = asset(name)
+    return CachedDocument(resource.content, resource.media_type)
 
 
 _PAGES = Shelf[tuple[str, ...]](lambda origins: CachedDocument(page(origins), "text/html"))

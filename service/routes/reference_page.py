@@ -33,8 +33,8 @@ def install(app: FastAPI) -> None:
     async def asset(request: Request, name: str) -> Response:
         if name not in _MEDIA_TYPES:
             raise HTTPException(404)
-        found = await _ASSETS.take(request, name)
-        return found.answer(request)
+        document = await _ASSETS.take(request, name)
+        return document.answer(request)
 
     @app.get("/docs", include_in_schema=False)
     async def docs() -> HTMLResponse:

@@ -87,12 +87,12 @@ async def post_sweep(request: Request, computing: Computes, desk: Jobs) -> Respo
     workers: int = request.app.state.sweep_workers
 
     def work() -> Response:
-        asked = computing.checked(SweepRequest, body)
-        if asked.dry_run:
+        sweep = computing.checked(SweepRequest, body)
+        if sweep.dry_run:
             from optimizer.studies.sweep.plan import plan
 
-            return Response(plan(asked).estimate_for(workers).model_dump_json(), 200, _NO_STORE, "application/json")
-        return accepted(request, *desk.sweep(asked, key, body))
+            return Response(plan(sweep).estimate_for(workers).model_dump_json(), 200, _NO_STORE, "application/json")
+        return accepted(request, *desk.sweep(sweep, key, body))
 
     return await threads_of(request).run(holding(request).who, work)
 
@@ -304,8 +304,8 @@ async def watch_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noq
     def ending() -> bool:
         return desk.closing.is_set() or not still_admitted(request)
 
-    told = events(first, lambda: watch.next(job.id, where), last, ending)
-    return StreamingResponse(told, headers=headers, media_type="text/event-stream")
+    stream = events(first, lambda: watch.next(job.id, where), last, ending)
+    return StreamingResponse(stream, headers=headers, media_type="text/event-stream")
 
 
 def _json(content: str) -> Response:

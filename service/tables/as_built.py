@@ -76,13 +76,13 @@ def as_built(request: OptimizeRequest, answer: OptimizeAnswer) -> AsBuilt | None
     """What a request says is fitted; None where it says nothing."""
     if not request.fitted:
         return None
-    given = tuple(GivenCounterweight(**one.model_dump()) for one in request.fitted)
-    found = analyze(AnalyzeRequest(machine=request.machine, counterweights=given, outputs=("residual",)))
-    assert found.residual is not None  # it is asked for
-    assert found.residual.after is not None
-    built, optimum = _every(found), _every(answer)
+    counterweights = tuple(GivenCounterweight(**counterweight.model_dump()) for counterweight in request.fitted)
+    analysis = analyze(AnalyzeRequest(machine=request.machine, counterweights=counterweights, outputs=("residual",)))
+    assert analysis.residual is not None  # it is asked for
+    assert analysis.residual.after is not None
+    built, optimum = _every(analysis), _every(answer)
     pairs = tuple(_pairs(optimum, built))
-    return AsBuilt(built, found.residual.after, found.total_mass_kg, pairs, tolerance(answer))
+    return AsBuilt(built, analysis.residual.after, analysis.total_mass_kg, pairs, tolerance(answer))
 
 
 def _every(answer: OptimizeAnswer | AnalyzeAnswer) -> tuple[Counterweight, ...]:
@@ -90,7 +90,7 @@ def _every(answer: OptimizeAnswer | AnalyzeAnswer) -> tuple[Counterweight, ...]:
 
 
 def _pairs(optimum: Sequence[Counterweight], built: Sequence[Counterweight]) -> Iterator[Pair]:
-    best, fitted = ({one.web: one for one in some} for some in (optimum, built))
+    best, fitted = ({counterweight.web: counterweight for counterweight in some} for some in (optimum, built))
     for web in dict.fromkeys((*best, *fitted)):
         yield Pair(web, best.get(web), fitted.get(web))
 
@@ -151,7 +151,7 @@ def required(request: OptimizeRequest, answer: OptimizeAnswer) -> AsBuilt:
     OutOfRange
         if the request says nothing of it.
     """
-    found = as_built(request, answer)
-    if found is None:
+    result = as_built(request, answer)
+    if result is None:
         raise OutOfRange([FieldProblem(("fitted",), "say what is fitted: there is nothing to set beside the optimum")])
-    return found
+    return result

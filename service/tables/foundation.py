@@ -39,7 +39,7 @@ def lines(loads: Sequence[OrderOfFoundation]) -> Lines:
         heads += [f"{words}, N or N m", f"{words}, kN or kN m", f"{words}, phase, deg"]
     return [
         [*heads, "phases count from shaft angle, deg"],
-        *(_line(one, name, list(shown)) for one, name in _pairs(loads)),
+        *(_line(order, name, list(shown)) for order, name in _pairs(loads)),
     ]
 
 

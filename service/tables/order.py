@@ -41,10 +41,10 @@ def required(answer: OptimizeAnswer) -> Lines:
     OutOfRange
         if there is nothing to be made.
     """
-    found = order(answer)
-    if not found:
+    lines = order(answer)
+    if not lines:
         raise OutOfRange([FieldProblem(("machine", "webs"), "there is nothing to order: no counterweight is chosen")])
-    return [[*HEADS], *found]
+    return [[*HEADS], *lines]
 
 
 class _Sizes:

@@ -75,8 +75,8 @@ class _Text(logging.Formatter):
 
     def format(self, record: logging.LogRecord) -> str:
         about: dict[str, Any] = getattr(record, "about", {})
-        said = " ".join([super().format(record), *(f"{name}={_field(value)}" for name, value in about.items())])
-        return "\n    ".join(said.translate(_CONTROLS).split("\n"))
+        text = " ".join([super().format(record), *(f"{name}={_field(value)}" for name, value in about.items())])
+        return "\n    ".join(text.translate(_CONTROLS).split("\n"))
 
     def formatException(self, ei: _ExcInfo) -> str:
         return super().formatException(ei) if self._quotes else _frames(ei)

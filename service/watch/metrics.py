@@ -74,8 +74,8 @@ class Metrics:
 
     def requested(self, method: str, route: str, status: int, seconds: float) -> None:
         """A request was answered; ``route`` is a template, not a path."""
-        known = method if method in _METHODS else "other"
-        self._counted(known, route, str(status)).inc()
+        label = method if method in _METHODS else "other"
+        self._counted(label, route, str(status)).inc()
         self._lasted(route).observe(seconds)
 
     def refused(self, route: str, kind: str) -> None:
@@ -100,14 +100,14 @@ class _Faults(Collector):
         self._counts = counts
 
     def collect(self) -> Iterable[Metric]:
-        found = CounterMetricFamily(
+        family = CounterMetricFamily(
             "counterweight_faults",
             "answers of which the service itself found that a bound contradicts them, and that are logged",
             labels=["asked_as"],
         )
-        for asked_as, count in self._counts().items():
-            found.add_metric([asked_as], count)
-        yield found
+        for name, count in self._counts().items():
+            family.add_metric([name], count)
+        yield family
 
 
 class _Work(Collector):
@@ -133,16 +133,16 @@ class _Sweeps(Collector):
         self._counts = counts
 
     def collect(self) -> Iterable[Metric]:
-        found = self._counts()
-        yield _gauge("counterweight_job_database_up", "whether the database of the jobs answers", found is not None)
+        totals = self._counts()
+        yield _gauge("counterweight_job_database_up", "whether the database of the jobs answers", totals is not None)
         jobs = GaugeMetricFamily("counterweight_jobs", "sweeps and other jobs that are kept", labels=["state"])
         rows = GaugeMetricFamily(
             "counterweight_sweep_rows", "rows of the jobs that are kept, by what they came to", labels=["outcome"]
         )
-        for state, (count, *_) in (found or {}).items():
+        for state, (count, *_) in (totals or {}).items():
             jobs.add_metric([state], count)
-        if found is not None:
-            done, failed, invalid = (sum(counts[i] for counts in found.values()) for i in (1, 2, 3))
+        if totals is not None:
+            done, failed, invalid = (sum(counts[i] for counts in totals.values()) for i in (1, 2, 3))
             rows.add_metric(["answered"], done - failed - invalid)
             rows.add_metric(["failed"], failed)
             rows.add_metric(["invalid"], invalid)

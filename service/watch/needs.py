@@ -29,10 +29,10 @@ def disk(folder: Path, least_mb: int) -> None:
     ------
     NotReady
     """
-    found = next(there for there in (folder, *folder.absolute().parents) if there.exists())
-    if not os.access(found, os.W_OK):
+    place = next(there for there in (folder, *folder.absolute().parents) if there.exists())
+    if not os.access(place, os.W_OK):
         raise NotReady("The folder of the jobs cannot be written to.", retry_after_s=60)
-    free_mb = shutil.disk_usage(found).free // _MB
+    free_mb = shutil.disk_usage(place).free // _MB
     if free_mb < least_mb:
         raise NotReady(f"{free_mb} MB are free where the jobs are kept, of {least_mb} at least.", retry_after_s=60)
 

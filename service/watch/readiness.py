@@ -58,12 +58,12 @@ class Readiness:
         """Look after everything that is needed, until cancelled."""
         while True:
             for name, check in self._checks.items():
-                found = await self._probe(check)
-                known = self._missing.pop(name, None)
-                if found is not None:
-                    self._missing[name] = found
-                if (found is None) != (known is None):
-                    _LOG.warning("%s: %s", name, found or "all is well again")
+                problem = await self._probe(check)
+                past_problem = self._missing.pop(name, None)
+                if problem is not None:
+                    self._missing[name] = problem
+                if (problem is None) != (past_problem is None):
+                    _LOG.warning("%s: %s", name, problem or "all is well again")
             await sleep(_LOOK_S)
 
     async def _probe(self, check: Callable[[], None]) -> NotReady | None:

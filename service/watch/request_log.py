@@ -52,10 +52,10 @@ class RequestLog:
             await self._app(scope, receive, send)
             return
         begun = time.perf_counter()
-        given = header(scope, b"x-request-id") or ""
+        client_id = header(scope, b"x-request-id") or ""
         # two at once: each costs a call of the system
         fresh = secrets.token_hex(32)
-        request_id = given if _ID.fullmatch(given) else fresh[:32]
+        request_id = client_id if _ID.fullmatch(client_id) else fresh[:32]
         traced = _TRACEPARENT.fullmatch(header(scope, b"traceparent") or "")
         method = "HEAD" if scope.get("head") else scope["method"]
         ids = {"request_id": request_id, "trace_id": traced[1] if traced else fresh[32:]}
@@ -69,8 +69,8 @@ class RequestLog:
                 refused = status >= 400
                 message["headers"] = [*message.get("headers", ()), (b"x-request-id", request_id.encode())]
             elif refused and not kind:
-                found = _KIND.search(message.get("body", b"")[:_LONGEST_PATH])
-                kind = found[1].decode() if found else "other"
+                match = _KIND.search(message.get("body", b"")[:_LONGEST_PATH])
+                kind = match[1].decode() if match else "other"
             await send(message)
 
         with self._tracing.request(method, Headers(scope=scope)) as span:
@@ -94,8 +94,8 @@ class RequestLog:
                 self._say(scope, method, route, status, seconds)
 
     def _route(self, scope: Scope) -> str:
-        found = getattr(scope.get("route"), "path", None) or self._template(scope)
-        return "unmatched" if found is None else str(found)
+        template = getattr(scope.get("route"), "path", None) or self._template(scope)
+        return "unmatched" if template is None else str(template)
 
     def _say(self, scope: Scope, method: str, route: str, status: int, seconds: float) -> None:
         level = logging.DEBUG if route in _PROBES and status < 500 else logging.INFO

@@ -113,8 +113,8 @@ class Connection(H11Protocol):
     def _read(self, data: bytes) -> None:
         if self._plain:
             self._read_on(data)
-        elif (found := self._plain_head(data)) is not None:
-            head, end = found
+        elif (result := self._plain_head(data)) is not None:
+            head, end = result
             self._begin(head)
             self._read_on(data[end:])
         else:
@@ -194,10 +194,10 @@ class Connection(H11Protocol):
 
     def _end(self) -> None:
         self._plain = False
-        asked, self._next = self._next, b""
-        if asked and not self.transport.is_closing():
+        data, self._next = self._next, b""
+        if data and not self.transport.is_closing():
             # before what has come since, which may wait to be looked at
-            self._read(asked)
+            self._read(data)
 
     def _watch_headers(self) -> None:
         if not self._owes_headers() or self.transport.is_closing():

@@ -27,12 +27,14 @@ class Cors(CORSMiddleware):
         await self.app(scope, receive, vary)
 
     def preflight_response(self, request_headers: Headers) -> Response:
-        found = super().preflight_response(request_headers)
-        if found.status_code < 400:
-            return found
-        said = Fault(found.status_code, "Not allowed across origins", f"{bytes(found.body).decode()}.")
-        refusal = Response(problem(said, "").model_dump_json(), found.status_code, media_type=PROBLEM_JSON)
+        response = super().preflight_response(request_headers)
+        if response.status_code < 400:
+            return response
+        fault = Fault(response.status_code, "Not allowed across origins", f"{bytes(response.body).decode()}.")
+        refusal = Response(problem(fault, "").model_dump_json(), response.status_code, media_type=PROBLEM_JSON)
         # what browsers are told, and caches must know
-        kept = {name: value for name, value in found.headers.items() if name not in ("content-type", "content-length")}
-        refusal.headers.update(kept)
+        fields = {
+            name: value for name, value in response.headers.items() if name not in ("content-type", "content-length")
+        }
+        refusal.headers.update(fields)
         return refusal

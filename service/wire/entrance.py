@@ -81,8 +81,8 @@ class Entrance:
         """Take none any more."""
         self._open = False
         self.loop.remove_reader(self._listening)
-        for each in tuple(self.refused):
-            each.end()
+        for connection in tuple(self.refused):
+            connection.end()
         self._spares.close()
 
     def connect(self, connection: socket.socket, protocol: Connection) -> None:

@@ -49,8 +49,8 @@ class Client:
 
 def client_of(request: Request) -> Client | None:
     """The client of a request, where the server says itself when it goes."""
-    found: Client | None = request.scope.get("state", {}).get(CLIENT)
-    return found
+    client: Client | None = request.scope.get("state", {}).get(CLIENT)
+    return client
 
 
 class Waited:

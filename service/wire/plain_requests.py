@@ -45,18 +45,18 @@ class Head:
 
 def plain_head(received: bytes) -> tuple[Head, int] | None:
     """The head with which some bytes begin, and where it ends; None if it is not whole, or not plain."""
-    found = _HEAD.match(received)
-    if found is None:
+    match = _HEAD.match(received)
+    if match is None:
         return None
-    headers = [(name.lower(), value) for name, value in _HEADER.findall(found[3])]
+    headers = [(name.lower(), value) for name, value in _HEADER.findall(match[3])]
     names = [name for name, _ in headers]
-    given = dict(headers)
-    if not _UNUSUAL.isdisjoint(given) or b"host" not in given or any(names.count(name) > 1 for name in _ONCE):
+    fields = dict(headers)
+    if not _UNUSUAL.isdisjoint(fields) or b"host" not in fields or any(names.count(name) > 1 for name in _ONCE):
         return None
-    length, connection = given.get(b"content-length", b"0"), given.get(b"connection", b"keep-alive").lower()
+    length, connection = fields.get(b"content-length", b"0"), fields.get(b"connection", b"keep-alive").lower()
     if not _LENGTH.fullmatch(length) or connection not in (b"keep-alive", b"close"):
         return None
-    return Head(found[1].decode(), found[2], headers, int(length), connection == b"keep-alive"), found.end()
+    return Head(match[1].decode(), match[2], headers, int(length), connection == b"keep-alive"), match.end()
 
 
 class Heads:
@@ -70,10 +70,10 @@ class Heads:
         """As :func:`plain_head`."""
         if self._head is not None and received.startswith(self._bytes):
             return self._head, len(self._bytes)
-        found = plain_head(received)
-        if found is not None and found[1] <= _SHORT:
-            self._head, self._bytes = found[0], received[: found[1]]
-        return found
+        pair = plain_head(received)
+        if pair is not None and pair[1] <= _SHORT:
+            self._head, self._bytes = pair[0], received[: pair[1]]
+        return pair
 
 
 class PlainCycle(RequestResponseCycle):
@@ -97,12 +97,12 @@ class PlainCycle(RequestResponseCycle):
             self._begun = self._head(message["status"], [*self.default_headers, *message.get("headers", ())])
             return
         more = message.get("more_body", False)
-        said = self._begun + self._piece(b"" if self._bodiless else message.get("body", b""), more)
+        data = self._begun + self._piece(b"" if self._bodiless else message.get("body", b""), more)
         self._begun = b""
         if more:
-            self.transport.write(said)
+            self.transport.write(data)
         else:
-            self.transport.write_last(said)  # type: ignore[attr-defined]
+            self.transport.write_last(data)  # type: ignore[attr-defined]
             self.response_complete = True
             self.message_event.set()
             if not self.keep_alive:

@@ -40,10 +40,10 @@ class SecurityHeaders:
             if message["type"] == "http.response.start":
                 # names are in small letters (ASGI)
                 headers = message.get("headers", ())
-                given = dict(headers)
-                page = given.get(b"content-type", b"").startswith((b"text/html", b"image/svg"))
-                wanted = _wanted(page, given.get(_POLICY), self._hsts_s if scope.get("scheme") == "https" else 0)
-                message["headers"] = [*headers, *[each for each in wanted if each[0] not in given]]
+                fields = dict(headers)
+                page = fields.get(b"content-type", b"").startswith((b"text/html", b"image/svg"))
+                wanted = _wanted(page, fields.get(_POLICY), self._hsts_s if scope.get("scheme") == "https" else 0)
+                message["headers"] = [*headers, *[field for field in wanted if field[0] not in fields]]
             await send(message)
 
         await self._app(scope, receive, add)

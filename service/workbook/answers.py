@@ -17,10 +17,10 @@ def answered(request: OptimizeRequest, answer: OptimizeAnswer) -> bytes:
 
     What an answer says nothing of has no line.
     """
-    said = answer.model_dump(mode="json", exclude_none=True)
-    fitted = said.pop("counterweights")
-    said.pop(FOUNDATION, None)
-    fields = [[name, value] for name, value in flat(said)]
+    content = answer.model_dump(mode="json", exclude_none=True)
+    fitted = content.pop("counterweights")
+    content.pop(FOUNDATION, None)
+    fields = [[name, value] for name, value in flat(content)]
     sheets: Sheets = {COUNTERWEIGHTS: table(fitted) or [["web"]]}
     built = as_built.as_built(request, answer)
     if built is not None:

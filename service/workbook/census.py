@@ -101,9 +101,9 @@ class _Relations:
 
     def titles(self) -> dict[str, str]:
         """Titles of the sheets by the names of their parts."""
-        known = {identity: title for identity, title in self.sheets.items() if identity in self.parts}
-        titles = {self.parts[identity]: title for identity, title in known.items()}
-        if len(titles) < len(known):
+        sheets = {identity: title for identity, title in self.sheets.items() if identity in self.parts}
+        titles = {self.parts[identity]: title for identity, title in sheets.items()}
+        if len(titles) < len(sheets):
             raise UnreadableWorkbook("two of its sheets are the same part")
         return titles
 

@@ -81,7 +81,7 @@ class Read:
 def written(body: Mapping[str, Any]) -> Sheets:
     """The sheets of a request."""
     machine = dict(body.get("machine", {}))
-    throws = [dict(each) for each in machine.pop(_THROWS, ())]
+    throws = [dict(entry) for entry in machine.pop(_THROWS, ())]
     names = _throw_names(throws)
     rows = [
         {_THROW: number if names is None else names[number], **row}
@@ -172,7 +172,7 @@ class _Reader:
     def table(self, sheet: str, lines: Sequence[Sequence[Cell]]) -> None:
         """A sheet of lines below headings."""
         heads = lines[0] if lines else ()
-        found = self.tables.setdefault(sheet, [])
+        entries = self.tables.setdefault(sheet, [])
         for number, line in enumerate(lines[1:], start=2):
             if all(value is None for value in line):
                 continue
@@ -187,7 +187,7 @@ class _Reader:
                     self._refuse(f"{place}: a value without a heading")
                 else:
                     self._set(item, places, str(head), value, place)
-            found.append((number, item, places))
+            entries.append((number, item, places))
 
     def _set(self, item: dict[str, Any], places: dict[Path, str], name: str, value: Cell, place: str) -> None:
         path = _path(name)

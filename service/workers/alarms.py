@@ -47,9 +47,9 @@ class Alarms:
         self._timer, now = None, loop.time()
         for key in [key for key, (end, _) in self._set.items() if end <= now]:
             # who was late before may have stopped it
-            found = self._set.pop(key, None)
-            if found is not None:
-                found[1]()
+            alarm = self._set.pop(key, None)
+            if alarm is not None:
+                alarm[1]()
         if self._set:
             self._wake(loop, min(end for end, _ in self._set.values()))
 

@@ -73,8 +73,8 @@ class Listener:
 
     @property
     def _whole(self) -> bool:
-        said = self._content
-        return len(said) >= _LENGTH.size and len(said) - _LENGTH.size >= _LENGTH.unpack_from(said)[0]
+        content = self._content
+        return len(content) >= _LENGTH.size and len(content) - _LENGTH.size >= _LENGTH.unpack_from(content)[0]
 
     @property
     def gone(self) -> bool:

@@ -64,8 +64,8 @@ class Worker:
         try:
             with theirs:
                 self._process.start()
-            with self._connection.makefile("rb") as said:
-                failure = pickle.load(said)
+            with self._connection.makefile("rb") as stream:
+                failure = pickle.load(stream)
         except (Dead, OSError, EOFError):
             self.end()
             raise WorkersFailed("a worker died at its start") from None

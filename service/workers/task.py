@@ -71,12 +71,12 @@ def _serialize(*order: object) -> bytes:
 
 @lru_cache(_CACHE_SIZE)
 def _deserialize(order: bytes) -> tuple[Computation, Form, SizeLimits, Coding | None, bool, bool]:
-    found: tuple[Computation, Form, SizeLimits, Coding | None, bool, bool] = pickle.loads(order)
-    return found
+    result: tuple[Computation, Form, SizeLimits, Coding | None, bool, bool] = pickle.loads(order)
+    return result
 
 
 def _read(stream: BinaryIO, size: int) -> bytes:
-    found = stream.read(size)
-    if len(found) < size:
+    content = stream.read(size)
+    if len(content) < size:
         raise EOFError
-    return found
+    return content

@@ -235,16 +235,16 @@ def perform(task: Task) -> Outcome | Long:
             if not task.long and long_by_size(request, task.computation.answer is None):
                 return Long()
             with error_log() as faults:
-                found = task.computation.function(request)
-        content = task.form.content(request, found)
+                answer = task.computation.function(request)
+        content = task.form.content(request, answer)
         coding = None if task.form.compressed or len(content) <= SMALL_BYTES else task.coding
         if coding is not None:
             content = coded(content, coding)
         seconds = time.perf_counter() - begun
         # a model takes long to say that it has none
-        stem = getattr(found, "file_stem", None) if task.computation.answer is None else None
+        stem = getattr(answer, "file_stem", None) if task.computation.answer is None else None
         return Answer(
-            content, coding, len(content), seconds, _certified(found), _memory(), faults=tuple(faults), stem=stem
+            content, coding, len(content), seconds, _certified(answer), _memory(), faults=tuple(faults), stem=stem
         )
     except REFUSALS as error:
         return Refused.because(error)
@@ -261,9 +261,9 @@ def _request(task: Task, places: ExitStack) -> Model:
     # only who sends workbooks pays for the library
     from service.workbook.body import cells_named, read_workbook
 
-    found = read_workbook(task.body)
-    places.enter_context(cells_named(found))
-    return check(task.computation.asks, found.body)
+    cells = read_workbook(task.body)
+    places.enter_context(cells_named(cells))
+    return check(task.computation.asks, cells.body)
 
 
 def _frames(error: BaseException) -> Iterator[str]:

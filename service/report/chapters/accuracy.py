@@ -92,7 +92,7 @@ def _choices(answer: AccuracyAnswer) -> Iterator[Block]:
 
 
 def _choice(row: ChoiceRow) -> tuple[Cell | float | None, ...]:
-    kept = "" if row.limits_kept else "limits broken"
+    note = "" if row.limits_kept else "limits broken"
     return (
         method_name(row.method),
         row.setting,
@@ -103,7 +103,7 @@ def _choice(row: ChoiceRow) -> tuple[Cell | float | None, ...]:
         row.total_mass_kg,
         row.pieces,
         row.sizes,
-        "frontier" if row.on_frontier else kept,
+        "frontier" if row.on_frontier else note,
     )
 
 

@@ -129,7 +129,7 @@ def layout(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | No
 def _drawn(answer: OptimizeAnswer, plan: Layout) -> str:
     """How counterweights are drawn."""
     what = "counterweights of the best compromise" if answer.infeasibility is not None else "counterweights"
-    if all(one.shape is not None for one in plan.best):
+    if all(weight.shape is not None for weight in plan.best):
         return f"{what} blue and true to shape, with their centres of mass as dots"
     return (
         f"{what} blue with their centres of mass as dots; a dashed disc stands for one of unknown shape, and its area "
@@ -244,18 +244,18 @@ def places(fitted: Sequence[Counterweight]) -> Table:
             ],
             [
                 (
-                    one.web,
+                    item.web,
                     *(
                         (
-                            one.mass_kg, angle(one.angle_deg), angle(one.angle_from_crank_deg), one.position_m,
-                            one.radius_m, one.mass_radius_kg_m,
+                            item.mass_kg, angle(item.angle_deg), angle(item.angle_from_crank_deg), item.position_m,
+                            item.radius_m, item.mass_radius_kg_m,
                         )
-                        if one.mass_kg > 0
+                        if item.mass_kg > 0
                         else ("none", *5 * (None,))
                     ),
-                    "fixed" if one.fixed else limits(one.active_limits) or "none",
+                    "fixed" if item.fixed else limits(item.active_limits) or "none",
                 )
-                for one in fitted
+                for item in fitted
             ],
     )  # fmt: skip
 
@@ -306,7 +306,7 @@ def first_order(
         for title, vector, name in _FIRST_ORDER
         # along an axis of which nothing is and nothing comes, there is nothing to file
         if name in floors
-        or any(getattr(getattr(one, vector), name) > _DUST * scales[vector] for one in (was, left) if one)
+        or any(getattr(getattr(state, vector), name) > _DUST * scales[vector] for state in (was, left) if state)
     ]
     return Chapter(
         "First order before and after",

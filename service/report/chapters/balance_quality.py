@@ -9,8 +9,8 @@ from service.report.blocks import Chapter, Paragraph, angle, table
 
 def balance_quality(machine: Machine, answer: OptimizeAnswer | AnalyzeAnswer) -> Iterator[Chapter]:
     """Nothing where none is asked for."""
-    result, asked = answer.balance_quality, machine.balance_quality
-    if result is None or asked is None:
+    result, demand = answer.balance_quality, machine.balance_quality
+    if result is None or demand is None:
         return
     gradings = [("without counterweights", result.before)]
     if result.after is not None:
@@ -25,7 +25,7 @@ def balance_quality(machine: Machine, answer: OptimizeAnswer | AnalyzeAnswer) ->
     yield Chapter(
         "Balance quality",
         (
-            Paragraph(f"Asked for: G {asked.grade_mm_s:.6g} mm/s. Reached: {reached}."),
+            Paragraph(f"Asked for: G {demand.grade_mm_s:.6g} mm/s. Reached: {reached}."),
             table("Deviation from the design unbalance, in which half of every reciprocating mass turns", heads, rows),
         ),
     )

@@ -30,6 +30,6 @@ def _row(point: CountPoint) -> tuple[Cell | float | None, ...]:
         point.force_peak_N,
         point.moment_peak_Nm,
         point.total_mass_kg,
-        *(None if each is None else Number(each, str(each)) for each in fitted),
+        *(None if count is None else Number(count, str(count)) for count in fitted),
         "" if point.status == "optimal" else point.status,
     )

@@ -48,7 +48,7 @@ def _tables(loads: Sequence[OrderOfFoundation], names: Mapping[str, str], kind: 
 
 
 def _largest(row: Row) -> float:
-    return max((one[0] for one in row[2] if one is not None), default=0.0)
+    return max((entry[0] for entry in row[2] if entry is not None), default=0.0)
 
 
 def _left_out(kind: str, unit: str, rest: Sequence[Row], some: bool) -> str:

@@ -43,7 +43,7 @@ def inputs(request: OptimizeRequest, reference_plane_m: float) -> Chapter:
 
 
 def _general(machine: Machine, reference_plane_m: float) -> Table:
-    given = machine.reference_plane_m is not None
+    presence = machine.reference_plane_m is not None
     return facts(
         "Machine",
         [
@@ -51,7 +51,7 @@ def _general(machine: Machine, reference_plane_m: float) -> Table:
             ("speed, rpm", machine.speed_rpm),
             ("sense of rotation, seen from +z", machine.rotation),
             ("reference plane of the moments z, m", reference_plane_m),
-            ("reference plane", "as given" if given else "midway between the outermost throws"),
+            ("reference plane", "as given" if presence else "midway between the outermost throws"),
             ("axial span of throws and webs, m", float(span(machine))),
             *_limit("largest total mass of counterweights, kg", machine.max_total_mass_kg),
             *_catalogue(machine),
@@ -95,7 +95,7 @@ def row_name(machine: Machine, throw: int, row: int) -> str:
     """A row as the charts and tables call it: its name, with that of its throw where names repeat."""
     if not isinstance(machine, ReciprocatingMachine):
         return "ring"
-    names = [each.name for one in machine.throws for each in one.rows]
+    names = [bank.name for crank in machine.throws for bank in crank.rows]
     name = machine.throws[throw].rows[row].name
     if name is not None and names.count(name) == 1:
         return name
@@ -140,13 +140,18 @@ def _reciprocating(machine: ReciprocatingMachine) -> Iterator[Block]:
     if machine.shaft_parts:
         turning = [(part.name, part.position_m, part.mass_kg) for part in machine.shaft_parts]
         yield table("Balanced parts of the shaft", ["part", "#plane z, m", "#mass, kg"], turning)
-    given = [
-        (name if at == ("cylinder",) else f"{name}, {getattr(one, 'name', None) or f'cylinder {int(at[-1]) + 1}'}", one)
+    entries = [
+        (
+            name
+            if at == ("cylinder",)
+            else f"{name}, {getattr(cylinder, 'name', None) or f'cylinder {int(at[-1]) + 1}'}",
+            cylinder,
+        )
         for _, name, _, row in rows
-        for at, one in row_cylinders(row)
+        for at, cylinder in row_cylinders(row)
     ]
-    if given:
-        yield from cylinders(given)
+    if entries:
+        yield from cylinders(entries)
     yield from _drive(machine)
 
 
@@ -170,9 +175,9 @@ def _drive(machine: ReciprocatingMachine) -> Iterator[Block]:
         ]
     if flywheel is not None:
         rows += [("irregularity allowed", flywheel.irregularity), ("turning inertia, kg m2", flywheel.inertia_kg_m2)]
-    given = [row for row in rows if row[1] is not None]
-    if given:
-        yield facts("Friction and flywheel", given)
+    entries = [row for row in rows if row[1] is not None]
+    if entries:
+        yield facts("Friction and flywheel", entries)
     if machine.bearings:
         rows_of = [(bearing.name, bearing.position_m) for bearing in machine.bearings]
         yield table("Main bearings", ["bearing", "#plane z, m"], rows_of)

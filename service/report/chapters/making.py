@@ -10,10 +10,10 @@ from service.report.blocks import Block, table
 
 def holding(machine: Machine, fitted: Sequence[Counterweight]) -> Iterator[Block]:
     """What bolts bear, where that is asked; but for plates."""
-    whole = [one for one in fitted if one.mass_kg > 0 and one.shape is None]
+    whole = [counterweight for counterweight in fitted if counterweight.mass_kg > 0 and counterweight.shape is None]
     bolted = machine.overspeed_rpm is not None or any(web.max_centrifugal_force_N is not None for web in machine.webs)
     if whole and bolted:
-        rows = [(one.web, one.centrifugal_force_N) for one in whole]
+        rows = [(counterweight.web, counterweight.centrifugal_force_N) for counterweight in whole]
         title = f"What holds them at {digits(machine.overspeed_rpm or machine.speed_rpm)} rpm"
         yield table(title, ["web", "#bolts hold, N"], rows)
 
@@ -22,11 +22,11 @@ def outlines(fitted: Sequence[Counterweight]) -> Iterator[Block]:
     """What is cut from plates, one row for each web that has one."""
     rows = [
         (
-            one.web, one.shape.half_angle_deg, one.shape.chord_height_m, one.radius_m, one.shape.outer_radius_m,
-            one.shape.inertia_kg_m2, one.centrifugal_force_N,
+            item.web, item.shape.half_angle_deg, item.shape.chord_height_m, item.radius_m, item.shape.outer_radius_m,
+            item.shape.inertia_kg_m2, item.centrifugal_force_N,
         )
-        for one in fitted
-        if one.shape is not None
+        for item in fitted
+        if item.shape is not None
     ]  # fmt: skip
     if rows:
         heads = [

@@ -43,7 +43,7 @@ def objective(request: OptimizeRequest) -> Table:
     """Weights, ceilings and goals, as they hold."""
     goal, wanted = request.objective, weights(request.machine, request.objective)
     count = counted(goal)
-    *others, last = (each.label for each in count)
+    *others, last = (response.label for response in count)
     names = ", ".join(f"peak {name}" for name in others)
     combined = {
         "sum": f"smallest weighted sum of {names} and peak {last}",
@@ -55,18 +55,28 @@ def objective(request: OptimizeRequest) -> Table:
         "Objective",
         [
             ("aim", combined[goal.combine]),
-            *((f"weight of the peak {each.label}, {_per(each.unit)}", float(wanted[each.name])) for each in count),
-            *((field_title("Objective", field), getattr(goal, field)) for each in count for field in each.parameters),
+            *(
+                (f"weight of the peak {response.label}, {_per(response.unit)}", float(wanted[response.name]))
+                for response in count
+            ),
+            *(
+                (field_title("Objective", field), getattr(goal, field))
+                for response in count
+                for field in response.parameters
+            ),
             *(
                 (f"weight of components along {axis}", weight)
                 for axis, weight in (("x", goal.direction_weights.x), ("y", goal.direction_weights.y))
                 if weight != 1
             ),
-            *((f"ceiling of the peak {each.label}, {each.unit}", most) for each, most in _ceilings(goal, count)),
             *(
-                (f"ceiling of the {each.label}, {each.unit}", allowed)
-                for each, allowed in objective_ceilings(goal)
-                if each.axis is not None
+                (f"ceiling of the peak {response.label}, {response.unit}", most)
+                for response, most in _ceilings(goal, count)
+            ),
+            *(
+                (f"ceiling of the {response.label}, {response.unit}", allowed)
+                for response, allowed in objective_ceilings(goal)
+                if response.axis is not None
             ),
             *(
                 (_OVER_THE_TURN[name], _text(getattr(goal, name)))

@@ -83,7 +83,7 @@ def _hodographs(was: Order, left: Order | None) -> Figure | None:
     drawings = []
     for what, unit, axes in (("force", "N", FORCE_AXES), ("moment", "N m", COUPLE_AXES)):
         parts = [(before, was)] + ([] if left is None else [(partial(after, "with counterweights"), left)])
-        ellipses = [make(*_ellipse(getattr(one, what), unit)) for make, one in parts]
+        ellipses = [make(*_ellipse(getattr(order, what), unit)) for make, order in parts]
         if any(ellipse.major > 0.0 for ellipse in ellipses):
             drawings.append(hodograph(f"the {what} of order {was.order}", unit, ellipses, axes=axes))
     times = "once" if was.order == 1 else f"{was.order} times"

@@ -105,8 +105,8 @@ def _point(front: ParetoFront, index: int, point: ParetoPoint, weighted: bool) -
 
 
 def _gap(point: ParetoPoint | TradedPoint) -> Cell:
-    gap, known = point.certificate.relative_gap, "" if point.status == "optimal" else " inaccurate"
-    return f"none{known}" if gap is None else Number(gap, f"{gap:.1e}{known}")
+    gap, note = point.certificate.relative_gap, "" if point.status == "optimal" else " inaccurate"
+    return f"none{note}" if gap is None else Number(gap, f"{gap:.1e}{note}")
 
 
 def _reached(point: ParetoPoint) -> str:

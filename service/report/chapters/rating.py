@@ -79,10 +79,10 @@ def rated(_: RatingRequest, answer: RatingAnswer) -> Iterator[Chapter]:
     if answer.choice is not None:
         yield _chosen(names, answer.choice)
     heads = ["stage", "loss at suction", "loss at discharge", "temperature coefficient"]
-    said = [(name, stage.sources) for name, stage in zip(names, answer.stages, strict=True)]
+    stages = [(name, stage.sources) for name, stage in zip(names, answer.stages, strict=True)]
     sources = [
-        (name, one.suction_pressure_loss, one.discharge_pressure_loss, one.temperature_coefficient)
-        for name, one in said
+        (name, source.suction_pressure_loss, source.discharge_pressure_loss, source.temperature_coefficient)
+        for name, source in stages
     ]
     yield Chapter("Sources of coefficients", (table("", heads, sources),))
     if answer.warnings:

@@ -76,11 +76,11 @@ def _lines(value: Any, room: int, before: int = 0) -> Iterator[str]:
     if isinstance(value, dict):
         start, end, items = "{", "}", [(f"{json.dumps(key)}: ", value[key]) for key in sorted(value)]
     else:
-        start, end, items = "[", "]", [("", each) for each in value]
+        start, end, items = "[", "]", [("", item) for item in value]
     yield start
     filled = ""
-    for index, (name, each) in enumerate(items):
-        first, *more = _lines(each, room - 1, len(name) + 1)
+    for index, (name, item) in enumerate(items):
+        first, *more = _lines(item, room - 1, len(name) + 1)
         lines = [f" {name}{first}", *(f" {line}" for line in more)]
         lines[-1] += "," if index < len(items) - 1 else ""
         if filled and (more or len(filled) + len(lines[0]) > room):

@@ -17,5 +17,5 @@ def resolutions(request: OptimizeRequest, answer: OptimizeAnswer) -> Mapping[str
         return {}
     usual: float = Accuracy.model_fields["relative_gap"].default
     gap = min(request.accuracy.relative_gap, usual) * proof.yardstick
-    each = {name: float(weight) for name, weight in weights(request.machine, goal).items()}
-    return {name: gap / weight for name, weight in each.items() if weight > 0.0}
+    factors = {name: float(weight) for name, weight in weights(request.machine, goal).items()}
+    return {name: gap / weight for name, weight in factors.items() if weight > 0.0}

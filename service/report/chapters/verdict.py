@@ -112,8 +112,14 @@ def reachable(goal: Objective, why: Infeasibility) -> Iterator[Block]:
             "Other responses under a ceiling, each by itself",
             ["response", "ceiling of the", "unit", "#ceiling", "#smallest", "#certified not below"],
             [
-                (each.response, *_of_ceiling(each.ceiling_field), each.ceiling, each.smallest, each.lower_bound)
-                for each in why.smallest
+                (
+                    minimum.response,
+                    *_of_ceiling(minimum.ceiling_field),
+                    minimum.ceiling,
+                    minimum.smallest,
+                    minimum.lower_bound,
+                )
+                for minimum in why.smallest
             ],
         )
 

@@ -68,17 +68,17 @@ def sentence(checked: Check, request: str) -> Paragraph:
     which = f"Digests: request {request[:SHORT]}, answer {checked.digest[:SHORT]}."
     if checked.verification is None:
         return Paragraph(f"The answer holds more than is checked at a time: nothing was checked. {which}", "warning")
-    found = checked.verification
-    count = f"Checked by files that share nothing with what computed it: {found.checked} of {found.leaves} claims"
-    if found.verdict == "broken":
+    result = checked.verification
+    count = f"Checked by files that share nothing with what computed it: {result.checked} of {result.leaves} claims"
+    if result.verdict == "broken":
         broken = ", ".join(
-            f"{claim.claim} ({_words(claim.where)})" for claim in found.claims if claim.verdict == "broken"
+            f"{claim.claim} ({_words(claim.where)})" for claim in result.claims if claim.verdict == "broken"
         )
         return Paragraph(f"{count}. Broken: {broken}. {which}", "warning")
-    if found.verdict == "held":
+    if result.verdict == "held":
         return Paragraph(f"{count}, and every one holds. {which}")
-    open_claims = (claim.where for claim in found.claims if claim.verdict == "not covered")
-    names = [*dict.fromkeys(map(_words, (*open_claims, *found.not_covered)))]
+    open_claims = (claim.where for claim in result.claims if claim.verdict == "not covered")
+    names = [*dict.fromkeys(map(_words, (*open_claims, *result.not_covered)))]
     more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
     return Paragraph(f"{count}; nothing is broken. Not covered: {', '.join(names[:_SHOWN])}{more}. {which}")
 

@@ -55,12 +55,14 @@ def _computed(request: ReportRequest, place: int) -> Column:
     try:
         if version.counterweights is not None:
             machine = version.machine or request.machine
-            given = analyze(AnalyzeRequest(machine=machine, counterweights=version.counterweights))
-            left = given.residual.after if given.residual is not None else None
-            return Column(version.name, "given", left, given.total_mass_kg, given.counterweights)
+            analysis = analyze(AnalyzeRequest(machine=machine, counterweights=version.counterweights))
+            left = analysis.residual.after if analysis.residual is not None else None
+            return Column(version.name, "given", left, analysis.total_mass_kg, analysis.counterweights)
         result = optimize(request.request_for(version))
     except MissingInput as error:
-        raise MissingInput(FieldProblem(("versions", place, *path), said) for path, said in error.problems) from None
+        raise MissingInput(
+            FieldProblem(("versions", place, *path), message) for path, message in error.problems
+        ) from None
     return Column(version.name, result.status, shown(result)[1], result.total_mass_kg, result.counterweights)
 
 
@@ -89,8 +91,8 @@ def _change(was: float | None, now: float | None) -> str:
 
 def _weights(columns: Sequence[Column]) -> Table:
     """Mass and angle on every web of any version."""
-    webs = dict.fromkeys(one.web for column in columns for one in column.fitted)
-    by_web = [{one.web: one for one in column.fitted} for column in columns]
+    webs = dict.fromkeys(counterweight.web for column in columns for counterweight in column.fitted)
+    by_web = [{counterweight.web: counterweight for counterweight in column.fitted} for column in columns]
     rows = [(web, *(_weight(fitted.get(web)) for fitted in by_web)) for web in webs]
     return table("Counterweights: mass, kg, and angle, deg", ["web", *(column.name for column in columns)], rows)
 
@@ -107,10 +109,10 @@ def _differences(request: ReportRequest) -> Iterator[Block]:
     """What each version changes in machine and objective."""
     rows: list[tuple[str, ...]] = []
     for version in request.versions:
-        found = list(_changes(request, version))
-        rows += [(version.name, *each) for each in found[:_MOST]]
-        if len(found) > _MOST:
-            rows.append((version.name, f"and {len(found) - _MOST} more", "", ""))
+        changes = list(_changes(request, version))
+        rows += [(version.name, *change) for change in changes[:_MOST]]
+        if len(changes) > _MOST:
+            rows.append((version.name, f"and {len(changes) - _MOST} more", "", ""))
     if rows:
         yield table("What differs", ["version", "<field", "this one", "there"], rows)
     else:

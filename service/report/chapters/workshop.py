@@ -13,7 +13,7 @@ from service.tables.as_built import AsBuilt
 def sheets(machine: Machine, answer: OptimizeAnswer, built: AsBuilt | None) -> Iterator[Chapter]:
     """A sheet for each part number, where there are plates; the same as `/v1/drawings` has."""
     every = answer.counterweights if built is None else built.counterweights
-    result = parts(machine, (one for one in every if one.mass_kg > 0))
+    result = parts(machine, (counterweight for counterweight in every if counterweight.mass_kg > 0))
     if result:
         yield Chapter(
             "Workshop sheets", tuple(Figure((sheet(part, built),), _caption(len(part.places))) for part in result)

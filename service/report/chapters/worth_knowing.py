@@ -11,7 +11,7 @@ _HEADS = ["throw", "#balance rate", "#sideways"]
 def worth_knowing(answer: OptimizeAnswer | AnalyzeAnswer) -> Iterator[Chapter]:
     """Nothing where there is neither."""
     blocks: list[Block] = [Paragraph(caution.message, "warning") for caution in answer.warnings]
-    rates = [(one.name or str(one.throw + 1), one.rate, one.sideways) for one in answer.balance_rate]
+    rates = [(share.name or str(share.throw + 1), share.rate, share.sideways) for share in answer.balance_rate]
     if rates:
         blocks.append(table("Share of the rotating mass of each throw that its own webs balance", _HEADS, rates))
     if blocks:
