@@ -29,8 +29,8 @@ def entries(text: str) -> dict[str, str]:
 def find(name: str, site: Path) -> list[Path]:
     """The files of a package, or those that a pattern finds and those in the folders that it finds."""
     if "/" in name:
-        found = list(site.glob(name))
-        return [file for path in found for file in (path.rglob("*") if path.is_dir() else [path]) if not file.is_dir()]
+        paths = list(site.glob(name))
+        return [file for path in paths for file in (path.rglob("*") if path.is_dir() else [path]) if not file.is_dir()]
     of_package = (distribution.files or [] for distribution in distributions(name=name, path=[str(site)]))
     return [path for files in of_package for file in files if (path := site / file).exists()]
 
@@ -43,11 +43,11 @@ def prune(site: Path, names: list[str]) -> dict[str, int]:
     FileNotFoundError
         if a name finds nothing; nothing is removed then.
     """
-    found = {name: find(name, site) for name in names}
-    if nothing := [name for name, files in found.items() if not files]:
+    inventory = {name: find(name, site) for name in names}
+    if nothing := [name for name, files in inventory.items() if not files]:
         raise FileNotFoundError(f"nothing is found by {', '.join(nothing)}")
-    freed = dict.fromkeys(found, 0)
-    for name, files in found.items():
+    freed = dict.fromkeys(inventory, 0)
+    for name, files in inventory.items():
         # some may be in what an earlier name removed
         for file in filter(Path.exists, set(files)):
             freed[name] += file.lstat().st_size
@@ -64,10 +64,10 @@ def prune(site: Path, names: list[str]) -> dict[str, int]:
 def shorten(record: Path, site: Path) -> None:
     """Leave in a package's list of files those that there are."""
     rows = list(csv.reader(io.StringIO(record.read_text("utf-8"))))
-    kept = [row for row in rows if (site / row[0]).exists()]
-    if len(kept) < len(rows):
+    remainder = [row for row in rows if (site / row[0]).exists()]
+    if len(remainder) < len(rows):
         text = io.StringIO()
-        csv.writer(text, lineterminator="\n").writerows(kept)
+        csv.writer(text, lineterminator="\n").writerows(remainder)
         record.write_text(text.getvalue(), "utf-8")
 
 

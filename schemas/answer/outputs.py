@@ -313,5 +313,5 @@ COLUMNS_OF_PARTS: dict[str, PartColumns] = {
 
 def labels(names: Sequence[str | None]) -> tuple[str, ...]:
     """What parts of a machine are called in names of columns: their names if all have one, else 0, 1, 2, ..."""
-    given = [name for name in names if name is not None]
-    return tuple(given) if len(given) == len(names) else tuple(str(number) for number in range(len(names)))
+    texts = [name for name in names if name is not None]
+    return tuple(texts) if len(texts) == len(names) else tuple(str(number) for number in range(len(names)))

@@ -151,10 +151,10 @@ def headings(models: Iterable[str]) -> dict[str, str]:
     models : names of the model and of those that it is built on, its own first.
     """
     grouped = [GROUPS[model] for model in models if model in GROUPS]
-    found: dict[str, list[str]] = {}
+    members: dict[str, list[str]] = {}
     taken: set[str] = set()
     for groups in grouped:
         for heading, fields in groups.items():
-            found.setdefault(heading, []).extend(field for field in fields if field not in taken)
+            members.setdefault(heading, []).extend(field for field in fields if field not in taken)
             taken |= set(fields)
-    return {field: heading for heading, fields in found.items() for field in fields}
+    return {field: heading for heading, fields in members.items() for field in fields}

@@ -28,14 +28,14 @@ def hinted(model: type, schema: Schema) -> None:
         return
     schema["title"] = model_title(model.__name__)
     _condition(schema)
-    heading = headings([one.__name__ for one in model.__mro__])
-    given: Schema = schema["properties"]
-    names = _in_groups(list(given), heading)
+    heading = headings([base.__name__ for base in model.__mro__])
+    properties: Schema = schema["properties"]
+    names = _in_groups(list(properties), heading)
     schema["properties"] = {
         name: {
-            **_collapsed(_without_unit(given[name])),
+            **_collapsed(_without_unit(properties[name])),
             "title": field_title(model.__name__, name),
-            **_unit(given[name]),
+            **_unit(properties[name]),
             "x-order": place,
             **({"x-group": heading[name]} if name in heading else {}),
         }
@@ -75,7 +75,7 @@ def _unit(node: Any) -> Schema:
 def _without_unit(node: Any) -> Any:
     if isinstance(node, dict):
         return {key: _without_unit(value) for key, value in node.items() if key not in _UNIT}
-    return [_without_unit(one) for one in node] if isinstance(node, list) else node
+    return [_without_unit(item) for item in node] if isinstance(node, list) else node
 
 
 def _collapsed(node: Schema) -> Schema:
@@ -117,7 +117,7 @@ def _joinable(options: list[Schema]) -> bool:
     """Whether one schema with a list of types says the same: no two of a type, nothing that holds for all of them."""
     types = [option["type"] for option in options]
     values = [option for option in options if option["type"] != _NULL]
-    mixed = len(values) > 1 and any(key in one for key in _ANY_TYPE for one in values)
+    mixed = len(values) > 1 and any(key in value for key in _ANY_TYPE for value in values)
     return bool(options) and len(set(types)) == len(types) and not mixed
 
 
@@ -125,7 +125,7 @@ def _joined(options: list[Schema]) -> Schema:
     types = [option["type"] for option in options]
     joined = {key: value for option in options for key, value in option.items() if key not in ("title", "description")}
     if _NULL in types:
-        known = joined.get("enum", [joined["const"]] if "const" in joined else None)
-        joined |= {} if known is None else {"enum": [*known, None]}
+        values = joined.get("enum", [joined["const"]] if "const" in joined else None)
+        joined |= {} if values is None else {"enum": [*values, None]}
         joined.pop("const", None)
     return {**joined, "type": types if len(types) > 1 else types[0]}

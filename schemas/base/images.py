@@ -53,8 +53,8 @@ def png(url: str) -> bytes:
     # a pixel may name no colour beyond the palette
     room = 3 * 2**depth
     palette = next((data for name, data in parts if name == b"PLTE"), b"")[:room].ljust(room, b"\0")
-    kept = [(b"IHDR", head), *([(b"PLTE", palette)] if colour == _PALETTE else []), (b"IDAT", zlib.compress(pixels))]
-    return _SIGNATURE + b"".join(_part(name, data) for name, data in [*kept, (b"IEND", b"")])
+    chunks = [(b"IHDR", head), *([(b"PLTE", palette)] if colour == _PALETTE else []), (b"IDAT", zlib.compress(pixels))]
+    return _SIGNATURE + b"".join(_part(name, data) for name, data in [*chunks, (b"IEND", b"")])
 
 
 def _part(name: bytes, data: bytes) -> bytes:

@@ -30,8 +30,8 @@ def or_mapping(
         @wraps(function)
         def checked(request: Request | Mapping[str, Any], /, *rest: Rest.args, **named: Rest.kwargs) -> Answer:
             # what is neither is refused by the model, in its words
-            asked = request if isinstance(request, BaseModel) else model.model_validate(request)
-            return function(asked, *rest, **named)
+            instance = request if isinstance(request, BaseModel) else model.model_validate(request)
+            return function(instance, *rest, **named)
 
         return checked
 

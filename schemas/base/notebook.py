@@ -17,8 +17,8 @@ _MOST = 50
 
 def line(model: BaseModel) -> str:
     """The answer on one line: its first figures and words, and of lists how much they hold."""
-    told = [f"{name}={_short(value)}" for name, value in _content(model)]
-    return f"{type(model).__name__}({', '.join([*told[:_FIGURES], *(['...'] if len(told) > _FIGURES else [])])})"
+    figures = [f"{name}={_short(value)}" for name, value in _content(model)]
+    return f"{type(model).__name__}({', '.join([*figures[:_FIGURES], *(['...'] if len(figures) > _FIGURES else [])])})"
 
 
 def _short(value: object) -> str:
@@ -51,7 +51,7 @@ def _value(value: object) -> str:
     if isinstance(value, BaseModel):
         return _fields(value)
     if isinstance(value, dict):
-        rows = (f"<tr><th>{escape(str(name))}</th><td>{_value(each)}</td></tr>" for name, each in value.items())
+        rows = (f"<tr><th>{escape(str(name))}</th><td>{_value(item)}</td></tr>" for name, item in value.items())
         return f"<table>{''.join(rows)}</table>"
     if isinstance(value, tuple):
         return _several(value)

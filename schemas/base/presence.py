@@ -52,4 +52,4 @@ def together(first: str, second: str) -> list[Schema]:
 
 def conditions(*listed: list[Schema]) -> Schema:
     """Of the configuration of a model: all of some conditions."""
-    return {"allOf": [each for some in listed for each in some]}
+    return {"allOf": [condition for some in listed for condition in some]}

@@ -83,14 +83,16 @@ RESPONSES: dict[str, ResponseFields] = {
 
 def ceilings() -> Iterator[CeilingFields]:
     """Those of all responses."""
-    for each in RESPONSES.values():
-        yield from each.ceilings
+    for response in RESPONSES.values():
+        yield from response.ceilings
 
 
 def limited(objective: Any) -> list[CeilingFields]:
     """Ceilings that an objective gives, as numbers or columns."""
-    given = vars(objective)
-    return [ceiling for one in RESPONSES.values() for ceiling in one.ceilings if given[ceiling.field] is not None]
+    values = vars(objective)
+    return [
+        ceiling for response in RESPONSES.values() for ceiling in response.ceilings if values[ceiling.field] is not None
+    ]
 
 
 def counted(objective: Any) -> tuple[ResponseFields, ...]:
@@ -98,11 +100,11 @@ def counted(objective: Any) -> tuple[ResponseFields, ...]:
     if len(RESPONSES) == len(PAIR):
         return tuple(RESPONSES.values())
     return tuple(
-        each
-        for each in RESPONSES.values()
-        if each.name in PAIR
-        or _weighs(getattr(objective, each.weight))
-        or any(getattr(objective, ceiling.field) is not None for ceiling in each.ceilings)
+        response
+        for response in RESPONSES.values()
+        if response.name in PAIR
+        or _weighs(getattr(objective, response.weight))
+        or any(getattr(objective, ceiling.field) is not None for ceiling in response.ceilings)
     )
 
 

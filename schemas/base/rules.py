@@ -44,12 +44,14 @@ class Ruled(Model):
         PydanticCustomError
             type ``cross_field``, context ``{"problems": [...]}``.
         """
-        found: list[FieldProblem] = []
+        problems: list[FieldProblem] = []
         for broken, path, message in self.rules():
             if broken:
-                found.append(FieldProblem(path, message))
-        if found:
-            raise PydanticCustomError("cross_field", "{summary}", {"summary": found[0].message, "problems": found})
+                problems.append(FieldProblem(path, message))
+        if problems:
+            raise PydanticCustomError(
+                "cross_field", "{summary}", {"summary": problems[0].message, "problems": problems}
+            )
         return self
 
     def rules(self) -> Iterator[Rule]:

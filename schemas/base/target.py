@@ -138,9 +138,9 @@ def _item(declared: Any) -> Any:
     if get_origin(declared) is tuple:
         return get_args(declared)[0]
     for option in get_args(declared):
-        found = _item(option)
-        if found is not None:
-            return found
+        item = _item(option)
+        if item is not None:
+            return item
     return None
 
 

@@ -86,9 +86,9 @@ _TITLES = {
 
 def field_title(model: str, name: str) -> str:
     """A field as a person would call it, without its unit: ``crank_radius_m`` is "Crank radius"."""
-    known = _TITLES.get(f"{model}.{name}") or _TITLES.get(name)
-    if known is not None:
-        return known
+    title = _TITLES.get(f"{model}.{name}") or _TITLES.get(name)
+    if title is not None:
+        return title
     words = _ACROSS.sub(r" along \1", _SUFFIX.sub("", name).replace("_", " "))
     for short, spoken in _LIMITS.items():
         words = spoken + words.removeprefix(short) if words.startswith(short) else words

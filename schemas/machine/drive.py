@@ -49,13 +49,13 @@ class Friction(Ruled):
 
     def rules(self) -> Iterator[Rule]:
         path = ("mechanical_efficiency",)
-        given = self.reciprocating_force_N is not None or self.rotating_torque_Nm is not None
+        forces = self.reciprocating_force_N is not None or self.rotating_torque_Nm is not None
         if self.mechanical_efficiency is None:
-            yield Rule(not given, path, "give the efficiency, or friction forces and torque")
+            yield Rule(not forces, path, "give the efficiency, or friction forces and torque")
             useless = self.indicated_power_W is not None
             yield Rule(useless, ("indicated_power_W",), "serves only with a mechanical efficiency")
         else:
-            yield Rule(given, path, "give either the efficiency or friction forces and torque")
+            yield Rule(forces, path, "give either the efficiency or friction forces and torque")
 
     def row_rules(self, rows: int) -> Iterator[Rule]:
         """Lists have one entry for each row; paths from the machine."""

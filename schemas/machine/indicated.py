@@ -56,8 +56,8 @@ class PressureTrace(Ruled):
         yield from first_of(
             [
                 *(
-                    Rule(each > cycle, (*path, "angle_deg", k), f"must lie within the cycle of {turns} turn(s)")
-                    for k, each in enumerate(angle)
+                    Rule(crank_angle > cycle, (*path, "angle_deg", k), f"must lie within the cycle of {turns} turn(s)")
+                    for k, crank_angle in enumerate(angle)
                 ),
                 Rule(
                     left_out >= 0.5 * cycle,

@@ -167,9 +167,9 @@ def _throw_rules(path: Path, throw: Throw, sense: float) -> Iterator[Rule]:
 def _cylinder_rules(path: Path, throw: Throw, row: Row, sense: float) -> Iterator[Rule]:
     if row.cylinder is not None and row.cylinders:
         yield Rule(True, (*path, "cylinders"), "give either one cylinder or several")
-    yield from unique_names((*path, "cylinders"), [one.name for one in row.cylinders])
-    for k, one in enumerate(row.cylinders):
-        overlaps = reduce(or_, (one.overlaps(other) for other in row.cylinders[:k]), False)
+    yield from unique_names((*path, "cylinders"), [member.name for member in row.cylinders])
+    for k, member in enumerate(row.cylinders):
+        overlaps = reduce(or_, (member.overlaps(other) for other in row.cylinders[:k]), False)
         yield Rule(overlaps, (*path, "cylinders", k, "from_m"), "overlaps another cylinder of the row")
     for at, cylinder in row_cylinders(row):
         if cylinder.pressure is not None:

@@ -167,8 +167,8 @@ class MatchRequest(Ruled):
         for name in self.objective.over_the_turn:
             yield Rule(True, ("objective", name), "remove it: parts are matched for first-order force and moment")
         for ceiling in ceilings():
-            given = getattr(self.objective, ceiling.field) is not None
-            yield Rule(given, ("objective", ceiling.field), "remove it: parts are matched without ceilings")
+            presence = getattr(self.objective, ceiling.field) is not None
+            yield Rule(presence, ("objective", ceiling.field), "remove it: parts are matched without ceilings")
 
 
 def _parts_rules(path: Path, parts: Parts, rows: tuple[RowPlace, ...]) -> Iterator[Rule]:

@@ -72,9 +72,9 @@ def case_rules(request: Scene) -> Iterator[Rule]:
     fields = list(stated(request))
     if not fields:
         return
-    found = [rule for field in fields for rule in KINDS[field].rules(request, getattr(request, field))]
-    yield from found
-    wrong, names = [rule.path for rule in found if rule.broken], set[str]()
+    rules = [rule for field in fields for rule in KINDS[field].rules(request, getattr(request, field))]
+    yield from rules
+    wrong, names = [rule.path for rule in rules if rule.broken], set[str]()
     for case in cases(request):
         yield Rule(case.scenario.name in names, case.name, "another scenario has this name")
         names.add(case.scenario.name)

@@ -184,8 +184,8 @@ class Objective(Ruled):
 
     def rules(self) -> Iterator[Rule]:
         external = self.roll_weight != 0
-        for each in RESPONSES.values():
-            external = external | (getattr(self, each.weight) != 0)
+        for response in RESPONSES.values():
+            external = external | (getattr(self, response.weight) != 0)
         some = external | (self.bearing_weight != 0) | (self.bending_weight != 0)
         none = some == 0
         if none is not False:

@@ -117,8 +117,8 @@ class ReportRequest(OptimizeRequest):
                     yield Rule(broken, (*place, *path), message)
                 continue
             for broken, path, message in self.request_for(version).rules():
-                given = getattr(version, str(path[0]), None) is not None
-                yield Rule(broken, (*place, *(path if given else ())), message)
+                override = getattr(version, str(path[0]), None) is not None
+                yield Rule(broken, (*place, *(path if override else ())), message)
 
     def request_for(self, version: DesignVersion) -> OptimizeRequest:
         """What is asked of a version for which counterweights are to be found."""

@@ -60,10 +60,10 @@ class Accuracy(Model):
         gap = DISCRETE_GAP if discrete else type(self).model_fields[name].default
         if gap == self.relative_gap:
             return self
-        found = self.model_copy(update={name: gap})
+        accuracy = self.model_copy(update={name: gap})
         # it is still not said, and another machine has another one
-        found.model_fields_set.discard(name)
-        return found
+        accuracy.model_fields_set.discard(name)
+        return accuracy
 
     @model_serializer(mode="wrap")
     def _without_usual_gap(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
@@ -151,8 +151,8 @@ class OptimizeRequest(Scene, Ruled):
 
     def envelope_rules(self, message: str) -> Iterator[Rule]:
         """Envelopes that are given where only a counterweight of a known radius can be asked for."""
-        for broken, path, said in self.machine.no_envelopes(message):
-            yield Rule(broken, ("machine", *path), said)
+        for broken, path, text in self.machine.no_envelopes(message):
+            yield Rule(broken, ("machine", *path), text)
 
     def worst_case_rules(self, message: str) -> Iterator[Rule]:
         """Cases, tolerances and allowances that are given where only the machine as it is can be asked for."""
@@ -245,7 +245,7 @@ class OptimizeRequest(Scene, Ruled):
                 message = "balance shafts alone change the roll moment, and the machine has none"
                 yield Rule(rolling, ("objective", "roll_weight"), message)
         if any(shaft.speed_ratio == -1 for shaft in shafts):
-            for name in (each.field for each in limited(goal) if each.axis is None):
+            for name in (ceiling.field for ceiling in limited(goal) if ceiling.axis is None):
                 whole = goal.orders == "first"
                 message = "with a shaft that turns backwards the ceilings of the first order are those along x and y"
                 yield Rule(whole, ("objective", name), message)

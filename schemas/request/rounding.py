@@ -33,7 +33,7 @@ class RoundRequest(Ruled):
 
     def rules(self) -> Iterator[Rule]:
         yield from angle_step_rules(("angle_step_deg",), self.angle_step_deg)
-        asked, machine = self.request, self.request.machine
+        request, machine = self.request, self.request.machine
         limits = [web.max_mass_kg for web in machine.webs if web.fixed is None and web.envelope is None]
         finite = [limit for limit in limits if limit is not None]
         if finite and len(finite) == len(limits):
@@ -44,10 +44,10 @@ class RoundRequest(Ruled):
             message = "remove it: what is chosen from a catalogue is on its steps already"
             yield Rule(True, ("request", "machine", *field), message)
         message = "not with steps, which are judged as they are: round without, then send the masses as `fixed`"
-        yield Rule(asked.tolerances is not None, ("request", "tolerances"), message)
+        yield Rule(request.tolerances is not None, ("request", "tolerances"), message)
         yield from no_balance_shafts(machine, ("request", "machine"), "steps of counterweights")
-        for broken, path, said in asked.envelope_rules(_BY_ITSELF):
-            yield Rule(broken, ("request", *path), said)
+        for broken, path, text in request.envelope_rules(_BY_ITSELF):
+            yield Rule(broken, ("request", *path), text)
 
 
 class Weights(Model):

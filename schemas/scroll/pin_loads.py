@@ -117,11 +117,11 @@ class PinLoadsRequest(Ruled):
 
     def _pin_rules(self) -> Iterator[Rule]:
         pins = self.pins or ()
-        given = any(pin.stiffness_N_per_m is not None for pin in pins)
+        stiffness = any(pin.stiffness_N_per_m is not None for pin in pins)
         elastic = self.drive_bearing.type == "elastic"
-        needed = given or self.has_clearance or elastic
+        needed = stiffness or self.has_clearance or elastic
         what = "an elastic drive bearing needs" if elastic else "clearances and errors need"
-        why = "every pin needs one" if given else f"{what} the stiffness of every pin"
+        why = "every pin needs one" if stiffness else f"{what} the stiffness of every pin"
         places = [_place(pin.radius_m, radians(pin.angle_deg % 360.0)) for pin in pins]
         for index, pin in enumerate(pins):
             yield Rule(needed and pin.stiffness_N_per_m is None, ("pins", index, "stiffness_N_per_m"), why)

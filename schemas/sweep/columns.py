@@ -57,13 +57,13 @@ def result_columns(
     always : outputs that rows hold whether they were asked for or not.
     details : whether those in detail come along.
     """
-    found: dict[str, Column] = {}
+    columns: dict[str, Column] = {}
     for column in _columns(base, targets, always, details):
-        found.setdefault(column.name, column)
+        columns.setdefault(column.name, column)
     if multipliers:
         meaning = "multipliers of the certificate, or of the conflict of the ceilings, as JSON"
-        found[MULTIPLIERS] = Column(MULTIPLIERS, "text", None, meaning)
-    return tuple(found.values())
+        columns[MULTIPLIERS] = Column(MULTIPLIERS, "text", None, meaning)
+    return tuple(columns.values())
 
 
 def goal_columns(objective: Objective) -> Iterator[Column]:
@@ -116,10 +116,10 @@ def _residual(base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target])
     """Peaks of force and moment, and of the other responses that count in some design."""
     yield from _RESIDUAL
     weights = {target.path[1:]: 1.0 for target in targets if target.path[0] == "objective"}
-    for each in counted(with_fields(base.objective, weights)) if isinstance(base, OptimizeRequest) else ():
-        if each.name not in PAIR:
-            meaning = f"peak of the first-order {each.label} with the counterweights"
-            yield Column(each.peak, "number", each.unit, meaning)
+    for response in counted(with_fields(base.objective, weights)) if isinstance(base, OptimizeRequest) else ():
+        if response.name not in PAIR:
+            meaning = f"peak of the first-order {response.label} with the counterweights"
+            yield Column(response.peak, "number", response.unit, meaning)
 
 
 def _of_parts(machine: Machine, output: str) -> Iterator[Column]:

@@ -88,12 +88,12 @@ def crank_orders(machine: Machine, angles_deg: Sequence[float], alike_across: bo
     different.sort()
     counts = Counter(_number(different, angle) for angle in reduced)
     times = tuple(counts[k] for k in range(len(different)))
-    found = {
+    symmetries = {
         Symmetry(image, ends): None
         for image in _images(machine, different, times, alike_across)
         for ends in ((False, True) if _same_from_both_ends(machine) else (False,))
     }
-    return CrankOrders(tuple(different), times, tuple(found))
+    return CrankOrders(tuple(different), times, tuple(symmetries))
 
 
 def _images(
@@ -105,14 +105,14 @@ def _images(
         return
     for sign in (1.0, -1.0) if _same_in_a_mirror(machine, alike_across) else (1.0,):
         for angle in angles:
-            found = [_number(angles, (sign * (one - angles[0]) + angle) % 360.0) for one in angles]
-            image = tuple(k for k in found if k is not None)
+            numbers = [_number(angles, (sign * (crank - angles[0]) + angle) % 360.0) for crank in angles]
+            image = tuple(k for k in numbers if k is not None)
             if len(image) == len(angles) and all(times[k] == times[a] for a, k in enumerate(image)):
                 yield image
 
 
 def _number(angles: Sequence[float], angle: float) -> int | None:
-    return next((k for k, one in enumerate(angles) if _off(one - angle, 360.0) <= _NEAR * 360.0), None)
+    return next((k for k, entry in enumerate(angles) if _off(entry - angle, 360.0) <= _NEAR * 360.0), None)
 
 
 def _off(difference: float, period: float) -> float:
@@ -122,10 +122,10 @@ def _off(difference: float, period: float) -> float:
 def _turns_freely(machine: Machine) -> bool:
     """Whether nothing on the machine stands at an angle of its own."""
     rows = [row for throw in machine.throws for row in throw.rows]
-    tabled = any(one.pressure is not None for row in rows for _, one in row_cylinders(row))
+    tabled = any(cylinder.pressure is not None for row in rows for _, cylinder in row_cylinders(row))
     own = [own_options(web) for web in machine.webs]
     free = all(web.sector is None and web.fixed is None for web in machine.webs)
-    free = free and all(each.angles is None and each.pairs is None for each in own)
+    free = free and all(options.angles is None and options.pairs is None for options in own)
     return not tabled and not machine.unbalances and free
 
 
@@ -145,7 +145,14 @@ def _mirrored(rows: Sequence[Row], line_deg: float) -> bool:
     left = list(rows)
     for row in rows:
         axis = 2 * line_deg - row.axis_deg
-        twin = next((one for one in left if _off(one.axis_deg - axis, 360.0) <= _NEAR and _alike(one, row)), None)
+        twin = next(
+            (
+                candidate
+                for candidate in left
+                if _off(candidate.axis_deg - axis, 360.0) <= _NEAR and _alike(candidate, row)
+            ),
+            None,
+        )
         if twin is None:
             return False
         left.remove(twin)
@@ -162,13 +169,13 @@ def _same_from_both_ends(machine: Machine) -> bool:
     throws = machine.throws
     ends = throws[0].position_m + throws[-1].position_m
     size = max(abs(throw.position_m) for throw in throws)
-    given = machine.reference_plane_m
+    plane = machine.reference_plane_m
     if machine.unbalances or any(web.fixed is not None for web in machine.webs):
         return False
     if machine.web_groups:
         # the groups would have to change ends too
         return False
-    if given is not None and abs(2 * given - ends) > _NEAR * max(size, abs(given)):
+    if plane is not None and abs(2 * plane - ends) > _NEAR * max(size, abs(plane)):
         return False
     sides = [[_from_an_end(throw, ends, turned) for throw in throws] for turned in (False, True)]
     places = [*machine.webs, *machine.bearings]
@@ -185,15 +192,15 @@ def _from_an_end(part: Any, ends: float, turned: bool, last: int | None = None) 
     ----------
     last : number of the last throw, where it matters whose crank a web belongs to: steps of angle count from it.
     """
-    found: dict[str, Any] = part.model_dump(exclude={"name", "crank_angle_deg", "throw"})
-    found["position_m"] = ends - part.position_m if turned else part.position_m
+    fields: dict[str, Any] = part.model_dump(exclude={"name", "crank_angle_deg", "throw"})
+    fields["position_m"] = ends - part.position_m if turned else part.position_m
     own = getattr(part, "throw", None)
     if last is not None and own is not None:
-        found["throw"] = last - own if turned else own
-    for row in found.get("rows", ()):
+        fields["throw"] = last - own if turned else own
+    for row in fields.get("rows", ()):
         row["name"] = None
         row["offset_m"] = -row["offset_m"] if turned else row["offset_m"]
-    return found
+    return fields
 
 
 def _equal(

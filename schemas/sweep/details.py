@@ -54,8 +54,8 @@ def key(name: str) -> str:
 
 def usual_keys(output: str) -> frozenset[str]:
     """Keys of the columns that an output brings wherever it is asked for."""
-    each = COLUMNS_OF_PARTS[output].columns if output in COLUMNS_OF_PARTS else ()
-    of_parts = (f"{column.name}." for column in each)
+    columns = COLUMNS_OF_PARTS[output].columns if output in COLUMNS_OF_PARTS else ()
+    of_parts = (f"{column.name}." for column in columns)
     return frozenset((*(key(column.name) for column in OUTPUT_COLUMNS.get(output, ())), *of_parts))
 
 
@@ -96,7 +96,7 @@ def _within(machine: ReciprocatingMachine, of: Of, label: str, path: Path) -> It
     else:
         cylinders = [*row_cylinders(machine.throws[int(path[1])].rows[int(path[3])])]
         for within, cylinder in zip(
-            labels([getattr(each, "name", None) for _, each in cylinders]), cylinders, strict=True
+            labels([getattr(member, "name", None) for _, member in cylinders]), cylinders, strict=True
         ):
             place = label if len(cylinders) == 1 else f"{label}.{within}"
             yield from (Part(f"{place}.{side}", (*path, *cylinder[0])) for side in _SIDES)
@@ -202,7 +202,7 @@ DETAILS: dict[str, tuple[Details, ...]] = {output: tuple(_details(output)) for o
 
 def keys_of(output: str) -> tuple[str, ...]:
     """Keys of the columns in detail of one output."""
-    return tuple(each for details in DETAILS[output] for each in details.keys)
+    return tuple(name for details in DETAILS[output] for name in details.keys)
 
 
 def detail_columns(machine: Machine, output: str) -> Iterator[Column]:

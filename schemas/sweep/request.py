@@ -123,9 +123,9 @@ class SweepRequest(Ruled):
         designs = (self._axis_problems, self._design_problems, self._search_problems)
         varied = (self._order_problems,) if ordered else designs
         for part in (self._output_problems, self._angle_problems, *varied, self._column_problems):
-            found = list(part())
-            yield from (Rule(True, path, message) for path, message in found)
-            if found:
+            problems = list(part())
+            yield from (Rule(True, path, message) for path, message in problems)
+            if problems:
                 return
 
     @property
@@ -159,8 +159,8 @@ class SweepRequest(Ruled):
         if not isinstance(self.base, OptimizeRequest):
             return ()
         varied = {str(target.path[1]) for target in self.targets if target.path[0] == "objective"}
-        given = self.base.objective.over_the_turn
-        return tuple(name for name in OVER_THE_TURN if name in given or name in varied)
+        fields = self.base.objective.over_the_turn
+        return tuple(name for name in OVER_THE_TURN if name in fields or name in varied)
 
     @property
     def separate(self) -> bool:
@@ -237,11 +237,11 @@ class SweepRequest(Ruled):
         elif len(angles) > MAX_ORDERED:
             yield FieldProblem(("angles_deg",), f"at most {MAX_ORDERED} throws are put in order")
         else:
-            found = crank_orders(machine, angles, self._alike_across)
-            if found.sequence_count > MAX_SEQUENCES:
+            orders = crank_orders(machine, angles, self._alike_across)
+            if orders.sequence_count > MAX_SEQUENCES:
                 message = f"at most {MAX_SEQUENCES} sequences are looked through; these angles make more"
                 yield FieldProblem(("angles_deg",), message)
-            self._crank_orders = found
+            self._crank_orders = orders
             paths = (f"/machine/throws/{t}/crank_angle_deg" for t in range(len(angles)))
             self._targets = tuple(find_target(self.base, path) for path in paths)
             yield from self._search_problems()
@@ -316,18 +316,18 @@ class SweepRequest(Ruled):
 
 def _value_problems(i: int, axis: Axis, target: Target) -> Iterator[FieldProblem]:
     """Values that the field cannot take whatever its range: wrong unit, text, null."""
-    given: list[tuple[Path, Any]]
+    entries: list[tuple[Path, Any]]
     if axis.values is not None:
-        given = [(("axes", i, "values", j), value) for j, value in enumerate(axis.values)]
+        entries = [(("axes", i, "values", j), value) for j, value in enumerate(axis.values)]
     else:
-        given = [(("axes", i, "start"), axis.start), (("axes", i, "stop"), axis.stop)]
+        entries = [(("axes", i, "start"), axis.start), (("axes", i, "stop"), axis.stop)]
     numbers = []
-    for path, value in given:
+    for path, value in entries:
         try:
             numbers.append(target.number(value))
         except ValueError as error:
             yield FieldProblem(path, str(error))
-    if axis.values is None and axis.spacing == "log" and len(numbers) == len(given):
-        for (path, _), number in zip(given, numbers, strict=True):
+    if axis.values is None and axis.spacing == "log" and len(numbers) == len(entries):
+        for (path, _), number in zip(entries, numbers, strict=True):
             if number is not None and not number > 0:
                 yield FieldProblem(path, "a logarithmic range needs ends above 0")
