@@ -98,8 +98,8 @@ def on_effects(text: str) -> str:
         return [row for row in rows if kind in row.kind and row.setting in settings]
 
     def error(rows: list[Row], kind: str, *settings: str) -> str:
-        found = sorted({f"{100 * row.error:.2g}" for row in of(rows, kind, *settings)}, key=float)
-        return " to ".join(dict.fromkeys((found[0], found[-1]))) + " percent"
+        figures = sorted({f"{100 * row.error:.2g}" for row in of(rows, kind, *settings)}, key=float)
+        return " to ".join(dict.fromkeys((figures[0], figures[-1]))) + " percent"
 
     customary = ("10 deg", "15 deg")
     panels, fine = of(gas, "fluctuation", "exact kinematics")[0], of(gas, "fluctuation", "0.1 deg")[0]
@@ -181,10 +181,10 @@ def _times(rows: list[Row], others: list[Row]) -> str:
 
 def _change(ladders: dict[str, list[Row]], method: str) -> str:
     """Time of the sharpest setting over that of the loosest, the median of the examples."""
-    found = []
+    ratios = []
     for rows in ladders.values():
         settings = [row for row in rows if row.method == method]
-        found.append(settings[-1].time / settings[0].time)
-    found.sort()
-    middle = len(found) // 2
-    return f"{(found[middle] + found[-1 - middle]) / 2:.1f}"
+        ratios.append(settings[-1].time / settings[0].time)
+    ratios.sort()
+    middle = len(ratios) // 2
+    return f"{(ratios[middle] + ratios[-1 - middle]) / 2:.1f}"

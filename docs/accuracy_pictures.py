@@ -42,9 +42,9 @@ def tables(name: str, answer: AccuracyAnswer) -> Iterator[tuple[str, str]]:
     yield f"ladder {name}", "\n".join(lines)
     if name in EFFECTS:
         lines = ["| figure | method | setting | time, ms | error |", "|---|---|---|--:|--:|"]
-        for one in answer.effects_ladder:
-            cells = (one.quantity.replace("_", " "), method_name(one.method), one.setting)
-            lines.append(f"| {' | '.join(cells)} | {one.time_ms:.2f} | {_scientific(one.relative_error)} |")
+        for rung in answer.effects_ladder:
+            cells = (rung.quantity.replace("_", " "), method_name(rung.method), rung.setting)
+            lines.append(f"| {' | '.join(cells)} | {rung.time_ms:.2f} | {_scientific(rung.relative_error)} |")
         yield f"effects {name}", "\n".join(lines)
 
 
@@ -88,8 +88,8 @@ def with_peaks(text: str) -> str:
 
 def conclude(text: str) -> str:
     """The document with the conclusions that its tables allow."""
-    found = {"ladder": on_ladders, "effects": on_effects, "peaks": on_peaks}
-    for mark, conclusions in found.items():
+    functions = {"ladder": on_ladders, "effects": on_effects, "peaks": on_peaks}
+    for mark, conclusions in functions.items():
         text = put(text, f"conclusions {mark}", conclusions(text))
     return text
 

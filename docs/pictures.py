@@ -24,18 +24,18 @@ def hodographs(name: str) -> None:
     """Force and moment of an example over a turn, before and after, with the floor."""
     body = json.loads((DOCS.parent / "examples" / f"{name}.json").read_bytes())
     body["outputs"] = ["residual", "hodograph"]
-    found = optimize(OptimizeRequest.model_validate(body))
-    assert found.hodograph is not None
-    assert found.hodograph.after is not None
+    answer = optimize(OptimizeRequest.model_validate(body))
+    assert answer.hodograph is not None
+    assert answer.hodograph.after is not None
     figure, axes = plt.subplots(1, 2, figsize=(9, 4.2), layout="constrained")
     turn = np.linspace(0, 2 * np.pi, 361)
     for axis, kind, unit, floor in (
-        (axes[0], "force", "N", found.floor.force_N),
-        (axes[1], "moment", "Nm", found.floor.moment_Nm),
+        (axes[0], "force", "N", answer.floor.force_N),
+        (axes[1], "moment", "Nm", answer.floor.moment_Nm),
     ):
         for state, colour, label in (
-            (found.hodograph.before, BEFORE, "before"),
-            (found.hodograph.after, AFTER, "after"),
+            (answer.hodograph.before, BEFORE, "before"),
+            (answer.hodograph.after, AFTER, "after"),
         ):
             x = np.array(getattr(state, f"{kind}_x_{unit}")) / 1e3
             y = np.array(getattr(state, f"{kind}_y_{unit}")) / 1e3
@@ -47,7 +47,7 @@ def hodographs(name: str) -> None:
         axis.set_ylabel(f"y [k{unit.replace('Nm', 'N m')}]")
         axis.grid(alpha=0.3)
     axes[0].legend(loc="upper right")
-    figure.suptitle(f"{found.total_mass_kg:.1f} kg on four webs of the {body['machine']['name']}")
+    figure.suptitle(f"{answer.total_mass_kg:.1f} kg on four webs of the {body['machine']['name']}")
     figure.savefig(DOCS / f"{name}-hodograph.svg", metadata={"Date": None, "Creator": None})
 
 

@@ -24,13 +24,13 @@ def room(module: str) -> str | None:
 
 def imports() -> Imports:
     """Every room with the rooms that its files import, at the top of a file or inside a function."""
-    found: dict[str, set[str]] = {}
+    rooms: dict[str, set[str]] = {}
     for package in PACKAGES:
         for path in sorted((ROOT / package).rglob("*.py")):
             own = room(".".join(path.relative_to(ROOT).with_suffix("").parts))
             if own is not None and not own.endswith(".__init__"):
-                found.setdefault(own, set()).update(_imported(path) - {own})
-    return {name: frozenset(others & found.keys()) for name, others in found.items()}
+                rooms.setdefault(own, set()).update(_imported(path) - {own})
+    return {name: frozenset(others & rooms.keys()) for name, others in rooms.items()}
 
 
 def _imported(path: Path) -> set[str]:
@@ -50,7 +50,7 @@ def _imported(path: Path) -> set[str]:
 def within(package: str, arrows: Imports) -> Imports:
     """The rooms of one package, and the imports between them."""
     return {
-        name: frozenset(one for one in others if one.startswith(f"{package}."))
+        name: frozenset(target for target in others if target.startswith(f"{package}."))
         for name, others in arrows.items()
         if name.startswith(f"{package}.")
     }
@@ -64,33 +64,33 @@ def floors(arrows: Imports) -> dict[str, int]:
     ValueError
         if rooms import each other in a circle.
     """
-    found: dict[str, int] = {}
-    while len(found) < len(arrows):
-        ready = [name for name, others in arrows.items() if name not in found and others <= found.keys()]
+    heights: dict[str, int] = {}
+    while len(heights) < len(arrows):
+        ready = [name for name, others in arrows.items() if name not in heights and others <= heights.keys()]
         if not ready:
-            raise ValueError(f"a circle of imports among {sorted(arrows.keys() - found.keys())}")
-        found |= {name: 1 + max((found[one] for one in arrows[name]), default=-1) for name in ready}
-    return found
+            raise ValueError(f"a circle of imports among {sorted(arrows.keys() - heights.keys())}")
+        heights |= {name: 1 + max((heights[target] for target in arrows[name]), default=-1) for name in ready}
+    return heights
 
 
 def reduced(arrows: Imports) -> Imports:
     """The arrows that no chain of others implies."""
     reach: dict[str, frozenset[str]] = {}
     for name in sorted(arrows, key=floors(arrows).__getitem__):
-        reach[name] = arrows[name].union(*(reach[one] for one in arrows[name]))
+        reach[name] = arrows[name].union(*(reach[target] for target in arrows[name]))
     return {
-        name: frozenset(one for one in others if not any(one in reach[other] for other in others))
+        name: frozenset(target for target in others if not any(target in reach[other] for other in others))
         for name, others in arrows.items()
     }
 
 
 def _rows(arrows: Imports) -> list[list[str]]:
     """The rooms floor by floor from the top, each near the rooms that import it."""
-    of, kept = floors(arrows), reduced(arrows)
+    of, edges = floors(arrows), reduced(arrows)
     rows = [sorted(name for name in arrows if of[name] == floor) for floor in range(max(of.values()), -1, -1)]
     centre: dict[str, float] = {}
     for row in rows:
-        above = {name: [centre[one] for one in kept if name in kept[one]] for name in row}
+        above = {name: [centre[importer] for importer in edges if name in edges[importer]] for name in row}
         row.sort(key=lambda name: (sum(above[name]) / len(above[name]) if above[name] else 0.5, name))
         centre |= {name: (place + 0.5) / len(row) for place, name in enumerate(row)}
     return rows
@@ -125,7 +125,7 @@ def picture(arrows: Imports) -> str:
                 edge += _width(name) + _GAP
         left += wide + _MARGIN
     width, tall = left, height + 2 * _MARGIN
-    lines = [_arrow(boxes[one], boxes[other]) for band in bands.values() for one, other in _pairs(reduced(band))]
+    lines = [_arrow(boxes[source], boxes[other]) for band in bands.values() for source, other in _pairs(reduced(band))]
     drawn = [_box(name, boxes[name]) for name in sorted(boxes)]
     return "\n".join(
         [

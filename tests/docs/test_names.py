@@ -41,7 +41,7 @@ def is_noun(name: str) -> bool:
 
 
 def names(tree: ast.AST) -> Iterator[str]:
-    """Classes, functions, their parameters, fields of classes and attributes of objects."""
+    """Classes, functions, their parameters, variables, fields of classes and attributes of objects."""
     for node in ast.walk(tree):
         if isinstance(node, ast.ClassDef):
             yield node.name
@@ -52,6 +52,9 @@ def names(tree: ast.AST) -> Iterator[str]:
             yield node.name
         elif isinstance(node, ast.arg):
             yield node.arg
+        # in capitals one is a number
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store) and not node.id.isupper():
+            yield node.id
         elif isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
             yield node.attr
 
@@ -86,6 +89,8 @@ def test_production_code_is_named_by_nouns() -> None:
         "async def area(**asked): ...",
         "area = lambda one: one",
         "def area(part):\n    part._known = 1",
+        "def area(parts):\n    return [2 * one for one in parts]",
+        "each = 1",
     ],
 )
 def test_a_participle_is_seen_wherever_it_stands(text: str) -> None:
