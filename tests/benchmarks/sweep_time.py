@@ -21,8 +21,7 @@ PARTS: dict[str, tuple[str, ...]] = {
     "validity": ("optimizer.studies.sweep.rows:_refuse", "optimizer.studies.sweep.rows:_same_nulls"),
     "columns, phasors, statement": (
         "optimizer.studies.sweep.counterweights:layout_of",
-        "optimizer.studies.sweep.counterweights:rotating",
-        "optimizer.studies.sweep.counterweights:reciprocating",
+        "optimizer.studies.sweep.counterweights:first_order",
         "optimizer.solve.certify:cone_program",
     ),
     _STAGES: ("optimizer.program.kernel.discs:solve", "optimizer.program.kernel.interior_point:solve"),
