@@ -6,7 +6,8 @@ export PORT
 
 bin := .venv/bin
 kernels := optimizer/program/kernel/__pycache__/kernels
-loaded := service.app, service.cli, service.wire.server, service.workers.worker
+loaded := service.app, service.cli, service.wire.server, service.workers.worker, sqlalchemy.dialects.sqlite, \
+    anyio._backends._asyncio, uvicorn.lifespan.on, uvicorn.loops.asyncio
 pip := $(bin)/pip --quiet --disable-pip-version-check
 
 .PHONY: install run test tests quick bytecode chromium freecad mono lint bench hard validate nightly lock settings map pictures docs package image image-check smoke sbom licences audit clean
@@ -44,9 +45,9 @@ bytecode: .venv/runtime
 # compiled once, in half a minute, not by every process that needs them; while one core compiles what all of them need,
 # the other one makes bytecode of the packages that a service loads;
 # numba looks for changes in the file of a kernel only, not in the files of those that it calls
-$(kernels): optimizer/numerics/compiling.py $(wildcard optimizer/*/kernel/*.py optimizer/*/*/kernel/*.py) .venv/runtime | bytecode
+$(kernels): optimizer/numerics/compiling.py $(wildcard optimizer/*/kernel/*.py optimizer/*/*/kernel/*.py) .venv/runtime
 	rm -f optimizer/*/kernel/__pycache__/*.nb[ic] optimizer/*/*/kernel/__pycache__/*.nb[ic]
-	PYTHONDONTWRITEBYTECODE= $(bin)/python -c "import $(loaded)" & loads=$$!; \
+	$(MAKE) --no-print-directory bytecode && PYTHONDONTWRITEBYTECODE= $(bin)/python -c "import $(loaded)" & loads=$$!; \
 	$(bin)/python -m optimizer.compile_kernels && wait $$loads
 	mkdir -p $(@D) && touch $@
 
