@@ -1,9 +1,10 @@
 """Compile the kernels, once for an installation: ``python -m optimizer.compile_kernels``.
 
 What budgets are spent by is compiled first, and with it what the compiler needs for any kernel. Three processes have
-that in common and do the rest beside one another: one the interior point for discs, and what proves and settles; one
-what follows the turn; and one the interior point for any limits, what parts are matched and sums of options compared
-by, what puts designs in order and sums their forces, and what moves curves.
+that in common and do the rest beside one another. The first compiles the interior point for discs, what proves and
+settles, and what is off; the second what follows the turn. The third compiles the interior point for any limits, what
+parts are matched and sums of options compared by, what puts designs in order and sums their forces, and what moves
+curves.
 """
 
 import gc
@@ -51,7 +52,7 @@ def proofs() -> None:
     """Compile what proves bounds of single proofs, and settles by itself: one web, one term, one row."""
     from optimizer.program.ceilings import Ceilings
     from optimizer.program.certificate import affine_minorant, nothing_proven, objective_lower_bound
-    from optimizer.program.limits import Limits
+    from optimizer.program.limits import Limits, within
     from optimizer.program.methods.compensation import near_limits
     from optimizer.program.methods.rounding import settled
     from optimizer.program.norms import Norms
@@ -66,8 +67,17 @@ def proofs() -> None:
     affine_minorant(program, nothing_proven(program))
     objective_lower_bound(program, nothing_proven(program))
     near_limits(limits, np.ones((1, 1, 1)), np.ones((1, 1), complex), 0.0, 0.0)
+    within(limits.region((1,)), (1,), np.ones((1, 1), complex))
     least_change(np.ones((1, 1, 1), complex), np.ones((1, 1), complex), 1)
     settled(program.alone(), points_at(program.alone(), np.zeros((1, 1), complex)), unit, None)
+
+
+def misplacements() -> None:
+    """Compile what counterweights come to that are off: one length, one web."""
+    from optimizer.program.misplacement import farthest_by_angle, farthest_by_mass
+
+    for farthest in (farthest_by_mass, farthest_by_angle):
+        farthest(np.ones(1, complex), np.ones((1, 1), complex), 0.1)
 
 
 def moving_curves() -> None:
@@ -86,6 +96,14 @@ def near_sums() -> None:
     near(first, sums, *lists, two, cells, two, 1.0, cells, ALL, np.zeros(4, np.int64), 1.0, cells)
 
 
+#: three at a time, the longest first: so that two cores are busy until the end
+PARTS: tuple[tuple[Callable[[], object], ...], ...] = (
+    (plain_discs, proofs, misplacements),
+    (follow_a_turn,),
+    (any_limits, match_parts, designs, moving_curves, near_sums),
+)
+
+
 def main() -> None:
     _say("compiling the kernels, once: half a minute on two cores")
     begun = time.perf_counter()
@@ -94,9 +112,7 @@ def main() -> None:
     link_first()
     take_shortcuts()
     budgets()
-    # three at a time, the longest first: so that two cores are busy until the end
-    parts = (plain_discs, proofs), (follow_a_turn,), (any_limits, match_parts, designs, moving_curves, near_sums)
-    processes = [get_context("fork").Process(target=_in_turn, args=some) for some in zip(_BEHIND, parts, strict=True)]
+    processes = [get_context("fork").Process(target=_in_turn, args=some) for some in zip(_BEHIND, PARTS, strict=True)]
     for process in processes:
         process.start()
     for process in processes:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from optimizer.choices.discrete.kernel import near_sums
-from optimizer.compile_kernels import any_limits, budgets, moving_curves, proofs
+from optimizer.compile_kernels import any_limits, budgets, misplacements, moving_curves, proofs
 from optimizer.compile_kernels import near_sums as sums
 from optimizer.mechanics.kernel import entry
 from optimizer.numerics.kernel import circle, knapsack, meeting
@@ -56,6 +56,7 @@ def test_what_is_compiled_is_what_answers_need() -> None:
     budgets()
     any_limits()
     follow_a_turn()
+    misplacements()
     moving_curves()
     plain_discs()
     proofs()
@@ -90,6 +91,36 @@ def test_what_is_compiled_is_what_answers_need() -> None:
         for name in names:
             file = Path(str(module.__file__)).stem
             assert len(list(kept.glob(f"{file}.{name}-*.{version}.*.nbc"))) <= 1, name
+
+
+#: as `make` compiles kernels, then as a service warms up; what that had compiled beside them
+_FIRST_START = """
+import gc
+from numba.core.dispatcher import Dispatcher
+from optimizer.compile_kernels import PARTS, budgets
+from optimizer.warm_up import warm_up
+
+def compiled():
+    entries = [entry for entry in gc.get_objects() if isinstance(entry, Dispatcher)]
+    return {(entry.py_func.__qualname__, signature) for entry in entries for signature in entry.signatures}
+
+budgets()
+for parts in PARTS:
+    for part in parts:
+        part()
+before = compiled()
+warm_up()
+print(len(before), *(name for name, _ in compiled() - before))
+"""
+
+
+def test_a_first_start_compiles_nothing() -> None:
+    """In a process of its own, as other tests have kernels compiled."""
+    command = [sys.executable, "-c", _FIRST_START]
+    count, *late = subprocess.run(command, capture_output=True, text=True, timeout=300, check=True).stdout.split()
+    assert int(count) > 20
+    # of floors over the turn it is a part, and kept with them
+    assert set(late) <= {"smallest"}
 
 
 def test_a_wrong_answer_is_not_ready(monkeypatch: pytest.MonkeyPatch) -> None:
