@@ -2,9 +2,8 @@
 
 What budgets are spent by is compiled first, and with it what the compiler needs for any kernel. Three processes have
 that in common and do the rest beside one another. The first compiles the interior point for discs, what proves and
-settles, and what is off; the second what follows the turn. The third compiles the interior point for any limits, what
-parts are matched and sums of options compared by, what puts designs in order and sums their forces, and what moves
-curves.
+settles, what is off, and what sums of options are compared by; the second what follows the turn and moves curves. The
+third compiles the interior point for any limits, what parts are matched by, and what orders designs and sums forces.
 """
 
 import gc
@@ -98,9 +97,9 @@ def near_sums() -> None:
 
 #: three at a time, the longest first: so that two cores are busy until the end
 PARTS: tuple[tuple[Callable[[], object], ...], ...] = (
-    (plain_discs, proofs, misplacements),
-    (follow_a_turn,),
-    (any_limits, match_parts, designs, moving_curves, near_sums),
+    (plain_discs, proofs, misplacements, near_sums),
+    (follow_a_turn, moving_curves),
+    (any_limits, match_parts, designs),
 )
 
 
