@@ -1,7 +1,7 @@
 """Workers lent to requests: started when needed, ended when a client is gone or its time over, replaced when dead."""
 
 import logging
-from asyncio import FIRST_COMPLETED, Future, ensure_future, gather, wait
+from asyncio import FIRST_COMPLETED, Future, ensure_future, gather, timeout, wait
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass, field, replace
@@ -14,7 +14,6 @@ from service.fairness import length
 from service.fairness.faults import Busy
 from service.fairness.queue import FairQueue, Full, Turn
 from service.fairness.table import Resource, Share
-from service.workers.alarms import Alarms
 from service.workers.process import Dead, Haste, Start, Worker, WorkersFailed, forked, preload
 from service.workers.task import Priority, Task
 from service.workers.worker import Answer, Crashed, Long, Outcome
@@ -91,7 +90,6 @@ class Pool:
         self._busy: dict[Worker, Turn] = {}
         # of recent computations, short and long, for Retry-After [s]
         self._typical_s = {False: 0.1, True: length.BRIEF_S}
-        self._alarms = Alarms()
         self._closed = False
         # workers that there always are, and their starts
         self._least = 0
@@ -146,22 +144,23 @@ class Pool:
         computing = False
         short, long = self._short.turn(owner), self._long.turn(owner)
         try:
-            with self._alarms.limit(self.timeout_s), ExitStack() as ends:
-                ends.callback(short.end)
-                ends.callback(long.end)
-                if not task.long:
-                    await short.granted()
+            async with timeout(self.timeout_s):
+                with ExitStack() as ends:
+                    ends.callback(short.end)
+                    ends.callback(long.end)
+                    if not task.long:
+                        await short.granted()
+                        computing = True
+                        outcome = await self._computed(task, self._priority(short), short, long)
+                        if not isinstance(outcome, Long):
+                            return outcome
+                        computing = False
+                        short.end()
+                    await long.granted()
                     computing = True
-                    outcome = await self._computed(task, self._priority(short), short, long)
-                    if not isinstance(outcome, Long):
-                        return outcome
-                    computing = False
-                    short.end()
-                await long.granted()
-                computing = True
-                outcome = await self._computed(replace(task, long=True), Priority.LONG, short, long)
-                assert not isinstance(outcome, Long), "a long computation has been granted"
-                return outcome
+                    outcome = await self._computed(replace(task, long=True), Priority.LONG, short, long)
+                    assert not isinstance(outcome, Long), "a long computation has been granted"
+                    return outcome
         except Full:
             self.counts.refused_busy += 1
             turns = self._long if long.wanted else self._short
@@ -213,8 +212,8 @@ class Pool:
                 await self._in_thread(worker.send, task, priority)
             if task.long or short.ended:
                 return await worker.outcome()
-            with Haste(worker, self._alarms):
-                with suppress(TimeoutError), self._alarms.limit(length.BRIEF_S):
+            with Haste(worker):
+                with move_on_after(length.BRIEF_S):
                     return await worker.outcome()
                 return await self._overrun(worker, short, long)
         except get_cancelled_exc_class():

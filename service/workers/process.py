@@ -1,5 +1,6 @@
 """One worker as the service sees it: a process that is forked, asked, and killed."""
 
+import asyncio
 import logging
 import multiprocessing
 import os
@@ -15,7 +16,6 @@ from pathlib import Path
 from threading import Lock, Timer
 
 from service.fairness.length import QUICK_S
-from service.workers.alarms import Alarms
 from service.workers.messages import Listener
 from service.workers.task import Priority, Task
 from service.workers.worker import Long, Outcome, niceness, serve
@@ -133,22 +133,22 @@ class Worker:
 class Haste:
     """Whether the task of a worker is quick, in a ``with``: it is lowered once it has computed for longer."""
 
-    def __init__(self, worker: Worker, alarms: Alarms) -> None:
+    def __init__(self, worker: Worker) -> None:
         self._worker = worker
-        self._alarms = alarms
+        self._loop = asyncio.get_running_loop()
 
     def __enter__(self) -> None:
-        self._stop = self._alarms.set(QUICK_S, self._look)
+        self._timer = self._loop.call_later(QUICK_S, self._look)
 
     def __exit__(self, *raised: object) -> None:
-        self._stop()
+        self._timer.cancel()
 
     def _look(self) -> None:
         left_s = QUICK_S - self._worker.computing_s
         if left_s <= 0:
             self._worker.lower()
         else:
-            self._stop = self._alarms.set(max(left_s, _LOOK_S), self._look)
+            self._timer = self._loop.call_later(max(left_s, _LOOK_S), self._look)
 
 
 def preload() -> None:
