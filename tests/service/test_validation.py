@@ -1,7 +1,10 @@
 """From bytes to a checked request: what is unreadable, what is invalid, and where."""
 
+import copy
 import json
+import math
 import time
+from collections.abc import Callable, Iterator
 from typing import Any, get_args
 
 import pytest
@@ -10,7 +13,18 @@ from hypothesis import strategies as st
 
 from schemas.answer.outputs import OutputName
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
-from service.common.validation import MAX_ERRORS, InvalidRequest, UnreadableJson, check, locate, pointer, read_json
+from schemas.request.verify import VerifyRequest
+from service.common.validation import (
+    MAX_ERRORS,
+    InvalidRequest,
+    UnreadableJson,
+    check,
+    locate,
+    pointer,
+    read_json,
+    read_request,
+)
+from service.documents.examples import bodies
 
 
 def complaints(body: object, model: Any = OptimizeRequest) -> dict[str, str]:
@@ -53,6 +67,54 @@ def scroll(**changes: Any) -> dict[str, Any]:
 def test_unreadable(data: bytes, reason: str) -> None:
     with pytest.raises(UnreadableJson, match=reason):
         read_json(data)
+    with pytest.raises(UnreadableJson, match=reason):
+        read_request(OptimizeRequest, data)
+
+
+#: what stands in place of a value: right for some fields, wrong for most
+_VALUES = (0, 1, -1, 1.0, -0.0, 5e-324, 10**15, 2**63, 10**400, math.inf, math.nan, "1", " 1", "1e3", "20 lb", "true",
+           True, False, None, "ccw", "first", "é", [], [1], {}, {"x": 1})  # fmt: skip
+
+
+def _places(body: Any) -> Iterator[tuple[Any, Any]]:
+    """Every object and list of a body with each of its keys."""
+    keys = list(body) if isinstance(body, dict) else range(len(body)) if isinstance(body, list) else ()
+    for key in keys:
+        yield body, key
+        yield from _places(body[key])
+
+
+def _outcome(read: Callable[[], OptimizeRequest]) -> object:
+    """What a body is read as: a request with the fields that it states, or what is said of it."""
+    try:
+        request = read()
+    except UnreadableJson as error:
+        return str(error)
+    except InvalidRequest as error:
+        return error.problems, error.more
+    return request.model_dump_json(), request.model_dump_json(exclude_unset=True)
+
+
+@given(data=st.data())
+def test_one_pass_reads_what_two_do(data: st.DataObject) -> None:
+    """Independent: the value of the JSON first, and a request of it then."""
+    body = copy.deepcopy(data.draw(st.sampled_from(list(bodies().values()))))
+    for _ in range(data.draw(st.integers(0, 2))):
+        where, key = data.draw(st.sampled_from(list(_places(body))))
+        where[key] = copy.deepcopy(data.draw(st.sampled_from(_VALUES)))
+    text = json.dumps(body)
+    # a name that stands twice counts where it stands last
+    text = text.replace('{"', '{"speed_rpm": 1, "', data.draw(st.integers(0, 2))).encode()
+    one_pass = _outcome(lambda: read_request(OptimizeRequest, text))
+    assert one_pass == _outcome(lambda: check(OptimizeRequest, read_json(text), len(text)))
+
+
+@pytest.mark.parametrize("number", ["1" * 400, "1" * 401, "-" + "1" * 4000, "1" * 90_000, "0." + "1" * 500, "1e400"])
+def test_a_long_number_is_read_alike(number: str) -> None:
+    """Independent, as above; what is to be verified may hold any number."""
+    data = f'{{"request": {{"x": {number}}}, "answer": {{}}}}'.encode()
+    one_pass = read_request(VerifyRequest, data)
+    assert repr(one_pass) == repr(check(VerifyRequest, read_json(data), len(data)))
 
 
 def test_readable() -> None:
