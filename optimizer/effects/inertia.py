@@ -18,7 +18,7 @@ from schemas.request.scene import Fidelity
 #: orders above the second that are reported; odd ones vanish for a slider-crank
 HIGHER_ORDERS = (4, 6)
 #: names of the effects of the rotating and of the reciprocating masses in the first order
-FIRST_ORDER = ("rotating_inertia", "reciprocating_inertia")
+FIRST_ORDER_EFFECTS = ("rotating_inertia", "reciprocating_inertia")
 RODS = ("machine.throws.rows.connecting_rod",)
 
 

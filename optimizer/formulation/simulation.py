@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from optimizer.effects.inertia import FIRST_ORDER, second_order
+from optimizer.effects.inertia import FIRST_ORDER_EFFECTS, second_order
 from optimizer.effects.registry import Simulated, closure, simulate
 from optimizer.formulation.formulate import added, responses
 from optimizer.mechanics.balance_shafts import of_balance_shafts
@@ -211,9 +211,9 @@ def simulated(
     machine = request.machine if machine is None else machine
     plan, needs = layout(machine), [need for needs in outputs.values() for need in needs]
     wrenches: dict[str, Wrench] = {}
-    if leading and not set(FIRST_ORDER).isdisjoint(closure(machine, needs)):
+    if leading and not set(FIRST_ORDER_EFFECTS).isdisjoint(closure(machine, needs)):
         # of what the designs have in common once, and once for the program and for the outputs
-        wrenches = dict(zip(FIRST_ORDER, (wrench.spread(leading) for wrench in first_order(plan)), strict=True))
+        wrenches = dict(zip(FIRST_ORDER_EFFECTS, (wrench.spread(leading) for wrench in first_order(plan)), strict=True))
     if leading:
         plan = spread(plan, leading)
     turns = turns_over(machine, needs)

@@ -16,7 +16,7 @@ Reals = Real | float
 Part = TypeVar("Part")
 
 #: a sum smaller than this share of the sum of the magnitudes of its terms is rounding error
-_ROUNDING = 16 * np.finfo(float).eps
+ROUNDING = 16 * np.finfo(float).eps
 _ARRAYS = (np.ndarray, np.generic)
 #: what dataclasses hold most that is no array and no dataclass
 _PLAIN = frozenset({type(None), tuple, float})
@@ -123,6 +123,6 @@ def total(terms: Complex) -> Complex:
     (...) complex.
     """
     value = np.add.reduce(terms, axis=-1)
-    noise = np.maximum(_ROUNDING * np.add.reduce(np.abs(terms), axis=-1), SMALLEST)
+    noise = np.maximum(ROUNDING * np.add.reduce(np.abs(terms), axis=-1), SMALLEST)
     cancelled = np.abs(value) <= noise
     return np.where(cancelled, 0.0, value) if np.count_nonzero(cancelled) else np.asarray(value)

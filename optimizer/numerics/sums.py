@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from optimizer.numerics.arrays import SMALLEST, Complex, Real, in_order, spread, total
+from optimizer.numerics.arrays import Complex, Real, in_order, spread, total
 
 #: so many forces are a loop's work; of fewer the compiler is not loaded
 MANY = 4096
@@ -48,6 +48,6 @@ def _in_a_loop(forces: Complex, arm: Real) -> tuple[Complex, Complex]:
     arms = arm[..., 0, :] if many > 1 else arm
     own = in_order(spread(arms, (*leading, terms))).reshape(number, terms)
     sums = np.empty((2, number, many), complex)
-    loop(columns, own, SMALLEST, sums)
+    loop(columns, own, sums)
     both = sums.reshape(2, *shape[:-1])
     return both[0, ...], both[1, ...]

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from optimizer.effects.inertia import FIRST_ORDER
+from optimizer.effects.inertia import FIRST_ORDER_EFFECTS
 from optimizer.formulation.formulate import RESPONSES
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.balance_shafts import shaft_arms
@@ -39,7 +39,6 @@ _FIELDS = tuple(
     )
     for name, unit in (("force", "N"), ("moment", "Nm"))
 )
-FIRST_ORDER_EFFECTS = FIRST_ORDER
 
 
 def first_order(wrench: Wrench) -> FirstOrder:

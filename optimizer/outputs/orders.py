@@ -1,8 +1,8 @@
 """Phasors of force and moment by order, without and with counterweights."""
 
+from optimizer.effects.inertia import FIRST_ORDER_EFFECTS
 from optimizer.formulation.simulation import Prepared
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.outputs.first_order import FIRST_ORDER_EFFECTS
 from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.phasors import Polars, orders_of, vectors_of
 from schemas.answer.outputs import OrdersComparison

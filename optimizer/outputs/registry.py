@@ -6,6 +6,7 @@ from functools import lru_cache
 from types import MappingProxyType
 from typing import Any
 
+from optimizer.effects.inertia import FIRST_ORDER_EFFECTS
 from optimizer.effects.registry import EFFECTS, absent_effects, effects_of, rules_of
 from optimizer.errors import MissingInput
 from optimizer.formulation.simulation import Prepared, simulated, turns_over
@@ -16,7 +17,7 @@ from optimizer.outputs.bearings import MAIN_BEARINGS
 from optimizer.outputs.cautions import cautions
 from optimizer.outputs.details import DETAILED
 from optimizer.outputs.dynamics import OVER_THE_TURN
-from optimizer.outputs.first_order import FIRST_ORDER_EFFECTS, HODOGRAPH, RESIDUAL, floor
+from optimizer.outputs.first_order import HODOGRAPH, RESIDUAL, floor
 from optimizer.outputs.foundation import FOUNDATION_LOADS
 from optimizer.outputs.internal_moment import INTERNAL_MOMENT
 from optimizer.outputs.loads import LOADS

@@ -1,37 +1,30 @@
 """Sums of forces and of their couples, compiled: :func:`optimizer.numerics.sums.force_and_couple`."""
 
-import numpy as np
-
+from optimizer.numerics.arrays import ROUNDING, SMALLEST
 from optimizer.numerics.compiling import in_place, inner
 
-#: a sum smaller than this share of the sum of the magnitudes of its terms is rounding error
-_ROUNDING = 16 * np.finfo(float).eps
 #: a bound that is cheap to find is this much above what it bounds, for its own rounding
 _ABOVE = 1.0 + 1e-9
 
 
 @in_place
-def force_and_couple(forces, arm, smallest, sums):  # type: ignore[no-untyped-def]
+def force_and_couple(forces, arm, sums):  # type: ignore[no-untyped-def]
     """Sums of forces (N, m, n), and of these times their arms (N, n), to be written to sums (2, N, m).
 
     Exactly 0 where the terms cancel up to rounding, as of :func:`optimizer.numerics.arrays.total`, to the last digit.
-
-    Parameters
-    ----------
-    smallest : a smaller sum is 0.
     """
     number, many, _ = forces.shape
     for n in range(number):
         for i in range(many):
             for couple in range(2):
                 value, bound = _sum(forces[n, i], arm[n], couple == 1)
-                noise = max(_ROUNDING * bound, smallest)
+                noise = max(ROUNDING * bound, SMALLEST)
                 # most sums are far above what rounding could make of nothing
                 if not max(abs(value.real), abs(value.imag)) > noise * _ABOVE:
                     size = 0.0
                     for k in range(arm.shape[1]):
                         size += abs(_term(forces[n, i, k], arm[n, k], couple == 1))
-                    if abs(value) <= max(_ROUNDING * size, smallest):
+                    if abs(value) <= max(ROUNDING * size, SMALLEST):
                         value = 0.0j
                 sums[couple, n, i] = value
 

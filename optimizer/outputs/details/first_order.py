@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from optimizer.effects.inertia import FIRST_ORDER_EFFECTS
 from optimizer.formulation.simulation import Prepared
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.outputs.first_order import FIRST_ORDER_EFFECTS
 from optimizer.outputs.output import Columns
 from schemas.sweep.details import keys_of
 
