@@ -140,7 +140,9 @@ def peaks(responses: Sequence[TurnResponse], unbalance: Complex, tolerance: Real
     ----------
     tolerance : (responses,) or one for all, of upper - lower, relative to lower.
     """
-    offset = np.array([response.offset(unbalance) for response in responses], dtype=complex)
+    influence = np.array([response.influence for response in responses])
+    # product by product, as of a response alone
+    offset = (influence[:, None, :] @ unbalance[:, None]).reshape(-1).astype(complex, copy=False)
     if all(response.turning is None for response in responses):
         return peaks_about(responses, offset, tolerance)
     # what turns makes another curve of each
