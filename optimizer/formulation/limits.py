@@ -16,7 +16,7 @@ from optimizer.mechanics.angles import direction
 from optimizer.mechanics.fixed_weights import any_fixed, fixed_mass, fixed_webs
 from optimizer.mechanics.layout import stacked
 from optimizer.mechanics.shapes import plates
-from optimizer.numerics.arrays import Complex, Real, Reals, mapped, spread
+from optimizer.numerics.arrays import Complex, Real, Reals, all_true, any_true, mapped, spread
 from optimizer.numerics.memoization import remembered
 from optimizer.program.limits import Limits
 from optimizer.program.sensitivity import ShadowPrices
@@ -72,7 +72,7 @@ class MassLimit:
     def stated(self, machine: Machine) -> bool:
         if self.presence is not None:
             return self.presence(machine)
-        return bool(np.logical_or.reduce(self.largest(machine) < np.inf, axis=None))
+        return any_true(self.largest(machine) < np.inf)
 
     def mass(self, machine: Machine) -> Real:
         """Largest mass of every web, kg."""
@@ -203,7 +203,7 @@ def largest_mass(machine: Machine) -> Real:
         mass = np.where(fixed_webs(machine), 0.0, mass)
     # null, or more than can be multiplied
     many = mass > _NO_LIMIT
-    return np.where(many, np.inf, mass) if np.count_nonzero(many) else mass
+    return np.where(many, np.inf, mass) if any_true(many) else mass
 
 
 def limits(machine: Machine, leading: tuple[int, ...] = ()) -> Limits:
@@ -251,7 +251,7 @@ def sectors(machine: Machine) -> tuple[np.ndarray, Real, Real]:
 
 def all_free(free: np.ndarray) -> bool:
     """Whether no web has a sector, by the first of what :func:`sectors` has."""
-    return free is _without(free.size)[0] or bool(np.logical_and.reduce(free))
+    return free is _without(free.size)[0] or all_true(free)
 
 
 @lru_cache(maxsize=32)

@@ -25,7 +25,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from optimizer.numerics.arrays import Complex, Real, spread
+from optimizer.numerics.arrays import Complex, Real, all_true, spread
 
 #: bearings nearer to each other than this share of the bearings' extent are one bearing
 _COINCIDENT = 1e-9
@@ -191,7 +191,7 @@ def _refuse_coincident(place: Real) -> None:
         first, last = place[..., :1], place[..., -1:]
         resolution = 4.0 * np.spacing(np.maximum(np.abs(first), np.abs(last)))
         shortest = np.maximum(_COINCIDENT * (last - first), resolution)
-        apart = bool((place[..., 1:] - place[..., :-1] > shortest).all())
+        apart = all_true(place[..., 1:] - place[..., :-1] > shortest)
     if not apart:
         raise ValueError("two bearings are in the same place: every bearing needs a place of its own on the shaft")
 
@@ -200,7 +200,7 @@ def _rising(place: Real) -> bool:
     """Whether bearings (..., B) come in rising z, in all designs."""
     if place.ndim == 1:
         return all(lower < upper for lower, upper in pairwise(place.tolist()))
-    return bool((place[..., 1:] > place[..., :-1]).all())
+    return all_true(place[..., 1:] > place[..., :-1])
 
 
 def _levers(spans: _Spans) -> Real:

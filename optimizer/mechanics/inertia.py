@@ -11,7 +11,7 @@ import numpy as np
 
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic
-from optimizer.numerics.arrays import Complex, Real, spread, total
+from optimizer.numerics.arrays import Complex, Real, any_true, spread, total
 from optimizer.numerics.memoization import remembered, remembered_of_both
 from optimizer.numerics.sums import force_and_couple
 from optimizer.responses.response import Phasors, Response
@@ -49,7 +49,7 @@ def rotating(layout: Layout) -> Wrench:
     Source: Qian and Qu eqs (12)-(18); docs/mathematics.md section 2.
     """
     force, couple = _summed(layout, rotating_forces(layout).co[..., None, :], layout.rotating.position)
-    (own_force,), (own_couple,) = _each(force), _each(couple)
+    (own_force,), (own_couple,) = _entries(force), _entries(couple)
     return _co_rotating(own_force, own_couple)
 
 
@@ -81,7 +81,7 @@ def reciprocating_orders(
 ) -> list[Wrench]:
     """The same of several orders, summed at once: small sums cost by their number."""
     force, couple = _summed(layout, _row_forces(layout, orders, harmonic), layout.reciprocating.position)
-    forces, couples = _each(force), _each(couple)
+    forces, couples = _entries(force), _entries(couple)
     return [Wrench(Phasors(*forces[n : n + 2]), Phasors(*couples[n : n + 2])) for n in range(0, 2 * len(orders), 2)]
 
 
@@ -157,7 +157,7 @@ def first_order_responses(layout: Layout, baseline: Wrench) -> tuple[Response, R
     )
 
 
-def _each(sums: Complex) -> Sequence[Complex]:
+def _entries(sums: Complex) -> Sequence[Complex]:
     """The entries along the last axis (..., m): m arrays (...), numbers where there are no more axes."""
     return list(sums) if sums.ndim == 1 else [sums[..., n] for n in range(sums.shape[-1])]
 
@@ -172,6 +172,6 @@ def _summed(layout: Layout, forces: Complex, position: Real) -> tuple[Complex, C
     if layout.central:
         return force, about
     balanced = force == 0
-    if not np.count_nonzero(balanced):
+    if not any_true(balanced):
         return force, about
     return force, np.where(balanced, total((position - layout.centre_plane[..., None])[..., None, :] * forces), about)

@@ -21,7 +21,7 @@ from optimizer.mechanics.row_data import RowData, compact, shared
 from optimizer.mechanics.row_parts import RowParts
 from optimizer.mechanics.row_series import Reading, RowSeries
 from optimizer.mechanics.turn import Turn, panels
-from optimizer.numerics.arrays import Complex, Real, spread
+from optimizer.numerics.arrays import Complex, Real, all_true, spread
 from optimizer.numerics.memoization import cached_property
 from optimizer.responses.piecewise_cubics import Index, Pieces
 
@@ -342,6 +342,6 @@ class TurnCurves:
 
 def _sums(values: Any, count: Index) -> Any:
     """Sums (N, C) of the first so many (N,) of values (N, C, n), each added up as of a design alone."""
-    if len(count) == 1 or np.count_nonzero(count == values.shape[-1]) == len(count):
+    if len(count) == 1 or all_true(count == values.shape[-1]):
         return np.add.reduce(values, axis=-1)
     return np.array([np.add.reduce(row[:, :some], axis=-1) for row, some in zip(values, count.tolist(), strict=True)])

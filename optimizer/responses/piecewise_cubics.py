@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from optimizer.numerics.arrays import Complex, Real, Reals, in_order
+from optimizer.numerics.arrays import Complex, Real, Reals, all_true, in_order
 from optimizer.numerics.memoization import cached_property
 
 if TYPE_CHECKING:
@@ -44,9 +44,7 @@ class Bracket(NamedTuple):
 
     def where(self, mask: NDArray[np.bool_]) -> "Bracket":
         """The same, nan where nothing is known (...)."""
-        return (
-            self if np.count_nonzero(mask) == mask.size else Bracket(*(np.where(mask, part, np.nan) for part in self))
-        )
+        return self if all_true(mask) else Bracket(*(np.where(mask, part, np.nan) for part in self))
 
 
 class Source(Protocol):
@@ -124,7 +122,7 @@ class Pieces:
         every = np.arange(offset.size)
         of_member, finite = every if curve is None else curve, np.isfinite(offset)
         magnitudes = not isinstance(sign, np.ndarray) and sign == 0.0
-        if group is None and np.count_nonzero(finite) == finite.size:
+        if group is None and all_true(finite):
             scale = np.abs(offset)
             scale += self.size if curve is None else self.size[curve]
             share, signs = np.zeros((2, every.size))
