@@ -8,7 +8,7 @@ from optimizer.effects.effect import Context, Effect
 from optimizer.mechanics.inertia import Wrench, reciprocating, reciprocating_orders, rotating
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic, acceleration_harmonic_order_2
-from optimizer.numerics.arrays import Real
+from optimizer.numerics.arrays import Real, any_true
 from optimizer.numerics.memoization import remembered
 from schemas.base.model import FieldProblem
 from schemas.machine.machine import Machine
@@ -57,7 +57,7 @@ def _higher_orders(context: Context) -> dict[int, Wrench]:
 def _first_two(layout: Layout) -> list[Wrench] | None:
     """Both orders of one machine, all rows of which have a rod; None of others."""
     ratio = layout.reciprocating.rod_ratio
-    if ratio.ndim > 1 or np.count_nonzero(np.isnan(ratio)):
+    if ratio.ndim > 1 or any_true(np.isnan(ratio)):
         return None
     return reciprocating_orders(layout, (1, 2))
 

@@ -11,7 +11,7 @@ from optimizer.mechanics.crank_of_web import own_throws
 from optimizer.mechanics.fixed_weights import beside
 from optimizer.mechanics.layout import stacked
 from optimizer.mechanics.shapes import plates
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, any_true
 from optimizer.program.limits import Limits
 from schemas.answer.counterweights import Counterweight, Shape
 from schemas.base.model import FieldProblem
@@ -52,7 +52,7 @@ def _within(machine: Machine, unbalance: Complex, limits: Limits) -> tuple[Real,
     off = _in_a_turn(angle - centre + 180.0) - 180.0
     over = np.abs(off) - half_angle
     outside = ~free & (over > 0) & (mass > 0)
-    if np.count_nonzero(outside):
+    if any_true(outside):
         # few are
         mass[outside] *= np.maximum(np.cos(np.deg2rad(over[outside])), 0.0)
     edge = _in_a_turn(centre + np.copysign(half_angle, off))

@@ -16,7 +16,7 @@ from optimizer.mechanics.angles import direction
 from optimizer.mechanics.fixed_weights import any_fixed, fixed_mass, fixed_webs
 from optimizer.mechanics.layout import stacked
 from optimizer.mechanics.shapes import plates
-from optimizer.numerics.arrays import Real, Reals, mapped, spread
+from optimizer.numerics.arrays import Complex, Real, Reals, all_true, any_true, mapped, spread
 from optimizer.numerics.memoization import remembered
 from optimizer.program.limits import Limits
 from optimizer.program.sensitivity import ShadowPrices
@@ -28,8 +28,7 @@ from schemas.machine.machine import Machine
 TOUCHED = 1e-4
 #: a larger limit is none, kg
 _NO_LIMIT = 1e30
-#: the middle of no sector, and its edge
-_ALONG, _ACROSS = np.array([1.0 + 0.0j]), np.array([1j])
+#: degrees of no sector
 _NO_CENTRE, _HALF = np.zeros(1), np.array([90.0])
 
 
@@ -73,7 +72,7 @@ class MassLimit:
     def stated(self, machine: Machine) -> bool:
         if self.presence is not None:
             return self.presence(machine)
-        return bool(np.logical_or.reduce(self.largest(machine) < np.inf, axis=None))
+        return any_true(self.largest(machine) < np.inf)
 
     def mass(self, machine: Machine) -> Real:
         """Largest mass of every web, kg."""
@@ -88,8 +87,9 @@ class MassLimit:
 
     def price(self, machine: Machine, prices: ShadowPrices) -> Real:
         # of several the smallest mass is the one that binds
-        binds = self.mass(machine) <= largest_mass(machine)
-        return np.where(binds, prices.max_mass / self.per_kg(machine), 0.0)
+        mass, smallest = self.mass(machine), largest_mass(machine)
+        price = prices.max_mass if self.per_kg is _unit else prices.max_mass / self.per_kg(machine)
+        return price if mass is smallest else np.where(mass <= smallest, price, 0.0)
 
 
 class _Sector:
@@ -202,7 +202,8 @@ def largest_mass(machine: Machine) -> Real:
         # nothing is chosen there
         mass = np.where(fixed_webs(machine), 0.0, mass)
     # null, or more than can be multiplied
-    return np.where(mass > _NO_LIMIT, np.inf, mass)
+    many = mass > _NO_LIMIT
+    return np.where(many, np.inf, mass) if any_true(many) else mass
 
 
 def limits(machine: Machine, leading: tuple[int, ...] = ()) -> Limits:
@@ -210,21 +211,25 @@ def limits(machine: Machine, leading: tuple[int, ...] = ()) -> Limits:
     webs = machine.webs
     free, towards, half_angle = sectors(machine)
     if all_free(free):
-        centre, edge = _ALONG.repeat(len(webs)), _ACROSS.repeat(len(webs))
+        centre, cosine, sine = _half_planes(len(webs))
     else:
         centre, edge = direction(towards), direction(half_angle)
+        cosine, sine = edge.real, edge.imag
     shape, alike = (*leading, len(webs)), alike_webs(machine)
-    left = MACHINE_LIMITS["max_total_mass"].size(machine) - fixed_mass(machine)
+    # a number where there are no more axes
+    left = MACHINE_LIMITS["max_total_mass"].size(machine)[()]
+    if any_fixed(machine):
+        left = left - fixed_mass(machine)
     radius, most = stacked([web.radius_m for web in webs]), largest_mass(machine)
     if not leading:
-        return Limits(radius, most, free, centre, edge.real, edge.imag, left, alike)
+        return Limits(radius, most, free, centre, cosine, sine, left, alike)
     return Limits(
         radius=spread(radius, shape),
         max_mass=spread(most, shape),
         free=spread(free, shape),
         centre=spread(centre, shape),
-        half_angle_cos=spread(edge.real, shape),
-        half_angle_sin=spread(edge.imag, shape),
+        half_angle_cos=spread(cosine, shape),
+        half_angle_sin=spread(sine, shape),
         max_total_mass=spread(left, leading),
         alike=None if alike is None else mapped(alike, lambda array: spread(array, shape)),
     )
@@ -246,10 +251,16 @@ def sectors(machine: Machine) -> tuple[np.ndarray, Real, Real]:
 
 def all_free(free: np.ndarray) -> bool:
     """Whether no web has a sector, by the first of what :func:`sectors` has."""
-    return free is _without(free.size)[0] or bool(np.logical_and.reduce(free))
+    return free is _without(free.size)[0] or all_true(free)
 
 
 @lru_cache(maxsize=32)
 def _without(count: int) -> tuple[np.ndarray, Real, Real]:
     """What so many webs without sectors have; nobody writes to it."""
     return np.ones(count, bool), _NO_CENTRE.repeat(count), _HALF.repeat(count)
+
+
+@lru_cache(maxsize=32)
+def _half_planes(count: int) -> tuple[Complex, Real, Real]:
+    """Middles of so many sectors that are none, and cosines and sines of their half-angles; nobody writes to them."""
+    return np.ones(count, complex), np.zeros(count), np.ones(count)

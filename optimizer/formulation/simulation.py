@@ -80,7 +80,12 @@ class Prepared:
 
     @cached_property
     def omega_squared(self) -> float:
-        return float(self.layout.omega**2)
+        return float(self._square)
+
+    @cached_property
+    def _square(self) -> Real:
+        """The square of the speed (...) rad^2/s^2."""
+        return self.layout.omega**2
 
     def first_order(self, unbalance: Complex | None = None) -> Wrench:
         """First-order force [N] and moment [N m], with counterweights if given (..., K) kg m."""
@@ -90,7 +95,7 @@ class Prepared:
         last = self._last[0] if self._last else None
         if last is None or last[0] is not unbalance:
             wrench = self.simulated.first_order.plus(counterweights(self.layout, unbalance))
-            last = unbalance, self.with_shafts(wrench, 1).times(self.layout.omega**2)
+            last = unbalance, self.with_shafts(wrench, 1).times(self._square)
             self._last[:] = [last]
         return last[1]
 
@@ -102,13 +107,13 @@ class Prepared:
     @cached_property
     def _bare(self) -> Wrench:
         """First-order force [N] and moment [N m] without counterweights."""
-        return self.simulated.first_order.times(self.layout.omega**2)
+        return self.simulated.first_order.times(self._square)
 
     def orders(self, unbalance: Complex | None) -> dict[int, Wrench]:
         """Force [N] and moment [N m] of every order; counterweights change the first, balance shafts two of them."""
         higher = self._higher
         if unbalance is not None and self.shafts is not None:
-            square = self.layout.omega**2
+            square = self._square
             higher = {order: self.with_shafts(own, order).times(square) for order, own in self._over_square.items()}
         return {1: self.first_order(unbalance), **higher}
 
@@ -128,7 +133,7 @@ class Prepared:
     @cached_property
     def _higher(self) -> dict[int, Wrench]:
         """The same in N and N m."""
-        square = self.layout.omega**2
+        square = self._square
         return {order: own.times(square) for order, own in self._over_square.items()}
 
     def with_shafts(self, wrench: Wrench, order: int) -> Wrench:

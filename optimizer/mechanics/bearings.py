@@ -18,12 +18,14 @@ in any order. Source: S. Timoshenko, Strength of Materials, part I (overhanging 
 equation of three moments).
 """
 
+from itertools import pairwise
+from math import ulp
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from optimizer.numerics.arrays import Complex, Real, spread
+from optimizer.numerics.arrays import Complex, Real, all_true, spread
 
 #: bearings nearer to each other than this share of the bearings' extent are one bearing
 _COINCIDENT = 1e-9
@@ -93,7 +95,7 @@ def continuous_beam_influence(bearing: Real, position: Real) -> Real:
     """
     spans = _spans(bearing, position)
     moment = _support_moments(spans)
-    outer = np.zeros_like(spans.from_left[..., :1, :])
+    outer = np.zeros_like(spans.carries[..., :1, :])
     # the moments of overhanging loads at the outer bearings are in the levers already
     tilt = np.diff(np.concatenate([outer, moment, outer], axis=-2), axis=-2) / spans.length
     return spans.by_bearing(_levers(spans) + _at_bearings(tilt, -tilt))
@@ -123,18 +125,21 @@ def bending_moment(bearing: Real, reaction: Complex, position: Real, load: Compl
     -------
     (..., S, T) N m, or kg m^2.
     """
-    bearing, position, station = (np.asarray(place, dtype=float) for place in (bearing, position, station))
-
-    def arms(place: Real, side: Real | float) -> Real:
-        return np.maximum(side * (place[..., None, :] - station[..., :, None]), 0.0)
-
-    def terms(side: float) -> Real:
-        largest = [np.maximum.reduce(np.abs(force), axis=-1)[..., None] for force in (reaction, load)]
-        return arms(bearing, side) @ largest[0] + arms(position, side) @ largest[1]
-
+    station = np.asarray(station, dtype=float)
+    arms, terms = [], []
+    for place, force in ((bearing, reaction), (position, load)):
+        distance = np.asarray(place, dtype=float)[..., None, :] - station[..., :, None]
+        # on either side
+        own = np.empty((2, *distance.shape))
+        np.maximum(-distance, 0.0, out=own[0])
+        np.maximum(distance, 0.0, out=own[1])
+        arms.append(own)
+        terms.append(own @ np.maximum.reduce(np.abs(force), axis=-1)[..., None])
     # both sides give the same, but one has the smaller terms, and no terms at all where the shaft ends
-    side = np.where(terms(-1.0) < terms(1.0), -1.0, 1.0)
-    return arms(bearing, side) @ reaction - arms(position, side) @ load
+    low, high = terms[0] + terms[1]
+    smaller = low < high
+    of_bearings, of_loads = (np.where(smaller, *own) for own in arms)
+    return of_bearings @ reaction - of_loads @ load
 
 
 class _Spans(NamedTuple):
@@ -143,8 +148,9 @@ class _Spans(NamedTuple):
     rank: NDArray[np.intp] | None  # (..., B) where each bearing as given stands in rising z; None where all do so
     length: Real  # (..., B-1, 1) m
     carries: Real  # (..., B-1, L) 1 for the span that has the load, else 0
-    from_left: Real  # (..., B-1, L) from the left bearing to the load, m; negative on the left overhang
-    from_right: Real  # (..., B-1, L) from the load to the right bearing, m; negative on the right overhang
+    #: (2, ..., B-1, L) m, from the load to the right bearing, and from the left bearing to the load; negative on the
+    #: overhang of the one or the other
+    distance: Real
 
     def by_bearing(self, influence: Real) -> Real:
         """Rows (..., B, L) in rising z, put into the order in which the bearings came."""
@@ -157,44 +163,59 @@ def _spans(bearing: Real, position: Real) -> _Spans:
         raise ValueError("a shaft needs two bearings at least: one alone holds no couple")
     leading = np.broadcast_shapes(bearing.shape[:-1], position.shape[:-1])
     place, rank = spread(bearing, leading + bearing.shape[-1:]), None
-    if not (bearing[..., 1:] > bearing[..., :-1]).all():
+    if not _rising(bearing):
         order = np.argsort(place, axis=-1)
         place, rank = np.take_along_axis(place, order, axis=-1), np.argsort(order, axis=-1)
     _refuse_coincident(place)
     place, load_plane = place[..., None], position[..., None, :]
     left, right = place[..., :-1, :], place[..., 1:, :]
     # a load at an intermediate bearing belongs to the span on its right; its share of the left bearing is then 1
-    starts, ends = left.copy(), right.copy()
-    starts[..., 0, :], ends[..., -1, :] = -np.inf, np.inf
-    return _Spans(
-        rank=rank,
-        length=right - left,
-        carries=((starts <= load_plane) & (load_plane < ends)).astype(float),
-        from_left=load_plane - left,
-        from_right=right - load_plane,
-    )
+    beyond = np.empty((*leading, place.shape[-2], position.shape[-1]))
+    beyond[..., 0, :], beyond[..., -1, :] = 1.0, 0.0
+    beyond[..., 1:-1, :] = load_plane >= place[..., 1:-1, :]
+    carries = beyond[..., :-1, :] - beyond[..., 1:, :]
+    distance = np.empty((2, *carries.shape))
+    np.subtract(right, load_plane, out=distance[0])
+    np.subtract(load_plane, left, out=distance[1])
+    return _Spans(rank, right - left, carries, distance)
 
 
 def _refuse_coincident(place: Real) -> None:
     """Refuse bearings (..., B) in rising z that rounding cannot tell apart; nan is refused as well."""
-    first, last = place[..., :1], place[..., -1:]
-    resolution = 4.0 * np.spacing(np.maximum(np.abs(first), np.abs(last)))
-    if not (place[..., 1:] - place[..., :-1] > np.maximum(_COINCIDENT * (last - first), resolution)).all():
+    if place.ndim == 1:
+        numbers = place.tolist()
+        low, high = numbers[0], numbers[-1]
+        least = max(_COINCIDENT * (high - low), 4.0 * ulp(max(abs(low), abs(high))))
+        apart = all(upper - lower > least for lower, upper in pairwise(numbers))
+    else:
+        first, last = place[..., :1], place[..., -1:]
+        resolution = 4.0 * np.spacing(np.maximum(np.abs(first), np.abs(last)))
+        shortest = np.maximum(_COINCIDENT * (last - first), resolution)
+        apart = all_true(place[..., 1:] - place[..., :-1] > shortest)
+    if not apart:
         raise ValueError("two bearings are in the same place: every bearing needs a place of its own on the shaft")
+
+
+def _rising(place: Real) -> bool:
+    """Whether bearings (..., B) come in rising z, in all designs."""
+    if place.ndim == 1:
+        return all(lower < upper for lower, upper in pairwise(place.tolist()))
+    return all_true(place[..., 1:] > place[..., :-1])
 
 
 def _levers(spans: _Spans) -> Real:
     """Lever rule in every span; on an overhang one share is negative and the other above 1. (..., B, L)."""
     # each share from its own distance, not as 1 minus the other: exact at a bearing
-    at_left = spans.carries * (spans.from_right / spans.length)
-    at_right = spans.carries * (spans.from_left / spans.length)
-    return _at_bearings(at_left, at_right)
+    return _at_bearings(*(spans.carries * (spans.distance / spans.length)))
 
 
 def _at_bearings(left: Real, right: Real) -> Real:
     """What the spans (..., B-1, L) put on their left and right bearings, summed at each bearing: (..., B, L)."""
-    nothing = np.zeros_like(left[..., :1, :])
-    return np.concatenate([left, nothing], axis=-2) + np.concatenate([nothing, right], axis=-2)
+    *leading, count, loads = left.shape
+    both = np.zeros((*leading, count + 1, loads))
+    both[..., :-1, :] = left
+    both[..., 1:, :] += right
+    return both
 
 
 def _support_moments(spans: _Spans) -> Real:
@@ -207,16 +228,16 @@ def _support_moments(spans: _Spans) -> Real:
     matrix = np.zeros((*length.shape[:-1], index.size, index.size))
     matrix[..., index, index] = 2.0 * (length[..., :-1] + length[..., 1:])
     matrix[..., index[:-1], index[1:]] = matrix[..., index[1:], index[:-1]] = length[..., 1:-1]
-    at_right = _kink(spans, spans.from_left)[..., :-1, :]
-    at_left = _kink(spans, spans.from_right)[..., 1:, :]
-    return np.asarray(np.linalg.solve(matrix, -(at_right + at_left)), dtype=float)
+    left, right = _kinks(spans)
+    return np.asarray(np.linalg.solve(matrix, -(right[..., :-1, :] + left[..., 1:, :])), dtype=float)
 
 
-def _kink(spans: _Spans, distance: Real) -> Real:
-    """Slope 6 E I phi at one end of a simple span for unit loads at distances a from the other end: (..., B-1, L), m^2.
+def _kinks(spans: _Spans) -> Real:
+    """Slopes 6 E I phi at both ends of a simple span for unit loads at distances a from the other end:
+    (2, ..., B-1, L), m^2.
 
     a (l^2 - a^2) / l inside the span. A load overhanging the other end (a < 0) bends the span by its moment a there
     and by nothing else, and the slope is a l: the same expression without the a in the bracket.
     """
-    inside = np.maximum(distance, 0.0)
-    return spans.carries * distance * (spans.length - inside) * (spans.length + inside) / spans.length
+    inside = np.maximum(spans.distance, 0.0)
+    return spans.carries * spans.distance * (spans.length - inside) * (spans.length + inside) / spans.length

@@ -4,11 +4,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.mechanics.inertia import Wrench, web_arms
+from optimizer.mechanics.inertia import Wrench
 from optimizer.mechanics.layout import Layout
-from optimizer.numerics.arrays import Complex, Real, spread
+from optimizer.mechanics.shaft_curves import planes
+from optimizer.numerics.arrays import Complex, Real, Reals, spread
 from optimizer.responses.piecewise_cubics import Index
-from optimizer.responses.response import Phasors
 
 #: of a sum, relative to the sum of the magnitudes, is what rounding leaves
 _ROUNDING = 32.0 * np.finfo(float).eps
@@ -43,24 +43,23 @@ def foundation_load(
     dead_centre_deg : (...) shaft angle from which phases count.
     negligible : force [N] and couple [N m] that rounding alone leaves, (...) each.
     """
-    phasors = np.array([phasor for pair in wrench for phasor in _along(pair)])
+    co, counter = (np.array([getattr(pair, name) for pair in wrench]) for name in ("co", "counter"))
+    mirrored = np.conj(counter)
+    # of the x and of the y component, each Re(C e^{jsk theta})
+    phasors = np.empty((4, *co.shape[1:]), complex)
+    phasors[0::2], phasors[1::2] = co + mirrored, -1j * (co - mirrored)
     least = np.array([spread(entry, phasors.shape[1:]) for entry in negligible for _ in range(2)])
     loads = _oscillation(phasors, order, sense, dead_centre_deg, least)
     return FoundationLoad(*(Oscillation(*entry) for entry in zip(*loads, strict=True)))
 
 
-def _along(pair: Phasors) -> tuple[Complex, Complex]:
-    """Phasors C of the x and the y component, each Re(C e^{jsk theta})."""
-    mirrored = np.conj(pair.counter)
-    return pair.co + mirrored, -1j * (pair.co - mirrored)
-
-
 def _oscillation(phasor: Complex, order: int | Index, sense: Real, dead_centre_deg: Real, least: Real) -> Oscillation:
-    amplitude = np.where(np.abs(phasor) > least, np.abs(phasor), 0.0)
-    turned = -sense * np.rad2deg(np.angle(phasor)) - order * np.asarray(dead_centre_deg)
+    size = np.abs(phasor)
+    some = size > least
+    turned = -sense * np.rad2deg(np.arctan2(phasor.imag, phasor.real)) - order * np.asarray(dead_centre_deg)
     # twice, because a hair below 0 comes to 360
     phase = np.mod(np.mod(turned, 360.0), 360.0)
-    return Oscillation(amplitude, np.where(amplitude > 0.0, phase, 0.0))
+    return Oscillation(np.where(some, size, 0.0), np.where(some, phase, 0.0))
 
 
 def rounding(layout: Layout, unbalance: Complex) -> tuple[Real, Real]:
@@ -71,19 +70,19 @@ def rounding(layout: Layout, unbalance: Complex) -> tuple[Real, Real]:
     unbalance : (..., webs) kg m, of the counterweights.
     """
     turning, moving = layout.rotating, layout.reciprocating
-    plane = layout.reference_plane[..., None]
-    sizes = (turning.mass * turning.radius, moving.mass * moving.crank_radius, np.abs(unbalance))
-    arms = (np.abs(turning.position - plane), np.abs(moving.position - plane), np.abs(web_arms(layout)))
+    plane, places = layout.reference_plane[..., None], planes(layout)
     # positions are rounded too, so that arms are at least what their plane's distance from 0 loses
-    far = np.abs(plane)
+    arm = np.abs(places - plane) + np.abs(plane)
+    masses = (moving.mass * moving.crank_radius, turning.mass * turning.radius)
+    fixed = np.concatenate([spread(size, (*places.shape[:-1], size.shape[-1])) for size in masses], axis=-1)
+    own = np.abs(unbalance)
+    webs = arm[..., fixed.shape[-1] :]
     square = _ROUNDING * layout.omega**2
-    force, couple = np.zeros(()), np.zeros(())
-    for size, arm in zip(sizes, arms, strict=True):
-        force = force + np.add.reduce(size, axis=-1)
-        couple = couple + np.add.reduce(size * (arm + far), axis=-1)
+    force = np.add.reduce(fixed, axis=-1) + np.add.reduce(own, axis=-1)
+    couple = np.add.reduce(fixed * arm[..., : fixed.shape[-1]], axis=-1) + np.add.reduce(own * webs, axis=-1)
     return force * square, couple * square
 
 
-def outer_dead_centre_deg(crank_deg: Real, axis_deg: Real, sense: Real) -> Real:
+def outer_dead_centre_deg(crank_deg: Reals, axis_deg: Reals, sense: Reals) -> Reals:
     """Shaft angle in [0, 360) at which the crank points along the axis of its row (...)."""
-    return np.mod(np.mod(sense * (np.asarray(axis_deg) - np.asarray(crank_deg)), 360.0), 360.0)
+    return sense * (axis_deg - crank_deg) % 360.0 % 360.0

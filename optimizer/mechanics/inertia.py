@@ -11,10 +11,13 @@ import numpy as np
 
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic
-from optimizer.numerics.arrays import Complex, Real, spread, total
-from optimizer.numerics.memoization import remembered
+from optimizer.numerics.arrays import Complex, Real, any_true, spread, total
+from optimizer.numerics.memoization import remembered, remembered_of_both
 from optimizer.numerics.sums import force_and_couple
 from optimizer.responses.response import Phasors, Response
+
+#: what turns against the shaft where nothing does, of one machine
+_NOTHING: Complex = np.zeros(1, complex)[0]
 
 
 class Wrench(NamedTuple):
@@ -46,8 +49,8 @@ def rotating(layout: Layout) -> Wrench:
     Source: Qian and Qu eqs (12)-(18); docs/mathematics.md section 2.
     """
     force, couple = _summed(layout, rotating_forces(layout).co[..., None, :], layout.rotating.position)
-    nothing = np.zeros(force.shape[:-1], complex)
-    return Wrench(Phasors(force[..., 0], nothing), Phasors(couple[..., 0], nothing))
+    (own_force,), (own_couple,) = _entries(force), _entries(couple)
+    return _co_rotating(own_force, own_couple)
 
 
 def rotating_forces(layout: Layout) -> Phasors:
@@ -77,35 +80,41 @@ def reciprocating_orders(
     layout: Layout, orders: Sequence[int], harmonic: Callable[[int, Real], Real] = acceleration_harmonic
 ) -> list[Wrench]:
     """The same of several orders, summed at once: small sums cost by their number."""
-    forces = [reciprocating_forces(layout, order, harmonic) for order in orders]
-    *leading, rows = forces[0].co.shape
-    every = np.empty((*leading, 2 * len(forces), rows), complex)
-    for n, phasors in enumerate(forces):
-        every[..., 2 * n, :], every[..., 2 * n + 1, :] = phasors.co, phasors.counter
-    force, couple = _summed(layout, every, layout.reciprocating.position)
-    return [
-        Wrench(
-            Phasors(force[..., n], force[..., n + 1]),
-            Phasors(couple[..., n], couple[..., n + 1]),
-        )
-        for n in range(0, 2 * len(forces), 2)
-    ]
+    force, couple = _summed(layout, _row_forces(layout, orders, harmonic), layout.reciprocating.position)
+    forces, couples = _entries(force), _entries(couple)
+    return [Wrench(Phasors(*forces[n : n + 2]), Phasors(*couples[n : n + 2])) for n in range(0, 2 * len(orders), 2)]
 
 
 def reciprocating_forces(
     layout: Layout, order: int, harmonic: Callable[[int, Real], Real] = acceleration_harmonic
 ) -> Phasors:
     """The same row by row (..., n)."""
+    every = _row_forces(layout, (order,), harmonic)
+    return Phasors(every[..., 0, :], every[..., 1, :])
+
+
+def _row_forces(layout: Layout, orders: Sequence[int], harmonic: Callable[[int, Real], Real]) -> Complex:
+    """The same of several orders, of each co and counter (..., 2 orders, n)."""
     rows = layout.reciprocating
-    # A_1 = 1 whatever the rod, so that the first order needs no rod
-    size, axis = 0.5 * rows.mass * rows.crank_radius, rows.axis
-    if order == 1:
-        return Phasors(size * rows.crank_direction, size * np.conj(rows.crank_direction) * axis**2)
-    size, crank = size * harmonic(order, rows.rod_ratio), rows.crank_direction**order
-    co = size * crank * np.conj(axis) ** (order - 1)
-    return Phasors(co, size * np.conj(crank) * axis ** (order + 1))
+    size, crank, axis = 0.5 * rows.mass * rows.crank_radius, rows.crank_direction, rows.axis
+    shapes = {size.shape, crank.shape, axis.shape, rows.rod_ratio.shape}
+    *leading, count = shapes.pop() if len(shapes) == 1 else np.broadcast_shapes(*shapes)
+    every = np.empty((*leading, 2 * len(orders), count), complex)
+    for n, order in enumerate(orders):
+        co, counter = every[..., 2 * n, :], every[..., 2 * n + 1, :]
+        # A_1 = 1 whatever the rod, so that the first order needs no rod
+        if order == 1:
+            np.multiply(size, crank, out=co)
+            np.multiply(np.conj(co), axis**2, out=counter)
+            continue
+        turned = size * harmonic(order, rows.rod_ratio) * crank**order
+        np.multiply(np.conj(turned), axis ** (order + 1), out=counter)
+        against = np.conj(axis)
+        np.multiply(turned, against if order == 2 else against ** (order - 1), out=co)
+    return every
 
 
+@remembered_of_both
 def counterweights(layout: Layout, unbalance: Complex) -> Wrench:
     """First-order force of counterweights: co-rotating only.
 
@@ -116,11 +125,16 @@ def counterweights(layout: Layout, unbalance: Complex) -> Wrench:
     ----------
     unbalance : (..., webs) mass-radius products m R e^{ja}, kg m.
     """
-    force, couple = force_and_couple(unbalance, web_arms(layout))
-    nothing = np.zeros(force.shape, complex)
-    return Wrench(Phasors(force, nothing), Phasors(couple, nothing))
+    return _co_rotating(*force_and_couple(unbalance, web_arms(layout)))
 
 
+def _co_rotating(force: Complex, moment: Complex) -> Wrench:
+    """A force that turns with the shaft, and its moment (...)."""
+    nothing = np.zeros(force.shape, complex) if force.ndim else _NOTHING
+    return Wrench(Phasors(force, nothing), Phasors(moment, nothing))
+
+
+@remembered
 def web_arms(layout: Layout) -> Real:
     """Distance of the webs from the reference plane (..., webs) m."""
     return layout.webs.position - layout.reference_plane[..., None]
@@ -143,6 +157,11 @@ def first_order_responses(layout: Layout, baseline: Wrench) -> tuple[Response, R
     )
 
 
+def _entries(sums: Complex) -> Sequence[Complex]:
+    """The entries along the last axis (..., m): m arrays (...), numbers where there are no more axes."""
+    return list(sums) if sums.ndim == 1 else [sums[..., n] for n in range(sums.shape[-1])]
+
+
 def _summed(layout: Layout, forces: Complex, position: Real) -> tuple[Complex, Complex]:
     """Sums (..., m) of m times the forces (..., m, n) in planes (..., n), and their couples about the reference plane.
 
@@ -153,6 +172,6 @@ def _summed(layout: Layout, forces: Complex, position: Real) -> tuple[Complex, C
     if layout.central:
         return force, about
     balanced = force == 0
-    if not np.count_nonzero(balanced):
+    if not any_true(balanced):
         return force, about
     return force, np.where(balanced, total((position - layout.centre_plane[..., None])[..., None, :] * forces), about)

@@ -1,11 +1,14 @@
 """The first-order moment inside a shaft: what a balanced layout still bends itself and its frame with."""
 
+from collections.abc import Sequence
+from itertools import accumulate, pairwise
+
 import numpy as np
 
 from optimizer.mechanics.inertia import reciprocating_forces, rotating_forces
 from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.responses.response import Phasors
+from optimizer.numerics.memoization import remembered
 
 
 def internal_moment(layout: Layout, unbalance: Complex | None = None) -> Real:
@@ -18,26 +21,49 @@ def internal_moment(layout: Layout, unbalance: Complex | None = None) -> Real:
     ----------
     unbalance : (..., webs) mass-radius products of the counterweights, kg m; none without.
     """
-    parts = [(layout.rotating.position, rotating_forces(layout))]
-    parts.append((layout.reciprocating.position, reciprocating_forces(layout, 1)))
+    place, force = _inertia(layout)
     if unbalance is not None:
-        parts.append((layout.webs.position, Phasors(unbalance, np.zeros(1, complex))))
-    ends = np.cumsum([0, *(place.shape[-1] for place, _ in parts)]).tolist()
-    leading = np.broadcast_shapes(*(array.shape[:-1] for place, pair in parts for array in (place, pair.co)))
-    # both phasors beside each other
+        webs = (layout.webs.position, unbalance, 0.0)
+        place, force = _beside_one_another([(place, force[..., 0, :], force[..., 1, :]), webs])
+    arm = place - np.asarray(layout.centre_plane)[..., None]
+    order = np.argsort(arm, axis=-1)
+    if order.ndim == 1:
+        # in a fraction of the time
+        return _largest(arm[None, order], force[:, order])
+    arm = np.take_along_axis(arm, order, axis=-1)
+    return _largest(arm[..., None, :], np.take_along_axis(force, order[..., None, :], axis=-1))
+
+
+@remembered
+def _inertia(layout: Layout) -> tuple[Real, Complex]:
+    """Places (..., n) m of the masses of a machine, and their first-order forces, co and counter (..., 2, n) kg m."""
+    turning, moving = rotating_forces(layout), reciprocating_forces(layout, 1)
+    return _beside_one_another(
+        [
+            (layout.rotating.position, turning.co, turning.counter),
+            (layout.reciprocating.position, moving.co, moving.counter),
+        ]
+    )
+
+
+def _beside_one_another(parts: Sequence[tuple[Real, Complex, Complex | float]]) -> tuple[Real, Complex]:
+    """Places (..., n) of all parts, and both of their phasors (..., 2, n)."""
+    ends = [0, *accumulate(place.shape[-1] for place, _, _ in parts)]
+    leading = np.broadcast_shapes(*(array.shape[:-1] for place, co, _ in parts for array in (place, co)))
     place, force = np.empty((*leading, ends[-1])), np.empty((*leading, 2, ends[-1]), complex)
-    for (own, pair), first, last in zip(parts, ends, ends[1:], strict=False):
-        place[..., first:last], force[..., 0, first:last], force[..., 1, first:last] = own, pair.co, pair.counter
-    place -= np.asarray(layout.centre_plane)[..., None]
-    order = np.argsort(place, axis=-1)
-    arm = np.take_along_axis(place, order, axis=-1)[..., None, :]
-    force = np.take_along_axis(force, order[..., None, :], axis=-1)
-    peaks = [_largest_of_side(arm[..., ::side], force[..., ::side]) for side in (1, -1)]
-    return np.maximum(*peaks)
+    for (own, co, counter), (first, last) in zip(parts, pairwise(ends), strict=True):
+        place[..., first:last], force[..., 0, first:last], force[..., 1, first:last] = own, co, counter
+    return place, force
 
 
-def _largest_of_side(arm: Real, force: Complex) -> Real:
-    """Largest couple (...) of all forces (..., 2, n) up to each, about the place of it (..., 1, n)."""
-    couple = arm * np.cumsum(force, axis=-1) - np.cumsum(arm * force, axis=-1)
-    result: Real = np.maximum.reduce(np.add.reduce(np.abs(couple), axis=-2), axis=-1, initial=0.0)
+def _largest(arm: Real, force: Complex) -> Real:
+    """Largest couple (...) of all forces (..., 2, n) on one side of each, about the place of it (..., 1, n)."""
+    # both sides at once; their forces, and behind these their couples
+    arms, terms = np.empty((2, *arm.shape)), np.empty((2, 2, *force.shape), complex)
+    arms[0], arms[1] = arm, arm[..., ::-1]
+    terms[0, 0], terms[0, 1] = force, force[..., ::-1]
+    np.multiply(arms, terms[0], out=terms[1])
+    forces, couples = np.add.accumulate(terms, axis=-1)
+    size = np.add.reduce(np.abs(arms * forces - couples), axis=-2)
+    result: Real = np.maximum.reduce(size, axis=(0, -1), initial=0.0)
     return result

@@ -21,7 +21,7 @@ from optimizer.mechanics.row_data import RowData, compact, shared
 from optimizer.mechanics.row_parts import RowParts
 from optimizer.mechanics.row_series import Reading, RowSeries
 from optimizer.mechanics.turn import Turn, panels
-from optimizer.numerics.arrays import Complex, Real, spread
+from optimizer.numerics.arrays import Complex, Real, all_true, spread
 from optimizer.numerics.memoization import cached_property
 from optimizer.responses.piecewise_cubics import Index, Pieces
 
@@ -89,7 +89,9 @@ class WholeTurn:
 
     def curves(self, reading: Reading, weights: Complex | Real, constant: Complex | Real | float = 0.0) -> "TurnCurves":
         """Sums of a force of the rows over weights (N, C, R), with constants (N, C): N C curves."""
-        return TurnCurves(self, reading, weights, spread(np.asarray(constant), weights.shape[:2]))
+        if not isinstance(constant, np.ndarray):
+            return TurnCurves(self, reading, weights, np.full(weights.shape[:2], constant))
+        return TurnCurves(self, reading, weights, spread(constant, weights.shape[:2]))
 
     def of_designs(self, some: slice) -> "WholeTurn":
         """The turn of some of the designs alone."""
@@ -267,7 +269,8 @@ class TurnCurves:
         """Number of equal parts of every piece (N, P) in the quadrature: the more, the more is left out there."""
         size = np.where(self.pieces.size > 0.0, self.pieces.size, 1.0)
         out = np.maximum.reduce(self._by_design(self._left_out / size[:, None]), axis=1)
-        return np.clip(np.ceil((out / _LEFT_OUT) ** (1.0 / _GAUSS)), 1, _MOST_PARTS)
+        number: Real = np.minimum(np.maximum(np.ceil((out / _LEFT_OUT) ** (1.0 / _GAUSS)), 1), _MOST_PARTS)
+        return number
 
     def _by_design(self, values: Real) -> Real:
         """Values (N C, P) as (N, C, P)."""
@@ -281,10 +284,14 @@ class TurnCurves:
         count = np.add.reduce(parts, axis=-1)
         # those of one design after those of another, and in every row as many as any of them has
         piece = np.repeat(np.arange(parts.size), parts.reshape(-1))
-        row = np.minimum(np.arange(np.max(count)), count[:, None] - 1) + (np.cumsum(count) - count)[:, None]
         parts = parts.reshape(-1)
-        number = (np.arange(piece.size) - (np.cumsum(parts) - parts)[piece])[row]
-        piece = piece[row]
+        number = np.arange(piece.size) - (np.add.accumulate(parts) - parts)[piece]
+        if len(count) == 1:
+            number, piece = number[None], piece[None]
+        else:
+            most, first = int(np.maximum.reduce(count)), np.add.accumulate(count) - count
+            row = np.minimum(np.arange(most), count[:, None] - 1) + first[:, None]
+            number, piece = number[row], piece[row]
         wide, centre, parts = whole.half.reshape(-1)[piece], whole.centre.reshape(-1)[piece], parts[piece]
         half = wide / parts
         angle = (centre + wide * ((2.0 * number + 1.0) / parts - 1.0))[..., None] + half[..., None] * _NODES
@@ -335,6 +342,6 @@ class TurnCurves:
 
 def _sums(values: Any, count: Index) -> Any:
     """Sums (N, C) of the first so many (N,) of values (N, C, n), each added up as of a design alone."""
-    if np.all(count == values.shape[-1]):
+    if len(count) == 1 or all_true(count == values.shape[-1]):
         return np.add.reduce(values, axis=-1)
     return np.array([np.add.reduce(row[:, :some], axis=-1) for row, some in zip(values, count.tolist(), strict=True)])

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from functools import partial
+from math import hypot
 from typing import Any, TypeVar
 
 import numpy as np
@@ -16,7 +17,9 @@ Reals = Real | float
 Part = TypeVar("Part")
 
 #: a sum smaller than this share of the sum of the magnitudes of its terms is rounding error
-ROUNDING = 16 * np.finfo(float).eps
+ROUNDING = 16 * float(np.finfo(float).eps)
+#: so few sums are compared sooner in plain numbers than by arrays
+_FEW = 16
 _ARRAYS = (np.ndarray, np.generic)
 #: what dataclasses hold most that is no array and no dataclass
 _PLAIN = frozenset({type(None), tuple, float})
@@ -108,6 +111,16 @@ def columns(array: NDArray[Any], chosen: NDArray[np.bool_]) -> NDArray[Any]:
     return array[mask].reshape(*array.shape[:-1], np.count_nonzero(chosen[:1]))
 
 
+def any_true(mask: NDArray[np.bool_]) -> bool:
+    """Whether any of a mask (...) is true: by its bytes, in an eighth of the time of a reduction."""
+    return 1 in mask.tobytes()
+
+
+def all_true(mask: NDArray[np.bool_]) -> bool:
+    """Whether all of a mask (...) are true, as :func:`any_true`."""
+    return 0 not in mask.tobytes()
+
+
 def total(terms: Complex) -> Complex:
     """Sum over the last axis; exactly zero where the terms cancel up to rounding.
 
@@ -122,7 +135,21 @@ def total(terms: Complex) -> Complex:
     -------
     (...) complex.
     """
-    value = np.add.reduce(terms, axis=-1)
-    noise = np.maximum(ROUNDING * np.add.reduce(np.abs(terms), axis=-1), SMALLEST)
-    cancelled = np.abs(value) <= noise
-    return np.where(cancelled, 0.0, value) if np.count_nonzero(cancelled) else np.asarray(value)
+    value, size = np.add.reduce(terms, axis=-1), np.add.reduce(np.abs(terms), axis=-1)
+    if value.size <= _FEW:
+        return _few_without_noise(value, size)
+    cancelled = np.abs(value) <= np.maximum(ROUNDING * size, SMALLEST)
+    return np.where(cancelled, 0.0, value) if any_true(cancelled) else value
+
+
+def _few_without_noise(value: Complex, size: Real) -> Complex:
+    """Sums of one machine (...), 0 where they are rounding error of terms of these magnitudes (...)."""
+    sums = value.ravel().tolist()
+    cancelled = [
+        hypot(entry.real, entry.imag) <= max(ROUNDING * most, SMALLEST)
+        for entry, most in zip(sums, size.ravel().tolist(), strict=True)
+    ]
+    if True not in cancelled:
+        return np.asarray(value)
+    left = [0j if nothing else entry for entry, nothing in zip(sums, cancelled, strict=True)]
+    return np.array(left).reshape(value.shape)

@@ -32,7 +32,8 @@ def force_and_couple(forces: Complex, arm: Real) -> tuple[Complex, Complex]:
     terms = np.empty((2, *couples.shape), complex)
     terms[0], terms[1] = forces, couples
     both = total(terms)
-    return both[0, ...], both[1, ...]
+    # numbers where there are no more axes: arithmetic of arrays without axes takes several times as long
+    return both[0], both[1]
 
 
 def _in_a_loop(forces: Complex, arm: Real) -> tuple[Complex, Complex]:

@@ -50,9 +50,8 @@ def dead_centre_deg(machine: Machine) -> float:
     rows = machine.throws[0].rows if isinstance(machine, ReciprocatingMachine) and machine.throws else ()
     if not isinstance(machine, ReciprocatingMachine) or not rows:
         return 0.0
-    sense = np.asarray(1.0 if machine.rotation == "ccw" else -1.0)
-    crank, axis = (np.asarray(angle) for angle in (machine.throws[0].crank_angle_deg, rows[0].axis_deg))
-    return float(outer_dead_centre_deg(crank, axis, sense))
+    sense = 1.0 if machine.rotation == "ccw" else -1.0
+    return float(outer_dead_centre_deg(machine.throws[0].crank_angle_deg, rows[0].axis_deg, sense))
 
 
 def _as_built(scene: Prepared) -> tuple[Prepared, Complex] | None:

@@ -140,7 +140,9 @@ def peaks(responses: Sequence[TurnResponse], unbalance: Complex, tolerance: Real
     ----------
     tolerance : (responses,) or one for all, of upper - lower, relative to lower.
     """
-    offset = np.array([response.offset(unbalance) for response in responses], dtype=complex)
+    influence = np.array([response.influence for response in responses])
+    # product by product, as of a response alone
+    offset = (influence[:, None, :] @ unbalance[:, None]).reshape(-1).astype(complex, copy=False)
     if all(response.turning is None for response in responses):
         return peaks_about(responses, offset, tolerance)
     # what turns makes another curve of each
@@ -233,14 +235,14 @@ def floors(
     outline = outlines(every, number, np.flatnonzero(pieces.half[number[0]] > 0.0), together)
     rounding = _ROUNDING * outline.size
     centre, radius, upper = outline.centre, outline.radius, outline.upper
-    most = np.full(int(np.maximum.reduce(together)) + 1, -np.inf)
-    np.maximum.at(most, together, outline.lower)
-    sought = upper >= most[together]
+    sought = upper >= (outline.lower if group is None else _largest(outline.lower, group))
     # the first points of a curve are those that hold its outline
-    of, place = (part[sought[outline.curve]] for part in (outline.curve, outline.place))
+    held = sought[outline.curve]
+    of, place = outline.curve[held], outline.place[held]
     piece, place = outline.piece[place // PLACES.size], place % PLACES.size
-    at = pieces.centre[number[of], piece] + pieces.half[number[of], piece] * PLACES[place]
-    points = _Points(outline.centre, outline.lower, of, at, pieces.source.values(number[of], piece, at))
+    there = (number[of], piece)
+    at = pieces.centre[there] + pieces.half[there] * PLACES[place]
+    points = _Points(outline.centre, outline.lower, of, at, pieces.source.values(*there, at))
     open_ = np.flatnonzero(sought)
     for _ in range(_MOST_POINTS):
         # all points that may hold a circle about this centre, not only the farthest
@@ -254,16 +256,22 @@ def floors(
         centre[open_], radius[open_] = points.surround(open_)
         peak = pieces.peaks(-centre[open_], 0.5 * tolerance, number[open_])
         upper[open_] = peak.upper
-        most[:] = 0.0
-        np.maximum.at(most, together, radius)
         beyond = peak.upper > radius[open_] * (1.0 + tolerance) + rounding[open_]
-        beyond &= peak.upper > most[together[open_]]
+        if group is not None:
+            beyond &= peak.upper > _largest(radius, group)[open_]
         open_ = open_[beyond]
         if not open_.size:
             break
         points.add(open_, peak.angle[beyond], peak.value[beyond])
         centre[open_], radius[open_] = points.surround(open_)
     return Floors(points.centre, points.radius, upper, points)
+
+
+def _largest(values: Real, group: Index) -> Real:
+    """The largest of its group for each of some values (n,)."""
+    most = np.full(int(np.maximum.reduce(group)) + 1, -np.inf)
+    np.maximum.at(most, group, values)
+    return most[group]
 
 
 class _Points:

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from optimizer.numerics.arrays import any_true
 from optimizer.responses.piecewise_cubics import Bracket
 
 #: what says which peaks they are
@@ -72,6 +73,6 @@ class PeakTable:
     def is_closed(self, share: float) -> bool:
         """Whether no bracket is wider than a share of its larger end."""
         return not any(
-            np.count_nonzero(upper - lower > share * np.maximum(np.abs(lower), np.abs(upper)))
+            any_true(upper - lower > share * np.maximum(np.abs(lower), np.abs(upper)))
             for _, _, lower, upper in self._brackets
         )

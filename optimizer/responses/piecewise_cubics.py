@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from optimizer.numerics.arrays import Complex, Real, Reals, in_order
+from optimizer.numerics.arrays import Complex, Real, Reals, all_true, in_order
 from optimizer.numerics.memoization import cached_property
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ class Bracket(NamedTuple):
 
     def where(self, mask: NDArray[np.bool_]) -> "Bracket":
         """The same, nan where nothing is known (...)."""
-        return self if mask.all() else Bracket(*(np.where(mask, part, np.nan) for part in self))
+        return self if all_true(mask) else Bracket(*(np.where(mask, part, np.nan) for part in self))
 
 
 class Source(Protocol):
@@ -121,10 +121,15 @@ class Pieces:
         """
         every = np.arange(offset.size)
         of_member, finite = every if curve is None else curve, np.isfinite(offset)
-        if group is None and finite.all():
-            scale, share, signs = self.size[of_member] + np.abs(offset), np.empty(every.size), np.empty(every.size)
-            share[:], signs[:] = tolerance, sign
-            return _bracketed(self, offset, of_member, every, scale, share, signs)
+        magnitudes = not isinstance(sign, np.ndarray) and sign == 0.0
+        if group is None and all_true(finite):
+            scale = np.abs(offset)
+            scale += self.size if curve is None else self.size[curve]
+            share, signs = np.zeros((2, every.size))
+            share[:] = tolerance
+            if not magnitudes:
+                signs[:] = sign
+            return _bracketed(self, offset, of_member, every, scale, share, signs, magnitudes)
         sought = every if group is None else group
         scale, share, signs = np.zeros((3, int(np.maximum.reduce(sought, initial=-1)) + 1))
         offset, of_member, sought = offset[finite], of_member[finite], sought[finite]
@@ -133,11 +138,18 @@ class Pieces:
         signs[sought] = sign[finite] if isinstance(sign, np.ndarray) else sign
         some = np.zeros(scale.size, dtype=bool)
         some[sought] = True
-        return _bracketed(self, offset, of_member, sought, scale, share, signs).where(some)
+        return _bracketed(self, offset, of_member, sought, scale, share, signs, magnitudes).where(some)
 
 
 def _bracketed(
-    pieces: Pieces, offset: Vector, of_member: Index, group: Index, scale: Real, share: Real, sign: Real
+    pieces: Pieces,
+    offset: Vector,
+    of_member: Index,
+    group: Index,
+    scale: Real,
+    share: Real,
+    sign: Real,
+    magnitudes: bool,
 ) -> Bracket:
     """Brackets (count,), of no meaning where a peak has no member.
 
@@ -147,6 +159,7 @@ def _bracketed(
     ----------
     offset, of_member, group : (m,) of every member, its curve, and the peak to which it belongs.
     scale, share, sign : (count,) size of what is added up, tolerance and sign of each peak.
+    magnitudes : whether all signs are 0.
     """
     from optimizer.responses.kernel.parts import Best, Members
 
@@ -155,12 +168,11 @@ def _bracketed(
         return Bracket(*(np.full(count, np.nan) for _ in range(4)))
     curve, peak = (in_order(np.asarray(part, np.int64)) for part in (of_member, group))
     members = Members(curve, peak, in_order(np.asarray(offset, complex)), share, ROUNDING * scale, sign)
-    nowhere = np.zeros(count, np.int64)
-    lower, upper = np.empty(count), np.empty(count)
+    lower, upper, angle = np.zeros((3, count))
     lower.fill(np.nan)
     upper.fill(-np.inf)
-    best = Best(lower, upper, np.zeros(count), nowhere, nowhere.copy())
+    best = Best(lower, upper, angle, *np.zeros((2, count), np.int64))
     value = pieces.source.search(pieces.cubics, members, best)
     there = value + members.offset[best.member]
-    lower = np.where(sign == 0.0, np.abs(there), sign * there.real)
+    lower = np.abs(there) if magnitudes else np.where(sign == 0.0, np.abs(there), sign * there.real)
     return Bracket(best.angle, value, lower, best.upper + members.rounding)
