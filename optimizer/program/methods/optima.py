@@ -14,7 +14,7 @@ from optimizer.numerics.records import record
 from optimizer.program.certificate import Multipliers, mass_bound_up_to, nothing_proven
 from optimizer.program.equal_unknowns import apart, united
 from optimizer.program.methods.cascade import cascade
-from optimizer.program.methods.compiled import both_stages, suits_kernel
+from optimizer.program.methods.compiled import BothStages, both_stages, suits_kernel
 from optimizer.program.methods.empty_webs import leave_empty
 from optimizer.program.methods.feasibility_phase import smallest_excesses
 from optimizer.program.methods.inactive_rows import settle_without_slack_rows
@@ -35,6 +35,7 @@ from optimizer.program.verdict import yardstick
 
 #: what optima have of solutions, before what they have of their own
 _OF_SOLUTIONS = attrgetter(*(field.name for field in fields(Solutions)))
+_NO_PROGRAM = np.zeros(0, int)
 #: of what is compiled: without webs, and with some
 _METHODS = (np.array([CLOSED_FORM], dtype=object), np.array([INTERIOR_POINT], dtype=object))
 
@@ -114,7 +115,7 @@ def _optima(statement: Statement, relative_gap: float, least_mass: bool) -> Opti
     if stages is not None:
         settle_without_slack_rows(statement, share, demand, least_mass, stages)
     answer = _nothing(statement) if stages is None else _compiled(statement, stages)
-    left = np.arange(size.size) if stages is None else (~stages.certified).nonzero()[0]
+    left = np.arange(size.size) if stages is None else _uncertified(stages)
     if stages is not None and left.size and statement.ceilings.names:
         left = _without_unreachable(statement, answer, left)
     for n in left.tolist():
@@ -132,6 +133,12 @@ def _optima(statement: Statement, relative_gap: float, least_mass: bool) -> Opti
     leave_empty(statement.chosen(within), some, share[within], least_mass)
     answer.put(within, some)
     return answer
+
+
+def _uncertified(stages: BothStages) -> np.ndarray:
+    """Programs that both stages left open; mostly none."""
+    certified = stages.certified
+    return _NO_PROGRAM if np.count_nonzero(certified) == certified.size else np.flatnonzero(~certified)
 
 
 def _without_unreachable(statement: Statement, answer: Optima, programs: np.ndarray) -> np.ndarray:
