@@ -5,7 +5,7 @@ An answer asks for a handful of numbers many times: a loop of simple operations 
 
 import math
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from itertools import dropwhile
 from types import ModuleType
 from typing import NamedTuple
@@ -208,6 +208,7 @@ class Flat:
         self,
         share: Real,
         demand: Real,
+        sizes: Real,
         shares: Shares,
         ends: tuple[Complex, Complex],
         solver: Dual,
@@ -218,6 +219,8 @@ class Flat:
 
         Parameters
         ----------
+        sizes : (N, J + I) of the constants, to the last digit as of
+            :func:`optimizer.program.multipliers.resting_multipliers`.
         ends : (N, K) where both stages ended.
         solver, mass_solver : what the interior point proves the objective and the mass by; None where that is free.
         """
@@ -236,8 +239,7 @@ class Flat:
             own,
             own if mass_solver is None else _in_order(mass_solver),
             self.programs,
-            # to the last digit as of :func:`optimizer.program.multipliers.resting_multipliers`
-            np.abs(self.programs.constant[:, : own[0].shape[1]]),
+            in_order(sizes),
             rungs,
             *settling_work(self.programs.region, terms, webs),
             points,
@@ -285,7 +287,7 @@ def flat(
         leading = np.broadcast_shapes(leading, *others)
     (terms, webs), rows = influence.shape[-2:], floor.shape[-1]
     of_programs, none = of_programs_of(leading), np.empty((math.prod(leading), terms, 0))
-    plain = influence.dtype == float
+    plain, (numbers, vectors, places) = influence.dtype == float, _work(terms, webs, rows)
     cap = of_programs(ceilings[0], 1)
     return Flat(
         leading,
@@ -303,17 +305,28 @@ def flat(
             counted=of_programs(ceilings[1], 1) if cap.size else cap,
             size=of_programs(ceilings[2], 1) if cap.size else cap,
             region=limits.region(leading),
-            numbers=np.empty((6, max(terms, webs, rows))),
-            vectors=np.empty((4, max(terms, webs)), complex),
-            places=np.empty((2, webs), np.int64),
+            numbers=numbers,
+            vectors=vectors,
+            places=places,
         ),
     )
 
 
+# kernels write to it and leave nothing there, so that programs of one shape may share it
+@lru_cache(maxsize=64)
+def _work(terms: int, webs: int, rows: int) -> tuple[Real, Complex, np.ndarray]:
+    """Work of programs, the last three of :class:`Programs`."""
+    numbers, vectors = np.empty((6, max(terms, webs, rows))), np.empty((4, max(terms, webs)), complex)
+    return numbers, vectors, np.empty((2, webs), np.int64)
+
+
 def settling_work(own: Region, terms: int, webs: int) -> tuple[Complex, Complex]:
     """What :mod:`optimizer.program.kernel.settling` writes to where others make up for something."""
-    if own.leader.size:
-        terms, webs = 2 * terms, 2 * webs
+    return _settling_work(2 * terms, 2 * webs) if own.leader.size else _settling_work(terms, webs)
+
+
+@lru_cache(maxsize=64)
+def _settling_work(terms: int, webs: int) -> tuple[Complex, Complex]:
     return np.empty((5, max(terms, webs)), complex), np.empty((2, terms, webs), complex)
 
 

@@ -73,7 +73,14 @@ def test_what_is_judged_together_is_what_is_judged_one_by_one(seeds: list[int], 
         Multipliers(*(np.stack(parts) for parts in zip(*(each.parts for each in some), strict=True))) for some in duals
     )
     found = whole.flat.judge(
-        share, demand, SHARES, (ends[0], ends[1]), proof.parts, of_mass.parts if least else None, RUNGS
+        share,
+        demand,
+        whole.constant_sizes,
+        SHARES,
+        (ends[0], ends[1]),
+        proof.parts,
+        of_mass.parts if least else None,
+        RUNGS,
     )
     for n, one in enumerate(programs):
         expected = _one_by_one(
@@ -99,7 +106,9 @@ def test_a_point_that_is_no_number_is_not_taken(least: bool) -> None:
     made = program(4, (False, {"ceiling"}, None))
     one, dual = made.alone(), tuple(part[None] for part in _multipliers(1, made).parts)
     nowhere, first = np.full((1, WEBS), np.nan + 0j), np.ones(1)
-    found = one.flat.judge(first, first, SHARES, (nowhere, nowhere), dual, dual if least else None, RUNGS)
+    found = one.flat.judge(
+        first, first, one.constant_sizes, SHARES, (nowhere, nowhere), dual, dual if least else None, RUNGS
+    )
     assert not np.any(found.smallest)
     assert not np.any(found.unbalance)
     assert found.figures[0] == pytest.approx(one.at_rest)
