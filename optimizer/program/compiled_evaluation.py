@@ -16,6 +16,9 @@ from optimizer.numerics.arrays import Complex, Real, in_order, merged, of_progra
 from optimizer.numerics.records import record
 from optimizer.program.limits import Limits, Region
 
+#: a limit this many times the unbalance that cancels everything is as far away as none
+FAR = 1e3
+
 
 class Programs(NamedTuple):
     """N programs in the usual order in memory. Their work is written to by whoever holds the interpreter."""
@@ -60,6 +63,14 @@ class Minorants(NamedTuple):
 Dual = tuple[Complex, Real, Complex]
 
 
+class Reaches(NamedTuple):
+    """How large unbalances are that single vectors call for, beside the limits of the webs."""
+
+    single: Real  # (...) kg m, the largest that one vector calls for by itself
+    beyond: bool  # some web of some program has no limit, or one that is far beyond that
+    idle: bool  # some web of some program can carry nothing
+
+
 class Shares(NamedTuple):
     """By what points and proofs are judged; the first is of what optima may differ by, others of what they are."""
 
@@ -82,6 +93,7 @@ class Judgement(NamedTuple):
     mass_lower_bound: Real  # (N,) kg
     mass_target: Real  # (N,) largest objective that this bound counts as an optimum
     certified: np.ndarray  # (N,) bool
+    clean: np.ndarray  # (N,) bool: no counterweight is next to nothing beside the largest
 
 
 @record
@@ -169,11 +181,12 @@ class Flat:
         _units().least_masses(programs.owner, rows, self._magnitude, limits, size, programs.size, least)
         return least.reshape(self.leading)
 
-    def single_reaches(self, sizes: Real) -> Real:
-        """The largest unbalance that one of vectors of some sizes (*leading, J + I) calls for by itself (*leading)."""
-        reach = np.empty(math.prod(self.leading))
-        _units().single_reaches(merged(self.leading, sizes, 1), self._magnitude, reach)
-        return reach.reshape(self.leading)
+    def single_reaches(self, sizes: Real) -> Reaches:
+        """What vectors of some sizes (*leading, J + I) call for one by one."""
+        region, reach = self.programs.region, np.empty(math.prod(self.leading))
+        limits = region.radius, region.max_mass, region.budget
+        flags = _units().single_reaches(merged(self.leading, sizes, 1), self._magnitude, limits, FAR, reach)
+        return Reaches(reach.reshape(self.leading), *flags)
 
     @property
     def rows(self) -> Rows:
@@ -227,7 +240,7 @@ class Flat:
         many, terms, webs = self.programs.influence.shape
         smallest, lightest = np.array(ends[0], order="C"), in_order(ends[1])
         points, figures, bounds = np.empty((many, webs), complex), np.empty((4, many)), np.empty((3, many))
-        certified, own = np.empty(many, bool), _in_order(solver)
+        certified, clean, own = np.empty(many, bool), np.empty(many, bool), _in_order(solver)
         proof = np.empty_like(own[0]), np.empty_like(own[1]), np.empty_like(own[2])
         _judging().judge(
             in_order(share),
@@ -247,8 +260,9 @@ class Flat:
             proof,
             bounds,
             certified,
+            clean,
         )
-        return Judgement(smallest, points, figures, proof, bounds[0], bounds[1], bounds[2], certified)
+        return Judgement(smallest, points, figures, proof, bounds[0], bounds[1], bounds[2], certified, clean)
 
     def _of(self, axes: tuple[int, ...]) -> tuple[int, ...]:
         """Leading axes of what has these, which are those of the programs and others before them."""

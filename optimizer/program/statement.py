@@ -14,7 +14,7 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
 from optimizer.program.ceilings import Ceilings, no_ceilings
-from optimizer.program.compiled_evaluation import Flat, flat
+from optimizer.program.compiled_evaluation import Flat, Reaches, flat
 from optimizer.program.limits import Limits
 from optimizer.program.norms import Norms, scalars
 
@@ -128,9 +128,14 @@ class Statement:
         return self.objective_of(self.constant_sizes[..., : self.row.size])
 
     @cached_property
+    def reaches(self) -> Reaches:
+        """What terms and limited responses call for one by one."""
+        return self.flat.single_reaches(self.constant_sizes)
+
+    @property
     def single_reach(self) -> Real:
         """The largest unbalance that one term or one limited response calls for by itself, kg m (...)."""
-        return self.flat.single_reaches(self.constant_sizes)
+        return self.reaches.single
 
     @cached_property
     def first_rows(self) -> np.ndarray:
@@ -247,8 +252,8 @@ class Statement:
         )
         # what is known of it is not found out again
         attributes = vars(program)
-        for name in ("constant_sizes", "at_rest", "single_reach"):
-            attributes[name] = getattr(self, name)[None]
+        attributes["constant_sizes"], attributes["at_rest"] = self.constant_sizes[None], self.at_rest[None]
+        attributes["reaches"] = self.reaches._replace(single=self.single_reach[None])
         attributes["flat"] = Flat((1,), self.flat.programs)
         return program
 

@@ -11,7 +11,7 @@ from optimizer.numerics.arrays import Complex
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, best_proof, mass_lower_bound
 from optimizer.program.compiled_evaluation import Shares
-from optimizer.program.methods.rounding import HEAVIER, RUNGS, settled
+from optimizer.program.methods.rounding import HEAVIER, RUNGS, has_dust, settled
 from optimizer.program.multipliers import resting_multipliers
 from optimizer.program.points import Points, points_at
 from optimizer.program.solution import CEILING_ROUNDING
@@ -53,7 +53,8 @@ def _one_by_one(
         certified = certified and chosen.mass - bound <= SHARES.mass_enough * chosen.mass
     most = target if of_mass is not None else lower + SHARES.enough * share
     final: Points = settled(one, chosen, most, bound if of_mass is not None else None)
-    return [best.unbalance, *final, *proof.parts, lower, bound, counted, np.array([certified]).reshape(1)]
+    clean = ~has_dust(one.limits, final.unbalance)
+    return [best.unbalance, *final, *proof.parts, lower, bound, counted, np.array([certified]).reshape(1), clean]
 
 
 @given(seeds=st.lists(st.integers(0, 10**6), min_size=1, max_size=3, unique=True), kind=KINDS, least=st.booleans())

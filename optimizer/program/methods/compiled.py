@@ -18,7 +18,7 @@ from optimizer.program.kernel.finer_numbers import Precision, solve_in
 from optimizer.program.methods.disc_programs import discs_of, suits_discs
 from optimizer.program.methods.rounding import HEAVIER, RUNGS
 from optimizer.program.points import points_at
-from optimizer.program.scaling import natural_reach
+from optimizer.program.scaling import cancelling
 from optimizer.program.solution import CEILING_ROUNDING, Solutions, joined
 from optimizer.program.statement import Statement
 
@@ -194,6 +194,7 @@ def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, s
         mass_multipliers=solved.mass_proof if least_mass else nothing_proven(statement),
         mass_target=judgement.mass_target,
         certify_s=np.full(share.shape, certify_s / max(share.size, 1)),
+        clean=judgement.clean,
         smallest=judgement.smallest,
         certified=judgement.certified,
     )
@@ -272,7 +273,8 @@ def _scales(
     _disc_forms().scales(
         np.add.reduce(statement.constant_sizes[..., : statement.row.size], axis=-1),
         influence,
-        natural_reach(statement),
+        np.abs(cancelling(statement)),
+        in_order(statement.single_reach),
         (region.radius, region.max_mass, region.budget),
         at_least if isinstance(at_least, np.ndarray) else np.full(many, at_least),
         in_order(share),

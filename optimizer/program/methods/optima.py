@@ -91,9 +91,9 @@ def optima(statement: Statement, relative_gap: float, least_mass: bool) -> Optim
         # no proof says otherwise: the terms are the same, and so are the multipliers
         answer = optima(united(statement, alike), relative_gap, least_mass)
         return replace(answer, unbalance=apart(answer.unbalance, alike))
-    carries = statement.limits.reach > 0
-    if np.logical_and.reduce(carries, axis=None):
+    if not statement.reaches.idle:
         return _optima(statement, relative_gap, least_mass)
+    carries = statement.limits.reach > 0
     # webs that cannot carry anything are left out of their programs
     patterns, which = np.unique(carries, axis=0, return_inverse=True)
     parts, places = [], []
@@ -154,7 +154,7 @@ def _without_unreachable(statement: Statement, answer: Optima, programs: np.ndar
     answer.excess[at], answer.lower_bound[at], answer.mass_lower_bound[at] = points.excess, -np.inf, 0.0
     answer.multipliers.put(at, nothing_proven(some.chosen(over)))
     answer.mass_target[at], answer.certify_s[at] = np.inf, proven.certify_s
-    answer.unreachable[at], answer.method[at] = True, CONE_PROGRAM
+    answer.unreachable[at], answer.method[at], answer.clean[at] = True, CONE_PROGRAM, False
     answer.conflict.put(at, proven.multipliers)
     return programs[~over]
 
@@ -188,6 +188,7 @@ def _nothing(statement: Statement) -> Optima:
         mass_multipliers=nothing_proven(statement),
         mass_target=endless.copy(),
         certify_s=np.zeros(webs[:-1]),
+        clean=np.zeros(webs[:-1], bool),
         unreachable=np.zeros(webs[:-1], bool),
         method=np.full(webs[:-1], CONE_PROGRAM, dtype=object),
         conflict=_no_conflict(statement),
@@ -195,7 +196,7 @@ def _nothing(statement: Statement) -> Optima:
 
 
 def _put(answer: Optima, n: int, solution: ConeSolution) -> None:
-    answer.unreachable[n] = solution.conflict is not None
+    answer.unreachable[n], answer.clean[n] = solution.conflict is not None, False
     for field in fields(ConeSolution):
         value = getattr(solution, field.name)
         if isinstance(value, Multipliers):

@@ -44,7 +44,7 @@ def symmetric(statement: Statement, u: Complex, kinds: np.ndarray | None = None)
         programs.constant,
         programs.influence,
         _symmetries().Alike(region.radius, region.max_mass, region.free, region.centre, region.sine),
-        _one_kind(webs) if kinds is None else kinds.astype(np.int64),
+        _single_kind(webs) if kinds is None else kinds.astype(np.int64),
         in_order(u),
         _work(terms, webs),
         means,
@@ -53,7 +53,7 @@ def symmetric(statement: Statement, u: Complex, kinds: np.ndarray | None = None)
 
 
 @lru_cache(maxsize=64)
-def _one_kind(webs: int) -> np.ndarray:
+def _single_kind(webs: int) -> np.ndarray:
     """That all are of one kind (K,); nobody writes to it."""
     return np.zeros(webs, np.int64)
 
