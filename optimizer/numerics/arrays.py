@@ -36,7 +36,9 @@ def variant(part: Part, **fields: Any) -> Part:
 
 def mapped(part: Part, function: Callable[[Any], Any]) -> Part:
     """The same dataclass with a function of every array in it, parts within parts too; what is no array stays."""
-    fields = vars(part).copy()
+    own = vars(part)
+    # without what is cached there: it is of other arrays
+    fields = {name: own[name] for name in type(part).__dataclass_fields__}  # type: ignore[attr-defined]
     for name, value in fields.items():
         kind = type(value)
         if kind in _PLAIN:

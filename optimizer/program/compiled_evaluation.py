@@ -5,7 +5,7 @@ An answer asks for a handful of numbers many times: a loop of simple operations 
 
 import math
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from itertools import dropwhile
 from types import ModuleType
 from typing import NamedTuple
@@ -15,6 +15,9 @@ import numpy as np
 from optimizer.numerics.arrays import Complex, Real, in_order, merged, of_programs_of, spread
 from optimizer.numerics.records import record
 from optimizer.program.limits import Limits, Region
+
+#: a limit this many times the unbalance that cancels everything is as far away as none
+FAR = 1e3
 
 
 class Programs(NamedTuple):
@@ -60,6 +63,14 @@ class Minorants(NamedTuple):
 Dual = tuple[Complex, Real, Complex]
 
 
+class Reaches(NamedTuple):
+    """How large unbalances are that single vectors call for, beside the limits of the webs."""
+
+    single: Real  # (...) kg m, the largest that one vector calls for by itself
+    beyond: bool  # some web of some program has no limit, or one that is far beyond that
+    idle: bool  # some web of some program can carry nothing
+
+
 class Shares(NamedTuple):
     """By what points and proofs are judged; the first is of what optima may differ by, others of what they are."""
 
@@ -82,6 +93,7 @@ class Judgement(NamedTuple):
     mass_lower_bound: Real  # (N,) kg
     mass_target: Real  # (N,) largest objective that this bound counts as an optimum
     certified: np.ndarray  # (N,) bool
+    clean: np.ndarray  # (N,) bool: no counterweight is next to nothing beside the largest
 
 
 @record
@@ -169,11 +181,12 @@ class Flat:
         _units().least_masses(programs.owner, rows, self._magnitude, limits, size, programs.size, least)
         return least.reshape(self.leading)
 
-    def single_reaches(self, sizes: Real) -> Real:
-        """The largest unbalance that one of vectors of some sizes (*leading, J + I) calls for by itself (*leading)."""
-        reach = np.empty(math.prod(self.leading))
-        _units().single_reaches(merged(self.leading, sizes, 1), self._magnitude, reach)
-        return reach.reshape(self.leading)
+    def single_reaches(self, sizes: Real) -> Reaches:
+        """What vectors of some sizes (*leading, J + I) call for one by one."""
+        region, reach = self.programs.region, np.empty(math.prod(self.leading))
+        limits = region.radius, region.max_mass, region.budget
+        flags = _units().single_reaches(merged(self.leading, sizes, 1), self._magnitude, limits, FAR, reach)
+        return Reaches(reach.reshape(self.leading), *flags)
 
     @property
     def rows(self) -> Rows:
@@ -208,6 +221,7 @@ class Flat:
         self,
         share: Real,
         demand: Real,
+        sizes: Real,
         shares: Shares,
         ends: tuple[Complex, Complex],
         solver: Dual,
@@ -218,13 +232,15 @@ class Flat:
 
         Parameters
         ----------
+        sizes : (N, J + I) of the constants, to the last digit as of
+            :func:`optimizer.program.multipliers.resting_multipliers`.
         ends : (N, K) where both stages ended.
         solver, mass_solver : what the interior point proves the objective and the mass by; None where that is free.
         """
         many, terms, webs = self.programs.influence.shape
         smallest, lightest = np.array(ends[0], order="C"), in_order(ends[1])
         points, figures, bounds = np.empty((many, webs), complex), np.empty((4, many)), np.empty((3, many))
-        certified, own = np.empty(many, bool), _in_order(solver)
+        certified, clean, own = np.empty(many, bool), np.empty(many, bool), _in_order(solver)
         proof = np.empty_like(own[0]), np.empty_like(own[1]), np.empty_like(own[2])
         _judging().judge(
             in_order(share),
@@ -236,8 +252,7 @@ class Flat:
             own,
             own if mass_solver is None else _in_order(mass_solver),
             self.programs,
-            # to the last digit as of :func:`optimizer.program.multipliers.resting_multipliers`
-            np.abs(self.programs.constant[:, : own[0].shape[1]]),
+            in_order(sizes),
             rungs,
             *settling_work(self.programs.region, terms, webs),
             points,
@@ -245,8 +260,9 @@ class Flat:
             proof,
             bounds,
             certified,
+            clean,
         )
-        return Judgement(smallest, points, figures, proof, bounds[0], bounds[1], bounds[2], certified)
+        return Judgement(smallest, points, figures, proof, bounds[0], bounds[1], bounds[2], certified, clean)
 
     def _of(self, axes: tuple[int, ...]) -> tuple[int, ...]:
         """Leading axes of what has these, which are those of the programs and others before them."""
@@ -285,7 +301,7 @@ def flat(
         leading = np.broadcast_shapes(leading, *others)
     (terms, webs), rows = influence.shape[-2:], floor.shape[-1]
     of_programs, none = of_programs_of(leading), np.empty((math.prod(leading), terms, 0))
-    plain = influence.dtype == float
+    plain, (numbers, vectors, places) = influence.dtype == float, _work(terms, webs, rows)
     cap = of_programs(ceilings[0], 1)
     return Flat(
         leading,
@@ -303,17 +319,28 @@ def flat(
             counted=of_programs(ceilings[1], 1) if cap.size else cap,
             size=of_programs(ceilings[2], 1) if cap.size else cap,
             region=limits.region(leading),
-            numbers=np.empty((6, max(terms, webs, rows))),
-            vectors=np.empty((4, max(terms, webs)), complex),
-            places=np.empty((2, webs), np.int64),
+            numbers=numbers,
+            vectors=vectors,
+            places=places,
         ),
     )
 
 
+# kernels write to it and leave nothing there, so that programs of one shape may share it
+@lru_cache(maxsize=64)
+def _work(terms: int, webs: int, rows: int) -> tuple[Real, Complex, np.ndarray]:
+    """Work of programs, the last three of :class:`Programs`."""
+    numbers, vectors = np.empty((6, max(terms, webs, rows))), np.empty((4, max(terms, webs)), complex)
+    return numbers, vectors, np.empty((2, webs), np.int64)
+
+
 def settling_work(own: Region, terms: int, webs: int) -> tuple[Complex, Complex]:
     """What :mod:`optimizer.program.kernel.settling` writes to where others make up for something."""
-    if own.leader.size:
-        terms, webs = 2 * terms, 2 * webs
+    return _settling_work(2 * terms, 2 * webs) if own.leader.size else _settling_work(terms, webs)
+
+
+@lru_cache(maxsize=64)
+def _settling_work(terms: int, webs: int) -> tuple[Complex, Complex]:
     return np.empty((5, max(terms, webs)), complex), np.empty((2, terms, webs), complex)
 
 

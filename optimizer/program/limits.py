@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, columns, mapped, of_programs_of, plain, spread
+from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
 from optimizer.program.equal_castings import Alike
 
@@ -70,7 +71,12 @@ class Limits:
         """Largest m_k that the limits allow, kg (..., K)."""
         return np.minimum(self.max_mass, self.max_total_mass[..., None])
 
-    @property
+    @cached_property
+    def all_free(self) -> bool:
+        """Whether no web of any program has a sector."""
+        return np.count_nonzero(self.free) == self.free.size
+
+    @cached_property
     def budget_ends(self) -> np.ndarray:
         """Whether the budget ends before every web is full (...)."""
         return np.asarray(np.add.reduce(self.max_mass, axis=-1) > self.max_total_mass)
@@ -128,7 +134,7 @@ class Limits:
         Of alike webs the mean of theirs, with vectors that are alike.
         """
         g = g if self.alike is None else self.alike.nearest(g)
-        if np.logical_and.reduce(self.free, axis=None):
+        if self.all_free:
             return np.abs(g)
         rotated = g * np.conj(self.centre)
         across = np.abs(rotated.imag)
@@ -138,7 +144,7 @@ class Limits:
 
     def opening(self, g: Complex) -> Real:
         """Growth of :meth:`support` per radian of half-angle, 1/rad (..., K)."""
-        if np.logical_and.reduce(self.free, axis=None):
+        if self.all_free:
             return np.zeros(g.shape)
         rotated = g * np.conj(self.centre)
         growth = np.abs(rotated.imag) * self.half_angle_cos - rotated.real * self.half_angle_sin

@@ -71,6 +71,6 @@ def join(norms: Sequence[Norms]) -> Norms:
     leading = leadings.pop() if len(leadings) == 1 else np.broadcast_shapes(*leadings)
     constant = [spread(part.constant, (*leading, part.constant.shape[-1])) for part in norms]
     influence = [spread(part.influence, (*leading, *part.influence.shape[-2:])) for part in norms]
-    joined = np.concatenate(influence, axis=-2)
+    joined = influence[0] if len(influence) == 1 else np.concatenate(influence, axis=-2)
     # what is too small to divide by has no influence, as in `total`
     return Norms(np.concatenate(constant, axis=-1), np.where(np.abs(joined) > SMALLEST, joined, 0.0))

@@ -41,15 +41,16 @@ def weighted_peak(response: Response, weight: Reals, weight_x: Reals = 1.0, weig
     ----------
     weight, weight_x, weight_y : (...) one for each program.
     """
-    p = np.asarray(0.5 * weight * (weight_x + weight_y))
-    q = np.asarray(0.5 * weight * (weight_x - weight_y))
+    # of one program mostly numbers, which take a tenth of the time of arrays
+    p, q = 0.5 * weight * (weight_x + weight_y), 0.5 * weight * (weight_x - weight_y)
     f, b = response.baseline.co, response.baseline.counter
     against = response.counter_influence
-    if against is None and not (np.count_nonzero(q) if q.ndim else q):
+    if against is None and not (np.count_nonzero(q) if isinstance(q, np.ndarray) else q):
         alone = p * f
         # what is too small to divide by is none, as in `total`
         alone = (alone * (np.abs(alone) > SMALLEST))[..., None]
-        norms = Norms(alone, p[..., None, None] * response.influence[..., None, :])
+        factor = p[..., None, None] if isinstance(p, np.ndarray) else p
+        norms = Norms(alone, factor * response.influence[..., None, :])
         return WeightedPeak(response.name, p * np.abs(b), norms, response.scenario)
     b = np.conj(b)
     terms = np.broadcast_arrays(p * f, q * b, q * f, p * b)

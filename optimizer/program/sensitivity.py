@@ -38,18 +38,23 @@ def shadow_prices(
     budget : (...) price of the budget where it is known more closely: of plates by what is laid in their place.
     """
     limits, ceilings = statement.limits, statement.ceilings
-    slope = np.add.reduce(np.conj(statement.norms.influence) * multipliers.term[..., :, None], axis=-2)
+    norms = statement.norms
+    influence = np.conj(norms.influence) if norms.turned else norms.influence
+    slope = np.add.reduce(influence * multipliers.term[..., :, None], axis=-2)
     if ceilings.names:
         slope = slope + np.add.reduce(np.conj(ceilings.norms.influence) * multipliers.ceiling[..., :, None], axis=-2)
     # what a kilogram on a web is worth; the budget is spent in falling order of it, and costs what the last one is
     # worth that it does not pay in full (docs/mathematics.md section 5)
     support = limits.support(-slope)
-    if budget is None:
-        ends = limits.budget_ends
-        budget = limits.spent(limits.margin * support)[1] if np.count_nonzero(ends) else np.zeros(ends.shape)
+    worth = support
+    if budget is None and not np.count_nonzero(limits.budget_ends):
+        budget = np.zeros(limits.budget_ends.shape)
+    else:
+        budget = limits.spent(limits.margin * support)[1] if budget is None else budget
+        worth = support - budget[..., None] / limits.margin
     return ShadowPrices(
-        max_mass=np.maximum(limits.radius * (support - budget[..., None] / limits.margin), 0.0),
-        half_angle=np.abs(u) * limits.opening(-slope),
+        max_mass=np.maximum(limits.radius * worth, 0.0),
+        half_angle=np.zeros(u.shape) if limits.all_free else np.abs(u) * limits.opening(-slope),
         max_total_mass=budget,
         ceiling=np.abs(multipliers.ceiling),
     )

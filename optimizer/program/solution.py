@@ -96,6 +96,7 @@ class Solutions:
     mass_multipliers: Multipliers  # (N, ...), those of the lower bound of the mass
     mass_target: Real  # (N,) largest objective that this bound counts as an optimum
     certify_s: Real  # (N,) time spent on bounds
+    clean: np.ndarray  # (N,) bool: no counterweight is next to nothing beside the largest; False where nobody looked
 
     def chosen(self: Some, programs: np.ndarray) -> Some:
         """Those of some of the programs."""

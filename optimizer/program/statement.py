@@ -14,7 +14,7 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
 from optimizer.program.ceilings import Ceilings, no_ceilings
-from optimizer.program.compiled_evaluation import Flat, flat
+from optimizer.program.compiled_evaluation import Flat, Reaches, flat
 from optimizer.program.limits import Limits
 from optimizer.program.norms import Norms, scalars
 
@@ -85,6 +85,11 @@ class Statement:
         return np.concatenate([self.norms.influence, self.ceilings.norms.influence], axis=-2)
 
     @cached_property
+    def constant_sizes(self) -> Real:
+        """Sizes of these constants (..., J + I); of a scalar too that of the vector."""
+        return np.abs(self.every_constant)
+
+    @cached_property
     def flat(self) -> Flat:
         """The same for compiled loops."""
         norms, limited = self.norms, self.ceilings
@@ -110,18 +115,27 @@ class Statement:
     def objective_of(self, sizes: Real) -> Real:
         """P (...) for sizes of the terms (..., J)."""
         rows = self.rows(sizes)
-        # one group is what is asked most, and a point is evaluated twenty times for an answer
+        if rows.shape[-1] == 1:
+            return rows[..., 0] if rows.ndim > 1 else rows[0]
+        # one group is what is asked most
         return np.maximum.reduce(rows, axis=-1) if self.group[-1] == 0 else np.add.reduce(self.largest(rows), axis=-1)
 
     @cached_property
     def at_rest(self) -> Real:
         """P(0) (...)."""
-        return self.objective_of(np.abs(self.norms.counting(self.norms.constant)))
+        if any(self.norms.scalar):
+            return self.objective_of(np.abs(self.norms.counting(self.norms.constant)))
+        return self.objective_of(self.constant_sizes[..., : self.row.size])
 
     @cached_property
+    def reaches(self) -> Reaches:
+        """What terms and limited responses call for one by one."""
+        return self.flat.single_reaches(self.constant_sizes)
+
+    @property
     def single_reach(self) -> Real:
         """The largest unbalance that one term or one limited response calls for by itself, kg m (...)."""
-        return self.flat.single_reaches(np.abs(self.every_constant))
+        return self.reaches.single
 
     @cached_property
     def first_rows(self) -> np.ndarray:
@@ -238,7 +252,8 @@ class Statement:
         )
         # what is known of it is not found out again
         attributes = vars(program)
-        attributes["at_rest"], attributes["single_reach"] = self.at_rest[None], self.single_reach[None]
+        attributes["constant_sizes"], attributes["at_rest"] = self.constant_sizes[None], self.at_rest[None]
+        attributes["reaches"] = self.reaches._replace(single=self.single_reach[None])
         attributes["flat"] = Flat((1,), self.flat.programs)
         return program
 

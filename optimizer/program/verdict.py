@@ -5,11 +5,14 @@ the rounding with which the value is known; a bound further above contradicts th
 """
 
 import logging
+import math
 from dataclasses import dataclass
+from functools import cache
+from types import ModuleType
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, Reals, spread
+from optimizer.numerics.arrays import Complex, Real, Reals, merged, spread
 from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, ceiling_allowance
@@ -25,6 +28,8 @@ _MASS_SHARE = CEILING_TOLERANCE / MASS_GAP
 #: rounding of a mass, relative to it
 _MASS_ROUNDING = 1e-13
 _OPTIMAL = np.array("optimal")
+#: the outcome of a bound above its value: :func:`optimizer.program.kernel.verdicts.verdicts`
+_CONTRADICTED = 4
 
 OPTIMAL = "Proven optimal: the gap to the lower bound is within the requested gap, and every limit is kept."
 OPTIMAL_LIGHTEST = (
@@ -115,56 +120,38 @@ def verdict(claim: Claim, tolerance: float) -> Verdict:
     ----------
     tolerance : largest gap, in units of the yardsticks, that is certified enough.
     """
-    over = claim.lower_bound - claim.value
-    # of several goals the bound is a corner below which nothing is in all of them
-    false = _conjunction(over > claim.rounding) | claim.contradicted
-    bound, gap = np.minimum(claim.lower_bound, claim.value), np.maximum(-over, 0.0)
-    relative = relative_gap(gap, claim.yardstick)
-    relative = relative[..., 0] if relative.shape[-1] == 1 else np.maximum.reduce(relative, axis=-1)
-    mass_yardstick, feasibility = np.maximum(claim.mass, claim.mass_resolution), claim.excess <= CEILING_TOLERANCE
-    if claim.mass_lower_bound is None:
-        mass_bound, mass_gap, light = np.zeros_like(claim.mass), np.zeros_like(claim.mass), np.ones_like(false)
-    else:
-        # the bound is of what keeps the ceilings
-        false = false | (feasibility & (claim.mass_lower_bound > claim.mass * (1.0 + _MASS_ROUNDING)))
-        mass_bound = np.minimum(claim.mass_lower_bound, claim.mass)
-        mass_gap = relative_gap(claim.mass - mass_bound, mass_yardstick)
-        light = mass_gap <= MASS_GAP
-    if np.count_nonzero(false):
-        _LOG.error("a lower bound is above the value of an answer: %d of %d", np.sum(false), false.size)
-    close = relative <= tolerance
-    why = OPTIMAL if claim.mass_lower_bound is None else OPTIMAL_LIGHTEST
-    optimal = ~false & feasibility & close & light
-    if np.logical_and.reduce(optimal, axis=None) and tolerance < np.inf:
-        # all is finite then
-        every = spread(_OPTIMAL, optimal.shape), spread(np.asarray(why, dtype=object), optimal.shape)
-        return Verdict(*every, bound, gap, relative, mass_bound, mass_gap, mass_yardstick)
-    nothing = false | ~np.isfinite(relative)
-    # the last of these that is so
-    index = np.maximum.reduce([1 * ~light, 2 * ~close, 3 * ~feasibility, 4 * false])
-    return Verdict(
-        np.where(optimal, "optimal", "inaccurate"),
-        # objects, as texts take the room of the longest in each design
-        np.asarray(np.array([why, NOT_LIGHT, NOT_CLOSE, ON_THE_BOUNDARY, CONTRADICTED], object)[index], object),
-        np.where(nothing[..., None], np.nan, bound),
-        np.where(nothing[..., None], np.nan, gap),
-        np.where(nothing, np.nan, relative),
-        np.where(false, np.nan, mass_bound),
-        np.where(false, np.nan, mass_gap),
-        mass_yardstick,
+    leading, several = claim.value.shape[:-1], claim.value.shape[-1]
+    many, of_mass = math.prod(leading), claim.mass_lower_bound is not None
+    goals = claim.value, claim.lower_bound, claim.rounding, claim.yardstick
+    masses = (
+        claim.excess,
+        claim.mass,
+        claim.mass_resolution,
+        claim.mass if claim.mass_lower_bound is None else claim.mass_lower_bound,
     )
-
-
-def _conjunction(of_goals: np.ndarray) -> np.ndarray:
-    """Whether something is so of all goals (...); mostly there is one."""
-    return of_goals[..., 0] if of_goals.shape[-1] == 1 else np.logical_and.reduce(of_goals, axis=-1)
-
-
-def relative_gap(gap: Real, yardstick: Real) -> Real:
-    """Gap over yardstick; where the yardstick is 0 any gap is infinitely large, and no gap is none."""
-    if np.logical_and.reduce(yardstick > 0, axis=None):
-        return gap / yardstick
-    return np.where(yardstick > 0, gap / np.where(yardstick > 0, yardstick, 1.0), np.where(gap > 0, np.inf, 0.0))
+    proven, figures, outcome = np.empty((2, many, several)), np.empty((4, many)), np.empty(many, np.int64)
+    worst = _verdicts().verdicts(
+        tuple([merged(leading, values, 1) for values in goals]),
+        tuple([merged(leading, values, 0) for values in masses]),
+        of_mass,
+        bool(claim.contradicted),
+        (float(tolerance), CEILING_TOLERANCE, MASS_GAP, _MASS_ROUNDING),
+        proven,
+        figures,
+        outcome,
+    )
+    if worst == _CONTRADICTED:
+        false = np.count_nonzero(outcome == _CONTRADICTED)
+        _LOG.error("a lower bound is above the value of an answer: %d of %d", false, many)
+    why = OPTIMAL_LIGHTEST if of_mass else OPTIMAL
+    if worst == 0:
+        status, reason = spread(_OPTIMAL, leading), spread(np.asarray(why, dtype=object), leading)
+    else:
+        place = outcome.reshape(leading)
+        status = np.where(place == 0, "optimal", "inaccurate")
+        # objects, as texts take the room of the longest in each design
+        reason = np.asarray(np.array([why, NOT_LIGHT, NOT_CLOSE, ON_THE_BOUNDARY, CONTRADICTED], object)[place], object)
+    return Verdict(status, reason, *proven.reshape(2, *leading, several), *figures.reshape(4, *leading))
 
 
 def yardstick(statement: Statement) -> Real:
@@ -174,7 +161,7 @@ def yardstick(statement: Statement) -> Real:
     does to a term.
     """
     rest = statement.at_rest
-    if np.logical_and.reduce(rest > 0, axis=None):
+    if np.count_nonzero(rest > 0) == rest.size:
         return rest
     reach = np.minimum(statement.limits.reach, natural_reach(statement)[..., None])
     change = np.add.reduce(np.abs(statement.norms.influence) * reach[..., None, :], axis=(-2, -1))
@@ -193,3 +180,11 @@ def mass_resolution(statement: Statement, yardstick: Real) -> Real:
     yardstick : (..., 1) of the objective or (..., rows) of its rows.
     """
     return _MASS_SHARE * statement.flat.least_masses(yardstick)
+
+
+# loads the compiler, a tenth of a second, and so at the first call; an import at each takes as long as a short loop
+@cache
+def _verdicts() -> ModuleType:
+    from optimizer.program.kernel import verdicts
+
+    return verdicts

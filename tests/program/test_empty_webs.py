@@ -49,7 +49,8 @@ def test_without_dust_a_point_is_as_heavy_as_may_be_claimed(least_mass: bool, mo
     program = in_planes([-1.0, 1.0, 0.3]).alone()
     found = optima(program, 1e-6, True)
     dusty = np.array([[-2.0, -2.5, 1e-9]]) + 0j
-    found = replace(found, unbalance=dusty, objective=program.objective(dusty), mass=program.mass(dusty))
+    objective, mass = program.objective(dusty), program.mass(dusty)
+    found = replace(found, unbalance=dusty, objective=objective, mass=mass, clean=np.zeros(1, bool))
     found.mass_lower_bound[:], found.mass_target[:], found.lower_bound[:] = 4.6, 9.0, 1.0
     asked = []
 
@@ -73,7 +74,8 @@ def test_webs_are_left_empty_in_many_programs_at_once_as_in_each_alone() -> None
     dust = np.array([[1e-9, 0, 0, 0], [0, 0, 1e-9, 0], [0, 1e-9, 1e-9, 0], [0, 0, 0, 0]])
     dusty = np.array([-2.0, -2.5, -1.0, -1.5]) * (dust == 0) + dust + 0j
     objective = program.objective(dusty)
-    found = replace(found, unbalance=dusty, objective=objective, mass=program.mass(dusty))
+    mass, clean = program.mass(dusty), np.zeros(4, bool)
+    found = replace(found, unbalance=dusty, objective=objective, mass=mass, clean=clean)
     found.lower_bound[:], found.mass_lower_bound[:], found.mass_target[:] = objective, 1e-3, objective + 1.0
     alone = [found.chosen(np.array([n])) for n in range(4)]
     leave_empty(program, found, share, True)

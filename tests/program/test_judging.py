@@ -11,7 +11,7 @@ from optimizer.numerics.arrays import Complex
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, best_proof, mass_lower_bound
 from optimizer.program.compiled_evaluation import Shares
-from optimizer.program.methods.rounding import HEAVIER, RUNGS, settled
+from optimizer.program.methods.rounding import HEAVIER, RUNGS, has_dust, settled
 from optimizer.program.multipliers import resting_multipliers
 from optimizer.program.points import Points, points_at
 from optimizer.program.solution import CEILING_ROUNDING
@@ -53,7 +53,8 @@ def _one_by_one(
         certified = certified and chosen.mass - bound <= SHARES.mass_enough * chosen.mass
     most = target if of_mass is not None else lower + SHARES.enough * share
     final: Points = settled(one, chosen, most, bound if of_mass is not None else None)
-    return [best.unbalance, *final, *proof.parts, lower, bound, counted, np.array([certified]).reshape(1)]
+    clean = ~has_dust(one.limits, final.unbalance)
+    return [best.unbalance, *final, *proof.parts, lower, bound, counted, np.array([certified]).reshape(1), clean]
 
 
 @given(seeds=st.lists(st.integers(0, 10**6), min_size=1, max_size=3, unique=True), kind=KINDS, least=st.booleans())
@@ -73,7 +74,14 @@ def test_what_is_judged_together_is_what_is_judged_one_by_one(seeds: list[int], 
         Multipliers(*(np.stack(parts) for parts in zip(*(each.parts for each in some), strict=True))) for some in duals
     )
     found = whole.flat.judge(
-        share, demand, SHARES, (ends[0], ends[1]), proof.parts, of_mass.parts if least else None, RUNGS
+        share,
+        demand,
+        whole.constant_sizes,
+        SHARES,
+        (ends[0], ends[1]),
+        proof.parts,
+        of_mass.parts if least else None,
+        RUNGS,
     )
     for n, one in enumerate(programs):
         expected = _one_by_one(
@@ -99,7 +107,9 @@ def test_a_point_that_is_no_number_is_not_taken(least: bool) -> None:
     made = program(4, (False, {"ceiling"}, None))
     one, dual = made.alone(), tuple(part[None] for part in _multipliers(1, made).parts)
     nowhere, first = np.full((1, WEBS), np.nan + 0j), np.ones(1)
-    found = one.flat.judge(first, first, SHARES, (nowhere, nowhere), dual, dual if least else None, RUNGS)
+    found = one.flat.judge(
+        first, first, one.constant_sizes, SHARES, (nowhere, nowhere), dual, dual if least else None, RUNGS
+    )
     assert not np.any(found.smallest)
     assert not np.any(found.unbalance)
     assert found.figures[0] == pytest.approx(one.at_rest)

@@ -7,14 +7,14 @@ _REACH = 10.0
 
 
 @in_place
-def scales(rest, influence, natural, limits, at_least, share, gaps, reach, unit, targets):  # type: ignore[no-untyped-def]
+def scales(rest, influence, changes, single, limits, at_least, share, gaps, reach, unit, targets):  # type: ignore[no-untyped-def]
     """How far webs reach, what the objective is measured by, and what is asked of it in that unit, of N programs.
 
     Parameters
     ----------
     rest : (N,) sum of the sizes of the J terms without counterweights.
     influence : (N, J, K) of the terms, real.
-    natural : (N,) reach that cancels everything.
+    changes, single : (N, K) kg m, sizes of what cancels everything, and (N,) the largest that one vector calls for.
     limits : (N, K) radius and (N, K) largest mass of the webs, and (N,) budget.
     at_least : (N,) what the objective comes to under the ceilings, or less.
     share : (N,) what optima may differ by.
@@ -24,9 +24,11 @@ def scales(rest, influence, natural, limits, at_least, share, gaps, reach, unit,
     radius, most, budget = limits
     number, terms, webs = influence.shape
     for n in range(number):
-        reachable = 0.0
+        reachable, natural = 0.0, single[n]
         for k in range(webs):
-            reach[n, k] = min(radius[n, k] * min(most[n, k], budget[n]), _REACH * natural[n])
+            natural = max(natural, changes[n, k])
+        for k in range(webs):
+            reach[n, k] = min(radius[n, k] * min(most[n, k], budget[n]), _REACH * natural)
         for j in range(terms):
             for k in range(webs):
                 reachable += abs(influence[n, j, k]) * reach[n, k]

@@ -5,11 +5,14 @@ import numpy as np
 
 from optimizer.program.kernel.bounds import bound
 from optimizer.program.kernel.compiling import folded, in_place
+from optimizer.program.kernel.lengths import length
 from optimizer.program.kernel.settling import copy, settle_point
 from optimizer.program.kernel.values import value
 
 #: of what optima may differ by, a gap in which no other proof is worth its time
 _SHARP = 1e-4
+#: of a mass that is told from dust whatever the rounding
+_ABOVE = 1.0 + 1e-9
 
 
 @folded
@@ -122,6 +125,18 @@ def step_towards(light, smallest, target):  # type: ignore[no-untyped-def]
     return over / fall if over > 0.0 and fall > over else 0.0
 
 
+@folded
+def is_clean(u, radius, dust):  # type: ignore[no-untyped-def]
+    """Whether all masses of unbalances (K,) that are not 0 are above a share of the largest by more than rounding."""
+    most, clean = 0.0, True
+    for k in range(u.size):
+        most = max(most, length(u[k]) / radius[k])
+    for k in range(u.size):
+        mass = length(u[k]) / radius[k]
+        clean = clean and (mass == 0.0 or mass > _ABOVE * dust * most)
+    return clean
+
+
 @in_place
 def judge(  # type: ignore[no-untyped-def]
     share,
@@ -142,6 +157,7 @@ def judge(  # type: ignore[no-untyped-def]
     proof,
     bounds,
     certified,
+    clean,
 ):
     """Of the ends of both stages of N programs the points to take, with their proofs.
 
@@ -151,12 +167,12 @@ def judge(  # type: ignore[no-untyped-def]
     shares : :class:`optimizer.program.compiled_evaluation.Shares`.
     smallest, lightest : (N, K) the ends; the first is written to: the smallest objective, rest among them.
     solver, mass_solver : multipliers, three arrays (N, J), (N, R), (N, I) each.
-    sizes : (N, J) of the constants of the terms.
+    sizes : (N, J + I) of the constants of the terms, and of more.
     rungs, work, scaled : as of :func:`optimizer.program.kernel.settling.settle`.
     unbalance, figures : (N, K), and (4, N) as of :func:`optimizer.program.kernel.values.values`, to be written to.
     proof : three arrays as of the multipliers, to be written to.
     bounds : (3, N) of the objective, of the mass, and the largest objective that this one counts as an optimum.
-    certified : (N,) bool.
+    certified, clean : (N,) bool, the second whether all counterweights are well above dust.
     """
     number, _, webs = programs.influence.shape
     for n in range(number):
@@ -214,3 +230,4 @@ def judge(  # type: ignore[no-untyped-def]
         figures[0, n], figures[1, n], figures[2, n], figures[3, n] = chosen
         settle_point(u, figures, target, heaviest, shares.rounding, rungs, programs, n, work, scaled)
         bounds[0, n], bounds[1, n], bounds[2, n], certified[n] = lower, mass_bound, counted, done
+        clean[n] = is_clean(u, programs.region.radius[n], rungs[0, 0])

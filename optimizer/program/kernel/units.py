@@ -114,16 +114,22 @@ def least_masses(owner, rows, influence, region, objective, size, least):  # typ
 
 
 @in_place
-def single_reaches(sizes, influence, reach):  # type: ignore[no-untyped-def]
+def single_reaches(sizes, influence, limits, far, reach):  # type: ignore[no-untyped-def]
     """The largest unbalance that one vector calls for by itself, of N programs.
+
+    And whether some web has no limit, or one that is far beyond that, and whether some can carry nothing.
 
     Parameters
     ----------
     sizes : (N, Q) of the vectors without counterweights.
     influence : (N, Q, K) magnitudes, or real.
+    limits : (N, K) radius and (N, K) largest mass of the webs, and (N,) budget.
+    far : multiple of that unbalance which is far beyond it.
     reach : (N,) kg m, to be written to.
     """
+    radius, largest, budget = limits
     number, vectors, webs = influence.shape
+    beyond, idle = False, False
     for n in range(number):
         reach[n] = 0.0
         for q in range(vectors):
@@ -132,3 +138,8 @@ def single_reaches(sizes, influence, reach):  # type: ignore[no-untyped-def]
                 most = max(most, abs(influence[n, q, k]))
             if most > 0.0:
                 reach[n] = max(reach[n], sizes[n, q] / most)
+        for k in range(webs):
+            most = min(largest[n, k], budget[n])
+            beyond = beyond or largest[n, k] == np.inf or most > far * reach[n] / radius[n, k]
+            idle = idle or not radius[n, k] * most > 0.0
+    return beyond, idle

@@ -18,7 +18,7 @@ from optimizer.program.kernel.finer_numbers import Precision, solve_in
 from optimizer.program.methods.disc_programs import discs_of, suits_discs
 from optimizer.program.methods.rounding import HEAVIER, RUNGS
 from optimizer.program.points import points_at
-from optimizer.program.scaling import natural_reach
+from optimizer.program.scaling import cancelling
 from optimizer.program.solution import CEILING_ROUNDING, Solutions, joined
 from optimizer.program.statement import Statement
 
@@ -93,15 +93,16 @@ def both_stages(
         finer = _Tolerances(1e-7, finest, 100 * finest, precision.mass, 0.1 * CEILING_ROUNDING)
         solved = _solve(statement, share, least_mass, finer, _in(precision), at_least)
         return _judged(statement, share, demand, least_mass, solved)
-    (discs,), level = suits_discs(statement, least_mass).nonzero(), at_least + np.zeros(share.shape)
+    (discs,) = suits_discs(statement, least_mass).nonzero()
+    level = at_least if isinstance(at_least, np.ndarray) else np.full(share.shape, at_least)
     if not discs.size:
         return _in_any_limits(statement, share, demand, least_mass, level)
     part, some = (statement.chosen(discs), discs) if discs.size < share.size else (statement, slice(None))
     solved = _solve(part, share[some], least_mass, _DOUBLE, _in_discs, level[some])
     quick = _judged(part, share[some], demand[some], least_mass, solved)
     if discs.size == share.size:
-        left = (~quick.certified).nonzero()[0]
-        if left.size:
+        if np.count_nonzero(quick.certified) < share.size:
+            left = np.flatnonzero(~quick.certified)
             quick.put(left, _in_any_limits(statement.chosen(left), share[left], demand[left], least_mass, level[left]))
         return quick
     done = discs[quick.certified]
@@ -173,6 +174,7 @@ def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, s
     judgement = statement.flat.judge(
         share,
         demand,
+        statement.constant_sizes,
         _SHARES if least_mass else _SHARES_OF_ANY_MASS,
         (solved.smallest, solved.lightest),
         solved.proof.parts,
@@ -191,7 +193,8 @@ def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, s
         multipliers=Multipliers(*judgement.proof),
         mass_multipliers=solved.mass_proof if least_mass else nothing_proven(statement),
         mass_target=judgement.mass_target,
-        certify_s=np.zeros(share.shape) + certify_s / max(share.size, 1),
+        certify_s=np.full(share.shape, certify_s / max(share.size, 1)),
+        clean=judgement.clean,
         smallest=judgement.smallest,
         certified=judgement.certified,
     )
@@ -256,8 +259,7 @@ def _physical(
     terms, ceilings = programs.owner.size, programs.size.shape[1]
     proof = np.empty((*stages, terms), complex), np.empty(row.shape), np.empty((*stages, ceilings), complex)
     arrays = in_order(v), in_order(cone), in_order(row), in_order(mass_unit)
-    mean = np.empty(v.shape[-1:], complex)
-    _units().physical(*arrays, *scales, programs.size, programs.region, mean, points, proof)
+    _units().physical(*arrays, *scales, programs.size, programs.region, programs.vectors[0], points, proof)
     return points, proof
 
 
@@ -269,11 +271,12 @@ def _scales(
     many, _, webs = influence.shape
     reach, unit, demands = np.empty((many, webs)), np.empty(many), np.empty((2, many))
     _disc_forms().scales(
-        np.add.reduce(np.abs(statement.norms.constant), axis=-1),
+        np.add.reduce(statement.constant_sizes[..., : statement.row.size], axis=-1),
         influence,
-        natural_reach(statement),
+        np.abs(cancelling(statement)),
+        in_order(statement.single_reach),
         (region.radius, region.max_mass, region.budget),
-        at_least + np.zeros(many),
+        at_least if isinstance(at_least, np.ndarray) else np.full(many, at_least),
         in_order(share),
         (tolerances.sharpness, tolerances.finest, tolerances.coarsest),
         reach,

@@ -1,7 +1,7 @@
 """Programs for the interior point for discs (:mod:`optimizer.program.kernel.discs`): which, and in its form."""
 
 from collections.abc import Sequence
-from functools import cache
+from functools import cache, lru_cache
 from types import ModuleType
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -39,8 +39,11 @@ def suits_discs(statement: Statement, least_mass: bool = True) -> np.ndarray:
     if pair is None or limits.alike is not None:
         return np.zeros(statement.floor.shape[:-1], bool)
     if not least_mass:
-        plain_webs = np.logical_and.reduce(limits.free, axis=-1) & ~limits.budget_ends
+        plain_webs = limits.all_free or np.logical_and.reduce(limits.free, axis=-1)
+        plain_webs = plain_webs & ~limits.budget_ends
         return plain_webs & bool(terms < 3 and not statement.ceilings.names)
+    if limits.all_free:
+        return pair.holds
     wide = np.logical_and.reduce(limits.free | (limits.half_angle_sin >= _THINNEST), axis=-1)
     return np.asarray(wide & pair.holds)
 
@@ -71,9 +74,13 @@ def discs_of(
         budgeted,
         every,
     )
-    sectors, none = ~np.logical_and.reduce(region.free, axis=-1), np.empty((many, 5, 0))
+    none = np.empty((many, 5, 0))
+    if many == 1:
+        normals = none if statement.limits.all_free else _frame(statement)
+        return [(None, bool(budgeted[0]), _disc_starts().Discs(pair.basis, *every, normals))]
+    sectors = ~np.logical_and.reduce(region.free, axis=-1)
     kinds = 2 * sectors + budgeted
-    if many == 1 or (kinds == kinds[0]).all():
+    if (kinds == kinds[0]).all():
         normals = _frame(statement) if sectors[0] else none
         return [(None, bool(budgeted[0]), _disc_starts().Discs(pair.basis, *every, normals))]
     frame, parts = _frame(statement) if np.count_nonzero(sectors) else none, []
@@ -115,8 +122,8 @@ class _Pair(NamedTuple):
 
     basis: np.ndarray  # (Q,) of which response
     multiple: Real  # (N, Q)
-    influence: Real  # (N, 2, K) of both; of fewer than three vectors these
     holds: np.ndarray  # (N,) bool, whether the vectors are such multiples
+    influence: Real  # (N, 2, K) of both; of fewer than three vectors these
 
 
 @remembered
@@ -126,11 +133,9 @@ def _pair(statement: Statement) -> _Pair | None:
     if basis is None:
         return None
     number, vectors, webs = every.shape
-    multiple, holds = np.empty((number, vectors)), np.empty(number, bool)
-    multiple.fill(1.0)
-    holds.fill(True)
     if vectors < 3:
-        return _Pair(basis, multiple, every, holds)
+        return _Pair(basis, *_by_themselves(number, vectors), every)
+    multiple, holds = np.ones((number, vectors)), np.ones(number, bool)
     two = np.zeros((number, 2, webs))
     for b in range(2):
         (own,) = (basis == b).nonzero()
@@ -146,7 +151,13 @@ def _pair(statement: Statement) -> _Pair | None:
         off = np.abs(influence - along[..., None] * largest[:, None])
         multiple[:, own], two[:, b] = along, largest
         holds &= (np.maximum.reduce(off, axis=-1) <= _SAME * size).all(axis=-1)
-    return _Pair(basis, multiple, two, holds)
+    return _Pair(basis, multiple, holds, two)
+
+
+@lru_cache(maxsize=8)
+def _by_themselves(number: int, vectors: int) -> tuple[Real, np.ndarray]:
+    """Multiples of programs whose vectors are the two themselves, and that they hold; nobody writes to these."""
+    return np.ones((number, vectors)), np.ones(number, bool)
 
 
 # loads the compiler, a tenth of a second, and so at the first call; an import at each takes as long as a short loop

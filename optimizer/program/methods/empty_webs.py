@@ -53,6 +53,8 @@ def leave_empty(statement: Statement, solutions: Solutions, share: Real, least_m
     """
     if statement.limits.radius.shape[-1] < 2:
         return
+    if np.count_nonzero(solutions.clean) == solutions.clean.size:
+        return
     dusty = has_dust(statement.limits, solutions.unbalance)
     if not np.count_nonzero(dusty):
         return
@@ -91,6 +93,7 @@ def _put(solutions: Solutions, programs: np.ndarray, points: Points) -> None:
     """Points as the answers of some of the programs."""
     solutions.unbalance[programs], solutions.objective[programs] = points.unbalance, points.objective
     solutions.mass[programs], solutions.excess[programs] = points.mass, points.excess
+    solutions.clean[programs] = False
 
 
 def _emptied(

@@ -12,6 +12,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import SMALLEST, Complex, Real
 from optimizer.program.ceilings import CEILING_TOLERANCE
+from optimizer.program.compiled_evaluation import FAR
 from optimizer.program.equal_unknowns import united
 from optimizer.program.limits import Limits
 from optimizer.program.norms import scalars
@@ -19,8 +20,6 @@ from optimizer.program.reference.solver import smallest_objective
 from optimizer.program.scaling import natural_reach
 from optimizer.program.statement import Statement
 
-#: a limit this many times the unbalance that cancels everything is as far away as none
-_FAR = 1e3
 #: what every figure is raised by for its rounding
 _MARGIN = 1.0 + 1e-9
 #: rows whose influences agree to this many eps are one response; what they differ by is within the rounding of a bound
@@ -38,20 +37,15 @@ LARGEST = 1e15
 def far_limits(statement: Statement) -> np.ndarray:
     """Webs without a limit, or with one as far away as none (..., K)."""
     limits = statement.limits
-    none = np.isinf(limits.max_mass)
     # what one term calls for is no more than what all call for, and cheaper to tell
-    far = none | _beyond(limits, statement.single_reach)
-    return none | _beyond(limits, natural_reach(statement)) if np.count_nonzero(far) else far
-
-
-def _beyond(limits: Limits, natural: Real) -> np.ndarray:
-    return limits.most > _FAR * natural[..., None] / limits.radius
+    if not statement.reaches.beyond:
+        return np.zeros(statement.flat.leading + limits.radius.shape[-1:], bool)
+    return np.isinf(limits.max_mass) | (limits.most > FAR * natural_reach(statement)[..., None] / limits.radius)
 
 
 def within_reach(statement: Statement) -> Statement:
     """Programs (...) with a finite, proven limit wherever there is none, or one far beyond any need."""
-    webs = far_limits(statement)
-    if not np.count_nonzero(webs):
+    if not (statement.reaches.beyond and np.count_nonzero(webs := far_limits(statement))):
         return statement
     far = np.asarray(webs.any(axis=-1))
     most = statement.limits.max_mass.copy()

@@ -14,7 +14,7 @@ from optimizer.numerics.records import record
 from optimizer.program.certificate import Multipliers, mass_bound_up_to, nothing_proven
 from optimizer.program.equal_unknowns import apart, united
 from optimizer.program.methods.cascade import cascade
-from optimizer.program.methods.compiled import both_stages, suits_kernel
+from optimizer.program.methods.compiled import BothStages, both_stages, suits_kernel
 from optimizer.program.methods.empty_webs import leave_empty
 from optimizer.program.methods.feasibility_phase import smallest_excesses
 from optimizer.program.methods.inactive_rows import settle_without_slack_rows
@@ -35,6 +35,7 @@ from optimizer.program.verdict import yardstick
 
 #: what optima have of solutions, before what they have of their own
 _OF_SOLUTIONS = attrgetter(*(field.name for field in fields(Solutions)))
+_NO_PROGRAM = np.zeros(0, int)
 #: of what is compiled: without webs, and with some
 _METHODS = (np.array([CLOSED_FORM], dtype=object), np.array([INTERIOR_POINT], dtype=object))
 
@@ -90,9 +91,9 @@ def optima(statement: Statement, relative_gap: float, least_mass: bool) -> Optim
         # no proof says otherwise: the terms are the same, and so are the multipliers
         answer = optima(united(statement, alike), relative_gap, least_mass)
         return replace(answer, unbalance=apart(answer.unbalance, alike))
-    carries = statement.limits.reach > 0
-    if np.logical_and.reduce(carries, axis=None):
+    if not statement.reaches.idle:
         return _optima(statement, relative_gap, least_mass)
+    carries = statement.limits.reach > 0
     # webs that cannot carry anything are left out of their programs
     patterns, which = np.unique(carries, axis=0, return_inverse=True)
     parts, places = [], []
@@ -114,7 +115,7 @@ def _optima(statement: Statement, relative_gap: float, least_mass: bool) -> Opti
     if stages is not None:
         settle_without_slack_rows(statement, share, demand, least_mass, stages)
     answer = _nothing(statement) if stages is None else _compiled(statement, stages)
-    left = np.arange(size.size) if stages is None else (~stages.certified).nonzero()[0]
+    left = np.arange(size.size) if stages is None else _uncertified(stages)
     if stages is not None and left.size and statement.ceilings.names:
         left = _without_unreachable(statement, answer, left)
     for n in left.tolist():
@@ -134,6 +135,12 @@ def _optima(statement: Statement, relative_gap: float, least_mass: bool) -> Opti
     return answer
 
 
+def _uncertified(stages: BothStages) -> np.ndarray:
+    """Programs that both stages left open; mostly none."""
+    certified = stages.certified
+    return _NO_PROGRAM if np.count_nonzero(certified) == certified.size else np.flatnonzero(~certified)
+
+
 def _without_unreachable(statement: Statement, answer: Optima, programs: np.ndarray) -> np.ndarray:
     """Some programs without those whose ceilings are proven to be out of reach, which are answered, all at once.
 
@@ -147,7 +154,7 @@ def _without_unreachable(statement: Statement, answer: Optima, programs: np.ndar
     answer.excess[at], answer.lower_bound[at], answer.mass_lower_bound[at] = points.excess, -np.inf, 0.0
     answer.multipliers.put(at, nothing_proven(some.chosen(over)))
     answer.mass_target[at], answer.certify_s[at] = np.inf, proven.certify_s
-    answer.unreachable[at], answer.method[at] = True, CONE_PROGRAM
+    answer.unreachable[at], answer.method[at], answer.clean[at] = True, CONE_PROGRAM, False
     answer.conflict.put(at, proven.multipliers)
     return programs[~over]
 
@@ -181,6 +188,7 @@ def _nothing(statement: Statement) -> Optima:
         mass_multipliers=nothing_proven(statement),
         mass_target=endless.copy(),
         certify_s=np.zeros(webs[:-1]),
+        clean=np.zeros(webs[:-1], bool),
         unreachable=np.zeros(webs[:-1], bool),
         method=np.full(webs[:-1], CONE_PROGRAM, dtype=object),
         conflict=_no_conflict(statement),
@@ -188,7 +196,7 @@ def _nothing(statement: Statement) -> Optima:
 
 
 def _put(answer: Optima, n: int, solution: ConeSolution) -> None:
-    answer.unreachable[n] = solution.conflict is not None
+    answer.unreachable[n], answer.clean[n] = solution.conflict is not None, False
     for field in fields(ConeSolution):
         value = getattr(solution, field.name)
         if isinstance(value, Multipliers):

@@ -6,14 +6,18 @@ keeps its size and every counterweight its mass; sizes are convex, so that of th
 the mass (docs/mathematics.md section 9).
 """
 
-from functools import cache
+from functools import cache, lru_cache
 from types import ModuleType
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, in_order
 from optimizer.program.equal_unknowns import apart, united
 from optimizer.program.statement import Statement
+
+if TYPE_CHECKING:
+    from optimizer.program.kernel.symmetries import Work
 
 
 def symmetric(statement: Statement, u: Complex, kinds: np.ndarray | None = None) -> Complex:
@@ -35,22 +39,33 @@ def symmetric(statement: Statement, u: Complex, kinds: np.ndarray | None = None)
         return u
     programs, region = statement.flat.programs, statement.flat.programs.region
     _, terms, webs = programs.influence.shape
-    numbers, own, places = np.empty((terms + 2, webs)), np.empty((2, terms)), np.empty((5, webs), np.int64)
-    work = _symmetries().Work(
-        numbers[:terms], own[0], own[1], np.empty(terms, bool), numbers[terms], numbers[terms + 1],
-        np.empty(webs, complex), places[0], places[1:3], places[3:],
-    )  # fmt: skip
     means: Complex = np.array(u, complex, order="C")
     _symmetries().means(
         programs.constant,
         programs.influence,
         _symmetries().Alike(region.radius, region.max_mass, region.free, region.centre, region.sine),
-        np.zeros(u.shape[-1], np.int64) if kinds is None else kinds.astype(np.int64),
+        _single_kind(webs) if kinds is None else kinds.astype(np.int64),
         in_order(u),
-        work,
+        _work(terms, webs),
         means,
     )
     return means
+
+
+@lru_cache(maxsize=64)
+def _single_kind(webs: int) -> np.ndarray:
+    """That all are of one kind (K,); nobody writes to it."""
+    return np.zeros(webs, np.int64)
+
+
+# the kernel writes to it and leaves nothing there
+@lru_cache(maxsize=64)
+def _work(terms: int, webs: int) -> "Work":
+    numbers, own, places = np.empty((terms + 2, webs)), np.empty((2, terms)), np.empty((5, webs), np.int64)
+    return _symmetries().Work(
+        numbers[:terms], own[0], own[1], np.empty(terms, bool), numbers[terms], numbers[terms + 1],
+        np.empty(webs, complex), places[0], places[1:3], places[3:],
+    )  # fmt: skip
 
 
 # loads the compiler, a tenth of a second, and so at the first call; an import at each takes as long as a short loop
