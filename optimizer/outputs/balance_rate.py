@@ -1,19 +1,19 @@
 """Balance rates of the throws: how much of its own crank each pair of webs balances."""
 
-from cmath import isnan
 from typing import NamedTuple
 
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.balance_rate import balance_rates, customary
 from optimizer.mechanics.crank_of_web import shares
 from optimizer.mechanics.layout import layout, stacked
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import SMALLEST, Complex, Real
 from optimizer.numerics.memoization import remembered
 from optimizer.outputs.output import Columns, Output
 from schemas.answer.answers import BalanceRate
 from schemas.answer.outputs import labels
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.machine.throws import Throw
 
 
 class Cranks(NamedTuple):
@@ -35,7 +35,7 @@ class Cranks(NamedTuple):
 @remembered
 def cranks(machine: ReciprocatingMachine) -> Cranks:
     """Throws of a machine and their webs; its fields may hold columns (n,)."""
-    masses = [throw.rotating_mass_kg + sum(row.rotating_kg for row in throw.rows) for throw in machine.throws]
+    masses = [_rotating_mass(throw) for throw in machine.throws]
     radii = stacked([throw.crank_radius_m for throw in machine.throws])
     crank = layout(machine).cranks
     assert crank is not None  # it is no scroll machine
@@ -46,16 +46,30 @@ def balance_rate(machine: Machine, unbalance: Complex | None) -> tuple[BalanceRa
     """Balance rates with counterweights (webs,) kg m; none without counterweights to show, or without throws."""
     if unbalance is None or not isinstance(machine, ReciprocatingMachine):
         return ()
-    rates = cranks(machine).rates(unbalance)
+    crank = layout(machine).cranks
+    assert crank is not None  # it is no scroll machine
+    webs = unbalance.tolist()
     return tuple(
-        BalanceRate(
-            throw=number,
-            name=throw.name,
-            rate=None if isnan(rate) else rate.real + 0.0,
-            sideways=None if isnan(rate) else rate.imag + 0.0,
-        )
-        for number, (throw, rate) in enumerate(zip(machine.throws, rates.tolist(), strict=True))
+        [
+            _rate(number, throw, _rotating_mass(throw) * throw.crank_radius_m * vector, share, webs)
+            for number, (throw, vector, share) in enumerate(
+                zip(machine.throws, crank.tolist(), shares(machine).tolist(), strict=True)
+            )
+        ]
     )
+
+
+def _rotating_mass(throw: Throw) -> float:
+    """With the rotating shares of the rods, kg; fields of the throw may hold columns."""
+    return throw.rotating_mass_kg + sum([row.rotating_kg for row in throw.rows])
+
+
+def _rate(number: int, throw: Throw, rotating: complex, share: list[float], webs: list[complex]) -> BalanceRate:
+    """As :func:`optimizer.mechanics.balance_rate.balance_rates`, of one throw in plain numbers."""
+    if not abs(rotating) > SMALLEST:
+        return BalanceRate(throw=number, name=throw.name, rate=None, sideways=None)
+    rate = -sum([part * vector for part, vector in zip(share, webs, strict=True)], 0j) / rotating
+    return BalanceRate(throw=number, name=throw.name, rate=rate.real + 0.0, sideways=rate.imag + 0.0)
 
 
 def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:

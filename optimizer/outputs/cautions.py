@@ -57,8 +57,8 @@ class Evidence:
     def sizes(self) -> tuple[float, float]:
         """Sum of the centrifugal forces of all cranks [N], and that times the span [N m]."""
         masses, rows = self.scene.layout.rotating, self.scene.layout.reciprocating
-        unbalance = np.add.reduce(masses.mass * masses.radius) + np.add.reduce(rows.mass * rows.crank_radius)
-        force = float(unbalance) * self.scene.omega_squared
+        unbalance = float(masses.mass @ masses.radius) + float(rows.mass @ rows.crank_radius)
+        force = unbalance * self.scene.omega_squared
         return force, force * float(span(self.scene.machine))
 
 
@@ -124,12 +124,13 @@ def _second_order(evidence: Evidence) -> Iterator[Caution]:
     first, second = (None, None) if residual is None or residual.orders.after is None else residual.orders.after
     if residual is None or first is None or second is None:
         return
-    force, moment = evidence.sizes
-    for what, left, twice, size, unit in (
-        ("force", first.force.peak_N, second.force.peak_N, force, "N"),
-        ("moment", first.moment.peak_Nm, second.moment.peak_Nm, moment, "N m"),
+    for kind, (what, left, twice, unit) in enumerate(
+        (
+            ("force", first.force.peak_N, second.force.peak_N, "N"),
+            ("moment", first.moment.peak_Nm, second.moment.peak_Nm, "N m"),
+        )
     ):
-        if twice > left and twice > _NOTABLE * size:
+        if twice > left and twice > _NOTABLE * evidence.sizes[kind]:
             yield Caution(
                 code="second_order_remains",
                 message=f"A {what} of {_plain(twice)} {unit} remains at twice the shaft speed, more than the "
@@ -165,14 +166,14 @@ def _component_grows(evidence: Evidence) -> Iterator[Caution]:
     residual: Residual | None = evidence.fields.get("residual")
     if residual is None or residual.after is None:
         return
-    (was, now), (force, moment) = (residual.before, residual.after), evidence.sizes
-    for what, unit, size, axis, before, after in (
-        ("force along x", "N", force, "x", was.force.peak_x_N, now.force.peak_x_N),
-        ("force along y", "N", force, "y", was.force.peak_y_N, now.force.peak_y_N),
-        (_COUPLES[0], "N m", moment, "x", was.moment.peak_x_Nm, now.moment.peak_x_Nm),
-        (_COUPLES[1], "N m", moment, "y", was.moment.peak_y_Nm, now.moment.peak_y_Nm),
+    was, now = residual.before, residual.after
+    for what, unit, kind, axis, before, after in (
+        ("force along x", "N", 0, "x", was.force.peak_x_N, now.force.peak_x_N),
+        ("force along y", "N", 0, "y", was.force.peak_y_N, now.force.peak_y_N),
+        (_COUPLES[0], "N m", 1, "x", was.moment.peak_x_Nm, now.moment.peak_x_Nm),
+        (_COUPLES[1], "N m", 1, "y", was.moment.peak_y_Nm, now.moment.peak_y_Nm),
     ):
-        if after > before + _NOTABLE * size:
+        if after > before and after > before + _NOTABLE * evidence.sizes[kind]:
             yield Caution(
                 code="component_grows",
                 message=f"The {what} grows from {_plain(before)} to {_plain(after)} {unit}: weigh "
@@ -207,18 +208,25 @@ def _loads_grow(evidence: Evidence) -> Iterator[Caution]:
     shown: MainBearings | None = evidence.fields.get("main_bearings")
     if shown is None or evidence.unbalance is None or not isinstance(machine, ReciprocatingMachine) or not machine.webs:
         return
-    count = len(machine.bearings)
-    before = np.array([*(bearing.before.peak_N for bearing in shown.bearings), *shown.bending.before_Nm])
-    after = np.array(
-        [*(bearing.after.peak_N for bearing in shown.bearings if bearing.after), *(shown.bending.after_Nm or ())]
+    loaded = [bearing.after.peak_N for bearing in shown.bearings if bearing.after]
+    kinds: tuple[tuple[CautionCode, str, str, float, float], ...] = (
+        (
+            "bearing_load_grows",
+            "bearing load",
+            "N",
+            max(loaded),
+            max(bearing.before.peak_N for bearing in shown.bearings),
+        ),
+        (
+            "bending_moment_grows",
+            "bending moment",
+            "N m",
+            max(shown.bending.after_Nm or ()),
+            max(shown.bending.before_Nm),
+        ),
     )
-    kinds: tuple[tuple[CautionCode, str, str, slice], ...] = (
-        ("bearing_load_grows", "bearing load", "N", slice(0, count)),
-        ("bending_moment_grows", "bending moment", "N m", slice(count, None)),
-    )
-    largest = [tuple(float(np.max(peaks[some])) for *_, some in kinds) for peaks in (after, before)]
     usual = customary_peaks(scene, lambda: cranks(machine).customary)
-    for (code, what, unit, _), now, bare, of_usual in zip(kinds, *largest, usual, strict=True):
+    for (code, what, unit, now, bare), of_usual in zip(kinds, usual, strict=True):
         for than, of in ((bare, "without counterweights"), (of_usual, "of a crank balanced throw by throw")):
             if now > than * (1.0 + _ALIKE):
                 yield Caution(

@@ -12,8 +12,8 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.peaks import (
     largest_of_rows,
-    of_rows,
     of_torque,
+    row_magnitudes,
     row_peaks,
     rows_search,
     torque_peak,
@@ -146,7 +146,7 @@ def rod_loads(scene: Prepared, _fitted: Complex | None = None) -> RodLoads:
     result = scene.results["rod_forces"]
     forces = _by_row(scene, result.rod, result.side, result.tangential, result.radial)
     by_case = [_cases(case, *row_peaks(scene, reading)) for case, reading in CASES.items()]
-    least, most = (part.tolist() for part in of_rows(scene, "side").magnitude[2:])
+    sides = row_magnitudes(scene, "side")
     rows = []
     for k, (labels, rod, side, tangential, radial) in enumerate(forces):
         cases = tuple(column[k] for column in by_case)
@@ -158,8 +158,8 @@ def rod_loads(scene: Prepared, _fitted: Complex | None = None) -> RodLoads:
                 side_N=side,
                 tangential_N=tangential,
                 radial_N=radial,
-                peak_side_N=least[k],
-                peak_side_bracket_N=(least[k], most[k]),
+                peak_side_N=sides[k][0],
+                peak_side_bracket_N=sides[k],
                 cases=cases,
                 governing_case=worst.case,
                 governing_load_N=_largest(worst),
@@ -182,8 +182,8 @@ def torque(scene: Prepared, _fitted: Complex | None = None) -> Torque:
     result, integrals = scene.results["torque"], scene.results["torque_integrals"]
     errors, shaft_power = scene.results["torque_errors"], _shaft_power(scene)
     peak = torque_peak(scene, result.rotating_friction)
-    radius = scene.layout.reciprocating.crank_radius
-    common_radius = radius.size > 0 and bool(np.all(radius == radius[0]))
+    radii, samples = scene.layout.reciprocating.crank_radius.tolist(), result.total.tolist()
+    common_radius = len(set(radii)) == 1
     return Torque(
         angle_deg=scene.angles,
         rows=tuple(
@@ -191,8 +191,8 @@ def torque(scene: Prepared, _fitted: Complex | None = None) -> Torque:
             for labels, samples, mean in _by_row(scene, result.rows, integrals.row_mean)
         ),
         rotating_friction_Nm=float(result.rotating_friction),
-        torque_Nm=result.total.tolist(),
-        tangential_N=(result.total / radius[0]).tolist() if common_radius else None,
+        torque_Nm=samples,
+        tangential_N=[torque / radii[0] for torque in samples] if common_radius else None,
         peak_Nm=peak.lower[0],
         peak_bracket_Nm=peak.bracket(),
         peak_angle_deg=peak.angle_deg[0],

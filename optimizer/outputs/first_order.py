@@ -13,16 +13,15 @@ from optimizer.mechanics.frame import phasors
 from optimizer.mechanics.inertia import Wrench
 from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.outputs.ellipses import PolarPair, magnitudes
 from optimizer.outputs.output import Columns, Output
-from optimizer.outputs.phasors import Polars, orders_of, vectors_of
+from optimizer.outputs.phasors import PlainWrench, PolarWrench, polar_wrenches, vectors_of
 from optimizer.responses.response import Phasors
 from schemas.answer.first_order import FirstOrder, Floor, Residual, ResponseChange, ResponsePeak
 from schemas.answer.outputs import Hodograph, Hodographs
 from schemas.answer.proof import BoundMultipliers
 from schemas.base.responses import PAIR
 
-#: squares of the directions x and y
-_SQUARES = np.array([1.0, -1.0]).reshape(2, 1, 1)
 #: figures of an ellipse in their units
 _FIELDS = tuple(
     (
@@ -43,8 +42,7 @@ _FIELDS = tuple(
 
 def first_order(wrench: Wrench) -> FirstOrder:
     """Ellipses of force [N] and moment [N m] of one machine."""
-    vectors = vectors_of([wrench])
-    return FirstOrder.model_validate(_ellipses(Polars.of(vectors))[0])
+    return FirstOrder.model_validate(_ellipses(polar_wrenches([PlainWrench.of(wrench)]))[0])
 
 
 def floor(layout: Layout, wrench: Wrench) -> Floor:
@@ -52,7 +50,7 @@ def floor(layout: Layout, wrench: Wrench) -> Floor:
 
     A balance shaft that turns backwards can, each by itself; the moment only outside the reference plane.
     """
-    force, moment = (float(np.abs(pair.counter)) for pair in wrench)
+    force, moment = magnitudes([complex(pair.counter) for pair in wrench])
     if layout.balance is not None:
         backwards = layout.balance.ratio == -1.0
         force = 0.0 if backwards.any() else force
@@ -120,31 +118,32 @@ def smallest_proofs(proofs: Mapping[str, BoundMultipliers]) -> dict[str, BoundMu
 def residual(scene: Prepared, unbalance: Complex | None) -> Residual:
     """First order of one machine without and with counterweights, and the second beside it."""
     shown = [scene.first_order()] if unbalance is None else [scene.first_order(), scene.first_order(unbalance)]
-    second = _second_order(scene, [False] if unbalance is None or scene.shafts is None else [False, True])
-    polars, count = Polars.of(vectors_of([*shown, *second])), len(shown)
-    orders = orders_of([1] * count + [2] * len(second), polars)
-    first, twice, ellipses = orders[:count], orders[count:], _ellipses(polars.first(count))
+    fitted = unbalance is not None
+    count, with_shafts = len(shown), [False, True] if fitted and scene.shafts is not None else [False]
+    polars = polar_wrenches([*map(PlainWrench.of, shown), *_second_order(scene, with_shafts)])
+    first, twice = [polar.order(1) for polar in polars[:count]], [polar.order(2) for polar in polars[count:]]
+    ellipses = _ellipses(polars[:count])
     # one validation of the whole takes a third of the time of one of each part
     return Residual.model_validate(
         {
             "before": ellipses[0],
-            "after": None if unbalance is None else ellipses[1],
+            "after": ellipses[1] if fitted else None,
             "orders": {
                 "before": (first[0], twice[0] if twice else None),
-                "after": None if unbalance is None else (first[1], twice[-1] if twice else None),
+                "after": (first[1], twice[-1] if twice else None) if fitted else None,
             },
             "responses": _changes(scene, shown),
         }
     )
 
 
-def _second_order(scene: Prepared, with_shafts: Sequence[bool]) -> list[Wrench]:
+def _second_order(scene: Prepared, with_shafts: Sequence[bool]) -> list[PlainWrench]:
     """Second order of one machine, which balance shafts alone change, without and with them; none where a row has no
     rod."""
-    if np.count_nonzero(np.isnan(scene.layout.reciprocating.rod_ratio)):
+    if any(map(math.isnan, scene.layout.reciprocating.rod_ratio.tolist())):
         return []
-    own, square = scene.second_order, scene.layout.omega**2
-    return [(scene.with_shafts(own, 2) if turning else own).times(square) for turning in with_shafts]
+    own, square = scene.second_order, scene.omega_squared
+    return [PlainWrench.of(scene.with_shafts(own, 2) if turning else own, square) for turning in with_shafts]
 
 
 def hodographs(scene: Prepared, unbalance: Complex | None) -> Hodographs:
@@ -152,8 +151,8 @@ def hodographs(scene: Prepared, unbalance: Complex | None) -> Hodographs:
     turned = scene.layout.sense * np.deg2rad(scene.first_turn_deg)
     shown = [scene.first_order()] if unbalance is None else [scene.first_order(), scene.first_order(unbalance)]
     # force and moment of each, all at once
-    vectors = np.array([(pair.co, pair.counter) for wrench in shown for pair in wrench]).T
-    before, *after = Phasors(*vectors).at(turned).reshape(-1, 2, turned.size)
+    vectors = vectors_of(shown)
+    before, *after = Phasors(vectors[..., 0], vectors[..., 1]).at(turned)
     return Hodographs(
         angle_deg=scene.angles[: scene.first_turn_deg.size],
         before=_hodograph(*before),
@@ -171,35 +170,26 @@ def _hodograph(force: Complex, moment: Complex) -> Hodograph:
     )
 
 
-def _ellipses(polars: Polars) -> list[dict[str, dict[str, float]]]:
-    """Fields of the ellipses (:class:`schemas.answer.first_order.FirstOrder`) of n wrenches.
+def _ellipses(wrenches: Sequence[PolarWrench]) -> list[dict[str, dict[str, float]]]:
+    """Fields of the ellipses (:class:`schemas.answer.first_order.FirstOrder`) of wrenches.
 
     Each figure is that of :class:`optimizer.responses.response.Phasors`, from parts that several figures share.
     """
-    vectors = polars.vectors
-    along = np.abs(vectors[..., 0] + _SQUARES * np.conj(vectors[..., 1])).tolist()
+    pairs = [pair for wrench in wrenches for pair in wrench]
+    mirrored = [pair.counter.conjugate() for pair in pairs]
+    along_x = magnitudes([pair.co + across for pair, across in zip(pairs, mirrored, strict=True)])
+    along_y = magnitudes([pair.co - across for pair, across in zip(pairs, mirrored, strict=True)])
+    figures = list(map(_figures, pairs, along_x, along_y))
     return [
-        {name: _ellipse(fields, *figures) for (name, fields), *figures in zip(_FIELDS, *of_wrench, strict=True)}
-        for of_wrench in zip(polars.sizes.tolist(), polars.phases.tolist(), *along, strict=True)
+        {name: dict(zip(fields, own, strict=True)) for (name, fields), own in zip(_FIELDS, of_wrench, strict=True)}
+        for of_wrench in zip(figures[::2], figures[1::2], strict=True)
     ]
 
 
-def _ellipse(
-    fields: Sequence[str], sizes: Sequence[float], phases: Sequence[float], along_x: float, along_y: float
-) -> dict[str, float]:
-    co, counter = sizes
-    # as :attr:`optimizer.responses.response.Phasors.major_axis_deg`
-    axis = math.degrees(0.5 * (phases[0] + phases[1])) % 180.0
-    figures = (
-        co + counter,
-        abs(co - counter),
-        axis if co and counter and axis < 180.0 else 0.0,
-        along_x,
-        along_y,
-        co,
-        counter,
-    )
-    return dict(zip(fields, figures, strict=True))
+def _figures(pair: PolarPair, along_x: float, along_y: float) -> tuple[float, ...]:
+    """Those of an ellipse in the order of its fields."""
+    co, counter = pair.co_size, pair.counter_size
+    return co + counter, abs(co - counter), pair.axis_deg, along_x, along_y, co, counter
 
 
 RESIDUAL = Output(

@@ -20,8 +20,8 @@ from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.peaks import (
     Search,
     largest_of_rows,
-    of_rows,
     of_torque,
+    row_magnitudes,
     rows_search,
     torque_peak,
     torque_search,
@@ -75,13 +75,13 @@ def _inertia(scene: Prepared, machine: ReciprocatingMachine) -> float | None:
 
 def _rows(scene: Prepared, machine: ReciprocatingMachine) -> Iterator[RowLoad]:
     forces, masses = scene.results["piston_force"], scene.layout.reciprocating.mass.tolist()
-    piston, rod, stopped = (of_rows(scene, reading).magnitude.lower.tolist() for reading in _READINGS)
+    piston, rod, stopped = ([least for least, _ in row_magnitudes(scene, reading)] for reading in _READINGS)
     at_centres = at_dead_centres(scene).tolist()
-    guides, frames, covers = _guides(scene, machine), _frames(forces.gas), _covers(scene)
+    gas, inertia = (list(zip(*_ends(force), strict=True)) for force in (forces.gas, forces.inertia))
+    guides, frames, covers = _guides(scene, machine), [_frame(*ends) for ends in gas], _covers(scene)
     rows = [row for throw in machine.throws for row in throw.rows]
-    largest_gas, largest_inertia = (_ends(np.abs(force))[1] for force in (forces.gas, forces.inertia))
     for k, place in enumerate(scene.row_labels):
-        three = {"gas": largest_gas[k], "inertia": largest_inertia[k], "running": piston[k]}
+        three = {"gas": _magnitude(*gas[k]), "inertia": _magnitude(*inertia[k]), "running": piston[k]}
         link = rows[k].connecting_rod
         worst = max(three, key=lambda name: three[name])
         yield RowLoad(
@@ -134,17 +134,19 @@ def _covers(scene: Prepared) -> list[list[CoverLoad]]:
     ]
 
 
-def _frames(gas: Real) -> list[FrameLoad]:
-    """The cylinders of every row pull at the frame against the gas force (rows, T) N of the pistons."""
-    return [
-        FrameLoad(
-            tension_N=max(high, 0.0),
-            compression_N=min(low, 0.0) + 0.0,
-            mean_N=0.5 * (low + high) + 0.0,
-            amplitude_N=0.5 * (high - low),
-        )
-        for low, high in zip(*_ends(-gas), strict=True)
-    ]
+def _frame(smallest: float, largest: float) -> FrameLoad:
+    """The cylinders of a row pull at the frame against the gas force [N] on its pistons."""
+    low, high = -largest, -smallest
+    return FrameLoad(
+        tension_N=max(high, 0.0),
+        compression_N=min(low, 0.0) + 0.0,
+        mean_N=0.5 * (low + high) + 0.0,
+        amplitude_N=0.5 * (high - low),
+    )
+
+
+def _magnitude(smallest: float, largest: float) -> float:
+    return max(abs(smallest), abs(largest))
 
 
 def _ends(values: Real) -> tuple[list[Any], list[Any]]:

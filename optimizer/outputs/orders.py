@@ -4,18 +4,16 @@ from optimizer.effects.inertia import FIRST_ORDER_EFFECTS
 from optimizer.formulation.simulation import Prepared
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.output import Columns, Output
-from optimizer.outputs.phasors import Polars, orders_of, vectors_of
+from optimizer.outputs.phasors import PlainWrench, polar_wrenches
 from schemas.answer.outputs import OrdersComparison
 
 
 def orders(scene: Prepared, unbalance: Complex | None) -> OrdersComparison:
     """Orders 1, 2, 4 and 6 of one machine."""
     sets = [scene.orders(None)] if unbalance is None else [scene.orders(None), scene.orders(unbalance)]
-    numbers, wrenches = zip(*(pair for wrenches in sets for pair in wrenches.items()), strict=True)
-    every, count = orders_of(numbers, Polars.of(vectors_of(wrenches))), len(sets[0])
-    return OrdersComparison.model_validate(
-        {"before": tuple(every[:count]), "after": None if unbalance is None else tuple(every[count:])}
-    )
+    polars = iter(polar_wrenches([PlainWrench.of(wrench) for wrenches in sets for wrench in wrenches.values()]))
+    before, *after = ([next(polars).order(number) for number in wrenches] for wrenches in sets)
+    return OrdersComparison.model_validate({"before": before, "after": after[0] if after else None})
 
 
 def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:

@@ -53,7 +53,7 @@ class Search(NamedTuple):
     curves: TurnCurves
     number: Index  # (m,) which of the curves
     offset: Complex | Real  # (m,) what is added to each
-    sign: Real | float = 0.0  # (m,) as in :meth:`Pieces.peaks`
+    sign: Real  # (m,) as in :meth:`Pieces.peaks`
     group: Index | None = None  # (m,) from 0, where only the largest of each group is shown
     scale: float = 1.0  # of the peaks shown in units of the curves
 
@@ -72,17 +72,15 @@ def search(scene: Prepared, searches: Iterable[Search]) -> None:
     curves = list({id(item.curves): item.curves for item in every}.values())
     batch = CurveBatch(tuple(curves))
     first = {id(some): number for some, number in zip(curves, batch.first.tolist(), strict=False)}
-    counts = [item.peak_count for item in every]
+    counts, sizes = [item.peak_count for item in every], [item.number.size for item in every]
     ends = [0, *accumulate(counts)]
-    number = np.concatenate([item.number + first[id(item.curves)] for item in every])
+    # of all at once: small arrays cost by their number
+    number = np.concatenate([item.number for item in every])
+    number += np.repeat([first[id(item.curves)] for item in every], sizes)
     offset = np.concatenate([item.offset for item in every])
-    sign = np.concatenate([np.zeros(item.number.size) + item.sign for item in every])
-    group = np.concatenate(
-        [
-            end + (np.arange(item.number.size) if item.group is None else item.group)
-            for item, end in zip(every, ends, strict=False)
-        ]
-    )
+    sign = np.concatenate([item.sign for item in every])
+    group = np.concatenate([_numbers(item.number.size) if item.group is None else item.group for item in every])
+    group += np.repeat(ends[:-1], sizes)
     angle, value, lower, upper = batch.pieces.peaks(offset, TOLERANCE, number, group, sign)
     scale = np.repeat([item.scale for item in every], counts)
     rows = {item.name: slice(*own) for item, own in zip(every, pairwise(ends), strict=True)}
@@ -101,6 +99,18 @@ def rows_search(scene: Prepared, reading: Reading) -> Search:
     whole: WholeTurn = scene.results["whole_turn"]
     curves = whole.of_rows(reading)
     return Search(_rows_name(reading), curves, *_both_ways(curves.weights.shape[0] * curves.weights.shape[1]))
+
+
+@lru_cache(maxsize=64)
+def unsigned(count: int) -> Real:
+    """Signs of so many curves of which the magnitude counts; nobody writes to them."""
+    return np.zeros(count)
+
+
+@lru_cache(maxsize=64)
+def _numbers(count: int) -> Index:
+    """The numbers from 0, to which nobody writes."""
+    return np.arange(count)
 
 
 @lru_cache(maxsize=16)
@@ -131,6 +141,12 @@ def row_peaks(scene: Prepared, reading: Reading) -> list[PeakList]:
     return peak_list(scene, _rows_name(reading), lambda: rows_search(scene, reading)).split(2)
 
 
+def row_magnitudes(scene: Prepared, reading: Reading) -> list[tuple[float, float]]:
+    """Brackets of the largest magnitudes of a force of every row of one machine."""
+    high, low = row_peaks(scene, reading)
+    return list(zip(map(max, high.lower, low.lower), map(max, high.upper, low.upper), strict=True))
+
+
 def largest_of_rows(scene: Prepared, reading: Reading) -> Bracket:
     """Largest magnitude of a force of all rows, (...); 0 without rows."""
     whole: WholeTurn = scene.results["whole_turn"]
@@ -146,7 +162,7 @@ def largest_of_rows(scene: Prepared, reading: Reading) -> Bracket:
 def torque_search(scene: Prepared, constant: Real | float = 0.0) -> Search:
     """Largest torque of all rows of one machine with a constant () N m, magnitude."""
     whole: WholeTurn = scene.results["whole_turn"]
-    return Search(_torque_name(constant), whole.torque, np.zeros(1, np.intp), np.full(1, constant, float))
+    return Search(_torque_name(constant), whole.torque, _numbers(1), np.array([float(constant)]), unsigned(1))
 
 
 def _torque_name(constant: Real | float) -> Name:
@@ -184,7 +200,8 @@ def shaft_search(scene: Prepared, unbalances: Sequence[Complex | None]) -> Searc
     curves = scene.shaft_curves
     count, sets = curves.curves.weights.shape[1], len(unbalances)
     offset = np.concatenate([curves.offsets(unbalance) for unbalance in unbalances])
-    return Search(_SHAFT, curves.curves, np.tile(np.arange(count), sets), offset, scale=scene.omega_squared)
+    number = np.tile(_numbers(count), sets)
+    return Search(_SHAFT, curves.curves, number, offset, unsigned(count * sets), scale=scene.omega_squared)
 
 
 def shaft_peaks(scene: Prepared, unbalances: Sequence[Complex | None]) -> list[PeakList]:
@@ -195,12 +212,13 @@ def shaft_peaks(scene: Prepared, unbalances: Sequence[Complex | None]) -> list[P
 def customary_search(scene: Prepared, customary: Complex) -> Search:
     """The largest load of a bearing, and the largest bending moment, of one machine with customary counterweights."""
     shaft, bearings = scene.shaft_curves, len(scene.machine.bearings)
-    kind = np.minimum(np.arange(shaft.curves.weights.shape[1]) // bearings, 1)
+    kind = np.minimum(_numbers(shaft.curves.weights.shape[1]) // bearings, 1)
     return Search(
         _CUSTOMARY,
         shaft.curves,
-        np.arange(kind.size),
+        _numbers(kind.size),
         shaft.offsets(customary),
+        unsigned(kind.size),
         group=kind,
         scale=scene.omega_squared,
     )

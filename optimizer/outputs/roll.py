@@ -8,7 +8,7 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.whole_turn import TurnCurves
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.output import Columns, Output
-from optimizer.outputs.peaks import TOLERANCE, Search, of_torque, peak_list
+from optimizer.outputs.peaks import TOLERANCE, Search, of_torque, peak_list, unsigned
 from optimizer.responses.curve import peaks
 from optimizer.responses.peak_table import PeakList
 from optimizer.responses.piecewise_cubics import Bracket
@@ -49,7 +49,7 @@ def _bare(scene: Prepared) -> Search:
     """The moment without balance shafts."""
     curves = scene.roll.curves
     assert isinstance(curves, TurnCurves)  # of the rows
-    return Search(_BARE, curves, np.zeros(1, np.intp), np.zeros(1), scale=scene.omega_squared)
+    return Search(_BARE, curves, np.zeros(1, np.intp), unsigned(1), unsigned(1), scale=scene.omega_squared)
 
 
 def _columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:

@@ -5,22 +5,60 @@ the shaft takes the share k away along the axis and brings k of it across. Its p
 phasor: k = 1/2 removes A1 and leaves the counter-rotating phasor alone (Balancing, slides, stages III and VII).
 """
 
+import sys
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Literal
-
-import numpy as np
+from math import pi
+from typing import Any, Literal
 
 from optimizer.mechanics.inertia import Wrench, reciprocating, rotating
 from optimizer.mechanics.layout import Layout
-from optimizer.numerics.arrays import Complex
 from optimizer.outputs.ellipses import Ellipse
+from optimizer.outputs.phasors import PlainWrench
 from optimizer.outputs.rules_of_thumb import SAME_PLANE_M
 from schemas.answer.stages import Acting, StageIron
 
 #: the smaller phasor over the larger one below which it counts as none: an optimum leaves what the asked gap allows
 _SHAPE = 1e-6
 Motion = Literal["none", "with_shaft", "against_shaft", "fixed", "ellipse"]
+#: a denormal number has no direction that could be divided out
+_TINY = sys.float_info.min
+
+
+def superposed(turning: PlainWrench, first: PlainWrench, fitted: PlainWrench) -> tuple[PlainWrench, PlainWrench]:
+    """What counterweights leave of rotating and first-order reciprocating masses (:mod:`optimizer.outputs.stages`)."""
+    force, of_first = _split(turning.force, first.force, fitted.force)
+    moment, of_couple = _split(turning.moment, first.moment, fitted.moment)
+    return (
+        PlainWrench(force, turning.counter_force, moment, turning.counter_moment),
+        PlainWrench(of_first, first.counter_force, of_couple, first.counter_moment),
+    )
+
+
+def _split(turning: complex, first: complex, fitted: complex) -> tuple[complex, complex]:
+    size = abs(turning)
+    outward = turning / size if size > _TINY else 0j
+    opposed = min(max(-(fitted * outward.conjugate()).real, 0.0), size)
+    return (size - opposed) * outward, first + fitted + opposed * outward
+
+
+def missing(planes: Sequence[float], centre: float, force: complex, couple: complex) -> float:
+    """Stage VII: |u1| + |u2| of two planes that cancel all that turns with the shaft, kg m.
+
+    Parameters
+    ----------
+    planes, centre : of the webs, and that about which the couple is, m.
+    force, couple : over omega^2, kg m and kg m^2.
+    """
+    if not planes:
+        return abs(force)
+    low, high = min(planes), max(planes)
+    return float(in_two_planes(force, couple, low, high, centre)) if high - low > SAME_PLANE_M else abs(force)
+
+
+def in_two_planes(force: Any, couple: Any, low: Any, high: Any, centre: Any) -> Any:
+    """The same (...) of planes that are apart."""
+    return (abs(couple - (high - centre) * force) + abs(couple - (low - centre) * force)) / (high - low)
 
 
 def actings(parts: Sequence[tuple[Ellipse, int]], speed: float, noise: tuple[float, float]) -> tuple[Acting, ...]:
@@ -39,7 +77,7 @@ def _acting(pair: Ellipse, order: int, moment: bool, speed: float, noise: float)
     return Acting(
         quantity="moment" if moment else "force",
         order=order,
-        frequency_Hz=order * speed / (2.0 * np.pi),
+        frequency_Hz=order * speed / (2.0 * pi),
         unit="N m" if moment else "N",
         peak=0.0 if motion == "none" else pair.peak,
         minor=0.0 if motion == "none" else pair.minor,
@@ -68,34 +106,37 @@ def about_centre(layout: Layout, turning: Wrench, first: Wrench) -> tuple[Layout
     return centred, rotating(centred), reciprocating(centred, 1)
 
 
-def iron(layout: Layout, turning: Wrench, first: Wrench) -> tuple[StageIron, ...]:
-    """Stage VII in the two outermost planes of the webs; in one where all webs are in one; none without webs."""
-    planes = layout.webs.position
-    if planes.size == 0:
+def iron(planes: Sequence[float], centre: float, turning: PlainWrench, first: PlainWrench) -> tuple[StageIron, ...]:
+    """Stage VII in the two outermost planes of the webs; in one where all webs are in one; none without webs.
+
+    Parameters
+    ----------
+    planes, centre : of the webs, and that about which couples are, m.
+    turning, first : of rotating masses, and of the first order of reciprocating ones, over omega^2.
+    """
+    if not planes:
         return ()
-    layout, turning, first = about_centre(layout, turning, first)
-    low, high = float(np.min(planes)), float(np.max(planes))
+    low, high = min(planes), max(planes)
     ends = (low, high) if high - low > SAME_PLANE_M else (low,)
-    parts = [_against(ends, float(layout.centre_plane), *pair) for pair in (_co(turning, 1.0), _co(first, 2.0))]
+    turns = _against(ends, centre, turning.force, turning.moment)
+    moves = _against(ends, centre, 2.0 * first.force, 2.0 * first.moment)
     return tuple(
-        StageIron(
-            position_m=place,
-            rotating_x_kg_m=float(turns.real),
-            rotating_y_kg_m=float(turns.imag),
-            reciprocating_x_kg_m=float(moves.real),
-            reciprocating_y_kg_m=float(moves.imag),
-        )
-        for place, turns, moves in zip(ends, *parts, strict=True)
+        [
+            StageIron(
+                position_m=place,
+                rotating_x_kg_m=turn.real,
+                rotating_y_kg_m=turn.imag,
+                reciprocating_x_kg_m=move.real,
+                reciprocating_y_kg_m=move.imag,
+            )
+            for place, turn, move in zip(ends, turns, moves, strict=True)
+        ]
     )
 
 
-def _co(wrench: Wrench, times: float) -> tuple[Complex, Complex]:
-    return times * wrench.force.co, times * wrench.moment.co
-
-
-def _against(ends: tuple[float, ...], centre: float, force: Complex, couple: Complex) -> tuple[complex, ...]:
+def _against(ends: tuple[float, ...], centre: float, force: complex, couple: complex) -> tuple[complex, ...]:
     """u1 + u2 = -f, (z1 - centre) u1 + (z2 - centre) u2 = -c; of one plane the force alone."""
     if len(ends) == 1:
-        return (complex(0.0 - force),)
+        return (0.0 - force,)
     low, high = (end - centre for end in ends)
-    return complex((couple - high * force) / (high - low)), complex((low * force - couple) / (high - low))
+    return (couple - high * force) / (high - low), (low * force - couple) / (high - low)

@@ -21,10 +21,18 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.inertia import Wrench, counterweights
 from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.outputs.ellipses import Ellipse, ellipses
+from optimizer.outputs.ellipses import Ellipse
 from optimizer.outputs.output import Columns, Output
+from optimizer.outputs.phasors import PlainWrench, polar_wrenches
 from optimizer.outputs.rules_of_thumb import SAME_PLANE_M, SHAPE_TOLERANCE, force_rules, moment_rules
-from optimizer.outputs.stage_parts import about_centre, actings, iron
+from optimizer.outputs.stage_parts import (
+    about_centre,
+    actings,
+    in_two_planes,
+    iron,
+    missing,
+    superposed,
+)
 from optimizer.responses.response import Phasors
 from schemas.answer.outputs import STAGE_UNITS, Stage
 
@@ -115,35 +123,42 @@ def stages(
     unbalance : (webs,) mass-radius products m R e^{ja} of the counterweights, kg m; None where there are
         none to show (infeasible), which leaves ``remaining`` null.
     """
-    square, speed, planes = layout.omega**2, float(layout.omega), layout.webs.position
-    span = float(np.ptp(planes)) if planes.size else 0.0
-    in_planes, missing = iron(layout, turning, first), _Missing(*about_centre(layout, turning, first))
-    over_square = tuple(first)
-    turning, first, second = (part.times(square) for part in (turning, first, second))
-    both = turning.plus(first)
-    left, whole = [turning, first, second], both
+    speed, planes, centre = float(layout.omega), layout.webs.position.tolist(), float(layout.centre_plane)
+    square, (low, high) = speed * speed, (min(planes), max(planes)) if planes else (centre, centre)
+    centred, *about = about_centre(layout, turning, first)
+    rotating, moving = (PlainWrench.of(wrench) for wrench in about)
+    whole = rotating.plus(moving)
+    lacking = missing(planes, centre, whole.force, whole.moment)
+    in_units = [PlainWrench.of(part, square) for part in (turning, first, second)]
+    both = in_units[0].plus(in_units[1])
+    shown = [PlainWrench.of(first), both, *in_units]
     if unbalance is not None:
-        fitted = counterweights(layout, unbalance).times(square)
-        left, whole = [*_superpose(turning, first, fitted), second], both.plus(fitted)
-    shown = [pair for part in (turning, first, second, *left, both, second, whole, second) for pair in part]
-    *figures, of_force, of_moment = ellipses([*shown, *over_square])
-    was, now, of_all, all_left = figures[:6], figures[6:12], figures[12:16], figures[16:]
+        fitted = PlainWrench.of(counterweights(layout, unbalance), square)
+        shown += [both.plus(fitted), *superposed(in_units[0], in_units[1], fitted)]
+        whole = whole.plus(PlainWrench.of(counterweights(centred, unbalance)))
+    of_force, of_moment, *pairs = [pair.ellipse for wrench in polar_wrenches(shown) for pair in wrench]
+    # with counterweights the second order is the same
+    of_all, was, with_fitted = [*pairs[:2], *pairs[6:8]], pairs[2:8], pairs[8:]
+    value = [*(pair.peak for pair in was), lacking, of_all[0].peak + of_all[2].peak]
+    now, all_left = was, of_all
+    remaining: Sequence[float | None] = [None] * len(_HEADINGS)
+    if unbalance is not None:
+        now, all_left = [*with_fitted[2:], *was[4:]], [*with_fitted[:2], *was[4:]]
+        lacking = missing(planes, centre, whole.force, whole.moment)
+        remaining = [*(pair.peak for pair in now), lacking, all_left[0].peak + all_left[2].peak]
     scale = _scale(layout)
     noise = (_ROUNDING * scale[0], _ROUNDING * scale[1])
     before, after, summed, what_is_left = (
         actings(list(zip(pairs, orders, strict=True)), speed, noise)
         for pairs, orders in ((was, _ORDERS), (now, _ORDERS), (of_all, _OF_BOTH), (all_left, _OF_BOTH))
     )
-    value = [*(pair.peak for pair in was), float(missing.of(None)), of_all[0].peak + of_all[2].peak]
-    remaining: list[float | None] = [None] * len(value)
-    if unbalance is not None:
-        remaining = [*(pair.peak for pair in now), float(missing.of(unbalance)), all_left[0].peak + all_left[2].peak]
     shapes = [
         _Shape(_plane(pair), _frequency(n, speed), _balanceable(pair, n)) for pair, n in zip(was, _ORDERS, strict=True)
     ]
     shapes.append(_Shape(_planes_of_iron(planes), _frequency(1, speed), "fully"))
     shapes.append(_summary(of_all, all_left, scale, speed))
-    rules = {_III: force_rules(of_force, float(square)), _IV: moment_rules(of_moment, float(square), span)}
+    in_planes = iron(planes, centre, rotating, moving)
+    rules = {_III: force_rules(of_force, square), _IV: moment_rules(of_moment, square, high - low)}
     return tuple(
         Stage(
             **heading._asdict(),
@@ -215,15 +230,15 @@ class _Missing:
             return np.abs(force)
         low, high = np.minimum.reduce(planes, axis=-1), np.maximum.reduce(planes, axis=-1)
         apart = high - low > SAME_PLANE_M
-        ends = np.abs(couple - (high - centre) * force) + np.abs(couple - (low - centre) * force)
-        return np.where(apart, ends / np.where(apart, high - low, 1.0), np.abs(force))
+        ends = in_two_planes(force, couple, low, np.where(apart, high, low + 1.0), centre)
+        return np.where(apart, ends, np.abs(force))
 
 
-def _planes_of_iron(planes: Real) -> str:
+def _planes_of_iron(planes: Sequence[float]) -> str:
     """Where stage VII puts it."""
-    if planes.size == 0:
+    if not planes:
         return "no webs, force only"
-    low, high = float(planes.min()), float(planes.max())
+    low, high = min(planes), max(planes)
     if high - low > SAME_PLANE_M:
         return f"planes z = {low:.6g} m and z = {high:.6g} m"
     return f"plane z = {low:.6g} m, force only"
@@ -254,10 +269,12 @@ def _summary(was: Sequence[Ellipse], left: Sequence[Ellipse], scale: tuple[float
 def _scale(layout: Layout) -> tuple[float, float]:
     """Force in N if all masses pushed the same way, and moment in N m if they did so at opposite ends."""
     turning, moving = layout.rotating, layout.reciprocating
-    product = np.sum(turning.mass * turning.radius) + np.sum(moving.mass * moving.crank_radius)
-    planes = np.concatenate((turning.position, moving.position, layout.webs.position, [layout.reference_plane]))
-    force = float(product * layout.omega**2)
-    return force, force * float(np.ptp(planes))
+    product = float(turning.mass @ turning.radius) + float(moving.mass @ moving.crank_radius)
+    places = (turning.position, moving.position, layout.webs.position)
+    planes = [plane for part in places for plane in part.tolist()] + [float(layout.reference_plane)]
+    speed = float(layout.omega)
+    force = product * (speed * speed)
+    return force, force * (max(planes) - min(planes))
 
 
 def _balanceable(pair: Ellipse, order: int) -> Balanceable:

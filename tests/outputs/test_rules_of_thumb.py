@@ -5,7 +5,7 @@ import pytest
 
 from optimizer.mechanics.inertia import reciprocating
 from optimizer.mechanics.layout import layout
-from optimizer.outputs.ellipses import ellipses
+from optimizer.outputs.ellipses import Ellipse, polar_pairs
 from optimizer.outputs.rules_of_thumb import force_rules, moment_rules
 from optimizer.responses.response import Phasors
 from schemas.answer.outputs import RuleOfThumb
@@ -15,7 +15,12 @@ F0 = 10.0 * RADIUS * OMEGA**2
 
 
 def rules_of(*throws: object) -> tuple[RuleOfThumb, ...]:
-    return force_rules(*ellipses([reciprocating(layout(machine(*throws)), 1).force]), OMEGA**2)  # type: ignore[arg-type]
+    return force_rules(ellipse(reciprocating(layout(machine(*throws)), 1).force), OMEGA**2)
+
+
+def ellipse(phasors: Phasors) -> Ellipse:
+    (polar,) = polar_pairs([complex(phasors.co), complex(phasors.counter)])
+    return polar.ellipse
 
 
 def pair(co: complex, counter: complex) -> Phasors:
@@ -49,7 +54,7 @@ def test_a_single_row(axis_deg: float, shares: tuple[float, ...]) -> None:
 def test_the_peaks_are_those_of_the_remaining_ellipse_independent() -> None:
     """Along and across from the components of the force over a turn."""
     first = reciprocating(layout(machine(throw(0, row(60), row(120)))), 1).force
-    (rule,) = force_rules(*ellipses([first]), OMEGA**2)
+    (rule,) = force_rules(ellipse(first), OMEGA**2)
     left = pair(complex(first.co - rule.total_mass_radius_kg_m * first.co / abs(first.co)), first.counter)
     turn = left.at(np.linspace(0, 2 * np.pi, 3601)) * OMEGA**2
     assert rule.peak == pytest.approx(np.abs(turn).max(), rel=1e-6)
@@ -74,8 +79,8 @@ def test_v_type_half_the_sum_of_the_extremes_published() -> None:
     ],
 )
 def test_no_rule_where_there_is_nothing_to_turn(co: float, counter: float) -> None:
-    assert force_rules(*ellipses([pair(co, counter)]), 1.0) == ()
-    assert moment_rules(*ellipses([pair(co, counter)]), 1.0, 1.0) == ()
+    assert force_rules(ellipse(pair(co, counter)), 1.0) == ()
+    assert moment_rules(ellipse(pair(co, counter)), 1.0, 1.0) == ()
 
 
 @pytest.mark.parametrize(
@@ -88,7 +93,7 @@ def test_no_rule_where_there_is_nothing_to_turn(co: float, counter: float) -> No
 def test_moments(throws: list[object], shares: tuple[float, ...]) -> None:
     """m_np = k m_s (r / r_np)(l / l_np), twice (seed 002 lines 493-503)."""
     first = reciprocating(layout(machine(*throws)), 1).moment  # type: ignore[arg-type]
-    found = moment_rules(*ellipses([first]), OMEGA**2, 0.84)
+    found = moment_rules(ellipse(first), OMEGA**2, 0.84)
     assert tuple(rule.transferred_share for rule in found) == shares
     for rule in found:
         k = rule.transferred_share
@@ -97,8 +102,8 @@ def test_moments(throws: list[object], shares: tuple[float, ...]) -> None:
 
 
 def test_no_couple_without_two_planes_and_no_rule_for_other_moments() -> None:
-    assert moment_rules(*ellipses([pair(1.0, 1.0)]), 1.0, 0.0) == ()
-    assert moment_rules(*ellipses([pair(1.0, 0.5)]), 1.0, 1.0) == ()
+    assert moment_rules(ellipse(pair(1.0, 1.0)), 1.0, 0.0) == ()
+    assert moment_rules(ellipse(pair(1.0, 0.5)), 1.0, 1.0) == ()
 
 
 def test_rules_stand_at_stages_iii_and_iv_only() -> None:
