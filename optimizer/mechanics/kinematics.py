@@ -15,6 +15,9 @@ from optimizer.mechanics.layout import spread as spread_layout
 from optimizer.numerics.arrays import Real, in_order, spread
 from optimizer.numerics.memoization import cached_property, remembered
 
+#: above this rod ratio the motion is steep near 90 and 270 degrees
+_STEEP = 0.8
+
 
 @dataclass(frozen=True)
 class Motion:
@@ -58,12 +61,12 @@ def own_angle(layout: Layout, shaft_angle: Real) -> Real:
     -------
     (..., rows, T).
     """
-    return shaft_angle[..., None, :] + _ahead(layout)[..., :, None]
+    return shaft_angle[..., None, :] + angle_ahead(layout)[..., :, None]
 
 
 @remembered
-def _ahead(layout: Layout) -> Real:
-    """The same at shaft angle 0, (..., rows)."""
+def angle_ahead(layout: Layout) -> Real:
+    """Own crank angles of the rows at shaft angle 0, (..., rows) rad."""
     rows = layout.reciprocating
     apart = rows.crank_direction * np.conj(rows.axis)
     return layout.sense[..., None] * np.arctan2(apart.imag, apart.real)
@@ -114,6 +117,11 @@ def row_table(layout: Layout) -> Real:
     return np.array([spread(part, shape) for part in parts])
 
 
+def steep(rod_ratio: Real) -> bool:
+    """Whether any of the rods needs :func:`steep_angles`."""
+    return bool(np.count_nonzero(rod_ratio > _STEEP))
+
+
 def steep_angles(rod_ratio: Real) -> Real:
     """Own crank angles that enclose the steep motion of a rod hardly longer than its crank, rad (..., 84).
 
@@ -124,6 +132,6 @@ def steep_angles(rod_ratio: Real) -> Real:
     """
     scale = np.sqrt((1.0 - rod_ratio) * (1.0 + rod_ratio))[..., None]
     distance = 0.5 / 2.5 ** np.arange(21.0)
-    needed = np.where((rod_ratio[..., None] > 0.8) & (distance >= 0.25 * scale), distance, np.nan)
+    needed = np.where((rod_ratio[..., None] > _STEEP) & (distance >= 0.25 * scale), distance, np.nan)
     quarters = [(quarter, sign) for quarter in (0.5 * np.pi, 1.5 * np.pi) for sign in (1.0, -1.0)]
     return np.concatenate([quarter + sign * needed for quarter, sign in quarters], axis=-1)
