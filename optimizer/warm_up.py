@@ -1,5 +1,17 @@
 """Load and compile before the first request, which would otherwise wait for seconds."""
 
+from typing import Any
+
+_CYLINDER = {
+    "bore_m": 0.1,
+    "piston_rod_diameter_m": 0.02,
+    "suction_pressure_Pa": 1e5,
+    "discharge_pressure_Pa": 3e5,
+    "relative_clearance": 0.1,
+    "expansion_exponent": 1.3,
+    "compression_exponent": 1.3,
+}
+
 
 def warm_up() -> None:
     """Solve a small machine by the methods that most questions need: compiled, both stages, and by cuts over the turn;
@@ -32,12 +44,14 @@ def _solve(budget: float | None, **objective: object) -> None:
 
 
 def follow_a_turn() -> None:
-    """Loads of a rod and of bearings, and the torque, over the whole turn: with their peaks, floors and integrals."""
+    """Loads of a rod and of bearings, and the torque, over the whole turn, with gas: peaks, floors and integrals."""
     from optimizer.analyze import analyze
     from schemas.request.requests import AnalyzeRequest
 
     bearings = [{"name": name, "position_m": position} for name, position in (("a", -0.2), ("b", 0.2))]
-    machine = {**_machine(), "bearings": bearings}
+    (throw,) = _machine()["throws"]
+    (row,) = throw["rows"]
+    machine = {**_machine(), "throws": [{**throw, "rows": [{**row, "cylinder": _CYLINDER}]}], "bearings": bearings}
     analyze(AnalyzeRequest.model_validate({"machine": machine, "outputs": ["rod_loads", "torque", "main_bearings"]}))
 
 
@@ -64,7 +78,7 @@ def match_parts() -> None:
     met(np.zeros((1, 1)), np.zeros((1, 1)), 1.0, 1)
 
 
-def _machine() -> dict[str, object]:
+def _machine() -> dict[str, Any]:
     """One row between two webs."""
     throw = {
         "position_m": 0.0,

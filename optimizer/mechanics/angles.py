@@ -89,5 +89,7 @@ def angle_deg(vector: Complex) -> Real:
     value = np.asarray(np.rad2deg(np.arctan2(vector.imag, vector.real)))
     value += 360.0 * (value < 0.0)
     # a hair below 0 comes to 360; the zero vector has parts of either sign
-    none = (value >= 360.0) | ((vector.real == 0.0) & (vector.imag == 0.0))
+    none = value >= 360.0
+    if np.count_nonzero(vector) < vector.size:
+        none |= vector == 0.0
     return np.where(none, 0.0, value) if np.count_nonzero(none) else value

@@ -9,7 +9,7 @@ import numpy as np
 
 from optimizer.mechanics.gas import Chambers, switching_travels
 from optimizer.mechanics.indicated import SLIVER, TURN, Trace, entries
-from optimizer.mechanics.kinematics import own_angle
+from optimizer.mechanics.kinematics import angle_ahead
 from optimizer.mechanics.layout import Layout, stacked
 from optimizer.numerics.arrays import Real, mapped, spread
 from optimizer.numerics.memoization import remembered
@@ -67,7 +67,7 @@ def _chambers(machine: ReciprocatingMachine) -> Chambers:
 
 def traces(machine: ReciprocatingMachine, layout: Layout) -> tuple[Trace, ...]:
     """Indicated pressures of the chambers that have one, with the leading axes of layout and columns together."""
-    ahead = own_angle(layout, np.zeros(1))[..., 0]
+    ahead = angle_ahead(layout)
     results = [
         _trace(
             place.row,
@@ -168,7 +168,7 @@ def trace_rules(machine: ReciprocatingMachine, layout: Layout) -> Iterator[Rule]
     """Not more entries than can be worked on: every row is looked at between any two of them."""
     records = traces(machine, layout)
     if records:
-        angles = entries(records, own_angle(layout, np.zeros(1))[..., 0])
+        angles = entries(records, angle_ahead(layout))
         different = 1 + np.count_nonzero(np.diff(angles, axis=-1) > SLIVER, axis=-1)
         many = layout.reciprocating.mass.shape[-1] * different > MAX_ENTRIES
         path = next(place.path for place, cylinder in _cylinders(machine) if cylinder.pressure is not None)

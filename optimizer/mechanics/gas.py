@@ -7,20 +7,19 @@ tension:
 head side -p A, crank side +p A (design calculation of the 2D12, 2-14 and 2-15).
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
-from numpy.polynomial.legendre import leggauss
 
 from optimizer.mechanics.indicated import Trace
-from optimizer.mechanics.kinematics import Motion, angle_at
+from optimizer.mechanics.kinematics import Motion, row_table
 from optimizer.mechanics.layout import Layout
-from optimizer.numerics.arrays import Real
+from optimizer.mechanics.layout import spread as spread_layout
+from optimizer.numerics.arrays import Real, in_order, mapped, spread
 from optimizer.numerics.memoization import cached_property, remembered, remembered_of_both
-
-#: Gauss-Legendre quadrature on [0, 1]
-_INSIDE, _SHARES = (np.array(values) for values in (0.5 * (1.0 + leggauss(10)[0]), 0.5 * leggauss(10)[1]))
 
 
 @dataclass(frozen=True)
@@ -46,10 +45,10 @@ class GasForces:
     pressure: Real  # (..., rows, C, T) Pa
     area: Real  # (..., rows, C) m^2
 
-    @property
+    @cached_property
     def force(self) -> Real:
         """(..., rows, C, T) N, positive in rod tension."""
-        return np.where(head_sides(self.area), -1.0, 1.0)[:, None] * self.pressure * self.area[..., None]
+        return self.pressure * np.where(head_sides(self.area), -self.area, self.area)[..., None]
 
     @cached_property
     def total(self) -> Real:
@@ -67,58 +66,81 @@ def gas_forces(chambers: Chambers, motion: Motion, layout: Layout, traces: Seque
     ----------
     traces : pressures of chambers, in place of these.
     """
-    stroke = 2.0 * layout.reciprocating.crank_radius[..., :, None, None]
-    head = motion.displacement[..., None, :]
-    # the crank side empties where the difference from the stroke has no digits left
-    crank = motion.remaining[..., None, :]
-    heads = head_sides(chambers.area)[:, None]
-    travel = np.where(heads, head, crank)
-    clear = chambers.clearance[..., None] * stroke
-    to_shaft = np.mod(motion.crank_angle, 2.0 * np.pi) < np.pi
-    growing = heads == to_shaft[..., None, :]
-    low, high = chambers.suction[..., None], chambers.discharge[..., None]
-    closed = chambers.closed[..., None]
-    safe = np.where(closed, clear, 1.0)
-    expansion = high * (safe / (travel + safe)) ** chambers.expansion_exponent[..., None]
-    compression = low * ((stroke + safe) / (travel + safe)) ** chambers.compression_exponent[..., None]
-    pressure = np.where(growing, np.maximum(expansion, low), np.minimum(compression, high))
-    pressure = np.where(closed, pressure, low)
+    # the compiler is loaded when it is first needed
+    from optimizer.mechanics.kernel.motion_values import cycle_pressures
+
+    chambers, layout = _common_axes(chambers, layout, motion.crank_angle.shape[:-2])
+    rows, table = row_table(layout), chamber_table(chambers)
+    *leading, count, sides = table.shape[1:]
+    angles = motion.crank_angle.shape[-1]
+    places, number = (*leading, count, angles), math.prod(leading) * count
+    series = (motion.crank_angle, motion.displacement, motion.remaining)
+    pressure = np.empty((*leading, count, sides, angles))
+    cycle_pressures(
+        *(in_order(spread(values, places)).reshape(number, angles) for values in series),
+        *(rows.reshape(len(rows), number), table.reshape(len(table), number, sides)),
+        pressure.reshape(number, sides, angles),
+    )
     for trace in traces:
         pressure[..., trace.row, trace.side, :], _ = trace.at(motion.crank_angle[..., trace.row, :])
     return GasForces(pressure, chambers.area)
 
 
+@cache
+def _head_sides(count: int) -> np.ndarray:
+    return np.arange(count) % 2 == 0
+
+
 def head_sides(chambers: Real) -> np.ndarray:
     """Which of the chambers (..., C) are head sides, (C,)."""
-    return np.arange(chambers.shape[-1]) % 2 == 0
-
-
-def switching_travels(chambers: Chambers, layout: Layout) -> tuple[Real, Real]:
-    """Own travel at which suction opens and at which discharge opens, (..., rows, C) m; nan where open."""
-    suction, discharge, _ = _switching(chambers, layout)
-    return suction, discharge
-
-
-@remembered_of_both
-def _switching(chambers: Chambers, layout: Layout) -> tuple[Real, Real, Real]:
-    """Switching travels, and how far before full volume discharge opens: each by itself, without cancellation."""
-    stroke = 2.0 * layout.reciprocating.crank_radius[..., :, None]
-    clear = chambers.clearance * stroke
-    log = log_ratio(chambers)
-    suction = clear * np.expm1(log / chambers.expansion_exponent)
-    # share of the full volume that compression takes away
-    taken = -np.expm1(-log / chambers.compression_exponent)
-    discharge, before = stroke * (1.0 - taken) - clear * taken, (stroke + clear) * taken
-    opens = chambers.closed & (suction < stroke) & (discharge > 0.0)
-    return np.where(opens, suction, np.nan), np.where(opens, discharge, np.nan), np.where(opens, before, np.nan)
+    return _head_sides(chambers.shape[-1])
 
 
 @remembered
-def log_ratio(chambers: Chambers) -> Real:
-    """ln(p_d / p_s), 0 on open sides; good for pressures that hardly differ."""
-    # an open side may be open to a vacuum
-    low = np.where(chambers.closed, chambers.suction, 1.0)
-    return np.log1p(np.where(chambers.closed, chambers.discharge - chambers.suction, 0.0) / low)
+def chamber_table(chambers: Chambers) -> Real:
+    """The chambers as what is compiled takes them, (7, ..., rows, C)."""
+    return np.array(list(vars(chambers).values()), float)
+
+
+def _common_axes(chambers: Chambers, layout: Layout, leading: tuple[int, ...] = ()) -> tuple[Chambers, Layout]:
+    """Both with the leading axes of both; the very same where they have these."""
+    own = row_table(layout).shape[1:-1]
+    if chambers.area.shape[:-2] == own and leading in ((), own):
+        return chambers, layout
+    axes = np.broadcast_shapes(leading, chambers.area.shape[:-2], own)
+    if axes != own:
+        layout = spread_layout(layout, axes)
+    if axes != chambers.area.shape[:-2]:
+        chambers = mapped(chambers, lambda part: spread(part, (*axes, *part.shape[-2:])))
+    return chambers, layout
+
+
+def switching_travels(chambers: Chambers, layout: Layout) -> tuple[Real, Real]:
+    """Own travel at which suction opens and at which discharge opens, (..., rows, C) m; nan where open.
+
+    By what re-expansion adds to the clearance, V_0 ((p_d / p_s)^(1/m) - 1), and compression takes off the full volume.
+    """
+    from optimizer.mechanics.kernel.chamber_values import DISCHARGE, SUCTION
+
+    values = cycle_values(chambers, layout)
+    return values[SUCTION], values[DISCHARGE]
+
+
+@remembered_of_both
+def cycle_values(chambers: Chambers, layout: Layout) -> Real:
+    """What the chambers come to whatever the samples, as :func:`chamber_values` has it, (7, ..., rows, C)."""
+    from optimizer.mechanics.kernel.chamber_values import VALUES, chamber_values
+
+    chambers, layout = _common_axes(chambers, layout)
+    rows, table = row_table(layout), chamber_table(chambers)
+    *leading, count, sides = table.shape[1:]
+    number = math.prod(leading) * count
+    values = np.empty((VALUES, *leading, count, sides))
+    chamber_values(
+        *(rows.reshape(len(rows), number), table.reshape(len(table), number, sides)),
+        values.reshape(VALUES, number, sides),
+    )
+    return values
 
 
 def switching_angles(chambers: Chambers, layout: Layout, exact: bool = True) -> tuple[Real, Real]:
@@ -128,22 +150,17 @@ def switching_angles(chambers: Chambers, layout: Layout, exact: bool = True) -> 
     ----------
     exact : kinematics, or cut off after the second order.
     """
-    rows = layout.reciprocating
-    radius, lam, margin = rows.crank_radius[..., None], rows.rod_ratio[..., None], rows.rod_margin[..., None]
-    stroke = 2.0 * radius
-    suction, discharge, before = _switching(chambers, layout)
-    from_head = head_sides(chambers.area)
-    # the head chamber grows over 0..pi and shrinks over pi..2 pi; the crank chamber the other way round
-
-    def own_angle(travel: Real, left: Real) -> Real:
-        moved, rest = np.where(from_head, travel, left), np.where(from_head, left, travel)
-        return angle_at(moved, radius, lam, rest, margin, exact)
-
-    opens, closes = own_angle(suction, stroke - suction), own_angle(discharge, before)
-    return (
-        np.where(from_head, opens, 2.0 * np.pi - opens),
-        np.where(from_head, 2.0 * np.pi - closes, closes),
+    from optimizer.mechanics.kernel.chamber_values import (
+        DISCHARGE_ANGLE,
+        DISCHARGE_CUT_OFF,
+        SUCTION_ANGLE,
+        SUCTION_CUT_OFF,
     )
+
+    values = cycle_values(chambers, layout)
+    if not exact:
+        return values[SUCTION_CUT_OFF], values[DISCHARGE_CUT_OFF]
+    return values[SUCTION_ANGLE], values[DISCHARGE_ANGLE]
 
 
 def indicated_work(chambers: Chambers, layout: Layout) -> Real:
@@ -154,24 +171,7 @@ def indicated_work(chambers: Chambers, layout: Layout) -> Real:
     g(l, n) = integral from 0 to l of (e^{nu} - 1) e^{-u} du. So pressures that hardly differ keep their digits.
     nan where the chamber never delivers.
     """
-    stroke = 2.0 * layout.reciprocating.crank_radius[..., :, None]
-    clear = np.where(chambers.closed, chambers.clearance, 1.0) * stroke
-    low, rise, log = chambers.suction, chambers.discharge - chambers.suction, log_ratio(chambers)
-    suction, discharge = switching_travels(chambers, layout)
-    compression, expansion = (
-        _above_start(log, n) for n in (chambers.compression_exponent, chambers.expansion_exponent)
-    )
-    put_in = low * (stroke + clear) * compression + rise * discharge
-    recovery = low * (clear + suction) * expansion
-    return np.where(chambers.closed, chambers.area * (put_in - recovery), 0.0)
+    from optimizer.mechanics.kernel.chamber_values import WORK
 
-
-def _above_start(log: Real, exponent: Real) -> Real:
-    """g(log / n, n), work of a compression above its first pressure over first pressure times first volume."""
-    length, power = log / exponent, exponent - 1.0
-    safe = np.where(power == 0.0, 1.0, power)
-    direct = np.where(power == 0.0, length, np.expm1(power * length) / safe) + np.expm1(-length)
-    # the two terms cancel for small pressure ratios, and the integrand is smooth
-    u = length[..., None] * _INSIDE
-    near = length * (np.expm1(np.minimum(exponent[..., None] * u, 1.0)) * np.exp(-u) @ _SHARES)
-    return np.where(log < 1.0, near, direct)
+    # who has other pressures in some of the chambers writes their work to it
+    return cycle_values(chambers, layout)[WORK].copy()

@@ -5,13 +5,18 @@ displacement counts from the outer dead centre towards the shaft; velocity and a
 derivatives, so that the inertia force +m a on the frame is positive in rod tension.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from optimizer.mechanics.layout import Layout
-from optimizer.numerics.arrays import Real
+from optimizer.mechanics.layout import spread as spread_layout
+from optimizer.numerics.arrays import Real, in_order, spread
 from optimizer.numerics.memoization import cached_property, remembered
+
+#: above this rod ratio the motion is steep near 90 and 270 degrees
+_STEEP = 0.8
 
 
 @dataclass(frozen=True)
@@ -26,25 +31,23 @@ class Motion:
     rod_angle_cosine: Real
     remaining: Real  # m, stroke - displacement without cancellation
 
-    @cached_property
-    def sine(self) -> Real:
-        """sin phi, which most of the forces have in common."""
-        return np.sin(self.crank_angle)
+    sine: Real  # of the crank angle, which most of the forces have in common
+    cosine: Real
 
     @cached_property
-    def cosine(self) -> Real:
-        """cos phi."""
-        return np.cos(self.crank_angle)
+    def rod_angle_tangent(self) -> Real:
+        """tan beta."""
+        return self.rod_angle_sine / self.rod_angle_cosine
 
-    @property
+    @cached_property
     def tangential_factor(self) -> Real:
         """sin(phi + beta) / cos beta: tangential force over piston force (design calculation of the 2D12, 2-22)."""
-        return self.sine + self.cosine * self.rod_angle_sine / self.rod_angle_cosine
+        return self.sine + self.cosine * self.rod_angle_tangent
 
-    @property
+    @cached_property
     def radial_factor(self) -> Real:
         """cos(phi + beta) / cos beta: radial force over piston force (lecture slides on compressors)."""
-        return self.cosine - self.sine * self.rod_angle_sine / self.rod_angle_cosine
+        return self.cosine - self.sine * self.rod_angle_tangent
 
 
 def own_angle(layout: Layout, shaft_angle: Real) -> Real:
@@ -58,12 +61,12 @@ def own_angle(layout: Layout, shaft_angle: Real) -> Real:
     -------
     (..., rows, T).
     """
-    return shaft_angle[..., None, :] + _ahead(layout)[..., :, None]
+    return shaft_angle[..., None, :] + angle_ahead(layout)[..., :, None]
 
 
 @remembered
-def _ahead(layout: Layout) -> Real:
-    """The same at shaft angle 0, (..., rows)."""
+def angle_ahead(layout: Layout) -> Real:
+    """Own crank angles of the rows at shaft angle 0, (..., rows) rad."""
     rows = layout.reciprocating
     apart = rows.crank_direction * np.conj(rows.axis)
     return layout.sense[..., None] * np.arctan2(apart.imag, apart.real)
@@ -86,66 +89,37 @@ def motion(layout: Layout, shaft_angle: Real, exact: bool = True) -> Motion:
     shaft_angle : (..., T) rad.
     exact : or cut off after the second order.
     """
-    rows = layout.reciprocating
-    radius, lam, omega = rows.crank_radius[..., None], rows.rod_ratio[..., None], layout.omega[..., None, None]
-    phi = own_angle(layout, shaft_angle)
-    sine, cosine = np.sin(phi), np.cos(phi)
-    beta_sine = lam * sine
-    # 1 - lam^2 from 1 - lam
-    short = rows.rod_margin[..., None] * (1.0 + lam)
-    beta_cosine = np.sqrt(short + (lam * cosine) ** 2)
-    # 1 - cos and 1 + cos without cancellation near the dead centres
-    rise, fall = 2.0 * np.sin(0.5 * phi) ** 2, 2.0 * np.cos(0.5 * phi) ** 2
-    if exact:
-        x = rise + lam * sine**2 / (1.0 + beta_cosine)
-        c = sine + cosine * beta_sine / beta_cosine
-        a = cosine + lam * (short * np.cos(2.0 * phi) + lam**2 * cosine**4) / beta_cosine**3
-        upright = beta_cosine + lam * np.abs(cosine)
-        u = np.where(cosine >= 0.0, upright, short / upright)
-        remaining = 2.0 * fall * u / (u + 1.0 + lam)
-    else:
-        x = rise + 0.5 * lam * sine**2
-        c = sine + 0.5 * lam * np.sin(2.0 * phi)
-        a = cosine + lam * np.cos(2.0 * phi)
-        remaining = fall - 0.5 * lam * sine**2
-    return Motion(
-        phi, radius * x, radius * omega * c, radius * omega**2 * a, beta_sine, beta_cosine, radius * remaining
+    # the compiler is loaded when it is first needed
+    from optimizer.mechanics.kernel.motion_values import VALUES, motion_values
+
+    phi, table = own_angle(layout, shaft_angle), row_table(layout)
+    if phi.shape[:-1] != table.shape[1:]:
+        leading = np.broadcast_shapes(phi.shape[:-2], table.shape[1:-1])
+        phi, layout = spread(phi, (*leading, *phi.shape[-2:])), spread_layout(layout, leading)
+        table = row_table(layout)
+    shape, places = phi.shape, (math.prod(phi.shape[:-1]), phi.shape[-1])
+    sine, cosine = in_order(np.sin(phi)), in_order(np.cos(phi))
+    omega, values = in_order(spread(layout.omega, shape[:-2])), np.empty((VALUES, *shape))
+    motion_values(
+        *(sine.reshape(places), cosine.reshape(places), table.reshape(len(table), places[0]), omega.reshape(-1)),
+        *(exact, values.reshape(VALUES, *places)),
     )
+    x, c, a, beta_sine, beta_cosine, remaining = values
+    return Motion(phi, x, c, a, beta_sine, beta_cosine, remaining, sine, cosine)
 
 
-def angle_at(
-    displacement: Real,
-    crank_radius: Real,
-    rod_ratio: Real,
-    remaining: Real | None = None,
-    rod_margin: Real | None = None,
-    exact: bool = True,
-) -> Real:
-    """Own crank angle in [0, pi] at which the piston has moved so far, rad.
+@remembered
+def row_table(layout: Layout) -> Real:
+    """Crank radius [m], rod ratio and 1 - rod ratio of the rows, as what is compiled takes them, (3, ..., rows)."""
+    rows = layout.reciprocating
+    parts = (rows.crank_radius, rows.rod_ratio, rows.rod_margin)
+    shape = np.broadcast_shapes((*layout.omega.shape, 1), *(part.shape for part in parts))
+    return np.array([spread(part, shape) for part in parts])
 
-    With t = x/r and u = 2 - t the cosine rule gives 1 - cos phi = t (2 (1 - lam) + lam u) / (2 (1 - lam + lam u)) and
-    1 + cos phi = u (2 + lam u) / (2 (1 - lam + lam u)), so that tan^2(phi/2) is their quotient. Each is as good as its
-    own distance, so the angle keeps its digits at both dead centres. Cut off after the second order the travel is
-    t = (1 + lam) (1 - cos phi) - lam (1 - cos phi)^2 / 2, whose roots for 1 - cos phi and 1 + cos phi do not cancel.
 
-    Parameters
-    ----------
-    displacement : (...) m, within the stroke.
-    remaining : (...) m, stroke - displacement, where it is known better than by the difference.
-    rod_margin : (...) 1 - lam, likewise.
-    exact : or cut off after the second order, as :func:`motion`.
-    """
-    t = displacement / crank_radius
-    u = 2.0 - t if remaining is None else remaining / crank_radius
-    margin = 1.0 - rod_ratio if rod_margin is None else rod_margin
-    t, u = np.maximum(t, 0.0), np.maximum(u, 0.0)
-    if exact:
-        rise, fall = t * (2.0 * margin + rod_ratio * u), u * (2.0 + rod_ratio * u)
-    else:
-        # one root: (1 + lam)^2 - 2 lam t = (1 - lam)^2 + 2 lam u
-        root = np.sqrt(margin**2 + 2.0 * rod_ratio * u)
-        rise, fall = t / (1.0 + rod_ratio + root), u / (margin + root)
-    return 2.0 * np.arctan2(np.sqrt(rise), np.sqrt(fall))
+def steep(rod_ratio: Real) -> bool:
+    """Whether any of the rods needs :func:`steep_angles`."""
+    return bool(np.count_nonzero(rod_ratio > _STEEP))
 
 
 def steep_angles(rod_ratio: Real) -> Real:
@@ -158,6 +132,6 @@ def steep_angles(rod_ratio: Real) -> Real:
     """
     scale = np.sqrt((1.0 - rod_ratio) * (1.0 + rod_ratio))[..., None]
     distance = 0.5 / 2.5 ** np.arange(21.0)
-    needed = np.where((rod_ratio[..., None] > 0.8) & (distance >= 0.25 * scale), distance, np.nan)
+    needed = np.where((rod_ratio[..., None] > _STEEP) & (distance >= 0.25 * scale), distance, np.nan)
     quarters = [(quarter, sign) for quarter in (0.5 * np.pi, 1.5 * np.pi) for sign in (1.0, -1.0)]
     return np.concatenate([quarter + sign * needed for quarter, sign in quarters], axis=-1)

@@ -29,7 +29,7 @@ class RodForces:
     @property
     def side(self) -> Real:
         """P tan beta, on the crosshead guide, N."""
-        return self.piston * self._tangent
+        return self.piston * self.motion.rod_angle_tangent
 
     @property
     def tangential(self) -> Real:
@@ -51,11 +51,7 @@ class RodForces:
         """Side force times the distance from pin to shaft, N m; equals the torque."""
         moving = self.motion
         # l sin beta = r sin phi, which stands for the infinite rod as well: N h = P (l sin beta + r cos phi tan beta)
-        return self.piston * (self.crank_radius * (moving.sine + moving.cosine * self._tangent))
-
-    @property
-    def _tangent(self) -> Real:
-        return self.motion.rod_angle_sine / self.motion.rod_angle_cosine
+        return self.piston * (self.crank_radius * (moving.sine + moving.cosine * self.motion.rod_angle_tangent))
 
 
 def rod_forces(piston_force: Real, motion: Motion, layout: Layout) -> RodForces:
@@ -79,8 +75,7 @@ def shaft_loads(piston_force: Real, motion: Motion, layout: Layout, shaft_angle:
     planes (..., rows + masses) m, forces (..., rows + masses, T) N as x + jy.
     """
     rows, masses, sense = layout.reciprocating, layout.rotating, layout.sense[..., None, None]
-    tangent = motion.rod_angle_sine / motion.rod_angle_cosine
-    pulled = piston_force * rows.axis[..., None] * (1.0 - 1j * sense * tangent)
+    pulled = piston_force * rows.axis[..., None] * (1.0 - 1j * sense * motion.rod_angle_tangent)
     outward = masses.mass * masses.radius * masses.direction * layout.omega[..., None] ** 2
     whirling = outward[..., None] * turned(layout.sense, shaft_angle)[..., None, :]
     planes = np.concatenate([rows.position, masses.position], axis=-1)

@@ -1,5 +1,6 @@
 """What the forces of the rows depend on, of one design or many."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
@@ -8,7 +9,7 @@ import numpy as np
 
 from optimizer.mechanics.gas import Chambers
 from optimizer.mechanics.indicated import Trace
-from optimizer.mechanics.kinematics import own_angle
+from optimizer.mechanics.kinematics import angle_ahead
 from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Real, in_order, spread
 from optimizer.numerics.memoization import cached_property
@@ -89,17 +90,17 @@ def row_data(
     """
     rows = layout.reciprocating
     leading = layout.omega.shape
-    designs, count = int(np.prod(leading)), rows.mass.shape[-1]
+    designs, count = math.prod(leading), rows.mass.shape[-1]
 
     def flat(value: Any, *own: int) -> Any:
-        return shared(spread(np.asarray(value), (*leading, *own)).reshape(designs, *own))
+        return shared(spread(value, (*leading, *own)).reshape(designs, *own))
 
     gas: dict[str, Any] = {"area": None}
     if chambers is not None:
         gas = {name: flat(value, count, value.shape[-1]) for name, value in vars(chambers).items()}
     return RowData(
         designs=designs,
-        ahead=flat(own_angle(layout, np.zeros(1))[..., 0], count),
+        ahead=flat(angle_ahead(layout), count),
         crank_radius=flat(rows.crank_radius, count),
         rod_ratio=flat(rows.rod_ratio, count),
         rod_margin=flat(rows.rod_margin, count),
@@ -143,7 +144,7 @@ def _tables(traces: Sequence[Trace]) -> "Tables":
 
 def compact(values: Real) -> Real:
     """Values as what is compiled takes them: of any other layout it would be compiled once more."""
-    return in_order(np.asarray(values, float))
+    return in_order(values if values.dtype == np.float64 else values.astype(float))
 
 
 def _together(values: Sequence[Real], shape: tuple[int, ...]) -> Real:

@@ -6,17 +6,18 @@ A motion cut off after the second order has levers that are not its own, and tab
 those there is the quadrature of :mod:`optimizer.mechanics.turn`.
 """
 
+import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.mechanics.gas import Chambers, head_sides, indicated_work, log_ratio, switching_travels
+from optimizer.mechanics.gas import Chambers, chamber_table, cycle_values, indicated_work
 from optimizer.mechanics.indicated import TURN
-from optimizer.mechanics.kinematics import motion
+from optimizer.mechanics.kinematics import motion, row_table
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.whole_turn import TurnCurves
-from optimizer.numerics.arrays import Real
+from optimizer.numerics.arrays import Real, in_order, spread
 from optimizer.numerics.memoization import cached_property
 from optimizer.responses.piecewise_cubics import ROUNDING
 
@@ -54,22 +55,21 @@ class RowWork:
 
         It repeats with every turn.
         """
-        rows, moving = self.layout.reciprocating, motion(self.layout, angle)
-        own = np.mod(moving.crank_angle, TURN)
-        stroke = 2.0 * rows.crank_radius[..., None]
-        # both ways count from the outer dead centre
-        way = np.where(own < 0.5 * TURN, moving.displacement, stroke + moving.remaining)
-        work = 0.5 * rows.mass[..., None] * moving.velocity**2
-        work += self._rubbed[..., None] * (0.5 * way / stroke - own / TURN)
-        if self.chambers is not None and self._indicated is not None:
-            heads = head_sides(self.chambers.area)[:, None]
-            moved, left = moving.displacement[..., None, :], moving.remaining[..., None, :]
-            # a chamber counts from the dead centre at which it is smallest
-            since = np.mod(own[..., None, :] + np.where(heads, 0.0, 0.5 * TURN), TURN)
-            travel, rest = np.where(heads, moved, left), np.where(heads, left, moved)
-            switching = switching_travels(self.chambers, self.layout)
-            gas = _gas_work(self.chambers, stroke[..., None], travel, rest, since < 0.5 * TURN, switching)
-            work += np.add.reduce(gas - self._indicated[..., None] * (since / TURN), axis=-2)
+        # the compiler is loaded when it is first needed
+        from optimizer.mechanics.kernel.chamber_values import work_values
+
+        moving, rows = motion(self.layout, angle), row_table(self.layout)
+        shape = moving.crank_angle.shape
+        number, angles = math.prod(shape[:-1]), shape[-1]
+        series = (moving.crank_angle, moving.displacement, moving.velocity, moving.remaining)
+        own, work = np.array([spread(self.layout.reciprocating.mass, shape[:-1]), self._rubbed]), np.empty(shape)
+        table, travels, indicated = self._gas
+        sides = table.shape[-1]
+        work_values(
+            *(in_order(values).reshape(number, angles) for values in series),
+            *(rows.reshape(len(rows), number), own.reshape(2, number), table.reshape(len(table), number, sides)),
+            *(travels.reshape(2, number, sides), indicated.reshape(number, sides), work.reshape(number, angles)),
+        )
         total: Real = np.add.reduce(work, axis=-2)
         return total
 
@@ -99,40 +99,11 @@ class RowWork:
             return self.indicated
         return indicated_work(self.chambers, self.layout)
 
-
-def _gas_work(
-    chambers: Chambers, stroke: Real, travel: Real, rest: Real, growing: np.ndarray, switching: tuple[Real, Real]
-) -> Real:
-    """Work put into the gas of every chamber since it was smallest, (..., rows, C, n) J.
-
-    With l = ln(V / V_end) a polytropic of exponent n takes p V l phi((n - 1) l) from p and V, phi(z) = (e^z - 1) / z.
-
-    Parameters
-    ----------
-    stroke : (..., rows, 1, 1) m.
-    travel, rest : (..., rows, C, n) m, of the stroke, from where the chamber is smallest.
-    growing : (..., rows, C, n).
-    switching : (..., rows, C) m, travels at which suction and discharge open; nan on open sides.
-    """
-    closed, low, high = (side[..., None] for side in (chambers.closed, chambers.suction, chambers.discharge))
-    opens, delivers = (np.where(closed, side[..., None], 0.0) for side in switching)
-    expansion, compression = chambers.expansion_exponent[..., None], chambers.compression_exponent[..., None]
-    clear = np.where(closed, chambers.clearance[..., None], 1.0) * stroke
-    log, full = log_ratio(chambers)[..., None], stroke + clear
-
-    def expansion_work(travel: Real) -> Real:
-        length = np.minimum(np.log1p(travel / clear), log / expansion)
-        return high * clear * length * _growth((1.0 - expansion) * length) + low * np.maximum(travel - opens, 0.0)
-
-    length = np.minimum(-np.log1p(-rest / full), log / compression)
-    put_in = low * full * length * _growth((compression - 1.0) * length) + high * np.maximum(delivers - travel, 0.0)
-    of_cycle = np.where(growing, -expansion_work(travel), put_in - expansion_work(stroke))
-    # what is open takes the one pressure both ways
-    work: Real = chambers.area[..., None] * np.where(closed, of_cycle, -low * travel)
-    return work
-
-
-def _growth(power: Real) -> Real:
-    """(e^z - 1) / z, 1 at 0."""
-    safe = np.where(power == 0.0, 1.0, power)
-    return np.where(power == 0.0, 1.0, np.expm1(safe) / safe)
+    @cached_property
+    def _gas(self) -> tuple[Real, Real, Real]:
+        """Chambers (7, ..., rows, C), the travels at which they switch (2, ..., rows, C), and the work of a turn: of no
+        chamber where there is no gas."""
+        if self.chambers is None or self._indicated is None:
+            none = np.zeros((7, *row_table(self.layout).shape[1:], 0))
+            return none, none[:2], none[0]
+        return chamber_table(self.chambers), cycle_values(self.chambers, self.layout)[:2], in_order(self._indicated)

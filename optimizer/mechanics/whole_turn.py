@@ -15,7 +15,7 @@ from numpy.polynomial.legendre import leggauss
 
 from optimizer.mechanics.curve_series import CurveSeries, forces
 from optimizer.mechanics.indicated import SLIVER, TURN, Trace, entries, turns_of
-from optimizer.mechanics.kinematics import own_angle, steep_angles
+from optimizer.mechanics.kinematics import angle_ahead, steep, steep_angles
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.row_data import RowData, compact, shared
 from optimizer.mechanics.row_parts import RowParts
@@ -53,16 +53,16 @@ def break_angles(layout: Layout, opens: tuple[Real, ...] = (), traces: Sequence[
     """
     ratio = layout.reciprocating.rod_ratio
     dead = spread(_DEAD_CENTRES, (*ratio.shape, 2))
-    own = np.concatenate([*opens, dead, steep_angles(ratio)], axis=-1)
-    ahead = own_angle(layout, np.zeros(1))
-    angles = (own - ahead).reshape(*ratio.shape[:-1], -1)
+    own = np.concatenate([*opens, dead, *([steep_angles(ratio)] if steep(ratio) else [])], axis=-1)
+    ahead = angle_ahead(layout)
+    angles = (own - ahead[..., None]).reshape(*ratio.shape[:-1], -1)
     designs = tuple(range(angles.ndim - 1))
     angles = angles[..., ~np.logical_and.reduce(np.isnan(angles), axis=designs)]
     apart = 0.0
     if traces:
         turns, apart = turns_of(traces), SLIVER
         again = [np.mod(angles + TURN * k, TURN * turns) for k in range(turns)]
-        angles = np.concatenate([*again, entries(traces, ahead[..., 0])], axis=-1)
+        angles = np.concatenate([*again, entries(traces, ahead)], axis=-1)
     angles = np.sort(angles, axis=-1)
     # rows that reverse together, and tables that have the same entries, would only make panels without width
     same = np.zeros(angles.shape, dtype=bool)

@@ -10,7 +10,7 @@ from optimizer.effects.results import GasCycle
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.angles import direction
 from optimizer.mechanics.gas import gas_forces
-from optimizer.mechanics.kinematics import motion, own_angle
+from optimizer.mechanics.kinematics import angle_ahead, motion
 from optimizer.mechanics.layout import stacked
 from optimizer.mechanics.row_series import Reading
 from optimizer.mechanics.shaft import INFLUENCES, bearing_places
@@ -110,7 +110,7 @@ def at_dead_centres(scene: Prepared) -> Real:
     masses = scene.layout.reciprocating.mass
     if cycle is None:
         return np.zeros((*masses.shape, 2))
-    ahead = own_angle(scene.layout, np.zeros(1))[..., 0]
+    ahead = angle_ahead(scene.layout)
     angle = np.concatenate([-ahead, np.pi - ahead], axis=-1)
     total = gas_forces(cycle.chambers, motion(scene.layout, angle), scene.layout, cycle.traces).total
     count = masses.shape[-1]

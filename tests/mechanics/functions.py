@@ -26,7 +26,7 @@ from optimizer.mechanics import (
 from optimizer.mechanics.envelope import AnnularSector, Segment, opened_for
 from optimizer.mechanics.indicated import Trace
 from optimizer.mechanics.internal_moment import internal_moment
-from optimizer.mechanics.kinematics import angle_at, motion, own_angle, steep_angles
+from optimizer.mechanics.kinematics import motion, own_angle, steep_angles
 from optimizer.mechanics.layout import BalanceWebs, Layout
 from optimizer.mechanics.row_data import row_data
 from optimizer.mechanics.row_work import RowWork
@@ -260,9 +260,6 @@ FUNCTIONS: dict[str, Callable[[Design], Any]] = {
     "own angle": lambda one: own_angle(one.layout, one.angle),
     "motion": lambda one: [_moving(one), _moving(one).tangential_factor, _moving(one).radial_factor],
     "motion of the second order": lambda one: _moving(one, False),
-    "angle of a travel": lambda one: [
-        angle_at(one.of_rows, 1.1 + 0.0 * one.of_rows, 0.3 * one.of_rows, None, None, exact) for exact in (True, False)
-    ],
     "steep angles": lambda one: steep_angles(0.5 * one.of_rows),
     "friction": lambda one: friction.reciprocating_friction(_moving(one), one.of_rows),
     "losses": lambda one: friction.share_of_losses(

@@ -7,7 +7,6 @@ _FINER = "finer or coarser than is needed, within what is told of it"
 _LOOKS = "a hundredth of the width of a line, or a px of the sample of a line in a legend: nobody can see it"
 _SIDES = "the moment is the same from either side"
 _OPEN = "of open sides nothing is used"
-_LIMITED = "what it limits is not used: the series is that of exponents below 1"
 _MECHANICS: dict[str, str] = {
     "bearings.py bending_moment: terms(-1.0) < terms(1.0) -> terms(-1.0) <= terms(1.0)": _ALIKE,
     "bearings.py bending_moment: terms(-1.0) -> terms(-1.011)": _SIDES,
@@ -16,14 +15,11 @@ _MECHANICS: dict[str, str] = {
     " -> 4.041 * np.spacing(np.maximum(np.abs(first), np.abs(last)))": _FINER,
     "row_data.py _opened: np.where(closed, discharge, 1.0) -> np.where(closed, discharge, 1.011)": _OPEN,
     "row_data.py _opened: np.where(closed, suction, 1.0) -> np.where(closed, suction, 1.011)": _OPEN,
-    "row_work.py beside_mean: own < 0.5 * TURN -> own <= 0.5 * TURN": _ALIKE,
     "friction.py reciprocating_friction: np.abs(motion.sine) < 1e-12 -> np.abs(motion.sine) <= 1e-12": _ALIKE,
     "layout.py _unbalances: angle + 180.0 -> angle - 180.0": "a whole turn",
     "row_series.py functions: self._memo.get(True) or self._memo.get(pressed)"
     " -> self._memo.get(True) and self._memo.get(pressed)": _SPEED,
     "whole_turn.py _alone: self.rows.crank_radius.shape[-1] -> self.rows.crank_radius.shape[+1]": "it has two axes",
-    "gas.py _above_start: np.minimum(exponent[..., None] * u, 1.0)"
-    " -> np.minimum(exponent[..., None] * u, 1.011)": _LIMITED,
     "indicated.py _WIDEST_PANEL": _FINER,
     "turn.py _NODES": _FINER,
     "turn.py _to_crossing: (high - low) * at_low / _nonzero(at_low - at_high)"
@@ -31,8 +27,6 @@ _MECHANICS: dict[str, str] = {
     "turn.py fluctuation: value[..., :-1] * value[..., 1:] < 0.0"
     " -> value[..., :-1] * value[..., 1:] < 0.001": "one place more of the integral is looked at, which is never"
     " beyond its extremes",
-    "gas.py log_ratio: np.where(chambers.closed, chambers.suction, 1.0)"
-    " -> np.where(chambers.closed, chambers.suction, 1.011)": _OPEN,
     "turn.py fluctuation: np.max(end, axis=-1) -> np.min(end, axis=-1)": "the integral ends as it begins, at 0: every"
     " end of a panel is the beginning of another, of which the largest is taken anyway",
     "whole_turn.py in_pieces: within.shape[-1] -> within.shape[+1]": "it has two axes",

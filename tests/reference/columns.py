@@ -35,6 +35,8 @@ def table_motion() -> Motion:
         exact.rod_angle_sine,
         exact.rod_angle_cosine,
         exact.remaining,
+        exact.sine,
+        exact.cosine,
     )
 
 

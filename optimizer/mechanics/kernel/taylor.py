@@ -115,19 +115,22 @@ def product(series, a, b, out, lanes, first):  # type: ignore[no-untyped-def]
     middle, radius, bounded = series
     for k in range(first, middle.shape[1]):
         result, off = middle[out, k], radius[out, k]
-        for p in range(lanes):
-            result[p] = 0.0
-        if bounded:
-            for p in range(lanes):
-                off[p] = 0.0
         for i in range(k + 1):
             factor, other = middle[a, i], middle[b, k - i]
-            for p in range(lanes):
-                result[p] += factor[p] * other[p]
+            if i == 0:
+                for p in range(lanes):
+                    result[p] = factor[p] * other[p]
+            else:
+                for p in range(lanes):
+                    result[p] += factor[p] * other[p]
             if bounded:
                 factor_off, other_off = radius[a, i], radius[b, k - i]
-                for p in range(lanes):
-                    off[p] += abs(factor[p]) * other_off[p] + factor_off[p] * (abs(other[p]) + other_off[p])
+                if i == 0:
+                    for p in range(lanes):
+                        off[p] = abs(factor[p]) * other_off[p] + factor_off[p] * (abs(other[p]) + other_off[p])
+                else:
+                    for p in range(lanes):
+                        off[p] += abs(factor[p]) * other_off[p] + factor_off[p] * (abs(other[p]) + other_off[p])
 
 
 @inner
