@@ -11,7 +11,7 @@ from optimizer.mechanics.crank_of_web import own_throws
 from optimizer.mechanics.fixed_weights import beside
 from optimizer.mechanics.layout import stacked
 from optimizer.mechanics.shapes import plates
-from optimizer.numerics.arrays import Complex, Real, any_true
+from optimizer.numerics.arrays import Complex, Real, all_true, any_true
 from optimizer.program.limits import Limits
 from schemas.answer.counterweights import Counterweight, Shape
 from schemas.base.model import FieldProblem
@@ -43,10 +43,13 @@ def masses_and_angles(machine: Machine, unbalance: Complex, limits: Limits) -> t
 
 def _within(machine: Machine, unbalance: Complex, limits: Limits) -> tuple[Real, Real]:
     mass, angle = np.abs(unbalance) / limits.radius, angle_deg(unbalance)
-    mass = np.where(mass >= limits.max_mass * (1.0 - _ROUNDING), limits.max_mass, mass)
+    full = mass >= limits.max_mass * (1.0 - _ROUNDING)
+    if any_true(full):
+        mass = np.where(full, limits.max_mass, mass)
     free, centre, half_angle = sectors(machine)
     if all_free(free):
-        return mass, np.where(mass > 0, angle, 0.0)
+        some = mass > 0
+        return mass, angle if all_true(some) else np.where(some, angle, 0.0)
     # reduced first, without which the edge of a sector at 1e6 degrees would be rounded to 1e-10
     centre = np.mod(centre, 360.0)
     off = _in_a_turn(angle - centre + 180.0) - 180.0

@@ -7,7 +7,7 @@ customary crank, 0 a bare one.
 
 import numpy as np
 
-from optimizer.numerics.arrays import SMALLEST, Complex, Real
+from optimizer.numerics.arrays import SMALLEST, Complex, Real, all_true
 
 #: distances that differ by less than this share of the extent are equal
 _TIE = 1e-9
@@ -45,6 +45,9 @@ def balance_rates(rotating: Complex, shares: Real, unbalance: Complex) -> Comple
     """
     opposed = -np.add.reduce(shares * unbalance[..., None, :], axis=-1)
     there = np.abs(rotating) > SMALLEST
+    if all_true(there):
+        # as mostly
+        return np.asarray(opposed / rotating)
     return np.where(there, opposed / np.where(there, rotating, 1.0), np.nan)
 
 

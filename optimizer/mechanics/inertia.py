@@ -53,6 +53,7 @@ def rotating(layout: Layout) -> Wrench:
     return _co_rotating(own_force, own_couple)
 
 
+@remembered
 def rotating_forces(layout: Layout) -> Phasors:
     """The same mass by mass (..., n)."""
     masses = layout.rotating
@@ -96,8 +97,10 @@ def reciprocating_forces(
 def _row_forces(layout: Layout, orders: Sequence[int], harmonic: Callable[[int, Real], Real]) -> Complex:
     """The same of several orders, of each co and counter (..., 2 orders, n)."""
     rows = layout.reciprocating
-    size, crank, axis = 0.5 * rows.mass * rows.crank_radius, rows.crank_direction, rows.axis
-    shapes = {size.shape, crank.shape, axis.shape, rows.rod_ratio.shape}
+    (size, opposed), crank, axis = _row_constants(layout), rows.crank_direction, rows.axis
+    shapes = {size.shape, crank.shape, axis.shape}
+    if max(orders) > 1:
+        shapes.add(rows.rod_ratio.shape)
     *leading, count = shapes.pop() if len(shapes) == 1 else np.broadcast_shapes(*shapes)
     every = np.empty((*leading, 2 * len(orders), count), complex)
     for n, order in enumerate(orders):
@@ -109,9 +112,15 @@ def _row_forces(layout: Layout, orders: Sequence[int], harmonic: Callable[[int, 
             continue
         turned = size * harmonic(order, rows.rod_ratio) * crank**order
         np.multiply(np.conj(turned), axis ** (order + 1), out=counter)
-        against = np.conj(axis)
-        np.multiply(turned, against if order == 2 else against ** (order - 1), out=co)
+        np.multiply(turned, opposed if order == 2 else opposed ** (order - 1), out=co)
     return every
+
+
+@remembered
+def _row_constants(layout: Layout) -> tuple[Real, Complex]:
+    """What the forces of all orders are made of: m r / 2 and the conjugates of the axes (..., n)."""
+    rows = layout.reciprocating
+    return 0.5 * rows.mass * rows.crank_radius, np.conj(rows.axis)
 
 
 @remembered_of_both

@@ -24,7 +24,7 @@ def internal_moment(layout: Layout, unbalance: Complex | None = None) -> Real:
     place, force = _inertia(layout)
     if unbalance is not None:
         webs = (layout.webs.position, unbalance, 0.0)
-        place, force = _beside_one_another([(place, force[..., 0, :], force[..., 1, :]), webs])
+        place, force = _side_by_side([(place, force[..., 0, :], force[..., 1, :]), webs])
     arm = place - np.asarray(layout.centre_plane)[..., None]
     order = np.argsort(arm, axis=-1)
     if order.ndim == 1:
@@ -38,7 +38,7 @@ def internal_moment(layout: Layout, unbalance: Complex | None = None) -> Real:
 def _inertia(layout: Layout) -> tuple[Real, Complex]:
     """Places (..., n) m of the masses of a machine, and their first-order forces, co and counter (..., 2, n) kg m."""
     turning, moving = rotating_forces(layout), reciprocating_forces(layout, 1)
-    return _beside_one_another(
+    return _side_by_side(
         [
             (layout.rotating.position, turning.co, turning.counter),
             (layout.reciprocating.position, moving.co, moving.counter),
@@ -46,7 +46,7 @@ def _inertia(layout: Layout) -> tuple[Real, Complex]:
     )
 
 
-def _beside_one_another(parts: Sequence[tuple[Real, Complex, Complex | float]]) -> tuple[Real, Complex]:
+def _side_by_side(parts: Sequence[tuple[Real, Complex, Complex | float]]) -> tuple[Real, Complex]:
     """Places (..., n) of all parts, and both of their phasors (..., 2, n)."""
     ends = [0, *accumulate(place.shape[-1] for place, _, _ in parts)]
     leading = np.broadcast_shapes(*(array.shape[:-1] for place, co, _ in parts for array in (place, co)))

@@ -22,8 +22,8 @@ def test_a_mask_that_is_spread_is_read_in_full() -> None:
     mask = np.broadcast_to(np.array([False, True]), (3, 2))
     assert any_true(mask)
     assert not all_true(mask)
-    assert all_true(np.bool_(True))
-    assert not any_true(np.bool_(False))
+    assert all_true(np.array(True))
+    assert not any_true(np.array(False))
 
 
 @pytest.mark.parametrize("seed", range(5))
