@@ -142,12 +142,17 @@ class Statement:
         """First row of each group (groups,)."""
         return np.searchsorted(self.group, np.arange(self.group[-1] + 1))
 
+    @cached_property
+    def _first_terms(self) -> np.ndarray:
+        """First term of each row (rows,), where terms of a row are side by side."""
+        return np.searchsorted(self.row, np.arange(self.row[-1] + 1))
+
     def rows(self, sizes: Real) -> Real:
         """Rows of the objective (..., rows) for sizes of its terms (..., J)."""
         if self.floor.shape[-1] == 1:
             return self.floor + np.add.reduce(sizes, axis=-1, keepdims=True)
         if self._many_in_order:
-            return self.floor + np.add.reduceat(sizes, np.searchsorted(self.row, np.arange(self.row[-1] + 1)), axis=-1)
+            return self.floor + np.add.reduceat(sizes, self._first_terms, axis=-1)
         return self.floor + np.add.reduce(self.membership * sizes[..., None, :], axis=-1)
 
     def largest(self, rows: Real) -> Real:
