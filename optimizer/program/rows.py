@@ -48,7 +48,7 @@ def weighted_peak(response: Response, weight: Reals, weight_x: Reals = 1.0, weig
     if against is None and not (np.count_nonzero(q) if isinstance(q, np.ndarray) else q):
         alone = p * f
         # what is too small to divide by is none, as in `total`
-        alone = (alone * (abs(alone) > SMALLEST))[..., None]
+        alone = (alone * (np.abs(alone) > SMALLEST))[..., None]
         factor = p[..., None, None] if isinstance(p, np.ndarray) else p
         norms = Norms(alone, factor * response.influence[..., None, :])
         return WeightedPeak(response.name, p * np.abs(b), norms, response.scenario)
