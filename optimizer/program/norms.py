@@ -66,11 +66,16 @@ def scalars(norms: Norms) -> tuple[bool, ...]:
 
 def join(norms: Sequence[Norms]) -> Norms:
     """All terms side by side, (..., J) and (..., J, K)."""
+    leadings, constant, influence = set(), [], []
+    for part in norms:
+        leadings |= {part.constant.shape[:-1], part.influence.shape[:-2]}
+        constant.append(part.constant)
+        influence.append(part.influence)
     # mostly one, which is not worth the time to broadcast
-    leadings = {part.constant.shape[:-1] for part in norms} | {part.influence.shape[:-2] for part in norms}
-    leading = leadings.pop() if len(leadings) == 1 else np.broadcast_shapes(*leadings)
-    constant = [spread(part.constant, (*leading, part.constant.shape[-1])) for part in norms]
-    influence = [spread(part.influence, (*leading, *part.influence.shape[-2:])) for part in norms]
+    if len(leadings) > 1:
+        leading = np.broadcast_shapes(*leadings)
+        constant = [spread(array, (*leading, array.shape[-1])) for array in constant]
+        influence = [spread(array, (*leading, *array.shape[-2:])) for array in influence]
     joined = influence[0] if len(influence) == 1 else np.concatenate(influence, axis=-2)
     # what is too small to divide by has no influence, as in `total`
     return Norms(np.concatenate(constant, axis=-1), np.where(np.abs(joined) > SMALLEST, joined, 0.0))

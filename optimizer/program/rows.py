@@ -83,21 +83,24 @@ def statement(groups: Sequence[Sequence[Row]], ceilings: Sequence[tuple[Response
     groups : what is to be small, at least one: their sum, each the largest of its rows.
     ceilings : responses with the largest peak allowed (...), in the units of the response.
     """
-    rows = [row for group in groups for row in group]
-    norms = join([peak.norms for row in rows for peak in row.peaks])
-    leading = norms.constant.shape[:-1]
-    floor = np.empty((*leading, len(rows)))
-    for number, row in enumerate(rows):
-        floor[..., number] = sum([peak.floor for peak in row.peaks])
-    places = _places(
-        tuple([len(group) for group in groups]),
-        tuple(
-            [
-                (row.name, tuple([(peak.name, peak.scenario, peak.norms.constant.shape[-1]) for peak in row.peaks]))
-                for row in rows
-            ]
-        ),
-    )
+    # loops, as a comprehension is a function of its own
+    parts, floors, shape, count = [], [], [], []
+    for group in groups:
+        count.append(len(group))
+        for row in group:
+            value: Reals = 0.0
+            peaks = []
+            for peak in row.peaks:
+                parts.append(peak.norms)
+                value = value + peak.floor
+                peaks.append((peak.name, peak.scenario, peak.norms.constant.shape[-1]))
+            floors.append(value)
+            shape.append((row.name, tuple(peaks)))
+    norms = join(parts)
+    floor = np.empty((*norms.constant.shape[:-1], len(floors)))
+    for number, value in enumerate(floors):
+        floor[..., number] = value
+    places = _places(tuple(count), tuple(shape))
     return Statement(
         norms=norms,
         row=places.row,

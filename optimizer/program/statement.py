@@ -90,6 +90,11 @@ class Statement:
         return np.abs(self.every_constant)
 
     @cached_property
+    def constant_sum(self) -> Real:
+        """What the sizes of the constants of the terms sum to (...)."""
+        return np.add.reduce(self.constant_sizes[..., : self.row.size], axis=-1)
+
+    @cached_property
     def flat(self) -> Flat:
         """The same for compiled loops."""
         norms, limited = self.norms, self.ceilings
@@ -115,8 +120,6 @@ class Statement:
     def objective_of(self, sizes: Real) -> Real:
         """P (...) for sizes of the terms (..., J)."""
         rows = self.rows(sizes)
-        if rows.shape[-1] == 1:
-            return rows[..., 0] if rows.ndim > 1 else rows[0]
         # one group is what is asked most
         return np.maximum.reduce(rows, axis=-1) if self.group[-1] == 0 else np.add.reduce(self.largest(rows), axis=-1)
 
@@ -125,6 +128,8 @@ class Statement:
         """P(0) (...)."""
         if any(self.norms.scalar):
             return self.objective_of(np.abs(self.norms.counting(self.norms.constant)))
+        if self.floor.shape[-1] == 1:
+            return (self.floor[..., 0] if self.floor.ndim > 1 else self.floor[0]) + self.constant_sum
         return self.objective_of(self.constant_sizes[..., : self.row.size])
 
     @cached_property
@@ -142,12 +147,17 @@ class Statement:
         """First row of each group (groups,)."""
         return np.searchsorted(self.group, np.arange(self.group[-1] + 1))
 
+    @cached_property
+    def _first_terms(self) -> np.ndarray:
+        """First term of each row (rows,), where terms of a row are side by side."""
+        return np.searchsorted(self.row, np.arange(self.row[-1] + 1))
+
     def rows(self, sizes: Real) -> Real:
         """Rows of the objective (..., rows) for sizes of its terms (..., J)."""
         if self.floor.shape[-1] == 1:
             return self.floor + np.add.reduce(sizes, axis=-1, keepdims=True)
         if self._many_in_order:
-            return self.floor + np.add.reduceat(sizes, np.searchsorted(self.row, np.arange(self.row[-1] + 1)), axis=-1)
+            return self.floor + np.add.reduceat(sizes, self._first_terms, axis=-1)
         return self.floor + np.add.reduce(self.membership * sizes[..., None, :], axis=-1)
 
     def largest(self, rows: Real) -> Real:
@@ -252,7 +262,9 @@ class Statement:
         )
         # what is known of it is not found out again
         attributes = vars(program)
-        attributes["constant_sizes"], attributes["at_rest"] = self.constant_sizes[None], self.at_rest[None]
+        for name in ("constant_sizes", "constant_sum", "at_rest"):
+            attributes[name] = getattr(self, name)[None]
+        vars(program.limits)["all_free"] = self.limits.all_free
         attributes["reaches"] = self.reaches._replace(single=self.single_reach[None])
         attributes["flat"] = Flat((1,), self.flat.programs)
         return program

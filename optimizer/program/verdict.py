@@ -161,7 +161,7 @@ def yardstick(statement: Statement) -> Real:
     does to a term.
     """
     rest = statement.at_rest
-    if np.count_nonzero(rest > 0) == rest.size:
+    if rest > 0 if rest.ndim == 0 else np.count_nonzero(rest > 0) == rest.size:
         return rest
     reach = np.minimum(statement.limits.reach, natural_reach(statement)[..., None])
     change = np.add.reduce(np.abs(statement.norms.influence) * reach[..., None, :], axis=(-2, -1))

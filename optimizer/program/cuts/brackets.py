@@ -41,9 +41,10 @@ class Brackets:
         """
         numbers = range(len(self._quantities)) if chosen is None else chosen
         results: dict[int, Evaluation] = {}
+        near_by = _NEAR * np.maximum.reduce(np.abs(u), initial=0.0) if self._recent else 0.0
         for at, evaluations in reversed(self._recent):
             change = np.abs(u - at)
-            if np.max(change, initial=0.0) <= _NEAR * np.max(np.abs(u), initial=0.0):
+            if np.maximum.reduce(change, initial=0.0) <= near_by:
                 near = {
                     q: self._near(q, evaluations[q], change) for q in numbers if q in evaluations and q not in results
                 }

@@ -5,6 +5,7 @@ peak of |d(theta) + H u| over the turn has a cut at every angle; the root mean s
 every split of a unit between the part that stays and the part that moves.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
@@ -86,7 +87,7 @@ class Quantity:
     def cut(self, angle: float, value: complex) -> Cut:
         """The cut of the peak at an angle [rad], where the curve has a value."""
         influence = self.response.influence_at(angle)
-        return Cut(value, influence, angle_deg=float(np.rad2deg(angle)), scalar=self.response.scalar)
+        return Cut(value, influence, angle_deg=math.degrees(angle), scalar=self.response.scalar)
 
     def harmonics(self, largest: float) -> tuple[Cut, ...]:
         """Cuts that tell together all that counterweights add to a peak, at any angle: each speed at which they turn.

@@ -33,19 +33,18 @@ class Group(NamedTuple):
 def spare(groups: Sequence[Group], about: Real) -> Real:
     """How wide brackets may be, relative to what quantities (quantities,) are about, to tell of those that decide
     nothing that they do not; 0 of those that may decide."""
-    left = np.full(about.size, np.inf)
+    left, sizes = [np.inf] * about.size, about.tolist()
     for group in groups:
-        level = max((member.offset + member.weight * about[member.quantity] for member in group.weighed), default=0.0)
+        level = max((member.offset + member.weight * sizes[member.quantity] for member in group.weighed), default=0.0)
         for member in group.weighed:
-            left[member.quantity] = min(
-                left[member.quantity], (level - member.offset) / member.weight - about[member.quantity]
-            )
-    return np.clip(_SHARE * left / np.maximum(about, _TINY), 0.0, _SHARE)
+            room = (level - member.offset) / member.weight - sizes[member.quantity]
+            left[member.quantity] = min(left[member.quantity], room)
+    return np.clip(_SHARE * np.array(left) / np.maximum(about, _TINY), 0.0, _SHARE)
 
 
 def deciding(groups: Sequence[Group], evaluations: Sequence[Evaluation]) -> np.ndarray:
     """(quantities,) whether any may be the largest of a group, by brackets."""
-    may = np.zeros(len(evaluations), dtype=bool)
+    may = [False] * len(evaluations)
     for group in groups:
         least = max(
             (member.offset + member.weight * evaluations[member.quantity].lower for member in group.weighed),
@@ -53,4 +52,4 @@ def deciding(groups: Sequence[Group], evaluations: Sequence[Evaluation]) -> np.n
         )
         for member in group.weighed:
             may[member.quantity] |= member.offset + member.weight * evaluations[member.quantity].upper > least
-    return may
+    return np.array(may, dtype=bool)

@@ -21,7 +21,8 @@ from optimizer.responses.piecewise_cubics import Index
 
 #: in every piece, as shares of its half width; at its ends on the side of the piece
 _PLACES = np.linspace(-1.0, 1.0, 7) * (1.0 - 1e-7)
-_POWERS = _PLACES ** np.arange(_PLACES.size)[:, None]
+_EXPONENTS = np.arange(_PLACES.size)
+_POWERS = _PLACES ** _EXPONENTS[:, None]
 #: from values at the places to the polynomial through them
 _TO_POLYNOMIAL = np.linalg.inv(_POWERS)
 #: share of what is added up from which on a cubic leaves out much
@@ -153,14 +154,15 @@ def _vertex(around: Real, otherwise: Index) -> tuple[Real, Real]:
     """
     before, here, after = np.moveaxis(around, -1, 0)
     slope, bend = 0.5 * (after - before), before - 2.0 * here + after
-    step = np.where(bend < 0.0, -slope / np.where(bend < 0.0, bend, -1.0), otherwise)
+    down = bend < 0.0
+    step = np.where(down, -slope / np.where(down, bend, -1.0), otherwise)
     step = np.clip(step, -1.0, 1.0)
     return step, here + step * (slope + 0.5 * bend * step)
 
 
 def _at(polynomial: Complex, place: Real) -> Complex:
     """Polynomials (m, S) at places (m, n)."""
-    values: Complex = np.matmul(place[..., None] ** np.arange(_PLACES.size), polynomial[..., None])[..., 0]
+    values: Complex = np.matmul(place[..., None] ** _EXPONENTS, polynomial[..., None])[..., 0]
     return values
 
 

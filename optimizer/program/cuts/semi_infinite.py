@@ -23,6 +23,7 @@ from optimizer.program.ceilings import Ceilings, limited
 from optimizer.program.cuts.brackets import Brackets
 from optimizer.program.cuts.cut import EXACT, Cut, Evaluation, Quantity, Scatter
 from optimizer.program.cuts.dominance import Group, Weighed, deciding, spare
+from optimizer.program.cuts.exact_rows import ExactRows
 from optimizer.program.cuts.samples import Samples
 from optimizer.program.cuts.terms import Terms
 from optimizer.program.limits import Limits
@@ -43,6 +44,8 @@ _OF_QUANTITIES = ("samples", "brackets", "first", "_resting")
 _TINY = 1e-300
 #: share of what goals and ceilings are measured by: what samples show to be smaller may be larger between them
 _FAINT = 1e-9
+#: excesses over no ceilings; nobody writes to it
+_NONE_OVER = np.zeros(0)
 #: of every quantity
 Cuts = Sequence[Sequence[Cut]]
 
@@ -69,7 +72,7 @@ class Values(NamedTuple):
     @property
     def excess(self) -> float:
         """The largest excess over a ceiling; -inf without ceilings."""
-        return float(np.maximum.reduce(self.over, initial=-np.inf))
+        return float(np.maximum.reduce(self.over)) if self.over.size else -np.inf
 
 
 @dataclass(frozen=True)
@@ -129,7 +132,9 @@ class Problem:
 
     def of_goals(self, of_groups: Real) -> Real:
         """(goals,) the largest sums of what groups (groups,) come to."""
-        sums = np.bincount(self.case_of, of_groups)
+        sums: Real = np.bincount(self.case_of, of_groups).astype(float)
+        if sums.size == len(self.goals):
+            return sums
         return np.maximum.reduceat(sums, np.searchsorted(self.goal_of_case, np.arange(len(self.goals))))
 
     def changed(self, **fields: Any) -> "Problem":
@@ -170,7 +175,7 @@ class Problem:
         """Without counterweights."""
         if self.finite is not None:
             still = np.zeros(self.limits.radius.shape, complex)
-            over = self.finite.ceilings.excess(still) if self.ceilings else np.zeros(0)
+            over = self.finite.ceilings.excess(still) if self.ceilings else _NONE_OVER
             return Values(self.finite.at_rest[None], over, (), self._over_budget(still))
         still, fine = np.zeros(self.limits.radius.shape, complex), np.full(len(self.quantities), _FINE)
         return self._decided(still, fine, *self._resting)
@@ -300,18 +305,12 @@ class Problem:
         width : of the brackets, as a share of what the goals and ceilings are measured by.
         """
         if self.finite is not None:
-            return self._exact(self.finite, u)
+            over, point = self.finite.ceilings.excess(u) if self.ceilings else _NONE_OVER, points_at(self.finite, u)
+            return Values(point.objective[None], over, (), self._over_budget(u), float(point.rounding))
         about = np.maximum(self.samples.sizes(u, self.scatter), _TINY)
-        # what nearly cancels is bracketed by rounding: its samples say too little of how large it is
-        faint = np.where(np.isfinite(self._shares), _FAINT * self._shares, 0.0)
-        wanted = np.clip(width * self._shares / np.maximum(about, faint), 1e-15, 1e300)
+        wanted = np.clip(width * self._shares / np.maximum(about, self._faint), 1e-15, 1e300)
         spare = self._spare(about)
         return self._decided(u, wanted, self.brackets.evaluate(u, np.maximum(wanted, spare)), spare > wanted)
-
-    def _exact(self, program: Statement, u: Complex) -> Values:
-        over = program.ceilings.excess(u) if program.ceilings.names else np.zeros(0)
-        point = points_at(program, u)
-        return Values(point.objective[None], over, (), self._over_budget(u), float(point.rounding))
 
     def _spare(self, about: Real) -> Real:
         """Widths of brackets (quantities,) that tell of what decides nothing that it does not.
@@ -344,6 +343,12 @@ class Problem:
             worth[q] = min(worth[q], size)
         return worth
 
+    @cached_property
+    def _faint(self) -> Real:
+        """(quantities,) below which one nearly cancels and is bracketed by rounding: its samples say too little of how
+        large it is."""
+        return np.where(np.isfinite(self._shares), _FAINT * self._shares, 0.0)
+
     def seen(self, u: Complex, matters: Real) -> tuple[Values, tuple[tuple[Evaluation, ...], ...]]:
         """What an unbalance comes to at some angles, which is no more than the truth, and every quantity there.
 
@@ -354,13 +359,14 @@ class Problem:
         maxima = self.samples.highest(u, self.scatter, matters)
         return self._values(u, tuple(evaluations[0] for evaluations in maxima), self.sizes), maxima
 
+    @cached_property
+    def _exact_rows(self) -> ExactRows:
+        return ExactRows(self.groups)
+
     def _values(self, u: Complex, reached: tuple[Evaluation, ...], sizes: Real) -> Values:
         largest = [
-            max(
-                [_sum(row, u, self.scatter) for row in group.rows]
-                + [member.offset + member.weight * reached[member.quantity].upper for member in group.weighed]
-            )
-            for group in self.groups
+            max(rows + [member.offset + member.weight * reached[member.quantity].upper for member in group.weighed])
+            for rows, group in zip(self._exact_rows.at(u, self.scatter), self.groups, strict=True)
         ]
         over = [
             float(response.to(u).peak) + self.scatter.of(response.influence, u) - cap for response, cap in self.ceilings
@@ -391,9 +397,3 @@ class Problem:
         weighed = [Weighed(q, 1.0 / size, -cap / size) for (q, cap), size in zip(self.limited, sizes, strict=True)]
         goal = Goal("excess", (Group(tuple(rows), tuple(weighed)),), 1.0)
         return self.changed(goals=(goal,), ceilings=(), limited=())
-
-
-def _sum(row: Row, u: Complex, scatter: Scatter) -> float:
-    return float(
-        sum(peak.floor + np.sum(np.abs(peak.norms.at(u))) + scatter.of(peak.norms.influence, u) for peak in row.peaks)
-    )

@@ -271,7 +271,7 @@ def _scales(
     many, _, webs = influence.shape
     reach, unit, demands = np.empty((many, webs)), np.empty(many), np.empty((2, many))
     _disc_forms().scales(
-        np.add.reduce(statement.constant_sizes[..., : statement.row.size], axis=-1),
+        in_order(statement.constant_sum),
         influence,
         np.abs(cancelling(statement)),
         in_order(statement.single_reach),

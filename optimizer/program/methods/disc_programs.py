@@ -108,7 +108,7 @@ def _basis(statement: Statement) -> np.ndarray | None:
     """Which of two responses a vector is a multiple of (J + I,), None where there are more than two."""
     vectors = statement.every_constant.shape[-1]
     if vectors < 3:
-        return np.arange(vectors)
+        return _places(vectors)
     responses = [term.response for term in statement.names.terms] + list(statement.ceilings.names)
     if len(responses) != vectors:
         # names of more than is asked for
@@ -152,6 +152,12 @@ def _pair(statement: Statement) -> _Pair | None:
         multiple[:, own], two[:, b] = along, largest
         holds &= (np.maximum.reduce(off, axis=-1) <= _SAME * size).all(axis=-1)
     return _Pair(basis, multiple, holds, two)
+
+
+@lru_cache(maxsize=8)
+def _places(vectors: int) -> np.ndarray:
+    """Of the vectors in their order; nobody writes to it."""
+    return np.arange(vectors)
 
 
 @lru_cache(maxsize=8)

@@ -10,7 +10,7 @@ follows belongs to the program at hand.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -83,18 +83,12 @@ class Assembly:
         size : (count,) constants of the right sides.
         vectors : (2 count,) constants of the vectors; all real parts stand first, as in their parts.
         """
-        count = size.size
-
-        def moved(row: np.ndarray, offset: int) -> np.ndarray:
-            # the solver wants the rows of a cone together
-            row = row + offset
-            return _PLANE * (row % count) + row // count
-
-        constant = np.empty(_PLANE * count)
-        constant[moved(np.arange(count), 0)] = size
-        constant[moved(np.arange(2 * count), count)] = vectors
-        parts = [Part(moved(part.row, 0), part.column, part.value) for part in size_parts]
-        parts += [Part(moved(part.row, count), part.column, part.value) for part in vector_parts]
+        # the solver wants the rows of a cone together
+        of_sizes, of_vectors = _places(size.size)
+        constant = np.empty(_PLANE * size.size)
+        constant[of_sizes], constant[of_vectors] = size, vectors
+        parts = [Part(of_sizes[part.row], part.column, part.value) for part in size_parts]
+        parts += [Part(of_vectors[part.row], part.column, part.value) for part in vector_parts]
         return self._add(constant, parts, cones=True)
 
     def _add(self, constant: Real, parts: Sequence[Part], cones: bool) -> slice:
@@ -175,6 +169,13 @@ class Assembly:
                 places.append(np.arange(start, start + rows, _PLANE))
             start += rows
         return np.concatenate(places)
+
+
+@lru_cache(maxsize=64)
+def _places(count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Rows of so many cones that stand together: of the sizes, and of the vectors; nobody writes to it."""
+    first = _PLANE * np.arange(count)
+    return first, np.concatenate([first + 1, first + 2])
 
 
 @cache
