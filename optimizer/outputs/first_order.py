@@ -177,9 +177,10 @@ def _ellipses(wrenches: Sequence[PolarWrench]) -> list[dict[str, dict[str, float
     """
     pairs = [pair for wrench in wrenches for pair in wrench]
     mirrored = [pair.counter.conjugate() for pair in pairs]
-    along_x = magnitudes([pair.co + across for pair, across in zip(pairs, mirrored, strict=True)])
-    along_y = magnitudes([pair.co - across for pair, across in zip(pairs, mirrored, strict=True)])
-    figures = list(map(_figures, pairs, along_x, along_y))
+    along_x = [pair.co + across for pair, across in zip(pairs, mirrored, strict=True)]
+    along_y = [pair.co - across for pair, across in zip(pairs, mirrored, strict=True)]
+    sizes = magnitudes(along_x + along_y)
+    figures = list(map(_figures, pairs, sizes[: len(pairs)], sizes[len(pairs) :]))
     return [
         {name: dict(zip(fields, own, strict=True)) for (name, fields), own in zip(_FIELDS, of_wrench, strict=True)}
         for of_wrench in zip(figures[::2], figures[1::2], strict=True)

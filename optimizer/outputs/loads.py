@@ -123,14 +123,19 @@ def _covers(scene: Prepared) -> list[list[CoverLoad]]:
     cycle: GasCycle | None = scene.results.get("gas")
     if cycle is None:
         return []
+    # pressure times area
+    smallest, largest = _ends(cycle.forces.pressure)
     return [
         [
             CoverLoad(
-                cylinder=chamber // 2, side="crank" if chamber % 2 else "head", largest_N=largest, smallest_N=smallest
+                cylinder=chamber // 2,
+                side="crank" if chamber % 2 else "head",
+                largest_N=high * area,
+                smallest_N=low * area,
             )
-            for chamber, (smallest, largest) in enumerate(zip(*of_row, strict=True))
+            for chamber, (low, high, area) in enumerate(zip(*of_row, strict=True))
         ]
-        for of_row in zip(*_ends(np.abs(cycle.forces.force)), strict=True)
+        for of_row in zip(smallest, largest, cycle.forces.area.tolist(), strict=True)
     ]
 
 

@@ -3,6 +3,7 @@
 import time
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
+from math import isnan
 from typing import NamedTuple
 
 import numpy as np
@@ -14,7 +15,7 @@ from optimizer.formulation.goals import Goals
 from optimizer.formulation.limits import TOUCHED
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Demand, Task
-from optimizer.mechanics.fixed_weights import beside
+from optimizer.mechanics.fixed_weights import beside, fixed_mass
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.certificate import Multipliers, budget_price, ceiling_allowance
 from optimizer.program.cuts.optimum import METHOD, CertifiedOptimum
@@ -23,7 +24,7 @@ from optimizer.program.cuts.semi_infinite import Problem, Values
 from optimizer.program.points import points_at
 from optimizer.program.sensitivity import shadow_prices
 from optimizer.program.verdict import CONTRADICTED, Claim, Verdict, mass_resolution, verdict
-from optimizer.solve.certify import figures
+from optimizer.solve.certify import MASS_FIGURES
 from optimizer.solve.cut_plates import cut_plates
 from optimizer.solve.prices import shadow_prices as priced
 from optimizer.solve.prices import touched_by_mass
@@ -93,23 +94,21 @@ def solution_of(
     claimed = _claim(wanted, program, optimum, u, values, mass, -np.inf if search is None else search.lower_bound)
     # what the last goal allows is for the mass, and for what castings cost, after it
     judged = verdict(claimed, wanted.relative_gap + program.goals[-1].allowance)
-    there, _ = beside(machine, mass, angle)
+    gap, (there, _) = judged.gap.item(), beside(machine, mass, angle)
     touched = tuple(dict.fromkeys((*touched_by_mass(machine, there), *_touched(task, goals, values))))
     proofs = Proofs.of(optimum, square, goals.speeds)
     prices, several = tuple[ShadowPrice, ...](), task.robust or task.objective.priorities
-    if in_full and search is None and not (several or np.isnan(judged.gap[0]) or machine.web_groups):
+    if in_full and search is None and not (several or isnan(gap) or machine.web_groups):
         # of a group no web gives way by itself, and no choice gives way at all
         active = shown.active_limits(touched)
-        prices = _prices(together, goals, optimum.proof, proofs.objective, u, active, float(judged.gap[0]), square)
-    at_rest, target = program.at_rest.goals[-1], np.asarray(optimum.mass_target)
-    printed = figures(task.machine, claimed, judged, at_rest, target, square) | _of_search(
-        optimum, judged, search, square
-    )
+        prices = _prices(together, goals, optimum.proof, proofs.objective, u, active, gap, square)
+    at_rest, target = float(program.at_rest.goals[-1]), float(optimum.mass_target)
+    printed = _printed(task, claimed, judged, at_rest, target, square) | _of_search(optimum, judged, search, square)
     status, reason = status_of(optimum, judged, wanted, search, program.goals[-1].allowance)
     levels = _levels(optimum, search, goals, square)
     if search is None and program.goals[-1].allowance > 0.0:
         levels += (_mass_level(optimum, float(np.sum(there)), printed["mass_lower_bound_kg"]),)
-    if judged.reason == CONTRADICTED:
+    if judged.reason.item() == CONTRADICTED:
         levels = tuple(level.model_copy(update={"lower_bound": None, "multipliers": None}) for level in levels)
     turning = any(quantity.response.turning is not None for quantity in program.quantities)
     return Solution(
@@ -130,6 +129,30 @@ def solution_of(
         0 if search is None else search.nodes,
         time.perf_counter() - began,
     )
+
+
+def _printed(
+    task: Task, claimed: Claim, judged: Verdict, at_rest: float, mass_target: float, omega_squared: float
+) -> dict[str, float | str | None]:
+    """As :func:`optimizer.solve.certify.figures`, of one machine in plain numbers."""
+    of_mass = dict[str, float | None].fromkeys(MASS_FIGURES)
+    if claimed.mass_lower_bound is not None:
+        masses = (
+            judged.mass_lower_bound.item() + float(fixed_mass(task.machine)),
+            judged.mass_gap.item(),
+            judged.mass_yardstick.item(),
+            mass_target * omega_squared,
+        )
+        of_mass = dict(zip(MASS_FIGURES, masses, strict=True))
+    return {
+        "objective": claimed.value.item() * omega_squared,
+        "lower_bound": judged.lower_bound.item() * omega_squared,
+        "gap": judged.gap.item() * omega_squared,
+        "relative_gap": judged.relative_gap.item(),
+        "yardstick": claimed.yardstick.item() * omega_squared,
+        "objective_without_counterweights": at_rest * omega_squared,
+        **of_mass,
+    }
 
 
 def _of_search(
@@ -241,7 +264,7 @@ def _bound(program: Problem, proof: Proof, u: Complex, values: Values) -> tuple[
     """The bound that is claimed of counterweights with some values, and the rounding of a value."""
     statement, own = proof.statement, values.rounding
     # what scatters whatever the counterweights is a floor
-    charge = proof.charge + _FLOORS * float(np.add.reduce(np.abs(statement.floor)))
+    charge = proof.charge + _FLOORS * sum(map(abs, statement.floor.tolist()))
     if own is None or program.finite is None or statement.norms is not program.finite.norms:
         own = float(points_at(statement, u).rounding)
     return bound_beside(proof, values.excess), own + charge * _EPS

@@ -21,6 +21,9 @@ from optimizer.responses.response import Response
 from schemas.machine.machine import Machine
 from schemas.request.objective import Objective
 
+#: fields of a certificate about the mass
+MASS_FIGURES = ("mass_lower_bound_kg", "mass_relative_gap", "mass_yardstick_kg", "mass_objective_limit")
+
 
 @dataclass(frozen=True)
 class Certified:
@@ -103,14 +106,12 @@ def figures(
     ----------
     at_rest, mass_target : objectives without counterweights, and the largest that proofs of the mass count as optima.
     """
-    of_mass = {
-        "mass_lower_bound_kg": judged.mass_lower_bound + fixed_mass(machine),
-        "mass_relative_gap": judged.mass_gap,
-        "mass_yardstick_kg": judged.mass_yardstick,
-        "mass_objective_limit": np.asarray(mass_target * omega_squared),
-    }
     if claimed.mass_lower_bound is None:
-        of_mass = dict.fromkeys(of_mass, np.full(np.shape(omega_squared), np.nan))
+        of_mass = dict.fromkeys(MASS_FIGURES, np.full(np.shape(omega_squared), np.nan))
+    else:
+        least = judged.mass_lower_bound + fixed_mass(machine)
+        masses = (least, judged.mass_gap, judged.mass_yardstick, np.asarray(mass_target * omega_squared))
+        of_mass = dict(zip(MASS_FIGURES, masses, strict=True))
     return {
         "objective": claimed.value[..., 0] * omega_squared,
         "lower_bound": judged.lower_bound[..., 0] * omega_squared,

@@ -87,7 +87,7 @@ def physical_bounds(
     over = omega_squared / _squares(scenarios, speeds) if speeds and scenarios else None
     stack, ends = together(bounds.values()), statement.limits.budget_ends
     priced, factor = np.zeros(stack.row.shape[:-1], bool), np.empty(stack.row.shape[:-1])
-    factor[:] = 1.0 / np.asarray(omega_squared)
+    factor[:] = 1.0 / omega_squared
     for n, name in enumerate(bounds):
         priced[n] = name == "objective"
     statement.flat.printed(priced, factor, _INSIDE, stack.parts)

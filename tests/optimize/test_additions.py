@@ -63,7 +63,6 @@ NAMED_IN = {
     "outputs/stages.py": "figures of both",
     "outputs/stage_parts.py": "figures of both",
     "outputs/phasors.py": "fields of the answer",
-    "outputs/loads.py": "on the base, of both",
     "outputs/rules_of_thumb.py": "figures of both",
     "outputs/balance_quality.py": "what turns with the shaft of both",
     "studies/pareto/counts.py": "fields of the answer",
