@@ -11,7 +11,9 @@ from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.outputs.ellipses import Ellipse, polar_pairs
 from optimizer.outputs.stages import stages
+from optimizer.responses.response import Phasors
 from schemas.answer.outputs import Stage
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.machine.throws import ConnectingRod, Row, Throw
@@ -185,3 +187,9 @@ def all_stages(
     """The eight stages of a machine, from its own inertia forces."""
     parts = rotating(arrays), reciprocating(arrays, 1), reciprocating(arrays, 2, harmonic)
     return stages(arrays, *parts, unbalance)
+
+
+def ellipse(phasors: Phasors) -> Ellipse:
+    """On which the vector of a pair moves."""
+    (polar,) = polar_pairs([complex(phasors.co), complex(phasors.counter)])
+    return polar.ellipse

@@ -5,22 +5,16 @@ import pytest
 
 from optimizer.mechanics.inertia import reciprocating
 from optimizer.mechanics.layout import layout
-from optimizer.outputs.ellipses import Ellipse, polar_pairs
 from optimizer.outputs.rules_of_thumb import force_rules, moment_rules
 from optimizer.responses.response import Phasors
 from schemas.answer.outputs import RuleOfThumb
-from tests.builders import OMEGA, RADIUS, all_stages, inline, machine, opposed, row, throw, web
+from tests.builders import OMEGA, RADIUS, all_stages, ellipse, inline, machine, opposed, row, throw, web
 
 F0 = 10.0 * RADIUS * OMEGA**2
 
 
 def rules_of(*throws: object) -> tuple[RuleOfThumb, ...]:
     return force_rules(ellipse(reciprocating(layout(machine(*throws)), 1).force), OMEGA**2)
-
-
-def ellipse(phasors: Phasors) -> Ellipse:
-    (polar,) = polar_pairs([complex(phasors.co), complex(phasors.counter)])
-    return polar.ellipse
 
 
 def pair(co: complex, counter: complex) -> Phasors:

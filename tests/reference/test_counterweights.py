@@ -7,10 +7,9 @@ import pytest
 
 from optimizer.mechanics.inertia import counterweights, first_order_responses, reciprocating, rotating
 from optimizer.mechanics.layout import layout
-from optimizer.outputs.ellipses import ellipses
 from optimizer.outputs.rules_of_thumb import force_rules, moment_rules
 from schemas.machine.throws import ConnectingRod, Row
-from tests.builders import OMEGA, machine, row, throw, web
+from tests.builders import OMEGA, ellipse, machine, row, throw, web
 from tests.reference.seed_figures import RTOL, check, checks
 
 
@@ -72,7 +71,7 @@ def test_counterweights_against_a_rotating_moment_published() -> None:
 def test_partial_balance_of_a_horizontal_row_analytic() -> None:
     given, expected = check("002-partial-horizontal")
     arrays = layout(machine(throw(0, row(0, given["m_s"]), radius_m=given["r"])))
-    rules = force_rules(*ellipses([reciprocating(arrays, 1).force]), OMEGA**2)
+    rules = force_rules(ellipse(reciprocating(arrays, 1).force), OMEGA**2)
     assert [rule.transferred_share for rule in rules] == given["k"]
     each = [rule.total_mass_radius_kg_m / 2 / given["r_np"] for rule in rules]
     np.testing.assert_allclose(each, expected["m_each"], rtol=RTOL)
@@ -84,7 +83,7 @@ def test_partial_balance_of_the_moment_of_two_rows_published() -> None:
     arrays = layout(
         machine(*[throw(d, row(90, given["m_s"]), z=z, radius_m=given["r"]) for d, z in ((0, half), (180, -half))])
     )
-    rules = moment_rules(*ellipses([reciprocating(arrays, 1).moment]), OMEGA**2, given["l_np"])
+    rules = moment_rules(ellipse(reciprocating(arrays, 1).moment), OMEGA**2, given["l_np"])
     assert [rule.transferred_share for rule in rules] == given["k"]
     each = [rule.total_mass_radius_kg_m / 2 / given["r_np"] for rule in rules]
     np.testing.assert_allclose(each, expected["m_each"], rtol=RTOL)
