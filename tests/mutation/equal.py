@@ -5,12 +5,9 @@ _SPEED = "it says how the same is computed, and how fast"
 _ALIKE = "both come to the same there"
 _FINER = "finer or coarser than is needed, within what is told of it"
 _LOOKS = "a hundredth of the width of a line, or a px of the sample of a line in a legend: nobody can see it"
-_SIDES = "the moment is the same from either side"
 _OPEN = "of open sides nothing is used"
 _MECHANICS: dict[str, str] = {
-    "bearings.py bending_moment: terms(-1.0) < terms(1.0) -> terms(-1.0) <= terms(1.0)": _ALIKE,
-    "bearings.py bending_moment: terms(-1.0) -> terms(-1.011)": _SIDES,
-    "bearings.py bending_moment: terms(1.0) -> terms(1.011)": _SIDES,
+    "bearings.py bending_moment: low < high -> low <= high": _ALIKE,
     "bearings.py _refuse_coincident: 4.0 * np.spacing(np.maximum(np.abs(first), np.abs(last)))"
     " -> 4.041 * np.spacing(np.maximum(np.abs(first), np.abs(last)))": _FINER,
     "row_data.py _opened: np.where(closed, discharge, 1.0) -> np.where(closed, discharge, 1.011)": _OPEN,
