@@ -5,7 +5,6 @@ the shaft takes the share k away along the axis and brings k of it across. Its p
 phasor: k = 1/2 removes A1 and leaves the counter-rotating phasor alone (Balancing, slides, stages III and VII).
 """
 
-import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from math import pi
@@ -21,8 +20,6 @@ from schemas.answer.stages import Acting, StageIron
 #: the smaller phasor over the larger one below which it counts as none: an optimum leaves what the asked gap allows
 _SHAPE = 1e-6
 Motion = Literal["none", "with_shaft", "against_shaft", "fixed", "ellipse"]
-#: a denormal number has no direction that could be divided out
-_TINY = sys.float_info.min
 
 
 def superposed(turning: PlainWrench, first: PlainWrench, fitted: PlainWrench) -> tuple[PlainWrench, PlainWrench]:
@@ -36,8 +33,9 @@ def superposed(turning: PlainWrench, first: PlainWrench, fitted: PlainWrench) ->
 
 
 def _split(turning: complex, first: complex, fitted: complex) -> tuple[complex, complex]:
+    """Of phasors that turn with the shaft: what counterweights leave of both; the first is opposed first."""
     size = abs(turning)
-    outward = turning / size if size > _TINY else 0j
+    outward = turning / size if size else 0j
     opposed = min(max(-(fitted * outward.conjugate()).real, 0.0), size)
     return (size - opposed) * outward, first + fitted + opposed * outward
 

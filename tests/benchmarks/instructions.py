@@ -9,6 +9,7 @@ import argparse
 import gc
 import json
 import os
+import shutil
 import subprocess
 import sys
 from collections import defaultdict
@@ -177,6 +178,10 @@ def main() -> None:
     if _UNDER_VALGRIND in os.environ:
         warm_answers(options.case[0], options.answers, os.environ[_UNDER_VALGRIND] == "1")
         return
+    if options.answers < 1:
+        parser.error("--answers: at least 1")
+    if shutil.which("callgrind_control") is None:
+        parser.error("valgrind is not installed (Debian: valgrind)")
     console = Console(width=120)
     console.print("each case takes half a minute, the first one two: kernels are compiled once for valgrind")
     for case in options.case or CASES:

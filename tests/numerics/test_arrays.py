@@ -38,3 +38,10 @@ def test_few_sums_are_as_many(seed: int) -> None:
     assert np.array_equal(many, few)
     assert np.array_equal(many, alone)
     assert np.count_nonzero(many == 0)
+
+
+@pytest.mark.parametrize("count", [1, 6, 40])
+def test_nothing_real_is_that_small(count: int) -> None:
+    # analytic: no terms cancel, yet a sum below what is real is nothing
+    sums = total(np.array([[1e-260, 2e-260j], [1e-240, 2e-240j]] * count))
+    assert np.array_equal(sums, [0.0, 1e-240 + 2e-240j] * count)

@@ -12,6 +12,7 @@ from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import (
     CONTRADICTED,
+    NOT_CLOSE,
     NOT_LIGHT,
     ON_THE_BOUNDARY,
     OPTIMAL_LIGHTEST,
@@ -73,8 +74,14 @@ def test_the_least_mass_that_could_cancel(program: Statement, yardstick: Real, l
     assert mass_resolution(program, np.array(yardstick)) == pytest.approx(1e-5 * least, rel=1e-14, abs=0)
 
 
+@pytest.mark.parametrize(("share", "reason"), [(0.9e-6, OPTIMAL_LIGHTEST), (1.1e-6, NOT_CLOSE)])
+def test_an_optimum_is_within_the_gap_that_was_requested(share: float, reason: str) -> None:
+    assert verdict(_claim(bound=10.0 - 20.0 * share), 1e-6).reason == reason
+
+
 def test_a_mass_is_told_to_a_share_of_itself_or_of_what_counts() -> None:
     assert verdict(_claim(mass_bound=4.0 * (1 - 9e-5)), 1e-6).reason == OPTIMAL_LIGHTEST
+    assert verdict(_claim(mass_bound=4.0 * (1 - 1.1e-4)), 1e-6).reason == NOT_LIGHT
     found = verdict(_claim(mass_bound=3.9), 1e-6)
     assert (found.status, found.reason) == ("inaccurate", NOT_LIGHT)
     assert found.mass_gap == pytest.approx(0.1 / 4.0)
