@@ -7,6 +7,7 @@ bytes it was sent. The clients run on the same cores.
 import argparse
 import asyncio
 import json
+import re
 import socket
 import statistics
 import subprocess
@@ -21,12 +22,15 @@ from rich.console import Console
 from rich.table import Table
 
 from service.documents.examples import bodies
+from tests.benchmarks.exchange import Exchange
 from tests.commands import ROOT
-from tests.network.serving import read, request, service
+from tests.network.serving import request, service
 
 BODY = json.dumps(bodies()["2d12"]).encode()
 CLIENTS = (1, 4, 16, 64)
 _WITHIN_S = 600
+#: time of the optimum in an answer [ms]
+_OPTIMUM = re.compile(rb'"total_ms":([0-9.e+-]+)')
 
 
 @dataclass(frozen=True)
@@ -90,26 +94,25 @@ async def asked(target: Target, clients: int, kept: bool, seconds: float) -> See
     begun, own, before = time.perf_counter(), time.process_time(), target.cpu_s()
     end = begun + seconds
 
+    loop = asyncio.get_running_loop()
+
     async def client() -> None:
-        reader, writer = await asyncio.open_connection("127.0.0.1", target.port)
+        _, connection = await loop.create_connection(Exchange, "127.0.0.1", target.port)
         while True:
             at = time.perf_counter()
             if not kept:
-                writer.close()
-                reader, writer = await asyncio.open_connection("127.0.0.1", target.port)
-            writer.write(raw)
-            async with asyncio.timeout(_WITHIN_S):
-                reply = await read(reader)
+                connection.close()
+                _, connection = await loop.create_connection(Exchange, "127.0.0.1", target.port)
+            body = await connection.reply(raw)
             seen.seconds.append(time.perf_counter() - at)
-            assert reply.status == 200, reply
-            answer = json.loads(reply.body)
-            if "timing" in answer:
-                seen.optima_ms.append(answer["timing"]["total_ms"])
+            if (optimum := _OPTIMUM.search(body)) is not None:
+                seen.optima_ms.append(float(optimum[1]))
             if time.perf_counter() > end:
-                writer.close()
+                connection.close()
                 return
 
-    await asyncio.gather(*(client() for _ in range(clients)))
+    async with asyncio.timeout(seconds + _WITHIN_S):
+        await asyncio.gather(*(client() for _ in range(clients)))
     seen.wall_s, seen.clients_s = time.perf_counter() - begun, time.process_time() - own
     after = target.cpu_s()
     seen.front_s, seen.workers_s = (now - then for now, then in zip(after, before, strict=True))
