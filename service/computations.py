@@ -55,14 +55,9 @@ class Form:
         return made
 
 
-JSON = Form("application/json", "service.computations:json_bytes", ".json")
+JSON = Form("application/json", "service.common.answer_bytes:json_bytes", ".json")
 #: media type of workbooks (.xlsx)
 XLSX = "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet"
-
-
-def json_bytes(answer: "Model") -> bytes:
-    """An answer as JSON, in bytes at once: all outputs are a third of a megabyte, which text would copy twice more."""
-    return answer.__pydantic_serializer__.to_json(answer)
 
 
 def request_bytes(request: "Model") -> bytes:

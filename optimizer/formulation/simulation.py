@@ -26,6 +26,7 @@ from optimizer.numerics.records import record
 from optimizer.responses.curve import TurnResponse
 from optimizer.responses.peak_table import PeakTable
 from optimizer.responses.response import Response
+from schemas.base.curves import Curve
 from schemas.base.responses import ResponseFields
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import ReciprocatingMachine
@@ -64,9 +65,9 @@ class Prepared:
         return self.simulated.results
 
     @cached_property
-    def angles(self) -> Any:
-        """Sampled shaft angles as answers take them soonest: a list, of which each makes a tuple."""
-        return self.angle_deg.tolist()
+    def angles(self) -> Curve[float]:
+        """Sampled shaft angles as outputs show them, all the same curve."""
+        return Curve(self.angle_deg)
 
     @cached_property
     def row_labels(self) -> list[dict[str, Any]]:

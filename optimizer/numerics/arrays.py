@@ -60,6 +60,13 @@ def spread(array: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:
     return np.broadcast_to(array, shape)
 
 
+def read_only(array: NDArray[Any]) -> NDArray[Any]:
+    """The same numbers, which cannot be written there: an answer keeps them without a copy."""
+    view = array.view()
+    view.flags.writeable = False
+    return view
+
+
 def merged(leading: tuple[int, ...], array: NDArray[Any], own: int) -> NDArray[Any]:
     """An array with one axis in place of leading axes, which it has or is spread along, and its last ``own`` axes."""
     if not leading and array.ndim == own:

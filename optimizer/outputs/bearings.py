@@ -23,6 +23,7 @@ from optimizer.responses.curve import Floors, floors
 from optimizer.responses.peak_table import PeakList
 from schemas.answer.dynamics import BearingLoad, BendingMoment, MainBearing, MainBearings
 from schemas.answer.outputs import labels
+from schemas.base.curves import Curve
 from schemas.machine.drive import Bearing
 from schemas.machine.reciprocating import ReciprocatingMachine
 
@@ -97,7 +98,7 @@ def _loads(
     samples = _samples(scene) + (offset * square)[..., None] * turned(scene.layout.sense, turn)
     centre, radius = (fixed.centre[:count] + offset) * square, (fixed.radius[:count] * square).tolist()
     rms = np.sqrt(curves.curves.variance + np.abs(curves.curves.mean + offset) ** 2) * square
-    figures = samples.real.tolist(), samples.imag.tolist(), rms.tolist(), centre.tolist()
+    figures = map(Curve.rows, samples.real), map(Curve.rows, samples.imag), rms.tolist(), centre.tolist()
     return [
         [
             BearingLoad(

@@ -21,6 +21,7 @@ from schemas.answer.dynamics import MainBearings
 from schemas.answer.first_order import Residual
 from schemas.answer.loads import Loads
 from schemas.answer.robust import Sensitivity
+from schemas.base.curves import Curve
 from schemas.base.model import Model
 from schemas.base.target import pointer
 from schemas.machine.reciprocating import ReciprocatingMachine
@@ -315,7 +316,9 @@ def _values(field: Any) -> Iterator[tuple[str, Any]]:
     if isinstance(field, Model):
         for name in type(field).model_fields:
             content = getattr(field, name)
-            if isinstance(content, float) or (isinstance(content, tuple) and content and isinstance(content[0], float)):
+            if isinstance(content, float | Curve) or (
+                isinstance(content, tuple) and content and isinstance(content[0], float)
+            ):
                 yield name, content
             else:
                 yield from _values(content)

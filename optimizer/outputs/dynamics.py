@@ -8,7 +8,7 @@ import numpy as np
 
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.row_series import Reading
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, read_only
 from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.peaks import (
     largest_of_rows,
@@ -37,6 +37,7 @@ from schemas.answer.dynamics import (
     RowTorque,
     Torque,
 )
+from schemas.base.curves import Curve
 from schemas.machine.throws import row_cylinders
 from schemas.sweep.details import Case
 
@@ -82,7 +83,8 @@ def gas(scene: Prepared, _fitted: Complex | None = None) -> Gas:
     ]
 
     opens, work = np.rad2deg(np.array(cycle.opens)).tolist(), scene.results["indicated_work"].tolist()
-    pressure, forces, power = cycle.forces.pressure.tolist(), force.tolist(), cycle.power.tolist()
+    pressure, forces = (Curve.rows(read_only(curves)) for curves in (cycle.forces.pressure, force))
+    sides, power = force.shape[-2], cycle.power.tolist()
 
     def chamber(k: int, side: int) -> Chamber:
         suction, discharge = (None if isnan(angles[k][side]) else angles[k][side] for angles in opens)
@@ -90,8 +92,8 @@ def gas(scene: Prepared, _fitted: Complex | None = None) -> Gas:
             side=_SIDES[side % 2],
             cylinder=side // 2,
             name=names[k][side // 2],
-            pressure_Pa=pressure[k][side],
-            force_N=forces[k][side],
+            pressure_Pa=pressure[k * sides + side],
+            force_N=forces[k * sides + side],
             suction_opens_deg=suction,
             discharge_opens_deg=discharge,
             indicated_work_J=work[k][side],
@@ -182,7 +184,7 @@ def torque(scene: Prepared, _fitted: Complex | None = None) -> Torque:
     result, integrals = scene.results["torque"], scene.results["torque_integrals"]
     errors, shaft_power = scene.results["torque_errors"], _shaft_power(scene)
     peak = torque_peak(scene, result.rotating_friction)
-    radii, samples = scene.layout.reciprocating.crank_radius.tolist(), result.total.tolist()
+    radii = scene.layout.reciprocating.crank_radius.tolist()
     common_radius = len(set(radii)) == 1
     return Torque(
         angle_deg=scene.angles,
@@ -191,8 +193,8 @@ def torque(scene: Prepared, _fitted: Complex | None = None) -> Torque:
             for labels, samples, mean in _by_row(scene, result.rows, integrals.row_mean)
         ),
         rotating_friction_Nm=float(result.rotating_friction),
-        torque_Nm=samples,
-        tangential_N=[torque / radii[0] for torque in samples] if common_radius else None,
+        torque_Nm=result.total,
+        tangential_N=result.total / radii[0] if common_radius else None,
         peak_Nm=peak.lower[0],
         peak_bracket_Nm=peak.bracket(),
         peak_angle_deg=peak.angle_deg[0],
@@ -224,7 +226,7 @@ def overturning(scene: Prepared, _fitted: Complex | None = None) -> Overturning:
     return Overturning(
         angle_deg=scene.angles,
         rows=tuple(RowOverturning(**labels, couple_Nm=couple) for labels, couple in _by_row(scene, rows)),
-        couple_Nm=total.tolist(),
+        couple_Nm=total,
         peak_Nm=peak.lower[0],
         peak_bracket_Nm=peak.bracket(),
         peak_angle_deg=peak.angle_deg[0],
@@ -232,11 +234,9 @@ def overturning(scene: Prepared, _fitted: Complex | None = None) -> Overturning:
 
 
 def _by_row(scene: Prepared, *values: Real) -> Iterator[tuple[Any, ...]]:
-    """Labels of every row and its part of values (rows, ...), as lists.
-
-    An answer makes a tuple of any list, in half the time that it takes to look through another tuple.
-    """
-    return zip(scene.row_labels, *(array.tolist() for array in values), strict=True)
+    """Labels of every row and its part of values: curves of (rows, T), and floats of (rows,)."""
+    parts = (array.tolist() if array.ndim == 1 else Curve.rows(read_only(array)) for array in values)
+    return zip(scene.row_labels, *parts, strict=True)
 
 
 def _cases(case: Case, tension: PeakList, compression: PeakList) -> list[LoadCase]:

@@ -154,7 +154,7 @@ def hodographs(scene: Prepared, unbalance: Complex | None) -> Hodographs:
     vectors = vectors_of(shown)
     before, *after = Phasors(vectors[..., 0], vectors[..., 1]).at(turned)
     return Hodographs(
-        angle_deg=scene.angles[: scene.first_turn_deg.size],
+        angle_deg=scene.first_turn_deg,
         before=_hodograph(*before),
         after=_hodograph(*after[0]) if after else None,
     )
@@ -163,10 +163,10 @@ def hodographs(scene: Prepared, unbalance: Complex | None) -> Hodographs:
 def _hodograph(force: Complex, moment: Complex) -> Hodograph:
     """Force [N] and moment [N m] over the turn (n,)."""
     return Hodograph(
-        force_x_N=force.real.tolist(),
-        force_y_N=force.imag.tolist(),
-        moment_x_Nm=moment.real.tolist(),
-        moment_y_Nm=moment.imag.tolist(),
+        force_x_N=force.real,
+        force_y_N=force.imag,
+        moment_x_Nm=moment.real,
+        moment_y_Nm=moment.imag,
     )
 
 

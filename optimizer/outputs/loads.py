@@ -48,11 +48,11 @@ def _figure(scene: Prepared, fitted: Complex | None) -> Loads:
             for t, throw in enumerate(machine.throws)
         ),
         driver_Nm=float(integrals.mean),
-        shared_base_Nm=beyond.tolist(),
+        shared_base_Nm=beyond,
         own_base_peak_Nm=torque_peak(scene, result.rotating_friction).lower[0],
         shared_base_peak_Nm=torque_peak(scene, result.rotating_friction - integrals.mean).lower[0],
         # J eps is what the constant torque of the driver leaves over
-        angular_acceleration_rad_s2=None if inertia is None else (-beyond / inertia).tolist(),
+        angular_acceleration_rad_s2=None if inertia is None else -beyond / inertia,
         bearing_weights=tuple(_weights(scene, machine, fitted)),
         foundation_weight_N=(
             None if machine.stationary_mass_kg is None else float(whole_weight(scene, machine, fitted))

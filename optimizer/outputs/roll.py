@@ -34,7 +34,7 @@ def _figure(scene: Prepared, unbalance: Complex | None) -> Roll:
 
 def _moment(scene: Prepared, samples: Real, peak: PeakList) -> RollMoment:
     return RollMoment(
-        moment_Nm=samples.tolist(),
+        moment_Nm=samples,
         peak_Nm=peak.lower[0],
         peak_bracket_Nm=peak.bracket(),
         peak_angle_deg=peak.angle_deg[0] % scene.roll.period_deg,

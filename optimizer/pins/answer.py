@@ -71,9 +71,9 @@ def pin_loads(request: PinLoadsRequest) -> PinLoadsAnswer:
         )
     largest, lever = float(np.max(np.abs(torque.value))), request.orbit_radius_m or 0.0
     return PinLoadsAnswer(
-        angle_deg=tuple(angle.tolist()),
-        rotation_torque_Nm=tuple(torque.at(angle).tolist()),
-        orbiting_resistance_torque_Nm=None if resistance is None else tuple(resistance.at(angle).tolist()),
+        angle_deg=angle,
+        rotation_torque_Nm=torque.at(angle),
+        orbiting_resistance_torque_Nm=None if resistance is None else resistance.at(angle),
         pins=pins,
         peak_N=None if unbounded else float(np.max(peak[: pattern.count])),
         half_turn_mechanism_peak_N=4.0 * largest / (pattern.count * float(np.mean(pattern.radius))),

@@ -51,10 +51,10 @@ def compared(
 
 def _ring(keys: Keys, speed: float, loss: float) -> OldhamLoads:
     return OldhamLoads(
-        frame_key_N=tuple(keys.frame.tolist()),
+        frame_key_N=keys.frame,
         scroll_keys_N=tuple((key, other) for key, other in keys.scroll.tolist()),
-        frame_speed_m_s=tuple(keys.frame_speed.tolist()),
-        scroll_speed_m_s=tuple(keys.scroll_speed.tolist()),
+        frame_speed_m_s=keys.frame_speed,
+        scroll_speed_m_s=keys.scroll_speed,
         peak_key_N=float(max(np.max(np.abs(keys.frame)), np.max(np.abs(keys.scroll)))),
         peak_speed_m_s=speed,
         loss_W=loss,

@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from schemas.base.curves import Curve
 from schemas.base.model import Model
 from schemas.base.quantities import (
     Degrees,
@@ -24,7 +25,7 @@ from schemas.base.quantities import (
 )
 
 ShaftAngles = Annotated[
-    tuple[Degrees, ...],
+    Curve[Degrees],
     Field(description="shaft angles of the samples, the end point not repeated", examples=[[0.0, 1.0]]),
 ]
 
@@ -54,12 +55,12 @@ class RowSeries(Model):
 class RowMotion(RowSeries):
     """Motion of one row."""
 
-    crank_angle_deg: tuple[Degrees, ...] = Field(
+    crank_angle_deg: Curve[Degrees] = Field(
         description="own crank angle from the outer dead centre, 0 up to 360", examples=[[0.0]]
     )
-    displacement_m: tuple[Metres, ...] = Field(description="from the outer dead centre", examples=[[0.0]])
-    velocity_m_s: tuple[MetresPerSecond, ...] = Field(description="towards the shaft", examples=[[0.0]])
-    acceleration_m_s2: tuple[MetresPerSquareSecond, ...] = Field(description="towards the shaft", examples=[[460.6]])
+    displacement_m: Curve[Metres] = Field(description="from the outer dead centre", examples=[[0.0]])
+    velocity_m_s: Curve[MetresPerSecond] = Field(description="towards the shaft", examples=[[0.0]])
+    acceleration_m_s2: Curve[MetresPerSquareSecond] = Field(description="towards the shaft", examples=[[460.6]])
 
 
 class Kinematics(Model):
@@ -75,8 +76,8 @@ class Chamber(Model):
     side: Literal["head", "crank"] = Field(description="which side", examples=["head"])
     cylinder: int = Field(description="number of the cylinder on its row, from 0", examples=[0])
     name: str | None = Field(description="name of that cylinder; null where it has none", examples=[None])
-    pressure_Pa: tuple[Pascals, ...] = Field(description="absolute pressure", examples=[[852000.0]])
-    force_N: tuple[Newtons, ...] = Field(description="force on the piston", examples=[[-355531.1]])
+    pressure_Pa: Curve[Pascals] = Field(description="absolute pressure", examples=[[852000.0]])
+    force_N: Curve[Newtons] = Field(description="force on the piston", examples=[[-355531.1]])
     suction_opens_deg: Degrees | None = Field(
         description="own crank angle at which suction opens; null on an open side", examples=[36.873]
     )
@@ -94,12 +95,10 @@ class RowGas(RowSeries):
     chambers: tuple[Chamber, ...] = Field(
         description="head and crank side of every cylinder", examples=[[{"side": "head"}]]
     )
-    displacement_m: tuple[Metres, ...] = Field(
+    displacement_m: Curve[Metres] = Field(
         description="travel from the outer dead centre, over which an indicator draws the pressures", examples=[[0.0]]
     )
-    force_N: tuple[Newtons, ...] = Field(
-        description="gas force on the row's pistons, all sides", examples=[[-238008.0]]
-    )
+    force_N: Curve[Newtons] = Field(description="gas force on the row's pistons, all sides", examples=[[-238008.0]])
     indicated_power_W: Watts = Field(description="indicated power of the row", examples=[624389.3])
 
 
@@ -114,10 +113,10 @@ class Gas(Model):
 class RowPistonForce(RowSeries):
     """What pulls and pushes on one piston."""
 
-    gas_N: tuple[Newtons, ...] = Field(description="gas force", examples=[[-238008.0]])
-    inertia_N: tuple[Newtons, ...] = Field(description="inertia force of the row", examples=[[139833.0]])
-    friction_N: tuple[Newtons, ...] = Field(description="friction of the row", examples=[[0.0]])
-    total_N: tuple[Newtons, ...] = Field(description="their sum", examples=[[-98175.0]])
+    gas_N: Curve[Newtons] = Field(description="gas force", examples=[[-238008.0]])
+    inertia_N: Curve[Newtons] = Field(description="inertia force of the row", examples=[[139833.0]])
+    friction_N: Curve[Newtons] = Field(description="friction of the row", examples=[[0.0]])
+    total_N: Curve[Newtons] = Field(description="their sum", examples=[[-98175.0]])
     peak_tension_N: Newtons = Field(description="largest sum over the cycle", examples=[180000.0])
     peak_tension_bracket_N: ForceBracket
     peak_compression_N: Newtons = Field(description="smallest sum over the cycle", examples=[-200000.0])
@@ -148,10 +147,10 @@ class LoadCase(Model):
 class RowRodLoads(RowSeries):
     """Forces in the mechanism of one row."""
 
-    rod_N: tuple[Newtons, ...] = Field(description="force in the connecting rod", examples=[[-98175.0]])
-    side_N: tuple[Newtons, ...] = Field(description="force on the crosshead guide", examples=[[0.0]])
-    tangential_N: tuple[Newtons, ...] = Field(description="tangential force on the crank pin", examples=[[0.0]])
-    radial_N: tuple[Newtons, ...] = Field(description="radial force on the crank pin, outward", examples=[[-98175.0]])
+    rod_N: Curve[Newtons] = Field(description="force in the connecting rod", examples=[[-98175.0]])
+    side_N: Curve[Newtons] = Field(description="force on the crosshead guide", examples=[[0.0]])
+    tangential_N: Curve[Newtons] = Field(description="tangential force on the crank pin", examples=[[0.0]])
+    radial_N: Curve[Newtons] = Field(description="radial force on the crank pin, outward", examples=[[-98175.0]])
     peak_side_N: Newtons = Field(
         description="largest force on the crosshead guide over the cycle, magnitude", examples=[41000.0]
     )
@@ -174,7 +173,7 @@ class RodLoads(Model):
 class RowTorque(RowSeries):
     """Torque of one row."""
 
-    torque_Nm: tuple[NewtonMetres, ...] = Field(description="torque about the shaft", examples=[[0.0]])
+    torque_Nm: Curve[NewtonMetres] = Field(description="torque about the shaft", examples=[[0.0]])
     mean_torque_Nm: NewtonMetres = Field(description="mean over the cycle", examples=[12000.0])
 
 
@@ -184,8 +183,8 @@ class Torque(Model):
     angle_deg: ShaftAngles
     rows: tuple[RowTorque, ...] = Field(description="the rows", examples=[[{"throw": 0, "row": 0}]])
     rotating_friction_Nm: NewtonMetres = Field(description="rotating friction, constant", examples=[435.7])
-    torque_Nm: tuple[NewtonMetres, ...] = Field(description="all rows and rotating friction", examples=[[435.7]])
-    tangential_N: tuple[Newtons, ...] | None = Field(
+    torque_Nm: Curve[NewtonMetres] = Field(description="all rows and rotating friction", examples=[[435.7]])
+    tangential_N: Curve[Newtons] | None = Field(
         description="the same as tangential force at the crank radius; null if the radii differ", examples=[[3112.0]]
     )
     peak_Nm: NewtonMetres = Field(description="largest over the cycle, magnitude", examples=[62000.0])
@@ -218,9 +217,7 @@ class Flywheel(Model):
 class RowOverturning(RowSeries):
     """Overturning couple of one row."""
 
-    couple_Nm: tuple[NewtonMetres, ...] = Field(
-        description="side force times its distance from the shaft", examples=[[0.0]]
-    )
+    couple_Nm: Curve[NewtonMetres] = Field(description="side force times its distance from the shaft", examples=[[0.0]])
 
 
 class Overturning(Model):
@@ -228,7 +225,7 @@ class Overturning(Model):
 
     angle_deg: ShaftAngles
     rows: tuple[RowOverturning, ...] = Field(description="the rows", examples=[[{"throw": 0, "row": 0}]])
-    couple_Nm: tuple[NewtonMetres, ...] = Field(description="all rows", examples=[[0.0]])
+    couple_Nm: Curve[NewtonMetres] = Field(description="all rows", examples=[[0.0]])
     peak_Nm: NewtonMetres = Field(description="largest over the cycle, magnitude", examples=[62000.0])
     peak_bracket_Nm: MomentBracket
     peak_angle_deg: Degrees = Field(description="shaft angle at which it occurs", examples=[38.2])
@@ -237,8 +234,8 @@ class Overturning(Model):
 class BearingLoad(Model):
     """Load of one main bearing over the turn: the force that the shaft puts on it."""
 
-    force_x_N: tuple[Newtons, ...] = Field(description="x component", examples=[[120000.0]])
-    force_y_N: tuple[Newtons, ...] = Field(description="y component", examples=[[0.0]])
+    force_x_N: Curve[Newtons] = Field(description="x component", examples=[[120000.0]])
+    force_y_N: Curve[Newtons] = Field(description="y component", examples=[[0.0]])
     peak_N: Newtons = Field(description="largest magnitude over the cycle", examples=[120000.0])
     peak_bracket_N: ForceBracket
     peak_angle_deg: Degrees = Field(

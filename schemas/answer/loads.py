@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from schemas.answer.dynamics import RowSeries, ShaftAngles
+from schemas.base.curves import Curve
 from schemas.base.model import Model
 from schemas.base.quantities import Degrees, Kilograms, NewtonMetres, Newtons
 from schemas.base.units import Unit
@@ -117,7 +118,7 @@ class Loads(Model):
         description="mean torque: the constant torque of the driver, whose reaction acts on its own base",
         examples=[24692.8],
     )
-    shared_base_Nm: tuple[NewtonMetres, ...] = Field(
+    shared_base_Nm: Curve[NewtonMetres] = Field(
         description="torque less its mean: what leaves a base that machine and driver share, and by Newton the torque "
         "-J eps of the turning masses",
         examples=[[-24000.0]],
@@ -128,7 +129,7 @@ class Loads(Model):
     shared_base_peak_Nm: NewtonMetres = Field(
         description="largest of shared_base_Nm, over the cycle, magnitude", examples=[41000.0]
     )
-    angular_acceleration_rad_s2: Annotated[tuple[float, ...] | None, Unit("rad/s2")] = Field(
+    angular_acceleration_rad_s2: Annotated[Curve[float] | None, Unit("rad/s2")] = Field(
         description="eps of the shaft for its inertia; null without flywheel", examples=[None]
     )
     bearing_weights: tuple[BearingWeight, ...] = Field(

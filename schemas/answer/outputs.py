@@ -19,6 +19,7 @@ from schemas.answer.foundation import OrderOfFoundation
 from schemas.answer.loads import Loads
 from schemas.answer.roll import Roll
 from schemas.answer.stages import Acting, StageIron
+from schemas.base.curves import Curve
 from schemas.base.model import Model
 from schemas.base.quantities import Degrees, NewtonMetres, Newtons
 from schemas.scroll.pin_loads import PinLoads
@@ -27,18 +28,16 @@ from schemas.scroll.pin_loads import PinLoads
 class Hodograph(Model):
     """First-order force and moment over one turn of the shaft."""
 
-    force_x_N: tuple[Newtons, ...] = Field(description="x component of the force", examples=[[9994.7]])
-    force_y_N: tuple[Newtons, ...] = Field(description="y component of the force", examples=[[0.0]])
-    moment_x_Nm: tuple[NewtonMetres, ...] = Field(
-        description="horizontal couple, of the x forces", examples=[[38989.0]]
-    )
-    moment_y_Nm: tuple[NewtonMetres, ...] = Field(description="vertical couple, of the y forces", examples=[[0.0]])
+    force_x_N: Curve[Newtons] = Field(description="x component of the force", examples=[[9994.7]])
+    force_y_N: Curve[Newtons] = Field(description="y component of the force", examples=[[0.0]])
+    moment_x_Nm: Curve[NewtonMetres] = Field(description="horizontal couple, of the x forces", examples=[[38989.0]])
+    moment_y_Nm: Curve[NewtonMetres] = Field(description="vertical couple, of the y forces", examples=[[0.0]])
 
 
 class Hodographs(Model):
     """Hodographs without and with counterweights, over shaft angles with the end point not repeated."""
 
-    angle_deg: tuple[Degrees, ...] = Field(description="shaft angles", examples=[[0.0, 1.0]])
+    angle_deg: Curve[Degrees] = Field(description="shaft angles", examples=[[0.0, 1.0]])
     before: Hodograph = Field(description="without counterweights", examples=[{"force_x_N": [9994.7]}])
     after: Hodograph | None = Field(
         description="with the counterweights; null if infeasible", examples=[{"force_x_N": [4997.4]}]

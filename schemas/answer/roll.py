@@ -3,6 +3,7 @@
 from pydantic import Field
 
 from schemas.answer.dynamics import MomentBracket, ShaftAngles
+from schemas.base.curves import Curve
 from schemas.base.model import Model
 from schemas.base.quantities import Degrees, NewtonMetres
 
@@ -10,7 +11,7 @@ from schemas.base.quantities import Degrees, NewtonMetres
 class RollMoment(Model):
     """Moment about the crankshaft on the frame, without its mean; counter-clockwise is positive."""
 
-    moment_Nm: tuple[NewtonMetres, ...] = Field(description="at the samples", examples=[[0.0]])
+    moment_Nm: Curve[NewtonMetres] = Field(description="at the samples", examples=[[0.0]])
     peak_Nm: NewtonMetres = Field(description="largest over the cycle, magnitude", examples=[794.7])
     peak_bracket_Nm: MomentBracket
     peak_angle_deg: Degrees = Field(description="shaft angle at which it occurs", examples=[38.2])

@@ -9,6 +9,8 @@ from itertools import chain
 
 from pydantic import BaseModel
 
+from schemas.base.curves import Curve
+
 #: figures of a line, and the longest text in it
 _FIGURES, _TEXT = 8, 40
 #: things of a list that are shown; more are counted
@@ -24,7 +26,7 @@ def line(model: BaseModel) -> str:
 def _short(value: object) -> str:
     if isinstance(value, BaseModel):
         return f"{type(value).__name__}(...)"
-    if isinstance(value, tuple | dict):
+    if isinstance(value, tuple | Curve | dict):
         return f"[{len(value)}]"
     if isinstance(value, str):
         return repr(value if len(value) <= _TEXT else f"{value[:_TEXT]}...")
@@ -43,7 +45,7 @@ def _fields(model: BaseModel) -> str:
 
 def _content(model: BaseModel) -> Iterator[tuple[str, object]]:
     for name, value in model:
-        if not (value is None or (isinstance(value, tuple | dict) and not value)):
+        if not (value is None or (isinstance(value, tuple | Curve | dict) and not value)):
             yield name, value
 
 
@@ -53,6 +55,8 @@ def _value(value: object) -> str:
     if isinstance(value, dict):
         rows = (f"<tr><th>{escape(str(name))}</th><td>{_value(item)}</td></tr>" for name, item in value.items())
         return f"<table>{''.join(rows)}</table>"
+    if isinstance(value, Curve):
+        return _several(tuple(value))
     if isinstance(value, tuple):
         return _several(value)
     return escape(f"{value:.6g}" if isinstance(value, float) else str(value))

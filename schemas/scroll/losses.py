@@ -4,6 +4,7 @@ from typing import Annotated
 
 from pydantic import Field
 
+from schemas.base.curves import Curve
 from schemas.base.model import Model
 from schemas.base.quantities import Angle, Mass, MetresPerSecond, Newtons, Speed, Watts
 from schemas.base.units import Unit, between, non_negative
@@ -42,15 +43,15 @@ class LossComparison(Model):
 class OldhamLoads(Model):
     """Keys of an Oldham ring over the turn, without the friction's own effect on the loads."""
 
-    frame_key_N: tuple[Newtons, ...] = Field(description="load of each key in the frame", examples=[[104.2]])
+    frame_key_N: Curve[Newtons] = Field(description="load of each key in the frame", examples=[[104.2]])
     scroll_keys_N: tuple[tuple[Newtons, Newtons], ...] = Field(
         description="loads of the two keys in the scroll, along the ring's axis: couple and half the ring's inertia",
         examples=[[[104.2, -104.2]]],
     )
-    frame_speed_m_s: tuple[MetresPerSecond, ...] = Field(
+    frame_speed_m_s: Curve[MetresPerSecond] = Field(
         description="sliding speed of the keys in the frame", examples=[[0.0]]
     )
-    scroll_speed_m_s: tuple[MetresPerSecond, ...] = Field(
+    scroll_speed_m_s: Curve[MetresPerSecond] = Field(
         description="sliding speed of the keys in the scroll", examples=[[1.57]]
     )
     peak_key_N: Newtons = Field(description="largest load of a key at the samples", examples=[112.0])

@@ -13,6 +13,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from schemas.base.angles import Angles
+from schemas.base.curves import Curve
 from schemas.base.model import Answer, Model, NotEmpty
 from schemas.base.quantities import Angle, Count, Degrees, Joules, NewtonMetres, Newtons
 from schemas.base.rules import Rule, Ruled
@@ -243,11 +244,11 @@ class PinWarning(Model):
 class PinLoads(Model):
     """Loads of the anti-rotation pins over one turn."""
 
-    angle_deg: tuple[Degrees, ...] = Field(
+    angle_deg: Curve[Degrees] = Field(
         description="shaft angles of the samples, the end point not repeated", examples=[[0.0, 1.0]]
     )
-    rotation_torque_Nm: tuple[NewtonMetres, ...] = Field(description="rotation torque used", examples=[[12.5, 12.5]])
-    orbiting_resistance_torque_Nm: tuple[NewtonMetres, ...] | None = Field(
+    rotation_torque_Nm: Curve[NewtonMetres] = Field(description="rotation torque used", examples=[[12.5, 12.5]])
+    orbiting_resistance_torque_Nm: Curve[NewtonMetres] | None = Field(
         description="torque that the motor overcomes; null unless the tangential gas force is given", examples=[None]
     )
     pins: tuple[PinLoad, ...] = Field(description="the pins", examples=[[{"index": 1, "phase_deg": 0}]])

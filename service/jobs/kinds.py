@@ -4,7 +4,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from service.computations import COMPUTATIONS, Computation, json_bytes
+from service.common.answer_bytes import json_bytes
+from service.computations import COMPUTATIONS, Computation
 from service.jobs.piece import ChunkResult, Unanswerable
 
 if TYPE_CHECKING:

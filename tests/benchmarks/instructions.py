@@ -24,7 +24,7 @@ from rich.table import Table
 from optimizer.analyze import analyze
 from optimizer.optimize import optimize
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
-from service.computations import json_bytes
+from service.common.answer_bytes import json_bytes
 from tests.benchmarks.cases import example
 from tests.benchmarks.outputs import RECIPROCATING, sixteen_rows
 from tests.commands import ROOT

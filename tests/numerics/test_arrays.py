@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from optimizer.numerics.arrays import all_true, any_true, total
+from optimizer.numerics.arrays import all_true, any_true, read_only, total
 
 
 @given(arrays.arrays(bool, arrays.array_shapes(min_dims=0, max_dims=3, min_side=0, max_side=5)), st.booleans())
@@ -45,3 +45,10 @@ def test_nothing_real_is_that_small(count: int) -> None:
     # analytic: no terms cancel, yet a sum below what is real is nothing
     sums = total(np.array([[1e-260, 2e-260j], [1e-240, 2e-240j]] * count))
     assert np.array_equal(sums, [0.0, 1e-240 + 2e-240j] * count)
+
+
+def test_a_read_only_array_is_a_view_of_one_that_is_not() -> None:
+    array = np.arange(4.0)
+    view = read_only(array)
+    assert np.shares_memory(view, array)
+    assert (view.flags.writeable, array.flags.writeable) == (False, True)

@@ -8,6 +8,7 @@ from pydantic import Field, ValidationError
 
 import optimizer
 from optimizer import optimize, pareto
+from schemas.base.curves import Curve
 from schemas.base.mappings import or_mapping
 from schemas.base.model import Answer, Model
 from schemas.front.counts import CountFront
@@ -29,6 +30,20 @@ class Found(Answer):
     words: str = Field(description="a text")
     part: Model = Field(description="a part")
     more: tuple[int, ...] = Field((), description="an empty list")
+
+
+class Curved(Answer):
+    """An answer with curves."""
+
+    force_N: Curve[float] = Field(description="a curve")
+    empty: Curve[float] = Field(description="without numbers")
+
+
+def test_curves_are_shown_by_their_length() -> None:
+    found = Curved(version="1", force_N=range(360), empty=())
+    assert repr(found) == "Curved(version='1', force_N=[360])"
+    assert "<th>force_N</th><td>360 numbers</td>" in found._repr_html_()
+    assert "empty" not in found._repr_html_()
 
 
 def test_a_line_holds_figures_and_no_series() -> None:

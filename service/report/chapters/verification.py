@@ -8,6 +8,7 @@ from typing import NamedTuple
 from schemas.answer.answers import OptimizeAnswer
 from schemas.request.requests import OptimizeRequest
 from schemas.request.verify import Claim, VerifyAnswer, VerifyRequest
+from service.common.answer_bytes import json_bytes
 from service.common.validation import InvalidRequest
 from service.report.blocks import Cell, Chapter, Number, Paragraph, table
 from service.verification import verify
@@ -43,9 +44,7 @@ class Check(NamedTuple):
 def check(request: OptimizeRequest, answer: OptimizeAnswer) -> Check:
     """The claims of the answer to a request."""
     try:
-        result = verify(
-            VerifyRequest(request=request.model_dump(mode="json"), answer=json.loads(answer.model_dump_json()))
-        )
+        result = verify(VerifyRequest(request=request.model_dump(mode="json"), answer=json.loads(json_bytes(answer))))
     except InvalidRequest:
         return Check(None, digest(answer), request.outputs)
     return Check(result, digest(answer), request.outputs)

@@ -9,6 +9,7 @@ from pydantic import BaseModel
 from schemas.answer.answers import BalanceRate
 from schemas.answer.first_order import Residual
 from schemas.answer.outputs import OutputFields
+from schemas.base.curves import Curve
 
 
 def every_figure() -> tuple[str, ...]:
@@ -23,7 +24,7 @@ def _numbers(path: str, kind: Any) -> Iterator[str]:
     origin, inside = get_origin(kind), get_args(kind)
     if origin is Annotated:
         yield from _numbers(path, inside[0])
-    elif origin is tuple:
+    elif origin in (tuple, Curve):
         # models one after the other, if only two of them; else a series or a bracket
         if _is_model(inside[0]):
             yield from _numbers(f"{path}[]", inside[0])

@@ -1,0 +1,104 @@
+"""Answers as bytes: with their curves as arrays they are what pydantic writes."""
+
+import json
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+from optimizer.analyze import analyze
+from optimizer.errors import MissingInput
+from optimizer.optimize import optimize
+from optimizer.outputs.registry import OUTPUTS, require_inputs
+from optimizer.pins.answer import pin_loads
+from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer
+from schemas.answer.outputs import Hodograph, Hodographs
+from schemas.base.curves import curve_fields
+from schemas.base.model import Answer
+from schemas.request.requests import OptimizeRequest
+from schemas.scroll.pin_loads import PinLoadsAnswer
+from service.common.answer_bytes import json_bytes
+from service.documents.examples import bodies
+
+FINITE = st.floats(allow_nan=False, allow_infinity=False)
+
+
+class Drawn(Answer):
+    """An answer with curves."""
+
+    name: str
+    hodograph: Hodographs | None = None
+    figures: tuple[float, ...] = ()
+
+
+def _drawn(name: str, numbers: list[float]) -> Drawn:
+    curve = np.array(numbers)
+    part = Hodograph(force_x_N=curve, force_y_N=-curve, moment_x_Nm=numbers, moment_y_Nm=curve[::-1])
+    return Drawn(
+        version="1", name=name, hodograph=Hodographs(angle_deg=curve, before=part, after=None), figures=numbers
+    )
+
+
+def _possible(request: OptimizeRequest) -> Iterator[str]:
+    for name in OUTPUTS:
+        try:
+            require_inputs(request.machine, (name,), request.angles.count)
+        except MissingInput:
+            continue
+        yield name
+
+
+# independent: pydantic's own writer, of floats made one by one
+def _same(answer: Answer) -> bytes:
+    sent = json_bytes(answer)
+    assert sent == answer.model_dump_json().encode()
+    assert json.loads(sent) == answer.model_dump(mode="json")
+    return sent
+
+
+@pytest.mark.parametrize("name", bodies(""))
+def test_every_example_with_all_outputs(name: str) -> None:
+    request = OptimizeRequest.model_validate(bodies("")[name])
+    outputs = tuple(_possible(request))
+    assert set(outputs) & {"hodograph", "pin_loads"}
+    shown = request.model_copy(update={"outputs": outputs})
+    answer = optimize(shown)
+    assert b'"angle_deg":[0.0,' in _same(answer)
+    _same(optimize(request))
+    _same(analyze({"machine": bodies("")[name]["machine"], "outputs": outputs}))
+
+
+def test_pins_asked_for_alone() -> None:
+    _same(pin_loads(next(iter(bodies("pin-loads").values()))))
+
+
+# borders: where decimals give way to exponents, signed zero, the smallest and the largest numbers
+@given(st.text(st.characters(exclude_categories=["Cs"])), st.lists(FINITE, max_size=20))
+@example(
+    '\x00\x1f\x7f\u2028"\\/\U0001f600', [-0.0, 5e-324, 2.2250738585072014e-308, 1.7976931348623157e308, 0.1, 1 / 3]
+)
+@example(
+    "",
+    [
+        sign * digits * 10.0**power
+        for sign in (1, -1)
+        for digits in (1, 1.5, 9.999999999999999)
+        for power in range(-8, 24)
+    ],
+)
+@example("", [float(2**power + k) for power in (52, 53, 54, 63, 64, 70) for k in (-1, 0, 1)])
+def test_any_numbers_and_any_text(name: str, numbers: list[float]) -> None:
+    _same(_drawn(name, numbers))
+
+
+def test_nothing_infinite_goes_out_as_null() -> None:
+    with pytest.raises(ValueError, match="finite"):
+        _drawn("", [1.0, np.nan])
+
+
+@pytest.mark.parametrize("model", [OptimizeAnswer, AnalyzeAnswer, PinLoadsAnswer])
+def test_answers_with_curves_are_known(model: type[Any]) -> None:
+    assert set(curve_fields(model)) >= ({"angle_deg"} if model is PinLoadsAnswer else {"hodograph", "torque", "roll"})
