@@ -57,7 +57,7 @@ def row_series(rows, functions, design, angles, reading, terms):  # type: ignore
     A force is the acceleration times m r omega^2, the friction and the gas, each times one function of the motion.
     Where the functions of a row are not made its numbers mean nothing.
     """
-    count, function_count, _, places = functions.middle.shape
+    count, function_count, _, _ = functions.middle.shape
     bounded, parts = functions.radius.shape[1] > 0, 2 if reading in (ON_SHAFT, ON_FRAME) else 1
     number, first = design.size, terms - 1 if bounded else 0
     middle = np.empty((parts, terms - first, number, count, angles))
@@ -67,6 +67,18 @@ def row_series(rows, functions, design, angles, reading, terms):  # type: ignore
     lane[_UNIT] = 1.0
     # of every lane: its place in the result, and its design
     where = np.zeros((3, LANES), np.int64)
+    _add_up(rows, functions, design, angles, reading, (series, lane, where), (middle, radius))
+    return middle, radius
+
+
+@inner
+def _add_up(rows, functions, design, angles, reading, room, results):  # type: ignore[no-untyped-def]
+    """Write the coefficients of a force and the radii of the last; nothing is made here, for to count who holds an
+    array takes longer than to use it."""
+    (series, lane, where), (middle, radius) = room, results
+    count, function_count, _, places = functions.middle.shape
+    parts, terms, bounded = middle.shape[0], series.middle.shape[1], series.bounded
+    number, first = design.size, terms - middle.shape[1]
     moves = reading != ROD_AT_REST and reading != GAS
     rubs = moves and reading != ON_FRAME
     pressed = reading != ROD_WITHOUT_GAS and reading != ON_FRAME and function_count > FUNCTIONS
@@ -141,7 +153,6 @@ def row_series(rows, functions, design, angles, reading, terms):  # type: ignore
                             for p in range(lanes):
                                 n, at = where[_NUMBER, p], where[_ANGLE, p]
                                 radius[n, r, at] = _with_part(radius[n, r, at], off[p], part)
-    return middle, radius
 
 
 @inner

@@ -34,7 +34,7 @@ from optimizer.mechanics.kernel.row_numbers import (
 )
 from optimizer.mechanics.kernel.taylor import LANES, Series, copied
 from optimizer.numerics.arrays import Real
-from optimizer.numerics.compiling import inner_with_arrays
+from optimizer.numerics.compiling import inner, inner_with_arrays
 
 
 class Tables(NamedTuple):
@@ -116,17 +116,35 @@ def row_functions(rows, places, order, pressed, counted):  # type: ignore[no-unt
         all count.
     """
     bounded = places.half.size > 0
-    designs, count = rows.motion.shape[:2]
-    number, chambers = places.centre.size, rows.gas.shape[2] if pressed else 0
+    count, number = rows.motion.shape[1], places.centre.size
+    chambers = rows.gas.shape[2] if pressed else 0
     middle = np.empty((count, FUNCTIONS + chambers, order + 1, number))
     radius = np.empty((count, FUNCTIONS + chambers if bounded else 0, order + 1, number))
     way = np.empty((count, number))
     shape = (PRESSURES + chambers, order + 1, LANES)
     series = Series(np.zeros(shape), np.zeros(shape), bounded)
     cranks, lane, process = np.zeros((3, 4, LANES)), np.zeros((NUMBERS, LANES)), np.zeros((4, LANES))
-    trig, repeats = np.zeros((8, LANES)), np.zeros(LANES, np.bool_)
-    alike = _alike(rows.motion)
     lane[UNIT], lane[ROOT], lane[OVER], lane[OVER_ROOT], lane[OVER_CUBE] = 1.0, 0.5, -1.0, -0.5, -1.5
+    room = (cranks, lane, process, np.zeros((8, LANES)), np.zeros(LANES, np.bool_))
+    functions = Functions(middle, radius, way)
+    _expand(rows, places, counted, _alike(rows.motion), series, room, functions)
+    return functions
+
+
+@inner
+def _expand(rows, places, counted, alike, series, room, functions):  # type: ignore[no-untyped-def]
+    """Write functions of the rows; nothing is made here, for to count who holds an array takes longer than to use it.
+
+    Parameters
+    ----------
+    alike : (R,) of each row the first that moves as it does.
+    room : what is known of lanes for the time being.
+    """
+    middle, radius, way = functions
+    cranks, lane, process, trig, repeats = room
+    bounded, chambers = series.bounded, middle.shape[1] - FUNCTIONS
+    designs, count = rows.motion.shape[:2]
+    number, terms = places.centre.size, middle.shape[2]
     for r in range(count):
         if alike[r] != r:
             continue
@@ -134,8 +152,9 @@ def row_functions(rows, places, order, pressed, counted):  # type: ignore[no-unt
             lanes, some = min(LANES, number - first), counted.size == 0
             for t in range(r, count):
                 if counted.size > 0 and alike[t] == r:
-                    some = some or np.any(counted[t, first : first + lanes])
-                    way[t, first : first + lanes] = np.nan
+                    some = some or _any(counted[t], first, lanes)
+                    for p in range(lanes):
+                        way[t, first + p] = np.nan
             if not some:
                 continue
             last = np.int64(-1)
@@ -167,7 +186,7 @@ def row_functions(rows, places, order, pressed, counted):  # type: ignore[no-unt
             carry(series, lane, lanes)
             travels = 0
             for t in range(r, count):
-                if alike[t] != r or (counted.size > 0 and not np.any(counted[t, first : first + lanes])):
+                if alike[t] != r or (counted.size > 0 and not _any(counted[t], first, lanes)):
                     continue
                 for p in range(lanes):
                     way[t, first + p] = np.sign(cranks[INSIDE, SINE, p])
@@ -186,11 +205,19 @@ def row_functions(rows, places, order, pressed, counted):  # type: ignore[no-unt
                         indicated(series, rows.traces, places, trace, first, lane, out, lanes)
                 for f in range(FUNCTIONS + chambers):
                     made = f if f < FUNCTIONS else f - FUNCTIONS + PRESSURES
-                    for k in range(order + 1):
+                    for k in range(terms):
                         copied(series.middle[made, k], middle[t, f, k, first:], lanes)
                         if bounded:
                             copied(series.radius[made, k], radius[t, f, k, first:], lanes)
-    return Functions(middle, radius, way)
+
+
+@inner
+def _any(counted, first, lanes):  # type: ignore[no-untyped-def]
+    """Whether any of so many places (Q,) counts."""
+    some = False
+    for p in range(first, first + lanes):
+        some = some or counted[p]
+    return some
 
 
 @inner_with_arrays
