@@ -175,7 +175,8 @@ def _measured(cubics, members, best, most):  # type: ignore[no-untyped-def]
                 # how far the curve may be from the middle of a piece
                 most[m, p] = middle + cubics.rest[curve, p]
                 for i in range(1, 4):
-                    most[m, p] += length(cubics.cubic[curve, p, i])
+                    term = cubics.cubic[curve, p, i]
+                    most[m, p] += abs(term.real) if term.imag == 0.0 else length(term)
                 _keep(best, group, middle - cubics.rest[curve, p], cubics.centre[curve, p], p, m)
     count = 0
     for m in range(number):
