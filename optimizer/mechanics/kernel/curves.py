@@ -22,8 +22,12 @@ _FEW = 64
 _AT_ONCE = 50_000
 
 
+#: of rows and places where all of them count
+_EVERYWHERE = np.zeros((0, 0), np.bool_)
+#: of readings where all of them count
+_ANY = np.int64(-1)
 #: what no forces are made of
-NOTHING = Functions(np.zeros((0, 0, 0, 0)), np.zeros((0, 0, 0, 0)), np.zeros((0, 0)))
+NOTHING = Functions(np.zeros((0, 0, 0, 0, 0)), np.zeros((0, 0, 0, 0, 0)), np.zeros((0, 0)))
 
 
 class Sums(NamedTuple):
@@ -50,7 +54,7 @@ def sums_of_rows(rows, sums, curve, points, bounds, order, design, angles, half)
     bounds : the same bounded, to an order above it or more. Of either there may be none, :data:`NOTHING`.
     order : up to which bounds count, -1 where there are none.
     """
-    count, terms = sums.weights.shape[1], points.middle.shape[2]
+    count, terms = sums.weights.shape[1], points.middle.shape[3]
     curves = curve.size
     cubic = np.empty((curves, angles, terms), np.complex128)
     sized = terms > 0 and order >= 0
@@ -62,8 +66,8 @@ def sums_of_rows(rows, sums, curve, points, bounds, order, design, angles, half)
     for reading in range(wanted.size):
         if not wanted[reading]:
             continue
-        series, _ = row_series(rows, points, design, angles, reading, terms)
-        bound, radius = row_series(rows, bounds, design, angles, reading, order + 1)
+        series, _ = row_series(rows, points, design, angles, reading, terms, _EVERYWHERE)
+        bound, radius = row_series(rows, bounds, design, angles, reading, order + 1, _EVERYWHERE)
         _add_rows(sums, curve, reading, (series, bound, radius), order, half, room, (cubic, rest, size))
     return cubic, rest, size
 
@@ -186,12 +190,13 @@ def series_of_curves(rows, sums, middle, curve, piece, angle, half, order):  # t
             within[q] = middle[design[q], piece[place]]
             if bounded:
                 wide[q] = half[place]
-        _count(sums, curve, number, start, counted)
+        _count(sums, curve, _ANY, number, start, counted)
         functions = row_functions(rows, Places(design, centre, wide, within), order, pressed, counted)
         for reading in range(wanted.size):
             if not wanted[reading]:
                 continue
-            series, radius = row_series(rows, functions, design, _SINGLE, reading, order + 1)
+            _count(sums, curve, reading, number, start, counted)
+            series, radius = row_series(rows, functions, design, _SINGLE, reading, order + 1, counted)
             _add_places(sums, curve, reading, (series, radius), number, start, stop, (cubic, off))
     if not bounded:
         for n in range(count):
@@ -200,11 +205,12 @@ def series_of_curves(rows, sums, middle, curve, piece, angle, half, order):  # t
 
 
 @inner
-def _count(sums, curve, number, start, counted):  # type: ignore[no-untyped-def]
-    """Which rows count at which of some places (R, places)."""
+def _count(sums, curve, reading, number, start, counted):  # type: ignore[no-untyped-def]
+    """Write which rows count at which of some places (R, places), for one reading or all of them."""
+    counted[:] = False
     for n in range(curve.size):
         q = number[n] - start
-        if q >= 0 and q < counted.shape[1]:
+        if q >= 0 and q < counted.shape[1] and (reading < 0 or reading == sums.reading[curve[n]]):
             for r in range(counted.shape[0]):
                 counted[r, q] = counted[r, q] or sums.weights[curve[n], r] != 0.0
 

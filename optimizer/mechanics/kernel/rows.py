@@ -32,7 +32,7 @@ from optimizer.mechanics.kernel.row_numbers import (
     UNIT,
     WITHIN,
 )
-from optimizer.mechanics.kernel.taylor import LANES, Series, copied
+from optimizer.mechanics.kernel.taylor import LANES, Series, any_of, copied
 from optimizer.numerics.arrays import Real
 from optimizer.numerics.compiling import inner, inner_with_arrays
 
@@ -95,8 +95,9 @@ class Functions(NamedTuple):
     """What the forces of designs are made of: those that differ in masses, speed, friction and areas alone have them
     once.
 
-    middle : (R, 6 + C, order + 1, Q) acceleration over r omega^2, cos and sin of the crank angle, what is across and
-        along the crank of a force 1 on the piston, 1 / cos beta, and pressures [Pa] unless there are none.
+    middle : (R, blocks, 6 + C, order + 1, LANES) acceleration over r omega^2, cos and sin of the crank angle, what is
+        across and along the crank of a force 1 on the piston, 1 / cos beta, and pressures [Pa] unless there are none;
+        block by block of places, of which the last may be less than full.
     radius : the same of enclosures; without functions at points.
     way : (R, Q) which way the row moves: 1 to the shaft; nan where they are not made.
     """
@@ -118,8 +119,9 @@ def row_functions(rows, places, order, pressed, counted):  # type: ignore[no-unt
     bounded = places.half.size > 0
     count, number = rows.motion.shape[1], places.centre.size
     chambers = rows.gas.shape[2] if pressed else 0
-    middle = np.empty((count, FUNCTIONS + chambers, order + 1, number))
-    radius = np.empty((count, FUNCTIONS + chambers if bounded else 0, order + 1, number))
+    blocks = (number + LANES - 1) // LANES
+    middle = np.empty((count, blocks, FUNCTIONS + chambers, order + 1, LANES))
+    radius = np.empty((count, blocks, FUNCTIONS + chambers if bounded else 0, order + 1, LANES))
     way = np.empty((count, number))
     shape = (PRESSURES + chambers, order + 1, LANES)
     series = Series(np.zeros(shape), np.zeros(shape), bounded)
@@ -142,17 +144,18 @@ def _expand(rows, places, counted, alike, series, room, functions):  # type: ign
     """
     middle, radius, way = functions
     cranks, lane, process, trig, repeats = room
-    bounded, chambers = series.bounded, middle.shape[1] - FUNCTIONS
+    bounded, chambers = series.bounded, middle.shape[2] - FUNCTIONS
     designs, count = rows.motion.shape[:2]
-    number, terms = places.centre.size, middle.shape[2]
+    number, terms = places.centre.size, middle.shape[3]
     for r in range(count):
         if alike[r] != r:
             continue
-        for first in range(0, number, LANES):
+        for block in range(middle.shape[1]):
+            first = block * LANES
             lanes, some = min(LANES, number - first), counted.size == 0
             for t in range(r, count):
                 if counted.size > 0 and alike[t] == r:
-                    some = some or _any(counted[t], first, lanes)
+                    some = some or any_of(counted[t], first, lanes)
                     for p in range(lanes):
                         way[t, first + p] = np.nan
             if not some:
@@ -183,10 +186,10 @@ def _expand(rows, places, counted, alike, series, room, functions):  # type: ign
                     crank_at(cranks[FIRST], p, angle)
             move(series, lane, cranks, trig, lanes)
             accelerate(series, lane, rows.exact, lanes)
-            carry(series, lane, lanes)
+            carry(series, lane)
             travels = 0
             for t in range(r, count):
-                if alike[t] != r or (counted.size > 0 and not _any(counted[t], first, lanes)):
+                if alike[t] != r or (counted.size > 0 and not any_of(counted[t], first, lanes)):
                     continue
                 for p in range(lanes):
                     way[t, first + p] = np.sign(cranks[INSIDE, SINE, p])
@@ -206,18 +209,9 @@ def _expand(rows, places, counted, alike, series, room, functions):  # type: ign
                 for f in range(FUNCTIONS + chambers):
                     made = f if f < FUNCTIONS else f - FUNCTIONS + PRESSURES
                     for k in range(terms):
-                        copied(series.middle[made, k], middle[t, f, k, first:], lanes)
+                        copied(series.middle[made, k], middle[t, block, f, k])
                         if bounded:
-                            copied(series.radius[made, k], radius[t, f, k, first:], lanes)
-
-
-@inner
-def _any(counted, first, lanes):  # type: ignore[no-untyped-def]
-    """Whether any of so many places (Q,) counts."""
-    some = False
-    for p in range(first, first + lanes):
-        some = some or counted[p]
-    return some
+                            copied(series.radius[made, k], radius[t, block, f, k])
 
 
 @inner_with_arrays

@@ -6,7 +6,8 @@ out. Sums, products and real powers are exact recurrences; the rounding of singl
 Source: R. E. Moore, R. B. Kearfott, M. J. Cloud, Introduction to Interval Analysis, SIAM 2009, chapter 9.
 
 Many places stand side by side, in lanes: the innermost loops are over lanes, which the processor takes several at a
-time, and no lane knows of another.
+time, and no lane knows of another. All lanes are taken, whether there are places in them or not: of a number that the
+compiler knows it leaves no rest to be taken one by one.
 """
 
 from typing import NamedTuple
@@ -36,14 +37,23 @@ class Series(NamedTuple):
 
 
 @inner
-def copied(values, out, lanes):  # type: ignore[no-untyped-def]
+def copied(values, out):  # type: ignore[no-untyped-def]
     """Values into others."""
-    for p in range(lanes):
+    for p in range(LANES):
         out[p] = values[p]
 
 
 @inner
-def circular(series, multiple, values, cosine, sine, lanes):  # type: ignore[no-untyped-def]
+def any_of(marked, first, lanes):  # type: ignore[no-untyped-def]
+    """Whether any of so many places is marked (Q,)."""
+    some = False
+    for p in range(first, first + lanes):
+        some = some or marked[p]
+    return some
+
+
+@inner
+def circular(series, multiple, values, cosine, sine):  # type: ignore[no-untyped-def]
     """cos and sin of a multiple of an angle, from what these are, or from the middles and radii of their ranges:
     values (4, LANES), cos, sin, radius of cos, radius of sin."""
     middle, radius, bounded = series
@@ -56,80 +66,87 @@ def circular(series, multiple, values, cosine, sine, lanes):  # type: ignore[no-
         of_cos, of_sin = values[odd], values[1 - odd]
         up, along = -factor if k % 4 in (1, 2) else factor, -factor if k % 4 in (2, 3) else factor
         cos, sin = middle[cosine, k], middle[sine, k]
-        for p in range(lanes):
+        for p in range(LANES):
             cos[p] = up * of_cos[p]
             sin[p] = along * of_sin[p]
         if bounded:
             of_cos, of_sin, cos, sin = values[2 + odd], values[3 - odd], radius[cosine, k], radius[sine, k]
-            for p in range(lanes):
+            for p in range(LANES):
                 cos[p] = factor * of_cos[p]
                 sin[p] = factor * of_sin[p]
 
 
 @inner
-def constant(series, value, out, lanes):  # type: ignore[no-untyped-def]
+def constant(series, value, out):  # type: ignore[no-untyped-def]
     """The same all the way: values (LANES,)."""
     middle, radius, _ = series
     for k in range(middle.shape[1]):
         result, off = middle[out, k], radius[out, k]
-        for p in range(lanes):
+        for p in range(LANES):
             result[p] = value[p] if k == 0 else 0.0
             off[p] = 0.0
 
 
 @inner
-def scaled(series, a, factor, plus, out, lanes):  # type: ignore[no-untyped-def]
+def scaled(series, a, factor, plus, out):  # type: ignore[no-untyped-def]
     """factor a + a number, (LANES,) each; a itself may be what comes out."""
     middle, radius, bounded = series
     for k in range(middle.shape[1]):
         source, result = middle[a, k], middle[out, k]
-        for p in range(lanes):
+        for p in range(LANES):
             result[p] = factor[p] * source[p]
         if bounded:
             source, result = radius[a, k], radius[out, k]
-            for p in range(lanes):
+            for p in range(LANES):
                 result[p] = abs(factor[p]) * source[p]
     result = middle[out, 0]
-    for p in range(lanes):
+    for p in range(LANES):
         result[p] += plus[p]
 
 
 @inner
-def summed(series, a, b, factor, out, lanes):  # type: ignore[no-untyped-def]
+def summed(series, a, b, factor, out):  # type: ignore[no-untyped-def]
     """a + factor b, factors (LANES,); either may be what comes out."""
     middle, radius, bounded = series
     for k in range(middle.shape[1]):
         addend, other, result = middle[a, k], middle[b, k], middle[out, k]
-        for p in range(lanes):
+        for p in range(LANES):
             result[p] = addend[p] + factor[p] * other[p]
         if bounded:
             addend, other, result = radius[a, k], radius[b, k], radius[out, k]
-            for p in range(lanes):
+            for p in range(LANES):
                 result[p] = addend[p] + abs(factor[p]) * other[p]
 
 
 @inner
-def product(series, a, b, out, lanes, first):  # type: ignore[no-untyped-def]
-    """Cauchy product, (f g)_k = sum_i f_i g_{k-i}, from the first coefficient that is wanted; neither may be what comes
-    out."""
+def product(series, a, b, out, first):  # type: ignore[no-untyped-def]
+    """a b, from the first coefficient that is wanted; neither may be what comes out."""
     middle, radius, bounded = series
-    for k in range(first, middle.shape[1]):
-        result, off = middle[out, k], radius[out, k]
-        for i in range(k + 1):
-            factor, other = middle[a, i], middle[b, k - i]
+    multiplied((middle[a], radius[a]), (middle[b], radius[b]), (middle[out], radius[out]), bounded, first)
+
+
+@inner
+def multiplied(one, two, made, bounded, first):  # type: ignore[no-untyped-def]
+    """Cauchy product, (f g)_k = sum_i f_i g_{k-i}, of functions, each of middles and radii (n + 1, LANES)."""
+    (f, f_off), (g, g_off), (out, out_off) = one, two, made
+    # by rising places of all three: to places that fall the compiler has loops that take lanes one by one
+    for i in range(out.shape[0]):
+        factor, factor_off = f[i], f_off[i]
+        for k in range(max(i, first), out.shape[0]):
+            other, result = g[k - i], out[k]
             if i == 0:
-                for p in range(lanes):
+                for p in range(LANES):
                     result[p] = factor[p] * other[p]
             else:
-                for p in range(lanes):
+                for p in range(LANES):
                     result[p] += factor[p] * other[p]
             if bounded:
-                factor_off, other_off = radius[a, i], radius[b, k - i]
+                other_off, off = g_off[k - i], out_off[k]
                 if i == 0:
-                    for p in range(lanes):
+                    for p in range(LANES):
                         off[p] = abs(factor[p]) * other_off[p] + factor_off[p] * (abs(other[p]) + other_off[p])
                 else:
-                    for p in range(lanes):
+                    for p in range(LANES):
                         off[p] += abs(factor[p]) * other_off[p] + factor_off[p] * (abs(other[p]) + other_off[p])
 
 
@@ -148,29 +165,29 @@ def power(series, a, exponent, out, lanes):  # type: ignore[no-untyped-def]
             first[p], of_first[p] = 0.5 * (low + high), 0.5 * abs(high - low)
     for k in range(1, middle.shape[1]):
         result, off = middle[out, k], radius[out, k]
-        for p in range(lanes):
+        for p in range(LANES):
             result[p] = 0.0
         if bounded:
-            for p in range(lanes):
+            for p in range(LANES):
                 off[p] = 0.0
         for i in range(1, k + 1):
             factor, other = middle[a, i], middle[out, k - i]
-            for p in range(lanes):
+            for p in range(LANES):
                 result[p] += (exponent[p] * i - (k - i)) * factor[p] * other[p]
             if bounded:
                 # in a loop of its own: of as many arrays as both have together none would be taken several at a time
                 factor_off, other_off = radius[a, i], radius[out, k - i]
-                for p in range(lanes):
+                for p in range(LANES):
                     wide = abs(factor[p]) * other_off[p] + factor_off[p] * (abs(other[p]) + other_off[p])
                     off[p] += abs(exponent[p] * i - (k - i)) * wide
         if bounded:
-            for p in range(lanes):
+            for p in range(LANES):
                 low, high = 1.0 / (base[p] - spread[p]), 1.0 / (base[p] + spread[p])
                 inverse, wide = 0.5 * (low + high), 0.5 * (low - high)
                 off[p] = (abs(result[p]) * wide + off[p] * (inverse + wide)) / k
                 result[p] = result[p] * inverse / k
         else:
-            for p in range(lanes):
+            for p in range(LANES):
                 result[p] = result[p] / base[p] / k
 
 
@@ -191,8 +208,8 @@ def _raised(base, exponent):  # type: ignore[no-untyped-def]
 
 
 @inner
-def between(series, a, low, high, lanes):  # type: ignore[no-untyped-def]
+def between(series, a, low, high):  # type: ignore[no-untyped-def]
     """Closer bounds (LANES,) of a function itself over the interval."""
     middle, radius = series.middle[a, 0], series.radius[a, 0]
-    for p in range(lanes):
+    for p in range(LANES):
         middle[p], radius[p] = 0.5 * (low[p] + high[p]), 0.5 * (high[p] - low[p])
