@@ -127,9 +127,9 @@ def product(series, a, b, out, first):  # type: ignore[no-untyped-def]
 
 
 @inner
-def multiplied(one, two, made, bounded, first):  # type: ignore[no-untyped-def]
+def multiplied(left, right, outcome, bounded, first):  # type: ignore[no-untyped-def]
     """Cauchy product, (f g)_k = sum_i f_i g_{k-i}, of functions, each of middles and radii (n + 1, LANES)."""
-    (f, f_off), (g, g_off), (out, out_off) = one, two, made
+    (f, f_off), (g, g_off), (out, out_off) = left, right, outcome
     # by rising places of all three: to places that fall the compiler has loops that take lanes one by one
     for i in range(out.shape[0]):
         factor, factor_off = f[i], f_off[i]
