@@ -91,9 +91,9 @@ def _add_up(rows, functions, design, angles, reading, room, results):  # type: i
             _place(n, at, angles, design, 1 if alone else lanes, where)
             if alone:
                 own[:] = design[n]
-            if number > 1 or last != r:
-                _of_lanes(rows, own, r, lane)
-                last = r
+            if turns > 1 or not alone or last != r * number + n:
+                _of_lanes(rows, own, r, alone, lane)
+                last = r * number + n if alone else -1
             for part in range(parts):
                 made, f = of_row, _factor(reading, part)
                 if reading == SIDE:
@@ -114,7 +114,7 @@ def _add_up(rows, functions, design, angles, reading, room, results):  # type: i
                 for turn in range(turns):
                     if turns > 1:
                         own[:] = design[turn]
-                        _of_lanes(rows, own, r, lane)
+                        _of_lanes(rows, own, r, alone, lane)
                     if pressed and (turn == 0 or various):
                         if part == 0 or (various and turns > 1):
                             _press(of_row, series, lane)
@@ -157,21 +157,21 @@ def _place(n, at, angles, design, lanes, where):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _of_lanes(rows, own, r, lane):  # type: ignore[no-untyped-def]
-    """Write the numbers of a row for the design of each lane."""
-    _of_designs(rows.motion, own, r, _LAM, lane[_RATIO])
-    _of_designs(rows.motion, own, r, _SENSE, lane[_TURNS])
-    _of_designs(rows.scale, own, r, _INERTIA, lane[_MASS])
-    _of_designs(rows.scale, own, r, _RUBBING, lane[_RUBBED])
+def _of_lanes(rows, own, r, alone, lane):  # type: ignore[no-untyped-def]
+    """Write the numbers of a row for the design of each lane; of one design alone, for it once."""
+    _of_designs(rows.motion, own, r, _LAM, alone, lane[_RATIO])
+    _of_designs(rows.motion, own, r, _SENSE, alone, lane[_TURNS])
+    _of_designs(rows.scale, own, r, _INERTIA, alone, lane[_MASS])
+    _of_designs(rows.scale, own, r, _RUBBING, alone, lane[_RUBBED])
     for c in range(rows.area.shape[2]):
-        _of_designs(rows.area, own, r, c, lane[_AREA + c])
+        _of_designs(rows.area, own, r, c, alone, lane[_AREA + c])
 
 
 @inner
-def _of_designs(values, own, r, which, out):  # type: ignore[no-untyped-def]
+def _of_designs(values, own, r, which, alone, out):  # type: ignore[no-untyped-def]
     """Write a number of a row for the design of each lane, of values (D, R, ...) or of (1, R, ...) for all designs."""
-    if values.shape[0] == 1:
-        out[:] = values[0, r, which]
+    if alone or values.shape[0] == 1:
+        out[:] = values[own[0] if values.shape[0] > 1 else 0, r, which]
     else:
         for p in range(LANES):
             out[p] = values[own[p], r, which]
