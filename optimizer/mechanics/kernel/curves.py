@@ -22,8 +22,12 @@ _FEW = 64
 _AT_ONCE = 50_000
 
 
+#: of rows and places where all of them count
+_EVERYWHERE = np.zeros((0, 0), np.bool_)
+#: of readings where all of them count
+_ANY = np.int64(-1)
 #: what no forces are made of
-NOTHING = Functions(np.zeros((0, 0, 0, 0)), np.zeros((0, 0, 0, 0)), np.zeros((0, 0)))
+NOTHING = Functions(np.zeros((0, 0, 0, 0, 0)), np.zeros((0, 0, 0, 0, 0)), np.zeros((0, 0)))
 
 
 class Sums(NamedTuple):
@@ -50,65 +54,80 @@ def sums_of_rows(rows, sums, curve, points, bounds, order, design, angles, half)
     bounds : the same bounded, to an order above it or more. Of either there may be none, :data:`NOTHING`.
     order : up to which bounds count, -1 where there are none.
     """
-    count, terms = sums.weights.shape[1], points.middle.shape[2]
-    curves, share = curve.size, max(curve.size // max(design.size, 1), 1)
+    count, terms = sums.weights.shape[1], points.middle.shape[3]
+    curves = curve.size
     cubic = np.empty((curves, angles, terms), np.complex128)
     sized = terms > 0 and order >= 0
     rest, size = np.empty((curves, angles if order >= 0 else 0)), np.empty(curves if sized else 0)
     # coefficients and at last the bound's middle, each real and imaginary
     last = terms + 1 if order >= 0 else terms
-    total, length = np.empty((2, last, angles)), np.empty((count, angles))
-    added, off = np.empty(angles), np.empty(angles)
+    room = np.empty((2, last, angles)), np.empty((count, angles)), np.empty((2, angles))
     wanted, _ = _wanted(sums, curve)
     for reading in range(wanted.size):
         if not wanted[reading]:
             continue
-        series, _ = row_series(rows, points, design, angles, reading, terms)
-        bound, radius = row_series(rows, bounds, design, angles, reading, order + 1)
-        parts, of_lengths = max(series.shape[0], bound.shape[0]), -1
-        for j in range(curves):
-            if sums.reading[curve[j]] != reading:
-                continue
-            n = j // share
-            if sized and n != of_lengths:
-                of_lengths = n
-                for r in range(count):
-                    for p in range(angles):
-                        length[r, p] = _length(series[0, 0, n, r, p], series[1, 0, n, r, p] if parts > 1 else 0.0)
-            total[:], added[:], off[:] = 0.0, 0.0, 0.0
-            for r in range(count):
-                weight = sums.weights[curve[j], r]
-                if weight == 0.0:
-                    continue
-                most = abs(weight)
-                if sized:
-                    for p in range(angles):
-                        added[p] += most * length[r, p]
-                if order >= 0:
-                    for p in range(angles):
-                        off[p] += most * radius[n, r, p]
-                for k in range(last):
-                    component = series[0, k, n, r] if k < terms else bound[0, 0, n, r]
-                    if parts > 1:
-                        other = series[1, k, n, r] if k < terms else bound[1, 0, n, r]
-                        _add_vectors(weight, component, other, total[0, k], total[1, k])
-                    else:
-                        _add_scalars(weight, component, total[0, k], total[1, k])
-            constant, largest = sums.constant[curve[j]], 0.0
-            for p in range(angles):
-                wide = 1.0
-                for k in range(max(terms, order)):
-                    if k < terms:
-                        cubic[j, p, k] = complex(total[0, k, p] * wide, total[1, k, p] * wide)
-                    wide *= half[n, p]
-                if terms > 0:
-                    cubic[j, p, 0] += constant
-                if order >= 0:
-                    rest[j, p] = (_length(total[0, terms, p], total[1, terms, p]) + off[p]) * wide
-                largest = max(largest, added[p])
-            if sized:
-                size[j] = largest + abs(constant)
+        series, _ = row_series(rows, points, design, angles, reading, terms, _EVERYWHERE)
+        bound, radius = row_series(rows, bounds, design, angles, reading, order + 1, _EVERYWHERE)
+        _add_rows(sums, curve, reading, (series, bound, radius), order, half, room, (cubic, rest, size))
     return cubic, rest, size
+
+
+@inner
+def _add_rows(sums, curve, reading, of_rows, order, half, room, results):  # type: ignore[no-untyped-def]
+    """Write what the curves (m,) of one reading come to, of what the rows come to; nothing is made here, for to count
+    who holds an array takes longer than to use it.
+
+    Parameters
+    ----------
+    room : for the sums of a curve and the bound's middle, each real and imaginary, for the sizes of the rows, and for
+        what is added up and what it may be off by.
+    """
+    (series, bound, radius), (total, length, beside), (cubic, rest, size) = of_rows, room, results
+    count, (curves, angles, terms) = sums.weights.shape[1], cubic.shape
+    last, bounded, sized, added, off = total.shape[1], order >= 0, size.size > 0, beside[0], beside[1]
+    parts, of_lengths, share = max(series.shape[0], bound.shape[0]), -1, max(curves // max(half.shape[0], 1), 1)
+    for j in range(curves):
+        if sums.reading[curve[j]] != reading:
+            continue
+        n = j // share
+        if sized and n != of_lengths:
+            of_lengths = n
+            for r in range(count):
+                for p in range(angles):
+                    length[r, p] = _length(series[0, 0, n, r, p], series[1, 0, n, r, p] if parts > 1 else 0.0)
+        total[:], beside[:] = 0.0, 0.0
+        for r in range(count):
+            weight = sums.weights[curve[j], r]
+            if weight == 0.0:
+                continue
+            most = abs(weight)
+            if sized:
+                for p in range(angles):
+                    added[p] += most * length[r, p]
+            if bounded:
+                for p in range(angles):
+                    off[p] += most * radius[n, r, p]
+            for k in range(last):
+                component = series[0, k, n, r] if k < terms else bound[0, 0, n, r]
+                if parts > 1:
+                    other = series[1, k, n, r] if k < terms else bound[1, 0, n, r]
+                    _add_vectors(weight, component, other, total[0, k], total[1, k])
+                else:
+                    _add_scalars(weight, component, total[0, k], total[1, k])
+        constant, largest = sums.constant[curve[j]], 0.0
+        for p in range(angles):
+            wide = 1.0
+            for k in range(max(terms, order)):
+                if k < terms:
+                    cubic[j, p, k] = complex(total[0, k, p] * wide, total[1, k, p] * wide)
+                wide *= half[n, p]
+            if terms > 0:
+                cubic[j, p, 0] += constant
+            if bounded:
+                rest[j, p] = (_length(total[0, terms, p], total[1, terms, p]) + off[p]) * wide
+            largest = max(largest, added[p])
+        if sized:
+            size[j] = largest + abs(constant)
 
 
 @inner
@@ -171,32 +190,47 @@ def series_of_curves(rows, sums, middle, curve, piece, angle, half, order):  # t
             within[q] = middle[design[q], piece[place]]
             if bounded:
                 wide[q] = half[place]
-        for n in range(count):
-            q = number[n] - start
-            if q >= 0 and q < stop - start:
-                for r in range(count_of_rows):
-                    counted[r, q] = counted[r, q] or sums.weights[curve[n], r] != 0.0
+        _count(sums, curve, _ANY, number, start, counted)
         functions = row_functions(rows, Places(design, centre, wide, within), order, pressed, counted)
         for reading in range(wanted.size):
             if not wanted[reading]:
                 continue
-            series, radius = row_series(rows, functions, design, _SINGLE, reading, order + 1)
-            for n in range(count):
-                q = number[n] - start
-                if sums.reading[curve[n]] != reading or q < 0 or q >= stop - start:
-                    continue
-                for r in range(count_of_rows):
-                    weight = sums.weights[curve[n], r]
-                    if weight == 0.0:
-                        continue
-                    for k in range(terms):
-                        cubic[n, k] += weight * _vector(series, k, q, r)
-                    if bounded:
-                        off[n] += abs(weight) * radius[q, r, 0]
+            _count(sums, curve, reading, number, start, counted)
+            series, radius = row_series(rows, functions, design, _SINGLE, reading, order + 1, counted)
+            _add_places(sums, curve, reading, (series, radius), number, start, stop, (cubic, off))
     if not bounded:
         for n in range(count):
             cubic[n, 0] += sums.constant[curve[n]]
     return cubic, off
+
+
+@inner
+def _count(sums, curve, reading, number, start, counted):  # type: ignore[no-untyped-def]
+    """Write which rows count at which of some places (R, places), for one reading or all of them."""
+    counted[:] = False
+    for n in range(curve.size):
+        q = number[n] - start
+        if q >= 0 and q < counted.shape[1] and (reading < 0 or reading == sums.reading[curve[n]]):
+            for r in range(counted.shape[0]):
+                counted[r, q] = counted[r, q] or sums.weights[curve[n], r] != 0.0
+
+
+@inner
+def _add_places(sums, curve, reading, of_rows, number, start, stop, results):  # type: ignore[no-untyped-def]
+    """Write what the curves (m,) of one reading come to at those of their places that are from start to stop."""
+    (series, radius), (cubic, off) = of_rows, results
+    for n in range(curve.size):
+        q = number[n] - start
+        if sums.reading[curve[n]] != reading or q < 0 or q >= stop - start:
+            continue
+        for r in range(sums.weights.shape[1]):
+            weight = sums.weights[curve[n], r]
+            if weight == 0.0:
+                continue
+            for k in range(cubic.shape[1]):
+                cubic[n, k] += weight * _vector(series, k, q, r)
+            if off.size > 0:
+                off[n] += abs(weight) * radius[q, r, 0]
 
 
 @inner_with_arrays

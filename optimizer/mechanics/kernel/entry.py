@@ -100,7 +100,7 @@ def _over_turn(  # type: ignore[no-untyped-def]
     # to 42 the best, 43 levels, 44 middles, 45 and 46 of the motion
     rows = Rows(parts[0], parts[1], parts[2], parts[3], parts[4], exact, Tables(*parts[5:12]))
     sums, places, points, bounds = Sums(*parts[12:15]), Places(*parts[15:19]), parts[22:25], parts[25:28]
-    functions = Functions(np.empty((0, 0, 0, 0)), np.empty((0, 0, 0, 0)), np.empty((0, 0)))
+    functions = Functions(np.empty((0, 0, 0, 0, 0)), np.empty((0, 0, 0, 0, 0)), np.empty((0, 0)))
     cubic, rest, size = np.empty((0, 0, 0), np.complex128), np.empty((0, 0)), np.empty(0)
     if task in (FUNCTIONS, BOTH):
         functions = row_functions(rows, places, order, pressed, np.empty((0, 0), np.bool_))

@@ -34,7 +34,7 @@ from optimizer.mechanics.kernel.row_numbers import (
     G,
     H,
 )
-from optimizer.mechanics.kernel.taylor import ALL, between, constant, power, product, scaled, summed
+from optimizer.mechanics.kernel.taylor import ALL, LANES, between, constant, power, product, scaled, summed
 from optimizer.numerics.compiling import inner
 
 
@@ -56,7 +56,7 @@ def indicated(series, traces, places, trace, first, lane, out, lanes):  # type: 
         slope[p] = traces.slope[trace, table, entry]
         since = place - traces.angle[trace, table, entry] + (lane[OWN, p] - inside)
         pressure[p] = traces.pressure[trace, table, entry] + slope[p] * since
-    constant(series, pressure, out, lanes)
+    constant(series, pressure, out)
     for p in range(lanes):
         if series.middle.shape[1] > 1:
             series.middle[out, 1, p] = slope[p]
@@ -96,19 +96,19 @@ def cycle(series, lane, exact, process, side, cranks, out, lanes, travels):  # t
     for p in range(lanes):
         moving = moving or exponent[p] > 0.0
     if not moving:
-        constant(series, start, out, lanes)
+        constant(series, start, out)
         return travels
     travel = HEAD_TRAVEL if side == 0 else CRANK_TRAVEL
     if not travels & (1 + side):
         # chambers of all rows that move alike share it
         _travel(series, lane, exact, side, cranks, travel, lanes)
-    for p in range(lanes):
+    for p in range(LANES):
         f[p], g[p] = 1.0 / full[p], clear[p] / full[p]
-    scaled(series, travel, f, g, VOLUME, lanes)
-    for p in range(lanes):
+    scaled(series, travel, f, g, VOLUME)
+    for p in range(LANES):
         f[p] = -exponent[p]
     power(series, VOLUME, f, out, lanes)
-    scaled(series, out, start, lane[ZERO], out, lanes)
+    scaled(series, out, start, lane[ZERO], out)
     return travels | (1 + side)
 
 
@@ -120,46 +120,46 @@ def _travel(series, lane, exact, side, cranks, out, lanes):  # type: ignore[no-u
     if middle.shape[1] > 1:
         if not exact:
             sign = 1.0 if side == 0 else -1.0
-            for p in range(lanes):
+            for p in range(LANES):
                 f[p], g[p] = sign * 0.5 * ratio[p], -sign
-            scaled(series, SIN_SQUARED, f, unit, out, lanes)
-            summed(series, out, COS, g, out, lanes)
+            scaled(series, SIN_SQUARED, f, unit, out)
+            summed(series, out, COS, g, out)
         elif side == 0:
             # (1 - cos beta) / lam = lam sin^2 phi / (1 + cos beta)
-            scaled(series, COS_BETA, unit, unit, A, lanes)
+            scaled(series, COS_BETA, unit, unit, A)
             power(series, A, lane[OVER], B, lanes)
-            product(series, SIN_SQUARED, B, C, lanes, ALL)
-            scaled(series, C, ratio, unit, out, lanes)
-            summed(series, out, COS, lane[OVER], out, lanes)
+            product(series, SIN_SQUARED, B, C, ALL)
+            scaled(series, C, ratio, unit, out)
+            summed(series, out, COS, lane[OVER], out)
         else:
             # what motion() leaves to the inner dead centre: nothing cancels, however near lam is to 1
-            for p in range(lanes):
+            for p in range(LANES):
                 f[p] = ratio[p] if cranks[INSIDE, COSINE, p] >= 0.0 else -ratio[p]
-            summed(series, COS_BETA, COS, f, A, lanes)
+            summed(series, COS_BETA, COS, f, A)
             power(series, A, lane[OVER], B, lanes)
-            scaled(series, B, short, lane[ZERO], B, lanes)
+            scaled(series, B, short, lane[ZERO], B)
             for k in range(middle.shape[1]):
-                for p in range(lanes):
+                for p in range(LANES):
                     if cranks[INSIDE, COSINE, p] < 0.0:
                         middle[A, k, p] = middle[B, k, p]
                         series.radius[A, k, p] = series.radius[B, k, p]
-            scaled(series, COS, unit, unit, B, lanes)
-            product(series, B, A, C, lanes, ALL)
-            for p in range(lanes):
+            scaled(series, COS, unit, unit, B)
+            product(series, B, A, C, ALL)
+            for p in range(LANES):
                 f[p] = 1.0 + ratio[p]
-            scaled(series, A, unit, f, A, lanes)
+            scaled(series, A, unit, f, A)
             power(series, A, lane[OVER], B, lanes)
-            product(series, C, B, out, lanes, ALL)
-            for p in range(lanes):
+            product(series, C, B, out, ALL)
+            for p in range(LANES):
                 f[p] = 2.0
-            scaled(series, out, f, lane[ZERO], out, lanes)
+            scaled(series, out, f, lane[ZERO], out)
     first, last, there = cranks[FIRST], cranks[LAST], middle[out, 0]
     if bounded:
         # a row moves one way within a piece
         for p in range(lanes):
             g[p], h[p] = _travelled(lane, exact, side, first, p), _travelled(lane, exact, side, last, p)
             g[p], h[p] = min(g[p], h[p]), max(g[p], h[p])
-        between(series, out, g, h, lanes)
+        between(series, out, g, h)
     else:
         # where 1 - cos would cancel
         for p in range(lanes):

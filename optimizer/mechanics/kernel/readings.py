@@ -6,7 +6,7 @@ Shapes: N designs, R rows, P angles of each, Q places: the angles of all designs
 import numpy as np
 
 from optimizer.mechanics.kernel.row_numbers import COS, FUNCTIONS, INERTIA, OUTWARD, SECANT, SIN, TURNING
-from optimizer.mechanics.kernel.taylor import ALL, LANES, Series, constant, copied, product, scaled, summed
+from optimizer.mechanics.kernel.taylor import ALL, LANES, Series, any_of, constant, copied, multiplied, scaled
 from optimizer.numerics.compiling import inner, inner_with_arrays
 
 #: what may be asked of the rows; the first column counts from 0 in the compiled code
@@ -25,123 +25,180 @@ READINGS = (
 PISTON, ROD, ROD_WITHOUT_GAS, ROD_AT_REST, SIDE, TANGENTIAL, RADIAL, ON_SHAFT, ON_FRAME, GAS = range(len(READINGS))
 #: of these the gas is no part
 WITHOUT_GAS = ("rod_without_gas", "on_frame")
-#: of each reading, which of the functions it is made of beside the inertia
-_MADE_OF = np.zeros((len(READINGS), FUNCTIONS), np.bool_)
-_MADE_OF[:, INERTIA] = True
-for _reading, *_functions in (
-    (ROD, SECANT),
-    (ROD_WITHOUT_GAS, SECANT),
-    (ROD_AT_REST, SECANT),
-    (SIDE, SIN, SECANT),
-    (TANGENTIAL, TURNING),
-    (RADIAL, OUTWARD),
-    (ON_SHAFT, TURNING, OUTWARD),
-    (ON_FRAME, COS, SIN),
-):
-    _MADE_OF[_reading, _functions] = True
 #: functions beside those that are kept
-_UNITY, _FACTOR, _FORCE, _OF_INERTIA, _OF_GAS = np.arange(FUNCTIONS, FUNCTIONS + 5)
-_PRESSURES = FUNCTIONS + 5
+_FACTOR, _FORCE, _OF_INERTIA, _OF_GAS, _TOTAL = np.arange(5)
+_OWN = 5
 #: numbers of every lane
-_RATIO, _SIGN, _ZERO, _UNIT, _MASS, _FRICTION, _AREA, _VALUE, _OFF = np.arange(9)
-_NUMBERS = 9
+_RATIO, _TURNS, _ZERO, _MASS, _RUBBED, _FRICTION = np.arange(6)
+_AREA = 6
 _NUMBER, _ANGLE, _DESIGN = np.arange(3)
+#: numbers of a row among those of its motion and of its scale
+_LAM, _SENSE, _INERTIA, _RUBBING = 1, 3, 0, 1
 
 
 @inner_with_arrays
-def row_series(rows, functions, design, angles, reading, terms):  # type: ignore[no-untyped-def]
+def row_series(rows, functions, design, angles, reading, terms, counted):  # type: ignore[no-untyped-def]
     """The first coefficients of a force of the rows: (2, terms, N, R, P) at points; of enclosures the middles
     (2, 1, N, R, P) and radii (N, R, P) of the last of these; P angles of each of designs (N,).
 
     The first part is along the crank, or all of a scalar; the second across it, against the sense of rotation.
     A force is the acceleration times m r omega^2, the friction and the gas, each times one function of the motion.
     Where the functions of a row are not made its numbers mean nothing.
+
+    Parameters
+    ----------
+    counted : (R, Q) which rows count at which places: of many side by side where they do not its numbers mean nothing
+        either. (0, 0) where all count.
     """
-    count, function_count, _, places = functions.middle.shape
-    bounded, parts = functions.radius.shape[1] > 0, 2 if reading in (ON_SHAFT, ON_FRAME) else 1
+    count = functions.middle.shape[0]
+    bounded, parts = functions.radius.shape[2] > 0, 2 if reading in (ON_SHAFT, ON_FRAME) else 1
     number, first = design.size, terms - 1 if bounded else 0
     middle = np.empty((parts, terms - first, number, count, angles))
     radius = np.zeros((number if bounded else 0, count, angles))
-    shape = (_PRESSURES + function_count - FUNCTIONS, terms, LANES)
-    series, lane = Series(np.zeros(shape), np.zeros(shape), bounded), np.zeros((_NUMBERS, LANES))
-    lane[_UNIT] = 1.0
+    shape = (_OWN, terms, LANES)
+    series, lane = Series(np.zeros(shape), np.zeros(shape), bounded), np.zeros((_AREA + rows.area.shape[2], LANES))
     # of every lane: its place in the result, and its design
     where = np.zeros((3, LANES), np.int64)
+    _add_up(rows, functions, design, angles, reading, (series, lane, where, counted), (middle, radius))
+    return middle, radius
+
+
+@inner
+def _add_up(rows, functions, design, angles, reading, room, results):  # type: ignore[no-untyped-def]
+    """Write the coefficients of a force and the radii of the last; nothing is made here, for to count who holds an
+    array takes longer than to use it."""
+    (series, lane, where, counted), (middle, radius) = room, results
+    (count, places), parts, bounded, own = functions.way.shape, middle.shape[0], series.bounded, where[_DESIGN]
+    terms, number, total = series.middle.shape[1], design.size, (series.middle[_TOTAL], series.radius[_TOTAL])
+    first = terms - middle.shape[1]
     moves = reading != ROD_AT_REST and reading != GAS
     rubs = moves and reading != ON_FRAME
-    pressed = reading != ROD_WITHOUT_GAS and reading != ON_FRAME and function_count > FUNCTIONS
+    pressed = reading != ROD_WITHOUT_GAS and reading != ON_FRAME and functions.middle.shape[2] > FUNCTIONS
+    # by what the force on the piston is multiplied
+    factored = reading != PISTON and reading != GAS
+    gas = (series.middle[_OF_GAS if factored else _FORCE], series.radius[_OF_GAS if factored else _FORCE])
     # where designs have all of this in common, one after the other is made of it
-    turns = number if places == angles else 1
+    turns, various, last = number if places == angles else 1, rows.area.shape[0] > 1, -1
     for r in range(count):
         for start in range(0, places, LANES):
-            lanes = min(LANES, places - start)
-            if np.isnan(functions.way[r, start]):
+            lanes, block, n, at = min(LANES, places - start), start // LANES, start // angles, start % angles
+            if np.isnan(functions.way[r, start]) or (counted.size > 0 and not any_of(counted[r], start, lanes)):
                 continue
-            for f in range(function_count if pressed else FUNCTIONS):
-                if f < FUNCTIONS and not _MADE_OF[reading, f]:
-                    continue
-                to = f if f < FUNCTIONS else f - FUNCTIONS + _PRESSURES
-                for k in range(terms):
-                    copied(functions.middle[r, f, k, start:], series.middle[to, k], lanes)
-                    if bounded:
-                        copied(functions.radius[r, f, k, start:], series.radius[to, k], lanes)
-            number_of_first, angle_of_first = start // angles, start % angles
+            coefficients = functions.middle[r, block]
+            of_row = Series(coefficients, functions.radius[r, block] if bounded else coefficients, bounded)
             # of one design alone, as mostly, results stand side by side
-            alone = angle_of_first + lanes <= angles
-            n, at = number_of_first, angle_of_first
-            for p in range(lanes):
-                where[_NUMBER, p], where[_ANGLE, p], where[_DESIGN, p] = n, at, design[n]
-                motion = rows.motion[design[n] if rows.motion.shape[0] > 1 else 0, r]
-                lane[_RATIO, p], lane[_SIGN, p] = motion[1], -motion[3]
-                at += 1
-                if at == angles:
-                    n, at = n + 1, 0
+            alone = turns > 1 or at + lanes <= angles
+            _place(n, at, angles, design, 1 if alone else lanes, where)
+            if alone:
+                own[:] = design[n]
+            if turns > 1 or not alone or last != r * number + n:
+                _of_lanes(rows, own, r, alone, lane)
+                last = r * number + n if alone else -1
             for part in range(parts):
-                factor, inertia = _read(series, reading, part, lane, lanes, first)
-                gas = _FORCE if factor == _UNITY else _OF_GAS
+                made, f = of_row, _factor(reading, part)
+                if reading == SIDE:
+                    _lean(of_row, series, lane)
+                    made, f = series, _FACTOR
+                factor = (made.middle[f], made.radius[f])
+                made, f = of_row, INERTIA
+                if factored and moves:
+                    made, f = series, _OF_INERTIA
+                    multiplied(
+                        (coefficients[INERTIA], of_row.radius[INERTIA]),
+                        factor,
+                        (made.middle[f], made.radius[f]),
+                        bounded,
+                        first,
+                    )
+                inertia = (made.middle[f], made.radius[f])
                 for turn in range(turns):
-                    for p in range(lanes):
-                        n = design[turn] if turns > 1 else where[_DESIGN, p]
-                        index = n if rows.scale.shape[0] > 1 else 0
-                        lane[_MASS, p] = rows.scale[index, r, 0]
-                        lane[_FRICTION, p] = rows.scale[index, r, 1] * functions.way[r, start + p]
-                    if pressed and (turn == 0 or rows.area.shape[0] > 1):
-                        constant(series, lane[_ZERO], _FORCE, lanes)
-                        for c in range(function_count - FUNCTIONS):
-                            for p in range(lanes):
-                                n = design[turn] if turns > 1 else where[_DESIGN, p]
-                                lane[_AREA, p] = rows.area[n if rows.area.shape[0] > 1 else 0, r, c]
-                            summed(series, _FORCE, _PRESSURES + c, lane[_AREA], _FORCE, lanes)
-                        if gas == _OF_GAS:
-                            product(series, _FORCE, factor, _OF_GAS, lanes, first)
+                    if turns > 1:
+                        own[:] = design[turn]
+                        _of_lanes(rows, own, r, alone, lane)
+                    if pressed and (turn == 0 or various):
+                        if part == 0 or (various and turns > 1):
+                            _press(of_row, series, lane)
+                        if factored:
+                            multiplied((series.middle[_FORCE], series.radius[_FORCE]), factor, gas, bounded, first)
+                    for p in range(lanes if rubs else 0):
+                        lane[_FRICTION, p] = lane[_RUBBED, p] * functions.way[r, start + p]
                     for k in range(first, terms):
-                        value, off = lane[_VALUE], lane[_OFF]
-                        for p in range(lanes):
-                            value[p] = series.middle[gas, k, p] if pressed else 0.0
-                            off[p] = series.radius[gas, k, p] if pressed else 0.0
-                        if moves:
-                            _added(series, inertia, k, lane[_MASS], value, off, lanes)
-                        if rubs:
-                            _added(series, factor, k, lane[_FRICTION], value, off, lanes)
+                        if pressed:
+                            copied(gas[0][k], total[0][k])
+                            copied(gas[1][k], total[1][k])
+                        else:
+                            total[0][k, :], total[1][k, :] = 0.0, 0.0
+                    if moves:
+                        _added(inertia, lane[_MASS], total, bounded, first)
+                    if rubs and factored:
+                        _added(factor, lane[_FRICTION], total, bounded, first)
+                    elif rubs and first == 0:
+                        for p in range(LANES):
+                            total[0][0, p] += lane[_FRICTION, p]
+                    for k in range(first, terms):
+                        value, off, to = total[0][k], total[1][k], middle[part, k - first]
                         if part == 1:
-                            sign = lane[_SIGN]
-                            for p in range(lanes):
-                                value[p] *= sign[p]
-                        if turns > 1 or alone:
-                            to = turn if turns > 1 else number_of_first
-                            copied(value, middle[part, k - first, to, r, angle_of_first:], lanes)
-                            if bounded:
-                                spread = radius[to, r, angle_of_first:]
-                                for p in range(lanes):
-                                    spread[p] = _with_part(spread[p], off[p], part)
-                            continue
-                        for p in range(lanes):
-                            middle[part, k - first, where[_NUMBER, p], r, where[_ANGLE, p]] = value[p]
-                        if bounded:
-                            for p in range(lanes):
-                                n, at = where[_NUMBER, p], where[_ANGLE, p]
-                                radius[n, r, at] = _with_part(radius[n, r, at], off[p], part)
-    return middle, radius
+                            for p in range(LANES):
+                                value[p] *= -lane[_TURNS, p]
+                        if alone:
+                            _together(value, off, (to, radius), (turn if turns > 1 else n, r, at), part, lanes)
+                        else:
+                            _apart(value, off, (to, radius), where, r, part, lanes)
+
+
+@inner
+def _place(n, at, angles, design, lanes, where):  # type: ignore[no-untyped-def]
+    """Write which design and angle each lane has, and the number of the design."""
+    for p in range(lanes):
+        where[_NUMBER, p], where[_ANGLE, p], where[_DESIGN, p] = n, at, design[n]
+        at += 1
+        if at == angles:
+            n, at = n + 1, 0
+
+
+@inner
+def _of_lanes(rows, own, r, alone, lane):  # type: ignore[no-untyped-def]
+    """Write the numbers of a row for the design of each lane; of one design alone, for it once."""
+    _of_designs(rows.motion, own, r, _LAM, alone, lane[_RATIO])
+    _of_designs(rows.motion, own, r, _SENSE, alone, lane[_TURNS])
+    _of_designs(rows.scale, own, r, _INERTIA, alone, lane[_MASS])
+    _of_designs(rows.scale, own, r, _RUBBING, alone, lane[_RUBBED])
+    for c in range(rows.area.shape[2]):
+        _of_designs(rows.area, own, r, c, alone, lane[_AREA + c])
+
+
+@inner
+def _of_designs(values, own, r, which, alone, out):  # type: ignore[no-untyped-def]
+    """Write a number of a row for the design of each lane, of values (D, R, ...) or of (1, R, ...) for all designs."""
+    if alone or values.shape[0] == 1:
+        out[:] = values[own[0] if values.shape[0] > 1 else 0, r, which]
+    else:
+        for p in range(LANES):
+            out[p] = values[own[p], r, which]
+
+
+@inner
+def _together(value, off, results, there, part, lanes):  # type: ignore[no-untyped-def]
+    """Write lanes to angles side by side, and how far they may be off where that is known."""
+    (middle, radius), (n, r, at) = results, there
+    out = middle[n, r, at:]
+    for p in range(lanes):
+        out[p] = value[p]
+    if radius.shape[0] > 0:
+        spread = radius[n, r, at:]
+        for p in range(lanes):
+            spread[p] = _with_part(spread[p], off[p], part)
+
+
+@inner
+def _apart(value, off, results, where, r, part, lanes):  # type: ignore[no-untyped-def]
+    """The same, to angles of several designs."""
+    middle, radius = results
+    for p in range(lanes):
+        n, at = where[_NUMBER, p], where[_ANGLE, p]
+        middle[n, r, at] = value[p]
+        if radius.shape[0] > 0:
+            radius[n, r, at] = _with_part(radius[n, r, at], off[p], part)
 
 
 @inner
@@ -151,39 +208,43 @@ def _with_part(first, off, part):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _added(series, a, k, factor, value, off, lanes):  # type: ignore[no-untyped-def]
-    """What a function adds, times a factor (LANES,)."""
-    middle = series.middle[a, k]
-    for p in range(lanes):
-        value[p] += factor[p] * middle[p]
-    if series.bounded:
-        spread = series.radius[a, k]
-        for p in range(lanes):
-            off[p] += abs(factor[p]) * spread[p]
+def _added(function, factor, total, bounded, first):  # type: ignore[no-untyped-def]
+    """Add a function times a factor (LANES,) to another, from the first coefficient that is wanted."""
+    (middle, radius), (out, out_off) = function, total
+    for k in range(first, out.shape[0]):
+        addend, result = middle[k], out[k]
+        for p in range(LANES):
+            result[p] += factor[p] * addend[p]
+        if bounded:
+            spread, off = radius[k], out_off[k]
+            for p in range(LANES):
+                off[p] += abs(factor[p]) * spread[p]
 
 
 @inner
-def _read(series, reading, part, lane, lanes, first):  # type: ignore[no-untyped-def]
-    """Numbers of the functions that make a part of a reading: its factor, and what inertia comes to by it.
+def _press(of_row, series, lane):  # type: ignore[no-untyped-def]
+    """Force of the gas on the piston."""
+    constant(series, lane[_ZERO], _FORCE)
+    force = (series.middle[_FORCE], series.radius[_FORCE])
+    for c in range(of_row.middle.shape[0] - FUNCTIONS):
+        pressure = (of_row.middle[FUNCTIONS + c], of_row.radius[FUNCTIONS + c])
+        _added(pressure, lane[_AREA + c], force, series.bounded, ALL)
 
-    Of the latter the coefficients from the first that is wanted.
-    """
-    if reading in (PISTON, GAS):
-        constant(series, lane[_UNIT], _UNITY, lanes)
-        return _UNITY, INERTIA
+
+@inner
+def _lean(of_row, series, lane):  # type: ignore[no-untyped-def]
+    """P tan beta of a force P = 1."""
+    sine, secant = (of_row.middle[SIN], of_row.radius[SIN]), (of_row.middle[SECANT], of_row.radius[SECANT])
+    multiplied(sine, secant, (series.middle[_FACTOR], series.radius[_FACTOR]), series.bounded, ALL)
+    scaled(series, _FACTOR, lane[_RATIO], lane[_ZERO], _FACTOR)
+
+
+@inner
+def _factor(reading, part):  # type: ignore[no-untyped-def]
+    """Number of the function by which the force on the piston is multiplied, unless it is made of others."""
     if reading == ON_FRAME:
-        factor = COS if part == 0 else SIN
-    elif reading in (ROD, ROD_WITHOUT_GAS, ROD_AT_REST):
+        return COS if part == 0 else SIN
+    if reading in (ROD, ROD_WITHOUT_GAS, ROD_AT_REST):
         # P / cos beta
-        factor = SECANT
-    elif reading == SIDE:
-        # P tan beta
-        product(series, SIN, SECANT, _FACTOR, lanes, ALL)
-        scaled(series, _FACTOR, lane[_RATIO], lane[_ZERO], _FACTOR, lanes)
-        factor = _FACTOR
-    elif reading == TANGENTIAL or part == 1:
-        factor = TURNING
-    else:
-        factor = OUTWARD
-    product(series, INERTIA, factor, _OF_INERTIA, lanes, first)
-    return factor, _OF_INERTIA
+        return SECANT
+    return TURNING if reading == TANGENTIAL or part == 1 else OUTWARD

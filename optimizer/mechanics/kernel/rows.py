@@ -15,6 +15,7 @@ import numpy as np
 from optimizer.mechanics.kernel.pressures import cycle, decide, indicated
 from optimizer.mechanics.kernel.row_motion import accelerate, carry, crank_at, move
 from optimizer.mechanics.kernel.row_numbers import (
+    COSINE,
     FIRST,
     FUNCTIONS,
     INSIDE,
@@ -32,9 +33,9 @@ from optimizer.mechanics.kernel.row_numbers import (
     UNIT,
     WITHIN,
 )
-from optimizer.mechanics.kernel.taylor import LANES, Series, copied
+from optimizer.mechanics.kernel.taylor import LANES, Series, any_of, copied
 from optimizer.numerics.arrays import Real
-from optimizer.numerics.compiling import inner_with_arrays
+from optimizer.numerics.compiling import inner, inner_with_arrays
 
 
 class Tables(NamedTuple):
@@ -95,8 +96,9 @@ class Functions(NamedTuple):
     """What the forces of designs are made of: those that differ in masses, speed, friction and areas alone have them
     once.
 
-    middle : (R, 6 + C, order + 1, Q) acceleration over r omega^2, cos and sin of the crank angle, what is across and
-        along the crank of a force 1 on the piston, 1 / cos beta, and pressures [Pa] unless there are none.
+    middle : (R, blocks, 6 + C, order + 1, LANES) acceleration over r omega^2, cos and sin of the crank angle, what is
+        across and along the crank of a force 1 on the piston, 1 / cos beta, and pressures [Pa] unless there are none;
+        block by block of places, of which the last may be less than full.
     radius : the same of enclosures; without functions at points.
     way : (R, Q) which way the row moves: 1 to the shaft; nan where they are not made.
     """
@@ -116,26 +118,47 @@ def row_functions(rows, places, order, pressed, counted):  # type: ignore[no-unt
         all count.
     """
     bounded = places.half.size > 0
-    designs, count = rows.motion.shape[:2]
-    number, chambers = places.centre.size, rows.gas.shape[2] if pressed else 0
-    middle = np.empty((count, FUNCTIONS + chambers, order + 1, number))
-    radius = np.empty((count, FUNCTIONS + chambers if bounded else 0, order + 1, number))
+    count, number = rows.motion.shape[1], places.centre.size
+    chambers = rows.gas.shape[2] if pressed else 0
+    blocks = (number + LANES - 1) // LANES
+    middle = np.empty((count, blocks, FUNCTIONS + chambers, order + 1, LANES))
+    radius = np.empty((count, blocks, FUNCTIONS + chambers if bounded else 0, order + 1, LANES))
     way = np.empty((count, number))
-    shape = (PRESSURES + chambers, order + 1, LANES)
+    shape = (PRESSURES + chambers + 1, order + 1, LANES)
     series = Series(np.zeros(shape), np.zeros(shape), bounded)
     cranks, lane, process = np.zeros((3, 4, LANES)), np.zeros((NUMBERS, LANES)), np.zeros((4, LANES))
-    trig, repeats = np.zeros((8, LANES)), np.zeros(LANES, np.bool_)
-    alike = _alike(rows.motion)
     lane[UNIT], lane[ROOT], lane[OVER], lane[OVER_ROOT], lane[OVER_CUBE] = 1.0, 0.5, -1.0, -0.5, -1.5
+    room = (cranks, lane, process, np.zeros((8, LANES)), np.zeros(LANES, np.bool_))
+    functions = Functions(middle, radius, way)
+    _expand(rows, places, counted, _alike(rows.motion), series, room, functions)
+    return functions
+
+
+@inner
+def _expand(rows, places, counted, alike, series, room, functions):  # type: ignore[no-untyped-def]
+    """Write functions of the rows; nothing is made here, for to count who holds an array takes longer than to use it.
+
+    Parameters
+    ----------
+    alike : (R,) of each row the first that moves as it does.
+    room : what is known of lanes for the time being.
+    """
+    middle, radius, way = functions
+    cranks, lane, process, trig, repeats = room
+    bounded, chambers = series.bounded, middle.shape[2] - FUNCTIONS
+    designs, count = rows.motion.shape[:2]
+    number, terms = places.centre.size, middle.shape[3]
     for r in range(count):
         if alike[r] != r:
             continue
-        for first in range(0, number, LANES):
+        for block in range(middle.shape[1]):
+            first = block * LANES
             lanes, some = min(LANES, number - first), counted.size == 0
             for t in range(r, count):
                 if counted.size > 0 and alike[t] == r:
-                    some = some or np.any(counted[t, first : first + lanes])
-                    way[t, first : first + lanes] = np.nan
+                    some = some or any_of(counted[t], first, lanes)
+                    for p in range(lanes):
+                        way[t, first + p] = np.nan
             if not some:
                 continue
             last = np.int64(-1)
@@ -150,24 +173,25 @@ def row_functions(rows, places, order, pressed, counted):  # type: ignore[no-unt
                 repeats[p] = p > 0 and index == last and places.within[q] == places.within[q - 1]
                 last = index
                 if repeats[p]:
-                    for f in range(4):
-                        cranks[INSIDE, f, p] = cranks[INSIDE, f, p - 1]
+                    # what is decided by the rest is repeated too
+                    cranks[INSIDE, SINE, p] = cranks[INSIDE, SINE, p - 1]
+                    cranks[INSIDE, COSINE, p] = cranks[INSIDE, COSINE, p - 1]
                 else:
                     crank_at(cranks[INSIDE], p, within)
                 if bounded:
                     crank_at(cranks[FIRST], p, angle - places.half[q])
                     crank_at(cranks[LAST], p, angle + places.half[q])
-                elif angle == within:
+                elif angle == within and not repeats[p]:
                     for f in range(4):
                         cranks[FIRST, f, p] = cranks[INSIDE, f, p]
                 else:
                     crank_at(cranks[FIRST], p, angle)
             move(series, lane, cranks, trig, lanes)
             accelerate(series, lane, rows.exact, lanes)
-            carry(series, lane, lanes)
+            carry(series, lane)
             travels = 0
             for t in range(r, count):
-                if alike[t] != r or (counted.size > 0 and not np.any(counted[t, first : first + lanes])):
+                if alike[t] != r or (counted.size > 0 and not any_of(counted[t], first, lanes)):
                     continue
                 for p in range(lanes):
                     way[t, first + p] = np.sign(cranks[INSIDE, SINE, p])
@@ -186,11 +210,10 @@ def row_functions(rows, places, order, pressed, counted):  # type: ignore[no-unt
                         indicated(series, rows.traces, places, trace, first, lane, out, lanes)
                 for f in range(FUNCTIONS + chambers):
                     made = f if f < FUNCTIONS else f - FUNCTIONS + PRESSURES
-                    for k in range(order + 1):
-                        copied(series.middle[made, k], middle[t, f, k, first:], lanes)
+                    for k in range(terms):
+                        copied(series.middle[made, k], middle[t, block, f, k])
                         if bounded:
-                            copied(series.radius[made, k], radius[t, f, k, first:], lanes)
-    return Functions(middle, radius, way)
+                            copied(series.radius[made, k], radius[t, block, f, k])
 
 
 @inner_with_arrays

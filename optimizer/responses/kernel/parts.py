@@ -156,31 +156,54 @@ def _extremes(cubic, sign, square):  # type: ignore[no-untyped-def]
 @inner_with_arrays
 def first_open(cubics, members, best):  # type: ignore[no-untyped-def]
     """The pieces that may hold a peak above the best value at a centre, by how far a cubic may be from it."""
-    number, pieces = members.curve.size, cubics.half.shape[1]
-    most = np.empty((number, pieces))
+    most = np.empty((members.curve.size, cubics.half.shape[1]))
+    parts = _none(_measured(cubics, members, best, most))
+    _begun(cubics, members, best, most, parts)
+    return still_open(parts, members, best, MOST_PARTS)
+
+
+@inner
+def _measured(cubics, members, best, most):  # type: ignore[no-untyped-def]
+    """Write what members (M,) are not above on pieces, (M, P); how many of these are open."""
+    number, pieces = most.shape
     for m in range(number):
         curve, group = members.curve[m], members.group[m]
+        half, cubic, rest, bound = cubics.half[curve], cubics.cubic[curve], cubics.rest[curve], most[m]
+        offset, sign, largest, place = members.offset[m], members.sign[group], best.lower[group], -1
         for p in range(pieces):
-            most[m, p] = -np.inf
-            if cubics.half[curve, p] > 0.0:
-                middle = _size(cubics.cubic[curve, p, 0] + members.offset[m], members.sign[group])
+            bound[p] = -np.inf
+            if half[p] > 0.0:
+                middle = _size(cubic[p, 0] + offset, sign)
                 # how far the curve may be from the middle of a piece
-                most[m, p] = middle + cubics.rest[curve, p]
+                above = middle + rest[p]
                 for i in range(1, 4):
-                    most[m, p] += length(cubics.cubic[curve, p, i])
-                _keep(best, group, middle - cubics.rest[curve, p], cubics.centre[curve, p], p, m)
+                    term = cubic[p, i]
+                    above += abs(term.real) if term.imag == 0.0 else length(term)
+                bound[p] = above
+                if not middle - rest[p] <= largest:
+                    largest, place = middle - rest[p], p
+        if place >= 0:
+            _keep(best, group, largest, cubics.centre[curve, place], place, m)
     count = 0
     for m in range(number):
-        above = _open_above(members, best, members.group[m])
+        group, bound = members.group[m], most[m]
+        above, let_go = _open_above(members, best, group), -np.inf
         for p in range(pieces):
-            if most[m, p] > above:
+            if bound[p] > above:
                 count += 1
-            else:
-                _tell(best, members.group[m], most[m, p])
-    parts, n = _none(count), 0
-    for m in range(number):
+            elif bound[p] > let_go or bound[p] != bound[p]:
+                let_go = bound[p]
+        _tell(best, group, let_go)
+    return count
+
+
+@inner
+def _begun(cubics, members, best, most, parts):  # type: ignore[no-untyped-def]
+    """Write those that are open."""
+    n = 0
+    for m in range(most.shape[0]):
         curve, above = members.curve[m], _open_above(members, best, members.group[m])
-        for p in range(pieces):
+        for p in range(most.shape[1]):
             if most[m, p] > above:
                 half, rest = cubics.half[curve, p], cubics.rest[curve, p]
                 parts.member[n], parts.piece[n] = m, p
@@ -189,21 +212,29 @@ def first_open(cubics, members, best):  # type: ignore[no-untyped-def]
                     parts.cubic[n, i] = cubics.cubic[curve, p, i]
                 parts.cubic[n, 0] += members.offset[m]
                 n += 1
-    return still_open(parts, members, best, MOST_PARTS)
 
 
 @inner_with_arrays
 def still_open(parts, members, best, most_parts):  # type: ignore[no-untyped-def]
     """Those that may hold a peak above the best found, theirs included, unless there are too many."""
     number = parts.member.size
-    most, square = np.empty(number), np.empty(7)
+    most, open_ = np.empty(number), np.empty(number, np.bool_)
+    survivors = _none(_compared(parts, members, best, most_parts, most, open_, np.empty(7)))
+    _sorted_out(parts, members, best, most, open_, survivors)
+    return survivors
+
+
+@inner
+def _compared(parts, members, best, most_parts, most, open_, square):  # type: ignore[no-untyped-def]
+    """Write what parts (n,) are not above, and which of them are open; how many are."""
+    number = most.size
     for n in range(number):
         place, member = parts.place[n], parts.member[n]
         largest, first, last = _extremes(parts.cubic[n], members.sign[members.group[member]], square)
         most[n] = largest + place[_REST]
         angle = place[_CENTRE] - place[_HALF] if first >= last else place[_CENTRE] + place[_HALF]
         _keep(best, members.group[member], max(first, last) - place[_REST], angle, parts.piece[n], member)
-    open_, count = np.empty(number, np.bool_), 0
+    count = 0
     for n in range(number):
         open_[n] = most[n] > _open_above(members, best, members.group[parts.member[n]])
         count += open_[n]
@@ -211,8 +242,14 @@ def still_open(parts, members, best, most_parts):  # type: ignore[no-untyped-def
         count = 0
         for n in range(number):
             open_[n] = False
-    survivors, k = _none(count), 0
-    for n in range(number):
+    return count
+
+
+@inner
+def _sorted_out(parts, members, best, most, open_, survivors):  # type: ignore[no-untyped-def]
+    """Write the parts that are open, and have what the others may be at most in the bracket."""
+    k = 0
+    for n in range(most.size):
         if open_[n]:
             survivors.member[k], survivors.piece[k] = parts.member[n], parts.piece[n]
             for i in range(4):
@@ -221,21 +258,27 @@ def still_open(parts, members, best, most_parts):  # type: ignore[no-untyped-def
         else:
             rounding = _ANGLE_ROUNDING * abs(parts.cubic[n, 1]) / parts.place[n, _HALF]
             _tell(best, members.group[parts.member[n]], most[n] + rounding)
-    return survivors
 
 
 @inner_with_arrays
 def _cut(parts, chosen, places, shift):  # type: ignore[no-untyped-def]
     """Some parts, each in so many as there are places, by the same polynomial."""
-    share = places.size
     count = 0
     for n in range(chosen.size):
         count += chosen[n]
-    children, k = _none(share * count), 0
+    children = _none(places.size * count)
+    _divided(parts, chosen, places, shift, children)
+    return children
+
+
+@inner
+def _divided(parts, chosen, places, shift, children):  # type: ignore[no-untyped-def]
+    """Write the pieces of the chosen parts."""
+    share, k = places.size, 0
     for n in range(chosen.size):
         if chosen[n]:
+            place = parts.place[n]
             for p in range(share):
-                place = parts.place[n]
                 children.member[k], children.piece[k] = parts.member[n], parts.piece[n]
                 centre, half = place[_CENTRE] + place[_HALF] * places[p], place[_HALF] / share
                 _place(children, k, centre, half, place[_REST], place[_FOURTH])
@@ -245,7 +288,6 @@ def _cut(parts, chosen, places, shift):  # type: ignore[no-untyped-def]
                         value += parts.cubic[n, j] * shift[p, j, i]
                     children.cubic[k, i] = value
                 k += 1
-    return children
 
 
 @inner_with_arrays
