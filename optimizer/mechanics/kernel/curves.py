@@ -22,8 +22,6 @@ _FEW = 64
 _AT_ONCE = 50_000
 
 
-#: of rows and places where all of them count
-_EVERYWHERE = np.zeros((0, 0), np.bool_)
 #: of readings where all of them count
 _ANY = np.int64(-1)
 #: what no forces are made of
@@ -62,14 +60,32 @@ def sums_of_rows(rows, sums, curve, points, bounds, order, design, angles, half)
     # coefficients and at last the bound's middle, each real and imaginary
     last = terms + 1 if order >= 0 else terms
     room = np.empty((2, last, angles)), np.empty((count, angles)), np.empty((2, angles))
-    wanted, _ = _wanted(sums, curve)
+    (wanted, _), everywhere = _wanted(sums, curve), np.empty((0, 0), np.bool_)
     for reading in range(wanted.size):
         if not wanted[reading]:
             continue
-        series, _ = row_series(rows, points, design, angles, reading, terms, _EVERYWHERE)
-        bound, radius = row_series(rows, bounds, design, angles, reading, order + 1, _EVERYWHERE)
+        series, _ = row_series(rows, points, design, angles, reading, terms, everywhere)
+        bound, radius = row_series(rows, bounds, design, angles, reading, order + 1, everywhere)
         _add_rows(sums, curve, reading, (series, bound, radius), order, half, room, (cubic, rest, size))
     return cubic, rest, size
+
+
+@inner_with_arrays
+def sums_of_forces(sums, forces, order, half):  # type: ignore[no-untyped-def]
+    """All curves (J,), of one reading, over the pieces of N designs (N, P): the same, of what the rows come to.
+
+    Parameters
+    ----------
+    forces : (parts, 4, N, R, P), (parts, 1, N, R, P) and (N R, P), of that reading.
+    """
+    points, bounds, radius = forces
+    curves, (designs, angles), count = sums.reading.size, half.shape, sums.weights.shape[1]
+    terms = points.shape[1]
+    results = np.empty((curves, angles, terms), np.complex128), np.empty((curves, angles)), np.empty(curves)
+    room = np.empty((2, terms + 1, angles)), np.empty((count, angles)), np.empty((2, angles))
+    of_rows = points, bounds, radius.reshape((designs, count, angles))
+    _add_rows(sums, np.arange(curves), sums.reading[0], of_rows, order, half, room, results)
+    return results
 
 
 @inner

@@ -1,0 +1,185 @@
+"""Forces of the rows of many designs over the pieces of their turns, a few designs at a time; compiled.
+
+What the forces of a few designs are made of fits the cache. Rows that are the same in all designs are expanded once
+over the pieces that these designs have in common.
+
+Shapes: N designs, R rows, P pieces; b designs of a block, m of their places.
+"""
+
+import numpy as np
+
+from optimizer.mechanics.kernel.readings import ON_FRAME, ON_SHAFT, row_series
+from optimizer.mechanics.kernel.rows import Functions, Places, row_functions
+from optimizer.numerics.compiling import inner, inner_with_arrays
+
+#: coefficients of a cubic, as numpy's integers like all else that is handed on
+_CUBIC, _TERMS = np.int64(3), np.int64(4)
+#: angles of each place
+_SINGLE = np.int64(1)
+#: designs of a block
+_BLOCK = 8
+
+
+@inner_with_arrays
+def design_forces(rows, wanted, centre, half, order, pressed):  # type: ignore[no-untyped-def]
+    """Coefficients (M, 4, N, R, P) of forces about centres (N, P), the middles (M, 1, N, R, P) of what bounds them to
+    an order over half widths (N, P), and the radii of these (K N R, P); as :func:`readings.row_series` makes them.
+
+    Parameters
+    ----------
+    wanted : which of the readings: K of them with M parts, one after the other.
+    pressed : whether gas is a part of any.
+    """
+    (designs, pieces), count = centre.shape, rows.motion.shape[1]
+    of_parts, readings = 0, 0
+    for reading in range(wanted.size):
+        if wanted[reading]:
+            readings += 1
+            of_parts += 2 if reading in (ON_SHAFT, ON_FRAME) else 1
+    points, bounds = np.empty((of_parts, 4, designs, count, pieces)), np.empty((of_parts, 1, designs, count, pieces))
+    radius = np.empty((readings * designs * count, pieces))
+    common, common_count, everywhere = np.zeros(count, np.bool_), 0, np.empty((0, 0), np.bool_)
+    once = rows.motion.shape[0] == 1 and rows.traces.table.shape[1] == 1 and _equal_pieces(centre, half, 0, designs)
+    if not once:
+        common_count = _common_rows(rows, designs, common)
+    for first in range(0, designs, _BLOCK):
+        stop = min(first + _BLOCK, designs)
+        number = np.arange(first, stop)
+        if common_count < count and (first == 0 or not once):
+            places, mask = np.arange(first * pieces, (first + 1 if once else stop) * pieces), everywhere
+            if common_count > 0:
+                mask = np.empty((count, places.size), np.bool_)
+                _mark(common, False, mask)
+            middle, around = _functions(rows, places, centre, half, order, pressed, mask)
+        # rows that are the same in all designs, over what differs from the first piece of the block
+        slot = np.empty((stop - first, pieces), np.int64)
+        some = np.empty(slot.size if common_count > 0 else 0, np.int64)
+        different = _place_list(centre, half, first, some, slot)
+        own = some[:different].copy()
+        of_own = np.empty((count, different), np.bool_)
+        _mark(common, True, of_own)
+        if different > 0:
+            same, beside = _functions(rows, own, centre, half, order, pressed, of_own)
+        part, k = 0, 0
+        for reading in range(wanted.size):
+            if not wanted[reading]:
+                continue
+            if common_count < count:
+                series, _ = row_series(rows, middle, number, pieces, reading, _TERMS, everywhere)
+                bound, off = row_series(rows, around, number, pieces, reading, order + 1, everywhere)
+                _put(common, (series, bound, off), (points, bounds, radius), part, k, first)
+            if different > 0:
+                design = own // pieces
+                series, _ = row_series(rows, same, design, _SINGLE, reading, _TERMS, everywhere)
+                bound, off = row_series(rows, beside, design, _SINGLE, reading, order + 1, everywhere)
+                _put_from(common, (series, bound, off), slot, (points, bounds, radius), part, k, first)
+            part, k = part + (2 if reading in (ON_SHAFT, ON_FRAME) else 1), k + 1
+    return Functions(points, bounds, radius)
+
+
+@inner_with_arrays
+def _functions(rows, places, centre, half, order, pressed, counted):  # type: ignore[no-untyped-def]
+    """What forces are made of about the centres of places (m,), and bounded to an order over their half widths."""
+    pieces = centre.shape[1]
+    about, wide = centre.reshape(centre.size)[places], half.reshape(half.size)[places]
+    design = places // pieces
+    middle = row_functions(rows, Places(design, about, np.empty(0), about), _CUBIC, pressed, counted)
+    return middle, row_functions(rows, Places(design, about, wide, about), order, pressed, counted)
+
+
+@inner
+def _equal_pieces(centre, half, first, stop):  # type: ignore[no-untyped-def]
+    """Whether designs have the same pieces."""
+    for n in range(first + 1, stop):
+        for p in range(centre.shape[1]):
+            if centre[n, p] != centre[first, p] or half[n, p] != half[first, p]:
+                return False
+    return True
+
+
+@inner
+def _common_rows(rows, designs, common):  # type: ignore[no-untyped-def]
+    """Write which rows (R,) are the same in all designs; how many are."""
+    chambers, traces, number = rows.gas.shape[2], rows.traces, 0
+    for r in range(common.size):
+        common[r] = True
+        for n in range(1, designs):
+            same = True
+            for k in range(4 if rows.motion.shape[0] > 1 else 0):
+                same = same and rows.motion[n, r, k] == rows.motion[0, r, k]
+            for k in range(2 if rows.scale.shape[0] > 1 else 0):
+                same = same and rows.scale[n, r, k] == rows.scale[0, r, k]
+            for c in range(chambers):
+                for k in range(8 if rows.gas.shape[0] > 1 else 0):
+                    same = same and rows.gas[n, r, c, k] == rows.gas[0, r, c, k]
+                same = same and (rows.area.shape[0] == 1 or rows.area[n, r, c] == rows.area[0, r, c])
+                trace = rows.trace[r, c]
+                if trace >= 0 and traces.table.shape[1] > 1:
+                    same = same and traces.table[trace, n] == traces.table[trace, 0]
+                    same = same and traces.lead[trace, n] == traces.lead[trace, 0]
+            if not same:
+                common[r] = False
+                break
+        number += common[r]
+    return number
+
+
+@inner
+def _mark(common, value, mask):  # type: ignore[no-untyped-def]
+    """Write at which places (R, m) rows count: at all, where they are the same in all designs or where they are not."""
+    for r in range(common.size):
+        for q in range(mask.shape[1]):
+            mask[r, q] = common[r] == value
+
+
+@inner
+def _place_list(centre, half, first, some, slot):  # type: ignore[no-untyped-def]
+    """Write the places of a block (m,) that differ from those of its first design, and which of them each is (b, P);
+    how many there are. None where there is no room for any."""
+    pieces, different = slot.shape[1], 0
+    for n in range(slot.shape[0] if some.size > 0 else 0):
+        for p in range(pieces):
+            if n > 0 and centre[first + n, p] == centre[first, p] and half[first + n, p] == half[first, p]:
+                slot[n, p] = slot[0, p]
+            else:
+                some[different], slot[n, p] = (first + n) * pieces + p, different
+                different += 1
+    return different
+
+
+@inner
+def _put(common, of_rows, results, part, k, first):  # type: ignore[no-untyped-def]
+    """Write the forces of the rows of a block (parts, terms, b, R, P) that differ between designs."""
+    (series, bound, off), (points, bounds, radius) = of_rows, results
+    parts, terms, number, count, pieces = series.shape
+    designs = points.shape[2]
+    for n in range(number):
+        for r in range(count):
+            if common[r]:
+                continue
+            for p in range(pieces):
+                radius[(k * designs + first + n) * count + r, p] = off[n, r, p]
+            for i in range(parts):
+                for p in range(pieces):
+                    bounds[part + i, 0, first + n, r, p] = bound[i, 0, n, r, p]
+                for t in range(terms):
+                    for p in range(pieces):
+                        points[part + i, t, first + n, r, p] = series[i, t, n, r, p]
+
+
+@inner
+def _put_from(common, of_rows, slot, results, part, k, first):  # type: ignore[no-untyped-def]
+    """Write the forces of the other rows, of places (parts, terms, m, R, 1)."""
+    (series, bound, off), (points, bounds, radius) = of_rows, results
+    parts, terms, designs, count = series.shape[0], series.shape[1], points.shape[2], points.shape[3]
+    for n in range(slot.shape[0]):
+        for r in range(count):
+            if not common[r]:
+                continue
+            for p in range(slot.shape[1]):
+                q = slot[n, p]
+                radius[(k * designs + first + n) * count + r, p] = off[q, r, 0]
+                for i in range(parts):
+                    bounds[part + i, 0, first + n, r, p] = bound[i, 0, q, r, 0]
+                    for t in range(terms):
+                        points[part + i, t, first + n, r, p] = series[i, t, q, r, 0]
