@@ -122,7 +122,8 @@ def columns(request: Scene, unbalance: Complex, always: tuple[str, ...], wanted:
     groups = column_groups(request, always, wanted)
     samples = request.angles.count if any(group.sampled for group in groups) else 1
     needs = {str(k): group.needs or () for k, group in enumerate(groups)}
-    scene = simulated(request, needs, samples, unbalance.shape[:1])
+    readings = tuple(dict.fromkeys(reading for group in groups for reading in group.readings))
+    scene = simulated(request, needs, samples, unbalance.shape[:1], readings=readings)
     results: dict[str, Real] = {}
     for group in groups:
         results |= group.values(scene, unbalance)
