@@ -220,17 +220,20 @@ class TurnCurves:
     def first(self, count: int) -> "TurnCurves":
         """The first curves of each design alone."""
         some = TurnCurves(self.whole, self.reading, self.weights[:, :count], self.constant[:, :count])
-        if len(self.weights) == 1 and "pieces" in vars(self):
+        if len(self.weights) == 1 and ("pieces" in vars(self) or "_taken" in vars(self)):
             some.take(self.pieces, slice(0, count))
         return some
 
     def take(self, pieces: Pieces, own: slice) -> None:
         """Have those of a batch, where these curves have none yet."""
-        vars(self).setdefault("pieces", pieces.part(own, self))
+        vars(self).setdefault("_taken", (pieces, own))
 
     @cached_property
     def pieces(self) -> Pieces:
         """The curves piece by piece (N C, P)."""
+        if "_taken" in vars(self):
+            pieces, own = vars(self)["_taken"]
+            return pieces.part(own, self)
         whole = self.whole
         if whole.forces is None:
             cubic, rest, size = self._series.over(whole.points, whole.bounds, whole.half)

@@ -20,16 +20,22 @@ _BARE, _FITTED = ("roll",), ("roll", "shafts")
 
 def _figure(scene: Prepared, unbalance: Complex | None) -> Roll:
     angle, square = np.deg2rad(scene.angle_deg), scene.omega_squared
-    bare: Real = np.real(scene.roll.at(angle))
-    before = after = _moment(scene, bare * square, peak_list(scene, _BARE, lambda: _bare(scene)))
+    bare = _samples(scene)
+    before = after = _moment(scene, bare, peak_list(scene, _BARE, lambda: _bare(scene)))
     fitted = None if unbalance is None or scene.shafts is None else np.concatenate([unbalance, scene.shafts])
     if fitted is not None:
         # what turns with the crankshaft has no lever: of all counterweights only those of balance shafts count
-        moment = bare + np.asarray(scene.roll.added(fitted, angle)).real
+        moment = bare + np.asarray(scene.roll.added(fitted, angle)).real * square
         at, value, lower, upper = peaks([scene.roll], fitted, TOLERANCE)
         scene.peaks.add({_FITTED: slice(None)}, Bracket(at, value, lower * square, upper * square))
-        after = _moment(scene, moment * square, scene.peaks.plain(_FITTED))
+        after = _moment(scene, moment, scene.peaks.plain(_FITTED))
     return Roll(angle_deg=scene.angles, before=before, after=None if unbalance is None else after)
+
+
+def _samples(scene: Prepared) -> Real:
+    """The moment without balance shafts (T,) N m: the torque of the rows, sampled already, without its mean."""
+    whole: Real = scene.layout.sense * np.add.reduce(scene.results["torque"].rows, axis=-2)
+    return whole + np.real(_curves(scene).constant).reshape(()) * scene.omega_squared
 
 
 def _moment(scene: Prepared, samples: Real, peak: PeakList) -> RollMoment:
@@ -47,9 +53,13 @@ def _searches(scene: Prepared, _unbalance: Complex | None) -> Iterator[Search]:
 
 def _bare(scene: Prepared) -> Search:
     """The moment without balance shafts."""
+    return Search(_BARE, _curves(scene), np.zeros(1, np.intp), unsigned(1), unsigned(1), scale=scene.omega_squared)
+
+
+def _curves(scene: Prepared) -> TurnCurves:
     curves = scene.roll.curves
     assert isinstance(curves, TurnCurves)  # of the rows
-    return Search(_BARE, curves, np.zeros(1, np.intp), unsigned(1), unsigned(1), scale=scene.omega_squared)
+    return curves
 
 
 def _columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
@@ -61,7 +71,7 @@ def _columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
 ROLL = Output(
     "roll",
     "roll moment on the frame, before and after",
-    ("whole_turn",),
+    ("whole_turn", "torque"),
     _figure,
     Columns(_columns, needs=("torque_integrals", "whole_turn"), readings=("tangential",)),
     _searches,

@@ -37,7 +37,7 @@ _LAM, _SENSE, _INERTIA, _RUBBING = 1, 3, 0, 1
 
 
 @inner_with_arrays
-def row_series(rows, functions, design, angles, reading, terms, asked):  # type: ignore[no-untyped-def]
+def row_series(rows, functions, design, angles, reading, terms, counted):  # type: ignore[no-untyped-def]
     """The first coefficients of a force of the rows: (2, terms, N, R, P) at points; of enclosures the middles
     (2, 1, N, R, P) and radii (N, R, P) of the last of these; P angles of each of designs (N,).
 
@@ -47,8 +47,8 @@ def row_series(rows, functions, design, angles, reading, terms, asked):  # type:
 
     Parameters
     ----------
-    asked : (R, Q) of which rows it is asked for at which places: of many side by side where it is not its numbers mean
-        nothing either. (0, 0) where it is asked for everywhere.
+    counted : (R, Q) which rows count at which places: of many side by side where they do not its numbers mean nothing
+        either. (0, 0) where all count.
     """
     count = functions.middle.shape[0]
     bounded, parts = functions.radius.shape[2] > 0, 2 if reading in (ON_SHAFT, ON_FRAME) else 1
@@ -59,7 +59,7 @@ def row_series(rows, functions, design, angles, reading, terms, asked):  # type:
     series, lane = Series(np.zeros(shape), np.zeros(shape), bounded), np.zeros((_NUMBERS, LANES))
     # of every lane: its place in the result, and its design
     where = np.zeros((3, LANES), np.int64)
-    _add_up(rows, functions, design, angles, reading, (series, lane, where, asked), (middle, radius))
+    _add_up(rows, functions, design, angles, reading, (series, lane, where, counted), (middle, radius))
     return middle, radius
 
 
@@ -67,7 +67,7 @@ def row_series(rows, functions, design, angles, reading, terms, asked):  # type:
 def _add_up(rows, functions, design, angles, reading, room, results):  # type: ignore[no-untyped-def]
     """Write the coefficients of a force and the radii of the last; nothing is made here, for to count who holds an
     array takes longer than to use it."""
-    (series, lane, where, asked), (middle, radius) = room, results
+    (series, lane, where, counted), (middle, radius) = room, results
     (count, places), parts, bounded, own = functions.way.shape, middle.shape[0], series.bounded, where[_DESIGN]
     terms, number, total = series.middle.shape[1], design.size, (series.middle[_TOTAL], series.radius[_TOTAL])
     first = terms - middle.shape[1]
@@ -82,10 +82,10 @@ def _add_up(rows, functions, design, angles, reading, room, results):  # type: i
     for r in range(count):
         for start in range(0, places, LANES):
             lanes, block, n, at = min(LANES, places - start), start // LANES, start // angles, start % angles
-            if np.isnan(functions.way[r, start]) or (asked.size > 0 and not any_of(asked[r], start, lanes)):
+            if np.isnan(functions.way[r, start]) or (counted.size > 0 and not any_of(counted[r], start, lanes)):
                 continue
-            kept = functions.middle[r, block]
-            of_row = Series(kept, functions.radius[r, block] if bounded else kept, bounded)
+            coefficients = functions.middle[r, block]
+            of_row = Series(coefficients, functions.radius[r, block] if bounded else coefficients, bounded)
             # of one design alone, as mostly, results stand side by side
             alone = turns > 1 or at + lanes <= angles
             _place(n, at, angles, design, 1 if alone else lanes, where)
@@ -102,7 +102,7 @@ def _add_up(rows, functions, design, angles, reading, room, results):  # type: i
                 if factored and moves:
                     made, f = series, _OF_INERTIA
                     multiplied(
-                        (kept[INERTIA], of_row.radius[INERTIA]),
+                        (coefficients[INERTIA], of_row.radius[INERTIA]),
                         factor,
                         (made.middle[f], made.radius[f]),
                         bounded,

@@ -123,7 +123,7 @@ def row_functions(rows, places, order, pressed, counted):  # type: ignore[no-unt
     middle = np.empty((count, blocks, FUNCTIONS + chambers, order + 1, LANES))
     radius = np.empty((count, blocks, FUNCTIONS + chambers if bounded else 0, order + 1, LANES))
     way = np.empty((count, number))
-    shape = (PRESSURES + chambers, order + 1, LANES)
+    shape = (PRESSURES + chambers + 1, order + 1, LANES)
     series = Series(np.zeros(shape), np.zeros(shape), bounded)
     cranks, lane, process = np.zeros((3, 4, LANES)), np.zeros((NUMBERS, LANES)), np.zeros((4, LANES))
     lane[UNIT], lane[ROOT], lane[OVER], lane[OVER_ROOT], lane[OVER_CUBE] = 1.0, 0.5, -1.0, -0.5, -1.5

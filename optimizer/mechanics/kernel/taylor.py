@@ -26,7 +26,8 @@ ALL = np.int64(0)
 class Series(NamedTuple):
     """Some functions, each known by its number.
 
-    middle : (functions, n + 1, LANES) the coefficients, or the middles of their enclosures.
+    middle : (functions, n + 1, LANES) the coefficients, or the middles of their enclosures. Where powers are made the
+        last of them is none, but room.
     radius : (functions, n + 1, LANES) of their enclosures; at points without meaning.
     bounded : whether these are enclosures.
     """
@@ -38,8 +39,8 @@ class Series(NamedTuple):
 
 @inner
 def copied(values, out):  # type: ignore[no-untyped-def]
-    """Values into others."""
-    for p in range(LANES):
+    """Values into others; of a number that the compiler does not know, or it writes a copy of each lane by itself."""
+    for p in range(out.size):
         out[p] = values[p]
 
 
@@ -126,9 +127,9 @@ def product(series, a, b, out, first):  # type: ignore[no-untyped-def]
 
 
 @inner
-def multiplied(one, two, made, bounded, first):  # type: ignore[no-untyped-def]
+def multiplied(left, right, outcome, bounded, first):  # type: ignore[no-untyped-def]
     """Cauchy product, (f g)_k = sum_i f_i g_{k-i}, of functions, each of middles and radii (n + 1, LANES)."""
-    (f, f_off), (g, g_off), (out, out_off) = one, two, made
+    (f, f_off), (g, g_off), (out, out_off) = left, right, outcome
     # by rising places of all three: to places that fall the compiler has loops that take lanes one by one
     for i in range(out.shape[0]):
         factor, factor_off = f[i], f_off[i]
@@ -163,6 +164,11 @@ def power(series, a, exponent, out, lanes):  # type: ignore[no-untyped-def]
         for p in range(lanes):
             low, high = _raised(base[p] - spread[p], exponent[p]), _raised(base[p] + spread[p], exponent[p])
             first[p], of_first[p] = 0.5 * (low + high), 0.5 * abs(high - low)
+        # of 1 / f_0
+        inverse, wide = middle[middle.shape[0] - 1, 0], radius[middle.shape[0] - 1, 0]
+        for p in range(LANES):
+            low, high = 1.0 / (base[p] - spread[p]), 1.0 / (base[p] + spread[p])
+            inverse[p], wide[p] = 0.5 * (low + high), 0.5 * (low - high)
     for k in range(1, middle.shape[1]):
         result, off = middle[out, k], radius[out, k]
         for p in range(LANES):
@@ -178,14 +184,13 @@ def power(series, a, exponent, out, lanes):  # type: ignore[no-untyped-def]
                 # in a loop of its own: of as many arrays as both have together none would be taken several at a time
                 factor_off, other_off = radius[a, i], radius[out, k - i]
                 for p in range(LANES):
-                    wide = abs(factor[p]) * other_off[p] + factor_off[p] * (abs(other[p]) + other_off[p])
-                    off[p] += abs(exponent[p] * i - (k - i)) * wide
+                    share = abs(factor[p]) * other_off[p] + factor_off[p] * (abs(other[p]) + other_off[p])
+                    off[p] += abs(exponent[p] * i - (k - i)) * share
         if bounded:
+            inverse, wide = middle[middle.shape[0] - 1, 0], radius[middle.shape[0] - 1, 0]
             for p in range(LANES):
-                low, high = 1.0 / (base[p] - spread[p]), 1.0 / (base[p] + spread[p])
-                inverse, wide = 0.5 * (low + high), 0.5 * (low - high)
-                off[p] = (abs(result[p]) * wide + off[p] * (inverse + wide)) / k
-                result[p] = result[p] * inverse / k
+                off[p] = (abs(result[p]) * wide[p] + off[p] * (inverse[p] + wide[p])) / k
+                result[p] = result[p] * inverse[p] / k
         else:
             for p in range(LANES):
                 result[p] = result[p] / base[p] / k
