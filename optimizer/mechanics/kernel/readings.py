@@ -29,8 +29,8 @@ WITHOUT_GAS = ("rod_without_gas", "on_frame")
 _FACTOR, _FORCE, _OF_INERTIA, _OF_GAS, _TOTAL = np.arange(5)
 _OWN = 5
 #: numbers of every lane
-_RATIO, _TURNS, _ZERO, _MASS, _FRICTION, _AREA = np.arange(6)
-_NUMBERS = 6
+_RATIO, _TURNS, _ZERO, _MASS, _RUBBED, _FRICTION = np.arange(6)
+_AREA = 6
 _NUMBER, _ANGLE, _DESIGN = np.arange(3)
 #: numbers of a row among those of its motion and of its scale
 _LAM, _SENSE, _INERTIA, _RUBBING = 1, 3, 0, 1
@@ -56,7 +56,7 @@ def row_series(rows, functions, design, angles, reading, terms, counted):  # typ
     middle = np.empty((parts, terms - first, number, count, angles))
     radius = np.zeros((number if bounded else 0, count, angles))
     shape = (_OWN, terms, LANES)
-    series, lane = Series(np.zeros(shape), np.zeros(shape), bounded), np.zeros((_NUMBERS, LANES))
+    series, lane = Series(np.zeros(shape), np.zeros(shape), bounded), np.zeros((_AREA + rows.area.shape[2], LANES))
     # of every lane: its place in the result, and its design
     where = np.zeros((3, LANES), np.int64)
     _add_up(rows, functions, design, angles, reading, (series, lane, where, counted), (middle, radius))
@@ -78,7 +78,7 @@ def _add_up(rows, functions, design, angles, reading, room, results):  # type: i
     factored = reading != PISTON and reading != GAS
     gas = (series.middle[_OF_GAS if factored else _FORCE], series.radius[_OF_GAS if factored else _FORCE])
     # where designs have all of this in common, one after the other is made of it
-    turns, various = number if places == angles else 1, rows.area.shape[0] > 1
+    turns, various, last = number if places == angles else 1, rows.area.shape[0] > 1, -1
     for r in range(count):
         for start in range(0, places, LANES):
             lanes, block, n, at = min(LANES, places - start), start // LANES, start // angles, start % angles
@@ -91,10 +91,12 @@ def _add_up(rows, functions, design, angles, reading, room, results):  # type: i
             _place(n, at, angles, design, 1 if alone else lanes, where)
             if alone:
                 own[:] = design[n]
+            if number > 1 or last != r:
+                _of_lanes(rows, own, r, lane)
+                last = r
             for part in range(parts):
                 made, f = of_row, _factor(reading, part)
                 if reading == SIDE:
-                    _of_designs(rows.motion, own, r, _LAM, lane[_RATIO])
                     _lean(of_row, series, lane)
                     made, f = series, _FACTOR
                 factor = (made.middle[f], made.radius[f])
@@ -112,16 +114,14 @@ def _add_up(rows, functions, design, angles, reading, room, results):  # type: i
                 for turn in range(turns):
                     if turns > 1:
                         own[:] = design[turn]
+                        _of_lanes(rows, own, r, lane)
                     if pressed and (turn == 0 or various):
                         if part == 0 or (various and turns > 1):
-                            _press(of_row, rows.area, own, r, series, lane)
+                            _press(of_row, series, lane)
                         if factored:
                             multiplied((series.middle[_FORCE], series.radius[_FORCE]), factor, gas, bounded, first)
-                    _of_designs(rows.scale, own, r, _INERTIA, lane[_MASS])
-                    _of_designs(rows.scale, own, r, _RUBBING, lane[_FRICTION])
-                    for p in range(lanes):
-                        lane[_FRICTION, p] *= functions.way[r, start + p]
-                    _of_designs(rows.motion, own, r, _SENSE, lane[_TURNS])
+                    for p in range(lanes if rubs else 0):
+                        lane[_FRICTION, p] = lane[_RUBBED, p] * functions.way[r, start + p]
                     for k in range(first, terms):
                         if pressed:
                             copied(gas[0][k], total[0][k])
@@ -154,6 +154,17 @@ def _place(n, at, angles, design, lanes, where):  # type: ignore[no-untyped-def]
         at += 1
         if at == angles:
             n, at = n + 1, 0
+
+
+@inner
+def _of_lanes(rows, own, r, lane):  # type: ignore[no-untyped-def]
+    """Write the numbers of a row for the design of each lane."""
+    _of_designs(rows.motion, own, r, _LAM, lane[_RATIO])
+    _of_designs(rows.motion, own, r, _SENSE, lane[_TURNS])
+    _of_designs(rows.scale, own, r, _INERTIA, lane[_MASS])
+    _of_designs(rows.scale, own, r, _RUBBING, lane[_RUBBED])
+    for c in range(rows.area.shape[2]):
+        _of_designs(rows.area, own, r, c, lane[_AREA + c])
 
 
 @inner
@@ -211,14 +222,13 @@ def _added(function, factor, total, bounded, first):  # type: ignore[no-untyped-
 
 
 @inner
-def _press(of_row, area, own, r, series, lane):  # type: ignore[no-untyped-def]
+def _press(of_row, series, lane):  # type: ignore[no-untyped-def]
     """Force of the gas on the piston."""
     constant(series, lane[_ZERO], _FORCE)
     force = (series.middle[_FORCE], series.radius[_FORCE])
     for c in range(of_row.middle.shape[0] - FUNCTIONS):
-        _of_designs(area, own, r, c, lane[_AREA])
         pressure = (of_row.middle[FUNCTIONS + c], of_row.radius[FUNCTIONS + c])
-        _added(pressure, lane[_AREA], force, series.bounded, ALL)
+        _added(pressure, lane[_AREA + c], force, series.bounded, ALL)
 
 
 @inner

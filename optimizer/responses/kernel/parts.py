@@ -168,24 +168,32 @@ def _measured(cubics, members, best, most):  # type: ignore[no-untyped-def]
     number, pieces = most.shape
     for m in range(number):
         curve, group = members.curve[m], members.group[m]
+        half, cubic, rest, bound = cubics.half[curve], cubics.cubic[curve], cubics.rest[curve], most[m]
+        offset, sign, largest, place = members.offset[m], members.sign[group], best.lower[group], -1
         for p in range(pieces):
-            most[m, p] = -np.inf
-            if cubics.half[curve, p] > 0.0:
-                middle = _size(cubics.cubic[curve, p, 0] + members.offset[m], members.sign[group])
+            bound[p] = -np.inf
+            if half[p] > 0.0:
+                middle = _size(cubic[p, 0] + offset, sign)
                 # how far the curve may be from the middle of a piece
-                most[m, p] = middle + cubics.rest[curve, p]
+                above = middle + rest[p]
                 for i in range(1, 4):
-                    term = cubics.cubic[curve, p, i]
-                    most[m, p] += abs(term.real) if term.imag == 0.0 else length(term)
-                _keep(best, group, middle - cubics.rest[curve, p], cubics.centre[curve, p], p, m)
+                    term = cubic[p, i]
+                    above += abs(term.real) if term.imag == 0.0 else length(term)
+                bound[p] = above
+                if not middle - rest[p] <= largest:
+                    largest, place = middle - rest[p], p
+        if place >= 0:
+            _keep(best, group, largest, cubics.centre[curve, place], place, m)
     count = 0
     for m in range(number):
-        above = _open_above(members, best, members.group[m])
+        group, bound = members.group[m], most[m]
+        above, let_go = _open_above(members, best, group), -np.inf
         for p in range(pieces):
-            if most[m, p] > above:
+            if bound[p] > above:
                 count += 1
-            else:
-                _tell(best, members.group[m], most[m, p])
+            elif bound[p] > let_go or bound[p] != bound[p]:
+                let_go = bound[p]
+        _tell(best, group, let_go)
     return count
 
 
