@@ -16,8 +16,8 @@ from optimizer.numerics.arrays import Real
 from tests import night
 from tests.analyze.driven import STYLES, arrays, random_driven
 
-#: more than two blocks, of which the last is less than full
-DESIGNS = 19
+#: more than one block, of which the last is less than full
+DESIGNS = 37
 READINGS: tuple[Reading, ...] = ("tangential", "piston", "rod_without_gas", "on_shaft")
 #: what differs between the designs, in the first row alone
 VARIED = ("rod", "pressure", "mass", "area", "nothing")

@@ -16,8 +16,8 @@ from optimizer.numerics.compiling import inner, inner_with_arrays
 _CUBIC, _TERMS = np.int64(3), np.int64(4)
 #: angles of each place
 _SINGLE = np.int64(1)
-#: designs of a block
-_BLOCK = 8
+#: rows times pieces of a block of designs: what their forces are made of fits the cache; and designs of it at most
+_AT_ONCE, _MOST = 1_500, 32
 
 
 @inner_with_arrays
@@ -38,12 +38,18 @@ def design_forces(rows, wanted, centre, half, order, pressed):  # type: ignore[n
             of_parts += 2 if reading in (ON_SHAFT, ON_FRAME) else 1
     points, bounds = np.empty((of_parts, 4, designs, count, pieces)), np.empty((of_parts, 1, designs, count, pieces))
     radius = np.empty((readings * designs * count, pieces))
-    common, common_count, everywhere = np.zeros(count, np.bool_), 0, np.empty((0, 0), np.bool_)
+    common, everywhere = np.zeros(count, np.bool_), np.empty((0, 0), np.bool_)
+    common_count, asked = _common_rows(rows, designs, common), everywhere
     once = rows.motion.shape[0] == 1 and rows.traces.table.shape[1] == 1 and _equal_pieces(centre, half, 0, designs)
-    if not once:
-        common_count = _common_rows(rows, designs, common)
-    for first in range(0, designs, _BLOCK):
-        stop = min(first + _BLOCK, designs)
+    # rows whose forces of the first design are those of all, and rows that are not read by designs side by side
+    equal, other = common.copy(), common.copy()
+    if once:
+        common_count, common[:], other[:] = 0, False, False
+    else:
+        equal[:] = False
+    block = max(1, min(_AT_ONCE // max((count - common_count) * pieces, 1), _MOST))
+    for first in range(0, designs, block):
+        stop = min(first + block, designs)
         number = np.arange(first, stop)
         if common_count < count and (first == 0 or not once):
             places, mask = np.arange(first * pieces, (first + 1 if once else stop) * pieces), everywhere
@@ -60,20 +66,24 @@ def design_forces(rows, wanted, centre, half, order, pressed):  # type: ignore[n
         _mark(common, True, of_own)
         if different > 0:
             same, beside = _functions(rows, own, centre, half, order, pressed, of_own)
+        if once and first > 0:
+            asked, other = np.empty((count, pieces), np.bool_), equal
+            _mark(equal, False, asked)
         part, k = 0, 0
         for reading in range(wanted.size):
             if not wanted[reading]:
                 continue
             if common_count < count:
-                series, _ = row_series(rows, middle, number, pieces, reading, _TERMS, everywhere)
-                bound, off = row_series(rows, around, number, pieces, reading, order + 1, everywhere)
-                _put(common, (series, bound, off), (points, bounds, radius), part, k, first)
+                series, _ = row_series(rows, middle, number, pieces, reading, _TERMS, asked)
+                bound, off = row_series(rows, around, number, pieces, reading, order + 1, asked)
+                _put(other, (series, bound, off), (points, bounds, radius), part, k, first)
             if different > 0:
                 design = own // pieces
                 series, _ = row_series(rows, same, design, _SINGLE, reading, _TERMS, everywhere)
                 bound, off = row_series(rows, beside, design, _SINGLE, reading, order + 1, everywhere)
                 _put_from(common, (series, bound, off), slot, (points, bounds, radius), part, k, first)
             part, k = part + (2 if reading in (ON_SHAFT, ON_FRAME) else 1), k + 1
+    _repeat(equal, block, points, bounds, radius, readings)
     return Functions(points, bounds, radius)
 
 
@@ -168,6 +178,23 @@ def _put(common, of_rows, results, part, k, first):  # type: ignore[no-untyped-d
 
 
 @inner
+def _repeat(equal, block, points, bounds, radius, readings):  # type: ignore[no-untyped-def]
+    """Write the forces of rows that are equal in all designs, from those of the first, beyond the first block."""
+    of_parts, terms, designs, count, pieces = points.shape
+    for r in range(count):
+        for n in range(block if equal[r] else designs, designs):
+            for i in range(of_parts):
+                for p in range(pieces):
+                    bounds[i, 0, n, r, p] = bounds[i, 0, 0, r, p]
+                for t in range(terms):
+                    for p in range(pieces):
+                        points[i, t, n, r, p] = points[i, t, 0, r, p]
+            for k in range(readings):
+                for p in range(pieces):
+                    radius[(k * designs + n) * count + r, p] = radius[k * designs * count + r, p]
+
+
+@inner
 def _put_from(common, of_rows, slot, results, part, k, first):  # type: ignore[no-untyped-def]
     """Write the forces of the other rows, of places (parts, terms, m, R, 1)."""
     (series, bound, off), (points, bounds, radius) = of_rows, results
@@ -176,10 +203,12 @@ def _put_from(common, of_rows, slot, results, part, k, first):  # type: ignore[n
         for r in range(count):
             if not common[r]:
                 continue
-            for p in range(slot.shape[1]):
-                q = slot[n, p]
-                radius[(k * designs + first + n) * count + r, p] = off[q, r, 0]
-                for i in range(parts):
-                    bounds[part + i, 0, first + n, r, p] = bound[i, 0, q, r, 0]
-                    for t in range(terms):
-                        points[part + i, t, first + n, r, p] = series[i, t, q, r, 0]
+            own = slot[n]
+            for p in range(own.size):
+                radius[(k * designs + first + n) * count + r, p] = off[own[p], r, 0]
+            for i in range(parts):
+                for p in range(own.size):
+                    bounds[part + i, 0, first + n, r, p] = bound[i, 0, own[p], r, 0]
+                for t in range(terms):
+                    for p in range(own.size):
+                        points[part + i, t, first + n, r, p] = series[i, t, own[p], r, 0]
