@@ -15,6 +15,7 @@ import numpy as np
 from optimizer.mechanics.kernel.pressures import cycle, decide, indicated
 from optimizer.mechanics.kernel.row_motion import accelerate, carry, crank_at, move
 from optimizer.mechanics.kernel.row_numbers import (
+    COSINE,
     FIRST,
     FUNCTIONS,
     INSIDE,
@@ -172,14 +173,15 @@ def _expand(rows, places, counted, alike, series, room, functions):  # type: ign
                 repeats[p] = p > 0 and index == last and places.within[q] == places.within[q - 1]
                 last = index
                 if repeats[p]:
-                    for f in range(4):
-                        cranks[INSIDE, f, p] = cranks[INSIDE, f, p - 1]
+                    # what is decided by the rest is repeated too
+                    cranks[INSIDE, SINE, p] = cranks[INSIDE, SINE, p - 1]
+                    cranks[INSIDE, COSINE, p] = cranks[INSIDE, COSINE, p - 1]
                 else:
                     crank_at(cranks[INSIDE], p, within)
                 if bounded:
                     crank_at(cranks[FIRST], p, angle - places.half[q])
                     crank_at(cranks[LAST], p, angle + places.half[q])
-                elif angle == within:
+                elif angle == within and not repeats[p]:
                     for f in range(4):
                         cranks[FIRST, f, p] = cranks[INSIDE, f, p]
                 else:
