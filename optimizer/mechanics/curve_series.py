@@ -65,9 +65,9 @@ class CurveSeries:
 
     def of_forces(self, forces: "Functions", order: int, half: Real) -> tuple[Complex, Real, Real]:
         """The same of curves of one reading, of the forces of the rows that are made already, bounded to an order."""
-        from optimizer.mechanics.kernel.entry import FORCE_SUMS, NO_READING, over_turn
+        from optimizer.mechanics.kernel.entry import FORCE_SUMS, Reading, over_turn
 
-        reading = NO_READING._replace(half=compact(half), order=order)
+        reading = Reading(self._every, np.arange(len(half)), compact(half), order, half.shape[1])
         return over_turn(FORCE_SUMS, self.rows.packed, self.sums, reading=reading, points=forces)[1:]
 
     @cached_property

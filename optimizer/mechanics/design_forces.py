@@ -35,7 +35,7 @@ class DesignForces:
     readings: tuple[Reading, ...]
 
     def of(self, reading: Reading) -> "Functions":
-        """Of one reading, as :func:`optimizer.mechanics.kernel.curves.sums_of_forces` takes them."""
+        """Of one reading, as :func:`optimizer.mechanics.kernel.curves.sums_of_rows` takes them."""
         if reading not in self._memo:
             self._make({reading, *self.readings}.difference(self._memo))
         return self._memo[reading]

@@ -41,7 +41,7 @@ class Sums(NamedTuple):
 
 
 @inner_with_arrays
-def sums_of_rows(rows, sums, curve, points, bounds, order, design, angles, half):  # type: ignore[no-untyped-def]
+def sums_of_rows(rows, sums, curve, points, bounds, order, design, angles, half, forces):  # type: ignore[no-untyped-def]
     """Some curves (m,) over P angles of each of N designs (N,), m / N of each: coefficients (m, P, order + 1) in units
     of half widths (N, P); and beside bounds what these leave out (m, P), and the size (m,) of what is added up.
 
@@ -51,8 +51,9 @@ def sums_of_rows(rows, sums, curve, points, bounds, order, design, angles, half)
     points : what forces are made of, to one order.
     bounds : the same bounded, to an order above it or more. Of either there may be none, :data:`NOTHING`.
     order : up to which bounds count, -1 where there are none.
+    forces : whether points are forces of one reading instead, (parts, 4, N, R, P), (parts, 1, N, R, P), (N R, P).
     """
-    count, terms = sums.weights.shape[1], points.middle.shape[3]
+    count, terms = sums.weights.shape[1], points.middle.shape[1 if forces else 3]
     curves = curve.size
     cubic = np.empty((curves, angles, terms), np.complex128)
     sized = terms > 0 and order >= 0
@@ -64,28 +65,21 @@ def sums_of_rows(rows, sums, curve, points, bounds, order, design, angles, half)
     for reading in range(wanted.size):
         if not wanted[reading]:
             continue
-        series, _ = row_series(rows, points, design, angles, reading, terms, everywhere)
-        bound, radius = row_series(rows, bounds, design, angles, reading, order + 1, everywhere)
-        _add_rows(sums, curve, reading, (series, bound, radius), order, half, room, (cubic, rest, size))
+        if forces:
+            of_rows = points.middle, points.radius, points.way.reshape((design.size, count, angles))
+        else:
+            of_rows = series_and_bounds(rows, (points, bounds), design, angles, reading, order, everywhere)
+        _add_rows(sums, curve, reading, of_rows, order, half, room, (cubic, rest, size))
     return cubic, rest, size
 
 
 @inner_with_arrays
-def sums_of_forces(sums, forces, order, half):  # type: ignore[no-untyped-def]
-    """All curves (J,), of one reading, over the pieces of N designs (N, P): the same, of what the rows come to.
-
-    Parameters
-    ----------
-    forces : (parts, 4, N, R, P), (parts, 1, N, R, P) and (N R, P), of that reading.
-    """
-    points, bounds, radius = forces
-    curves, (designs, angles), count = sums.reading.size, half.shape, sums.weights.shape[1]
-    terms = points.shape[1]
-    results = np.empty((curves, angles, terms), np.complex128), np.empty((curves, angles)), np.empty(curves)
-    room = np.empty((2, terms + 1, angles)), np.empty((count, angles)), np.empty((2, angles))
-    of_rows = points, bounds, radius.reshape((designs, count, angles))
-    _add_rows(sums, np.arange(curves), sums.reading[0], of_rows, order, half, room, results)
-    return results
+def series_and_bounds(rows, functions, design, angles, reading, order, counted):  # type: ignore[no-untyped-def]
+    """What rows come to by one reading, of functions at points and bounded to an order; as of :func:`row_series`."""
+    points, bounds = functions
+    series, _ = row_series(rows, points, design, angles, reading, points.middle.shape[3], counted)
+    bound, radius = row_series(rows, bounds, design, angles, reading, order + 1, counted)
+    return series, bound, radius
 
 
 @inner

@@ -8,12 +8,13 @@ Shapes: N designs, R rows, P pieces; b designs of a block, m of their places.
 
 import numpy as np
 
-from optimizer.mechanics.kernel.readings import ON_FRAME, ON_SHAFT, row_series
+from optimizer.mechanics.kernel.curves import series_and_bounds
+from optimizer.mechanics.kernel.readings import ON_FRAME, ON_SHAFT
 from optimizer.mechanics.kernel.rows import Functions, Places, row_functions
 from optimizer.numerics.compiling import inner, inner_with_arrays
 
-#: coefficients of a cubic, as numpy's integers like all else that is handed on
-_CUBIC, _TERMS = np.int64(3), np.int64(4)
+#: order of a cubic, as numpy's integers like all else that is handed on
+_CUBIC = np.int64(3)
 #: angles of each place
 _SINGLE = np.int64(1)
 #: rows times pieces of a block of designs: what their forces are made of fits the cache; and designs of it at most
@@ -39,7 +40,7 @@ def design_forces(rows, wanted, centre, half, order, pressed):  # type: ignore[n
     points, bounds = np.empty((of_parts, 4, designs, count, pieces)), np.empty((of_parts, 1, designs, count, pieces))
     radius = np.empty((readings * designs * count, pieces))
     common, everywhere = np.zeros(count, np.bool_), np.empty((0, 0), np.bool_)
-    common_count, asked = _common_rows(rows, designs, common), everywhere
+    common_count, mask = _common_rows(rows, designs, common), everywhere
     once = rows.motion.shape[0] == 1 and rows.traces.table.shape[1] == 1 and _equal_pieces(centre, half, 0, designs)
     # rows whose forces of the first design are those of all, and rows that are not read by designs side by side
     equal, other = common.copy(), common.copy()
@@ -52,11 +53,11 @@ def design_forces(rows, wanted, centre, half, order, pressed):  # type: ignore[n
         stop = min(first + block, designs)
         number = np.arange(first, stop)
         if common_count < count and (first == 0 or not once):
-            places, mask = np.arange(first * pieces, (first + 1 if once else stop) * pieces), everywhere
+            places, of_rest = np.arange(first * pieces, (first + 1 if once else stop) * pieces), everywhere
             if common_count > 0:
-                mask = np.empty((count, places.size), np.bool_)
-                _mark(common, False, mask)
-            middle, around = _functions(rows, places, centre, half, order, pressed, mask)
+                of_rest = np.empty((count, places.size), np.bool_)
+                _mark(common, False, of_rest)
+            middle, around = _functions(rows, places, centre, half, order, pressed, of_rest)
         # rows that are the same in all designs, over what differs from the first piece of the block
         slot = np.empty((stop - first, pieces), np.int64)
         some = np.empty(slot.size if common_count > 0 else 0, np.int64)
@@ -67,21 +68,18 @@ def design_forces(rows, wanted, centre, half, order, pressed):  # type: ignore[n
         if different > 0:
             same, beside = _functions(rows, own, centre, half, order, pressed, of_own)
         if once and first > 0:
-            asked, other = np.empty((count, pieces), np.bool_), equal
-            _mark(equal, False, asked)
+            mask, other = np.empty((count, pieces), np.bool_), equal
+            _mark(equal, False, mask)
         part, k = 0, 0
         for reading in range(wanted.size):
             if not wanted[reading]:
                 continue
             if common_count < count:
-                series, _ = row_series(rows, middle, number, pieces, reading, _TERMS, asked)
-                bound, off = row_series(rows, around, number, pieces, reading, order + 1, asked)
-                _put(other, (series, bound, off), (points, bounds, radius), part, k, first)
+                of_rows = series_and_bounds(rows, (middle, around), number, pieces, reading, order, mask)
+                _put(other, of_rows, (points, bounds, radius), part, k, first)
             if different > 0:
-                design = own // pieces
-                series, _ = row_series(rows, same, design, _SINGLE, reading, _TERMS, everywhere)
-                bound, off = row_series(rows, beside, design, _SINGLE, reading, order + 1, everywhere)
-                _put_from(common, (series, bound, off), slot, (points, bounds, radius), part, k, first)
+                of_rows = series_and_bounds(rows, (same, beside), own // pieces, _SINGLE, reading, order, everywhere)
+                _put_from(common, of_rows, slot, (points, bounds, radius), part, k, first)
             part, k = part + (2 if reading in (ON_SHAFT, ON_FRAME) else 1), k + 1
     _repeat(equal, block, points, bounds, radius, readings)
     return Functions(points, bounds, radius)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.mechanics.kernel.crossings import crossings
-from optimizer.mechanics.kernel.curves import NOTHING, Sums, sums_of_forces, sums_of_rows
+from optimizer.mechanics.kernel.curves import NOTHING, Sums, sums_of_rows
 from optimizer.mechanics.kernel.design_forces import design_forces
 from optimizer.mechanics.kernel.rows import Functions, Places, Rows, Tables, row_functions
 from optimizer.mechanics.kernel.search import search
@@ -107,10 +107,12 @@ def _over_turn(  # type: ignore[no-untyped-def]
     cubic, rest, size = np.empty((0, 0, 0), np.complex128), np.empty((0, 0)), np.empty(0)
     if task in (FUNCTIONS, BOTH):
         functions = row_functions(rows, places, order, pressed, np.empty((0, 0), np.bool_))
-    if task in (SUMS, BOTH):
+    if task in (SUMS, BOTH, FORCE_SUMS):
         of = functions if task == BOTH else Functions(*points)
         curve, design, half = parts[19:22]
-        cubic, rest, size = sums_of_rows(rows, sums, curve, of, Functions(*bounds), bound, design, angles, half)
+        cubic, rest, size = sums_of_rows(
+            rows, sums, curve, of, Functions(*bounds), bound, design, angles, half, task == FORCE_SUMS
+        )
     elif task == PEAKS:
         motion = Motion(moved, unit, sense, parts[45], parts[46], scalar)
         cubics, members, best = Cubics(*parts[28:32]), Members(*parts[32:38]), Best(*parts[38:43])
@@ -118,8 +120,6 @@ def _over_turn(  # type: ignore[no-untyped-def]
         cubic = there.reshape((there.size, 1, 1))
     elif task == FORCES:
         functions = design_forces(rows, parts[19] != 0, parts[44], parts[21], order, pressed)
-    elif task == FORCE_SUMS:
-        cubic, rest, size = sums_of_forces(sums, points, bound, parts[21])
     elif task == CROSSINGS:
         rest, size = crossings(Cubics(*parts[28:32]), parts[43], rows, sums, parts[44])
     return (functions.middle, functions.radius, functions.way), cubic, rest, size
