@@ -48,25 +48,26 @@ def design_forces(rows, wanted, centre, half, order, pressed):  # type: ignore[n
         common_count, common[:], other[:] = 0, False, False
     else:
         equal[:] = False
+    every_design, every_place = np.arange(designs), np.arange(designs * pieces)
     block = max(1, min(_AT_ONCE // max((count - common_count) * pieces, 1), _MOST))
     for first in range(0, designs, block):
         stop = min(first + block, designs)
-        number = np.arange(first, stop)
+        number = every_design[first:stop]
         if common_count < count and (first == 0 or not once):
-            places, of_rest = np.arange(first * pieces, (first + 1 if once else stop) * pieces), everywhere
+            places, of_rest = every_place[first * pieces : (first + 1 if once else stop) * pieces], everywhere
             if common_count > 0:
                 of_rest = np.empty((count, places.size), np.bool_)
                 _mark(common, False, of_rest)
-            middle, around = _functions(rows, places, centre, half, order, pressed, of_rest)
+            middle, around, _ = _functions(rows, places, centre, half, order, pressed, of_rest)
         # rows that are the same in all designs, over what differs from the first piece of the block
         slot = np.empty((stop - first, pieces), np.int64)
         some = np.empty(slot.size if common_count > 0 else 0, np.int64)
         different = _place_list(centre, half, first, some, slot)
-        own = some[:different].copy()
+        own = some[:different]
         of_own = np.empty((count, different), np.bool_)
         _mark(common, True, of_own)
         if different > 0:
-            same, beside = _functions(rows, own, centre, half, order, pressed, of_own)
+            same, beside, design = _functions(rows, own, centre, half, order, pressed, of_own)
         if once and first > 0:
             mask, other = np.empty((count, pieces), np.bool_), equal
             _mark(equal, False, mask)
@@ -78,7 +79,7 @@ def design_forces(rows, wanted, centre, half, order, pressed):  # type: ignore[n
                 of_rows = series_and_bounds(rows, (middle, around), number, pieces, reading, order, mask)
                 _put(other, of_rows, (points, bounds, radius), part, k, first)
             if different > 0:
-                of_rows = series_and_bounds(rows, (same, beside), own // pieces, _SINGLE, reading, order, everywhere)
+                of_rows = series_and_bounds(rows, (same, beside), design, _SINGLE, reading, order, everywhere)
                 _put_from(common, of_rows, slot, (points, bounds, radius), part, k, first)
             part, k = part + (2 if reading in (ON_SHAFT, ON_FRAME) else 1), k + 1
     _repeat(equal, block, points, bounds, radius, readings)
@@ -88,11 +89,18 @@ def design_forces(rows, wanted, centre, half, order, pressed):  # type: ignore[n
 @inner_with_arrays
 def _functions(rows, places, centre, half, order, pressed, counted):  # type: ignore[no-untyped-def]
     """What forces are made of about the centres of places (m,), and bounded to an order over their half widths."""
-    pieces = centre.shape[1]
-    about, wide = centre.reshape(centre.size)[places], half.reshape(half.size)[places]
-    design = places // pieces
+    design, about, wide = np.empty(places.size, np.int64), np.empty(places.size), np.empty(places.size)
+    _find(places, centre, half, design, about, wide)
     middle = row_functions(rows, Places(design, about, np.empty(0), about), _CUBIC, pressed, counted)
-    return middle, row_functions(rows, Places(design, about, wide, about), order, pressed, counted)
+    return middle, row_functions(rows, Places(design, about, wide, about), order, pressed, counted), design
+
+
+@inner
+def _find(places, centre, half, design, about, wide):  # type: ignore[no-untyped-def]
+    """Write of which design places (m,) are, and where they are."""
+    for q in range(places.size):
+        n, p = places[q] // centre.shape[1], places[q] % centre.shape[1]
+        design[q], about[q], wide[q] = n, centre[n, p], half[n, p]
 
 
 @inner

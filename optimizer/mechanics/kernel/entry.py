@@ -119,7 +119,7 @@ def _over_turn(  # type: ignore[no-untyped-def]
         there = search(cubics, members, best, rows, sums, parts[44], motion)
         cubic = there.reshape((there.size, 1, 1))
     elif task == FORCES:
-        functions = design_forces(rows, parts[19] != 0, parts[44], parts[21], order, pressed)
+        functions = design_forces(rows, parts[19], parts[44], parts[21], order, pressed)
     elif task == CROSSINGS:
         rest, size = crossings(Cubics(*parts[28:32]), parts[43], rows, sums, parts[44])
     return (functions.middle, functions.radius, functions.way), cubic, rest, size
