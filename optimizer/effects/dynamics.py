@@ -260,7 +260,7 @@ def _whole_turn(context: Context) -> WholeTurn:
     closed = _row_work(context)
     means = None if closed is None else closed.of_a_turn / (TURN * context.layout.reciprocating.crank_radius)
     # of the loads of bearings mean squares are shown, by quadratures
-    return whole_turn(rows, _breaks(context), means, "shaft_loads" in context.wanted)
+    return whole_turn(rows, _breaks(context), means, "shaft_loads" in context.wanted, context.readings)
 
 
 def _frame_forces(context: Context) -> WholeTurn:

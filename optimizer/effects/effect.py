@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from optimizer.mechanics.layout import Layout
+from optimizer.mechanics.row_series import Reading
 from optimizer.numerics.arrays import Real
 from optimizer.numerics.records import record
 from schemas.base.model import FieldProblem
@@ -24,6 +25,7 @@ class Context:
     angle: Real  # (T,) shaft angles, or (..., T) others for each machine, rad
     results: Mapping[str, Any]
     wanted: Collection[str] = ()  # effects whose results are read once all have run
+    readings: tuple[Reading, ...] = ()  # of the forces of many designs over the turn, that will be asked for
 
 
 def _none(_machine: Machine) -> Iterator[Any]:

@@ -15,6 +15,7 @@ from optimizer.effects.inertia import INERTIA
 from optimizer.effects.scroll import SCROLL
 from optimizer.mechanics.inertia import Wrench
 from optimizer.mechanics.layout import Layout
+from optimizer.mechanics.row_series import Reading
 from optimizer.numerics.arrays import Real
 from optimizer.numerics.memoization import cached_property, remembered
 from schemas.answer.answers import EffectUse
@@ -171,6 +172,7 @@ def simulate(
     fidelity: Fidelity,
     angle: Real | None = None,
     results: Mapping[str, Any] = MappingProxyType({}),
+    readings: tuple[Reading, ...] = (),
 ) -> Simulated:
     """Run the effects that the outputs call for, each once, and no others.
 
@@ -180,10 +182,11 @@ def simulate(
     demands : outputs and other purposes by name, with the effects that each needs.
     angle : (T,) rad, shaft angles of the samples; needed only by sampled effects.
     results : of effects that need not run, by name.
+    readings : of the forces of many designs over the turn, that will be asked for.
     """
     samples = np.zeros(0) if angle is None else angle
     wanted = tuple(need for needs in demands.values() for need in needs)
-    figures, times = _run(machine, layout, wanted, fidelity, samples, results)
+    figures, times = _run(machine, layout, wanted, fidelity, samples, results, readings)
     purposes = tuple((purpose, tuple(needs)) for purpose, needs in demands.items())
     users = _users(purposes, absent_effects(machine, wanted))
     return Simulated(machine, layout, fidelity, figures, times, users.copy())
@@ -211,6 +214,7 @@ def _run(
     fidelity: Fidelity,
     angle: Real,
     results: Mapping[str, Any] = MappingProxyType({}),
+    readings: tuple[Reading, ...] = (),
 ) -> tuple[dict[str, Any], dict[str, float]]:
     """Results of these effects, and the milliseconds of each that ran; what only others need is let go after its use.
 
@@ -222,7 +226,7 @@ def _run(
         effect, start = EFFECTS[name], time.perf_counter()
         # an effect sees the results of those that it declares, and no others
         visible = {need: figures[need] for need in effect.needs if need in figures} if effect.needs else {}
-        context = Context(machine, layout, fidelity, angle, visible, needs)
+        context = Context(machine, layout, fidelity, angle, visible, needs, readings)
         figures[name] = results[name] if name in results else effect.simulate(context)
         times[name] = (time.perf_counter() - start) * 1e3
         for need in done:

@@ -18,6 +18,7 @@ from optimizer.mechanics.frame import Shares
 from optimizer.mechanics.inertia import Wrench, counterweights, first_order, reciprocating, rotating
 from optimizer.mechanics.layout import Layout, layout, spread
 from optimizer.mechanics.roll import roll
+from optimizer.mechanics.row_series import Reading
 from optimizer.mechanics.shaft import INFLUENCES, bearing_places
 from optimizer.mechanics.shaft_curves import ShaftCurves, bending_influence, planes, shaft_curves, stations
 from optimizer.numerics.arrays import Complex, Real, variant
@@ -202,6 +203,7 @@ def simulated(
     samples: int,
     leading: tuple[int, ...] = (),
     machine: Machine | None = None,
+    readings: tuple[Reading, ...] = (),
 ) -> Prepared:
     """Simulate what the outputs call for.
 
@@ -212,6 +214,7 @@ def simulated(
     samples : number of sampled shaft angles in one turn.
     leading : axes of all results; none for one machine.
     machine : another in place of that of the request.
+    readings : of the forces of many designs over the turn, that will be asked for.
     """
     start = time.perf_counter()
     machine = request.machine if machine is None else machine
@@ -224,7 +227,7 @@ def simulated(
         plan = spread(plan, leading)
     turns = turns_over(machine, needs)
     angle, radians = _sampled(samples, turns)
-    result = simulate(machine, plan, outputs, request.fidelity, radians, wrenches)
+    result = simulate(machine, plan, outputs, request.fidelity, radians, wrenches, readings)
     objective = request.objective if isinstance(request, OptimizeRequest) else Objective()
     spent_ms = (time.perf_counter() - start) * 1e3
     return Prepared(request, machine, objective, plan, angle, result, spent_ms, turns=turns)

@@ -15,6 +15,7 @@ from optimizer.responses.piecewise_cubics import Index
 
 if TYPE_CHECKING:
     from optimizer.mechanics.kernel.curves import Sums
+    from optimizer.mechanics.kernel.rows import Functions
     from optimizer.responses.kernel.motion import Motion
     from optimizer.responses.kernel.parts import Best, Cubics, Members
 
@@ -61,6 +62,13 @@ class CurveSeries:
             return results[0]
         cubic, rest, size = zip(*results, strict=True)
         return np.concatenate(cubic, axis=1), np.concatenate(rest, axis=1), np.max(size, axis=0)
+
+    def of_forces(self, forces: "Functions", order: int, half: Real) -> tuple[Complex, Real, Real]:
+        """The same of curves of one reading, of the forces of the rows that are made already, bounded to an order."""
+        from optimizer.mechanics.kernel.entry import FORCE_SUMS, Reading, over_turn
+
+        reading = Reading(self._every, np.arange(len(half)), compact(half), order, half.shape[1])
+        return over_turn(FORCE_SUMS, self.rows.packed, self.sums, reading=reading, points=forces)[1:]
 
     @cached_property
     def sums(self) -> "Sums":

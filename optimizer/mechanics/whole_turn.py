@@ -14,6 +14,7 @@ import numpy as np
 from numpy.polynomial.legendre import leggauss
 
 from optimizer.mechanics.curve_series import CurveSeries, forces
+from optimizer.mechanics.design_forces import ORDER, DesignForces
 from optimizer.mechanics.indicated import SLIVER, TURN, Trace, entries, turns_of
 from optimizer.mechanics.kinematics import angle_ahead, steep, steep_angles
 from optimizer.mechanics.layout import Layout
@@ -78,6 +79,7 @@ class WholeTurn:
     turns : of the shaft, after which all repeats.
     means : (N, R) N, of the tangential forces, where there is a closed form.
     squared : whether mean squares are asked for: what bounds their quadratures bounds the pieces too.
+    readings : of the forces of many designs, that will be asked for.
     """
 
     rows: RowData
@@ -86,6 +88,7 @@ class WholeTurn:
     turns: int = 1
     means: Real | None = None
     squared: bool = False
+    readings: tuple[Reading, ...] = ()
 
     def curves(self, reading: Reading, weights: Complex | Real, constant: Complex | Real | float = 0.0) -> "TurnCurves":
         """Sums of a force of the rows over weights (N, C, R), with constants (N, C): N C curves."""
@@ -129,6 +132,13 @@ class WholeTurn:
         return forces(series, "tangential")[..., 0].real
 
     @cached_property
+    def forces(self) -> DesignForces | None:
+        """Forces of the rows of many designs; None where it is not known which will be asked for."""
+        if len(self.centre) == 1 or self.squared or not self.readings:
+            return None
+        return DesignForces(self.rows, self.centre, self.half, self.readings)
+
+    @cached_property
     def points(self) -> RowSeries:
         """Series about the centres of the pieces."""
         centre, _ = self._cut
@@ -155,13 +165,19 @@ class WholeTurn:
         return (centre, half) if len(centre) == len(half) else (self.centre, self.half)
 
 
-def whole_turn(rows: RowData, breaks: Real, means: Real | None = None, squared: bool = False) -> WholeTurn:
+def whole_turn(
+    rows: RowData,
+    breaks: Real,
+    means: Real | None = None,
+    squared: bool = False,
+    readings: tuple[Reading, ...] = (),
+) -> WholeTurn:
     """The turn cut at breaks (..., B) rad and at regular angles; the leading axes become one.
 
     Parameters
     ----------
     means : (..., R) N, of the tangential forces, where there is a closed form.
-    squared : whether mean squares are asked for.
+    squared, readings : as of :class:`WholeTurn`.
     """
     turns = turns_of(rows.traces)
     turn = panels(breaks, _WIDEST, turns=turns)
@@ -176,7 +192,7 @@ def whole_turn(rows: RowData, breaks: Real, means: Real | None = None, squared: 
     if means is not None:
         count = means.shape[-1]
         means = spread(means.reshape(math.prod(means.shape[:-1]), count), (rows.designs, count))
-    return WholeTurn(rows, spread(centre, shape), spread(half, shape), turns, means, squared)
+    return WholeTurn(rows, spread(centre, shape), spread(half, shape), turns, means, squared, readings)
 
 
 @dataclass(frozen=True)
@@ -219,7 +235,10 @@ class TurnCurves:
             pieces, own = vars(self)["_taken"]
             return pieces.part(own, self)
         whole = self.whole
-        cubic, rest, size = self._series.over(whole.points, whole.bounds, whole.half)
+        if whole.forces is None:
+            cubic, rest, size = self._series.over(whole.points, whole.bounds, whole.half)
+        else:
+            cubic, rest, size = self._series.of_forces(whole.forces.of(self.reading), ORDER, whole.half)
         centre, half = (np.repeat(array, self.weights.shape[1], axis=0) for array in (whole.centre, whole.half))
         return Pieces(centre, half, cubic, rest, size, source=self)
 

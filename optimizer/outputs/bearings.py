@@ -145,6 +145,6 @@ MAIN_BEARINGS = Output(
     "main-bearing loads and bending of the shaft",
     ("shaft_loads", "whole_turn"),
     main_bearings,
-    Columns(_columns, needs=("whole_turn",)),
+    Columns(_columns, needs=("whole_turn",), readings=("on_shaft",)),
     _searches,
 )

@@ -316,7 +316,7 @@ OVER_THE_TURN = (
         "gas, inertia and friction on every piston",
         ("piston_force", "whole_turn"),
         piston_force,
-        Columns(_piston_columns, needs=("whole_turn",)),
+        Columns(_piston_columns, needs=("whole_turn",), readings=("piston",)),
         lambda scene, _: (rows_search(scene, "piston"),),
     ),
     Output(
@@ -324,7 +324,7 @@ OVER_THE_TURN = (
         "forces on rod, guide and crank pin; load cases",
         ("rod_forces", "whole_turn"),
         rod_loads,
-        Columns(_rod_columns, needs=("whole_turn",)),
+        Columns(_rod_columns, needs=("whole_turn",), readings=tuple(CASES.values())),
         lambda scene, _: (rows_search(scene, reading) for reading in (*CASES.values(), "side")),
     ),
     Output(
@@ -332,7 +332,7 @@ OVER_THE_TURN = (
         "torque over the cycle, its mean, powers, fluctuation energy",
         ("torque", "torque_integrals", "torque_errors", "whole_turn"),
         torque,
-        Columns(_torque_columns, needs=("friction", "torque_integrals", "whole_turn")),
+        Columns(_torque_columns, needs=("friction", "torque_integrals", "whole_turn"), readings=("tangential",)),
         lambda scene, _: (torque_search(scene, scene.results["torque"].rotating_friction),),
     ),
     Output(
@@ -340,14 +340,14 @@ OVER_THE_TURN = (
         "irregularity of the speed and inertia",
         ("torque_integrals", "flywheel"),
         flywheel,
-        Columns(_flywheel_columns, needs=("flywheel",)),
+        Columns(_flywheel_columns, needs=("flywheel",), readings=("tangential",)),
     ),
     Output(
         "overturning",
         "overturning couple on the frame",
         ("rod_forces", "whole_turn"),
         overturning,
-        Columns(_overturning_columns, needs=("whole_turn",)),
+        Columns(_overturning_columns, needs=("whole_turn",), readings=("tangential",)),
         lambda scene, _: (torque_search(scene),),
     ),
 )

@@ -268,6 +268,10 @@ LOADS = Output(
     "loads on piston rod, pin, covers, frame, guides, base and bearings",
     ("gas", "piston_force", "rod_forces", "torque", "torque_integrals", "whole_turn"),
     _figure,
-    Columns(_columns, needs=("friction", "torque_integrals", "whole_turn")),
+    Columns(
+        _columns,
+        needs=("friction", "torque_integrals", "whole_turn"),
+        readings=("rod", "rod_at_rest", "tangential"),
+    ),
     _searches,
 )

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.row_series import Reading
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.peaks import Search
 
@@ -20,6 +21,7 @@ class Columns:
     needs : effects whose results they read, where the figure reads others.
     keys : of those in detail (:mod:`schemas.sweep.details`), which are worked out only where one of them is wanted.
     alone : whether a design takes about as long as in a single answer, however many there are.
+    readings : of the forces of the rows over the turn that are asked for.
     """
 
     values: Callable[[Prepared, Complex], Mapping[str, Real]]
@@ -27,6 +29,7 @@ class Columns:
     needs: tuple[str, ...] | None = None
     keys: tuple[str, ...] = ()
     alone: bool = False
+    readings: tuple[Reading, ...] = ()
 
 
 def _none(_scene: Prepared, _unbalance: Complex | None) -> Iterable[Search]:

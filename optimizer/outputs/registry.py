@@ -122,23 +122,29 @@ def columns(request: Scene, unbalance: Complex, always: tuple[str, ...], wanted:
     groups = column_groups(request, always, wanted)
     samples = request.angles.count if any(group.sampled for group in groups) else 1
     needs = {str(k): group.needs or () for k, group in enumerate(groups)}
-    scene = simulated(request, needs, samples, unbalance.shape[:1])
+    readings = tuple(dict.fromkeys(reading for group in groups for reading in group.readings))
+    scene = simulated(request, needs, samples, unbalance.shape[:1], readings=readings)
     results: dict[str, Real] = {}
     for group in groups:
         results |= group.values(scene, unbalance)
     return results
 
 
-def column_groups(request: Scene, always: tuple[str, ...], wanted: frozenset[str]) -> list[Columns]:
+def column_groups(request: Scene, always: tuple[str, ...], wanted: frozenset[str]) -> tuple[Columns, ...]:
     """The columns of a request's outputs that are wanted, in the groups in which they are worked out."""
-    results = []
-    for name in dict.fromkeys((*always, *request.outputs)):
+    return _groups((*always, *request.outputs), wanted)
+
+
+@lru_cache(maxsize=64)
+def _groups(names: tuple[str, ...], wanted: frozenset[str]) -> tuple[Columns, ...]:
+    results = list[Columns]()
+    for name in dict.fromkeys(names):
         output = OUTPUTS[name]
         keys = usual_keys(name)
         if output.columns is not None and (not keys or not wanted.isdisjoint(keys)):
             results.append(replace(output.columns, needs=output.column_needs))
         results += [group for group in DETAILED.get(name, ()) if not wanted.isdisjoint(group.keys)]
-    return results
+    return tuple(results)
 
 
 def require_inputs(machine: Machine, outputs: Sequence[str], samples: int = 1) -> None:

@@ -73,6 +73,6 @@ ROLL = Output(
     "roll moment on the frame, before and after",
     ("whole_turn", "torque"),
     _figure,
-    Columns(_columns, needs=("torque_integrals", "whole_turn")),
+    Columns(_columns, needs=("torque_integrals", "whole_turn"), readings=("tangential",)),
     _searches,
 )

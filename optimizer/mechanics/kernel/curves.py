@@ -22,8 +22,6 @@ _FEW = 64
 _AT_ONCE = 50_000
 
 
-#: of rows and places where all of them count
-_EVERYWHERE = np.zeros((0, 0), np.bool_)
 #: of readings where all of them count
 _ANY = np.int64(-1)
 #: what no forces are made of
@@ -43,7 +41,7 @@ class Sums(NamedTuple):
 
 
 @inner_with_arrays
-def sums_of_rows(rows, sums, curve, points, bounds, order, design, angles, half):  # type: ignore[no-untyped-def]
+def sums_of_rows(rows, sums, curve, points, bounds, order, design, angles, half, forces):  # type: ignore[no-untyped-def]
     """Some curves (m,) over P angles of each of N designs (N,), m / N of each: coefficients (m, P, order + 1) in units
     of half widths (N, P); and beside bounds what these leave out (m, P), and the size (m,) of what is added up.
 
@@ -53,8 +51,9 @@ def sums_of_rows(rows, sums, curve, points, bounds, order, design, angles, half)
     points : what forces are made of, to one order.
     bounds : the same bounded, to an order above it or more. Of either there may be none, :data:`NOTHING`.
     order : up to which bounds count, -1 where there are none.
+    forces : whether points are forces of one reading instead, (parts, 4, N, R, P), (parts, 1, N, R, P), (N R, P).
     """
-    count, terms = sums.weights.shape[1], points.middle.shape[3]
+    count, terms = sums.weights.shape[1], points.middle.shape[1 if forces else 3]
     curves = curve.size
     cubic = np.empty((curves, angles, terms), np.complex128)
     sized = terms > 0 and order >= 0
@@ -62,14 +61,25 @@ def sums_of_rows(rows, sums, curve, points, bounds, order, design, angles, half)
     # coefficients and at last the bound's middle, each real and imaginary
     last = terms + 1 if order >= 0 else terms
     room = np.empty((2, last, angles)), np.empty((count, angles)), np.empty((2, angles))
-    wanted, _ = _wanted(sums, curve)
+    (wanted, _), everywhere = _wanted(sums, curve), np.empty((0, 0), np.bool_)
     for reading in range(wanted.size):
         if not wanted[reading]:
             continue
-        series, _ = row_series(rows, points, design, angles, reading, terms, _EVERYWHERE)
-        bound, radius = row_series(rows, bounds, design, angles, reading, order + 1, _EVERYWHERE)
-        _add_rows(sums, curve, reading, (series, bound, radius), order, half, room, (cubic, rest, size))
+        if forces:
+            of_rows = points.middle, points.radius, points.way.reshape((design.size, count, angles))
+        else:
+            of_rows = series_and_bounds(rows, (points, bounds), design, angles, reading, order, everywhere)
+        _add_rows(sums, curve, reading, of_rows, order, half, room, (cubic, rest, size))
     return cubic, rest, size
+
+
+@inner_with_arrays
+def series_and_bounds(rows, functions, design, angles, reading, order, counted):  # type: ignore[no-untyped-def]
+    """What rows come to by one reading, of functions at points and bounded to an order; as of :func:`row_series`."""
+    points, bounds = functions
+    series, _ = row_series(rows, points, design, angles, reading, points.middle.shape[3], counted)
+    bound, radius = row_series(rows, bounds, design, angles, reading, order + 1, counted)
+    return series, bound, radius
 
 
 @inner

@@ -10,6 +10,7 @@ import numpy as np
 
 from optimizer.mechanics.kernel.crossings import crossings
 from optimizer.mechanics.kernel.curves import NOTHING, Sums, sums_of_rows
+from optimizer.mechanics.kernel.design_forces import design_forces
 from optimizer.mechanics.kernel.rows import Functions, Places, Rows, Tables, row_functions
 from optimizer.mechanics.kernel.search import search
 from optimizer.numerics.arrays import Complex, Real
@@ -17,8 +18,9 @@ from optimizer.numerics.compiling import kernel
 from optimizer.responses.kernel.motion import STILL, Motion
 from optimizer.responses.kernel.parts import Best, Cubics, Members
 
-#: what is made: functions of the rows, sums of such, both at once; or peaks or crossings of curves
-FUNCTIONS, SUMS, BOTH, PEAKS, CROSSINGS = range(5)
+#: what is made: functions of the rows, sums of such, both at once; peaks or crossings of curves; or forces of the rows
+#: of many designs, and sums of such
+FUNCTIONS, SUMS, BOTH, PEAKS, CROSSINGS, FORCES, FORCE_SUMS = range(7)
 
 
 class Reading(NamedTuple):
@@ -74,7 +76,8 @@ def over_turn(
 ) -> tuple[tuple[Real, Real, Real], Complex, Real, Real]:
     """Functions of the rows; coefficients (m, P, order + 1) of curves, what they leave out (m, P) and their size (m,).
 
-    Of peaks, which it improves, the curves there (G, 1, 1); of levels (N,) the angles (N, n) at which curves cross them
+    Of forces of many designs as functions come the results of :func:`design_forces`, about centres that are sought. Of
+    peaks, which it improves, the curves there (G, 1, 1); of levels (N,) the angles (N, n) at which curves cross them
     in place of what is left out, and what their integrals may be off by (N,) in place of the size.
 
     Parameters
@@ -104,15 +107,19 @@ def _over_turn(  # type: ignore[no-untyped-def]
     cubic, rest, size = np.empty((0, 0, 0), np.complex128), np.empty((0, 0)), np.empty(0)
     if task in (FUNCTIONS, BOTH):
         functions = row_functions(rows, places, order, pressed, np.empty((0, 0), np.bool_))
-    if task in (SUMS, BOTH):
+    if task in (SUMS, BOTH, FORCE_SUMS):
         of = functions if task == BOTH else Functions(*points)
         curve, design, half = parts[19:22]
-        cubic, rest, size = sums_of_rows(rows, sums, curve, of, Functions(*bounds), bound, design, angles, half)
+        cubic, rest, size = sums_of_rows(
+            rows, sums, curve, of, Functions(*bounds), bound, design, angles, half, task == FORCE_SUMS
+        )
     elif task == PEAKS:
         motion = Motion(moved, unit, sense, parts[45], parts[46], scalar)
         cubics, members, best = Cubics(*parts[28:32]), Members(*parts[32:38]), Best(*parts[38:43])
         there = search(cubics, members, best, rows, sums, parts[44], motion)
         cubic = there.reshape((there.size, 1, 1))
+    elif task == FORCES:
+        functions = design_forces(rows, parts[19], parts[44], parts[21], order, pressed)
     elif task == CROSSINGS:
         rest, size = crossings(Cubics(*parts[28:32]), parts[43], rows, sums, parts[44])
     return (functions.middle, functions.radius, functions.way), cubic, rest, size

@@ -94,7 +94,7 @@ def _bearings(scene: Prepared) -> tuple[Bearing, ...]:
 
 
 BEARINGS = (
-    Columns(_specific, needs=("whole_turn",), keys=("specific_load_Pa.",)),
+    Columns(_specific, needs=("whole_turn",), keys=("specific_load_Pa.",), readings=("on_shaft",)),
     Columns(_root_mean_square, needs=("whole_turn",), keys=("bearing_rms_N.",), alone=True),
     Columns(
         _floors,

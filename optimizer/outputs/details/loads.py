@@ -114,12 +114,14 @@ LOADS = (
         _over_the_turn,
         needs=("whole_turn",),
         keys=("largest_piston_force_N.", "crosshead_pin_N.", "stop_over_the_turn_N."),
+        readings=("piston", "rod", "rod_at_rest"),
     ),
     Columns(
         _sampled,
         sampled=True,
         needs=("gas", "piston_force", "whole_turn"),
         keys=(*_OF_ROWS, *_OF_FRAMES, "cover_largest_N.", "cover_smallest_N."),
+        readings=("piston",),
     ),
     Columns(
         _guides,

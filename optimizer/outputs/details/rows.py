@@ -76,10 +76,15 @@ def _flywheel(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
 
 
 GAS = (Columns(_gas, needs=("gas", "indicated_work"), keys=keys_of("gas")),)
-PISTONS = (Columns(_pistons, needs=("whole_turn",), keys=keys_of("piston_force")),)
+PISTONS = (Columns(_pistons, needs=("whole_turn",), keys=keys_of("piston_force"), readings=("piston",)),)
 RODS = (
-    Columns(_guides, needs=("whole_turn",), keys=("peak_side_N.",)),
-    Columns(_rods, needs=("whole_turn",), keys=("rod_load_N.", "rod_tension_N.", "rod_compression_N.")),
+    Columns(_guides, needs=("whole_turn",), keys=("peak_side_N.",), readings=("side",)),
+    Columns(
+        _rods,
+        needs=("whole_turn",),
+        keys=("rod_load_N.", "rod_tension_N.", "rod_compression_N."),
+        readings=tuple(CASES.values()),
+    ),
 )
 TORQUE = (Columns(_torque, needs=("friction", "torque_integrals"), keys=keys_of("torque")),)
 FLYWHEEL = (Columns(_flywheel, needs=("torque_integrals", "flywheel"), keys=keys_of("flywheel")),)

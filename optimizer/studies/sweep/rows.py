@@ -56,7 +56,9 @@ class Rows:
             if name not in self._blank:
                 continue
             if whole:
-                self._columns[name] = np.broadcast_to(column, (self._count,))
+                # most are as long as they shall be: to see that takes less than numpy's own look
+                long = isinstance(column, np.ndarray) and column.shape == (self._count,)
+                self._columns[name] = column if long else np.broadcast_to(column, (self._count,))
                 self._shared.add(name)
             else:
                 self._own(name)[designs] = column

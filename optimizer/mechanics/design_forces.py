@@ -1,0 +1,67 @@
+"""Forces of the rows of many designs over the pieces of their turns, those of several readings made together.
+
+What they are made of is large, and is let go a few designs after it was made: so all readings that are asked for sooner
+or later are read of it then.
+"""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from optimizer.mechanics.row_data import RowData, compact
+from optimizer.mechanics.row_series import Reading
+from optimizer.numerics.arrays import Real
+from optimizer.numerics.memoization import cached_property
+
+if TYPE_CHECKING:
+    from optimizer.mechanics.kernel.rows import Functions
+
+#: up to which forces are bounded over pieces
+ORDER = 4
+
+
+@dataclass(frozen=True)
+class DesignForces:
+    """Forces of the rows of N designs over P pieces.
+
+    centre, half : (N, P) rad.
+    readings : that are made with the first that is asked for.
+    """
+
+    rows: RowData
+    centre: Real
+    half: Real
+    readings: tuple[Reading, ...]
+
+    def of(self, reading: Reading) -> "Functions":
+        """Of one reading, as :func:`optimizer.mechanics.kernel.curves.sums_of_rows` takes them."""
+        if reading not in self._memo:
+            self._make({reading, *self.readings}.difference(self._memo))
+        return self._memo[reading]
+
+    def _make(self, readings: set[Reading]) -> None:
+        from optimizer.mechanics.kernel.entry import FORCES, NO_READING, NOTHING_SOUGHT, over_turn
+        from optimizer.mechanics.kernel.readings import ON_FRAME, ON_SHAFT, READINGS, WITHOUT_GAS
+        from optimizer.mechanics.kernel.rows import Functions
+
+        wanted, half = np.array([name in readings for name in READINGS], np.int64), compact(self.half)
+        made = over_turn(
+            FORCES,
+            self.rows.packed,
+            order=ORDER,
+            pressed=not readings.issubset(WITHOUT_GAS),
+            reading=NO_READING._replace(curve=wanted, half=half),
+            sought=NOTHING_SOUGHT._replace(middle=compact(self.centre)),
+        )[0]
+        points, bounds, radius = made
+        part = 0
+        for k, number in enumerate(np.flatnonzero(wanted).tolist()):
+            own = slice(part, part + (2 if number in (ON_SHAFT, ON_FRAME) else 1))
+            of_rows = slice(k * len(radius) // len(readings), (k + 1) * len(radius) // len(readings))
+            self._memo[READINGS[number]] = Functions(points[own], bounds[own], radius[of_rows])
+            part = own.stop
+
+    @cached_property
+    def _memo(self) -> "dict[str, Functions]":
+        return {}
