@@ -9,13 +9,13 @@ follows belongs to the program at hand.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cache, lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.records import record
 from optimizer.program.reference.boost import Boost
 from optimizer.program.scaled_program import ScaledData, ScaledSolution
 
@@ -29,14 +29,14 @@ REGULARIZATION = 1e-8
 _PLANE = 3
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class NoPoint:
     """A program that found nothing, and why."""
 
     reason: str
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Part:
     """Entries of a few columns of some rows."""
 
