@@ -9,7 +9,7 @@ from functools import cache
 from typing import Any
 
 from llvmlite.binding import add_symbol, parse_bitcode
-from numba.core.caching import FunctionCache
+from numba.core.caching import CompileResultCacheImpl, FunctionCache
 from numba.core.codegen import JITCodeLibrary, JITCPUCodegen
 from numba.core.runtime import _nrt_python
 
@@ -46,8 +46,21 @@ class Library(JITCodeLibrary):  # type: ignore[misc]
         return int(self._codegen._engine.get_function_address(name))  # noqa: SLF001
 
 
+class _Parts(CompileResultCacheImpl):  # type: ignore[misc]
+    """What is kept of a kernel, without surroundings of functions in it that hold nothing.
+
+    Each is kept by the name of its module, which would be imported with it: those of arrays take 15 ms.
+    """
+
+    def reduce(self, compiled: Any) -> tuple[Any, ...]:
+        *parts, surroundings = super().reduce(compiled)
+        return *parts, tuple(each for each in surroundings if each.consts)
+
+
 class MachineCode(FunctionCache):  # type: ignore[misc]
     """Loads machine code without all that numba would compile more with: a fifth of the command line's first answer."""
+
+    _impl_class = _Parts
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         # numba's own loads every function that it knows, too

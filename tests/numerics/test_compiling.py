@@ -75,10 +75,12 @@ def test_a_kernel_is_linked_with_one_that_was_kept(tmp_path: Path, monkeypatch: 
 def test_an_answer_reads_nothing_that_only_a_compiler_reads() -> None:
     """In a process of its own, as other tests compile."""
     code = (
+        "import sys\n"
         "from llvmlite import binding\n"
         "from numba.core.runtime import nrtdynmod\n"
         "binding.parse_bitcode = nrtdynmod.compile_nrt_functions = None\n"
         "from optimizer.warm_up import warm_up\n"
-        "warm_up()"
+        "warm_up()\n"
+        "assert 'numba.np.arrayobj' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], timeout=300, check=True)
