@@ -54,7 +54,7 @@ class _Parts(CompileResultCacheImpl):  # type: ignore[misc]
 
     def reduce(self, compiled: Any) -> tuple[Any, ...]:
         *parts, surroundings = super().reduce(compiled)
-        return *parts, tuple(each for each in surroundings if each.consts)
+        return *parts, tuple(environment for environment in surroundings if environment.consts)
 
 
 class MachineCode(FunctionCache):  # type: ignore[misc]

@@ -16,21 +16,21 @@ def _contents(kind: Any) -> Callable[[Any], object]:
     return attrgetter(*(field.name for field in fields(kind)))
 
 
-def _held(one: Any) -> object:
-    return _contents(one.__class__)(one)
+def _held(instance: Any) -> object:
+    return _contents(instance.__class__)(instance)
 
 
-def _equal(one: Any, other: object) -> bool:
-    return _held(one) == _held(other) if other.__class__ is one.__class__ else NotImplemented
+def _equal(instance: Any, other: object) -> bool:
+    return _held(instance) == _held(other) if other.__class__ is instance.__class__ else NotImplemented
 
 
-def _hash(one: Any) -> int:
-    return hash(_held(one))
+def _hash(instance: Any) -> int:
+    return hash(_held(instance))
 
 
-def _text(one: Any) -> str:
-    shown = ", ".join(f"{field.name}={getattr(one, field.name)!r}" for field in fields(one) if field.repr)
-    return f"{one.__class__.__qualname__}({shown})"
+def _text(instance: Any) -> str:
+    shown = ", ".join(f"{field.name}={getattr(instance, field.name)!r}" for field in fields(instance) if field.repr)
+    return f"{instance.__class__.__qualname__}({shown})"
 
 
 def _record(*, frozen: bool) -> Callable[[type[Kind]], type[Kind]]:
