@@ -1,7 +1,5 @@
 """Finitely many options for every web, from a machine's catalogue, holes and steps of angle."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from optimizer.choices.catalogue_options import Stock
@@ -9,10 +7,11 @@ from optimizer.choices.discrete.search import Prior, search
 from optimizer.choices.feasible_set import Choice, SearchResult, Subproblem
 from optimizer.formulation.counterweights import unbalance
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.records import record
 from optimizer.program.statement import Statement
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Catalogue:
     """Every web takes one of its options, the first of which is nothing."""
 

@@ -1,9 +1,9 @@
 """What a set that is not convex answers: the best choice for a statement, and what is proven of all choices."""
 
-from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.records import record
 from optimizer.program.statement import Statement
 
 
@@ -19,7 +19,7 @@ class Subproblem(NamedTuple):
     below: Statement | None = None  # of few rows in one group, nowhere above it, for the batch kernel; None is that one
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class SearchResult:
     """Where a search ended, and what is proven of all that may be chosen."""
 

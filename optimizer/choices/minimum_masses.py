@@ -1,6 +1,6 @@
 """Counterweights that are at least so heavy where they are fitted, or not there: semicontinuous masses."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -8,6 +8,7 @@ from optimizer.choices.feasible_set import Choice, Subproblem
 from optimizer.choices.semicontinuous.search import SearchGoal, search
 from optimizer.formulation.counterweights import masses_and_angles, unbalance
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.records import record
 from optimizer.program.limits import Limits
 from optimizer.program.methods.semicontinuous_bounds import within_semicontinuous_reach
 from optimizer.program.solution import OPTIMUM_SHARE
@@ -18,7 +19,7 @@ from schemas.machine.machine import Machine
 _ROUNDING = 1e-11
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class MinimumMasses:
     """The mass of every web is 0, or from a least one to its limit."""
 

@@ -5,11 +5,12 @@ budget (docs/mathematics.md sections 16 and 20).
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.records import record
 from optimizer.program.certificate import Multipliers, affine_minorant, normalised
 from optimizer.program.statement import Statement
 
@@ -17,7 +18,7 @@ from optimizer.program.statement import Statement
 _HALVINGS, _STEPS = 24, 12
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class NodeBounds:
     """What is proven of N nodes."""
 

@@ -7,13 +7,13 @@ responses. The price at which the plates make up the responses is found by Newto
     max over p of Re(conj(h) . p) - sum_k m*_k(|s_k|),    s_k = sum_j H_jk p_j,    m*(s) = max_U s U - m(U).
 """
 
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from optimizer.mechanics.plates import Plates
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.records import record
 from optimizer.program.equal_unknowns import united
 from optimizer.program.methods.compiled import suits_kernel, unproven
 from optimizer.program.plate_pieces import pieces, tangents
@@ -89,7 +89,7 @@ class _At(NamedTuple):
     give: Real  # (2n,) how unbalances follow the price, along and across, kg m per (kg per kg m)
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class _Dual:
     """Plates, of n alike ones the first, and the responses that they are to make up."""
 

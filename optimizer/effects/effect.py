@@ -1,7 +1,6 @@
 """One physical effect: what it means, what it needs, how it is simulated."""
 
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any
 
 from optimizer.mechanics.layout import Layout
@@ -14,8 +13,7 @@ from schemas.machine.machine import Machine
 from schemas.request.scene import Fidelity
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Context:
     """What an effect may look at: the machines, the angles, and the results of the effects that it needs."""
 
@@ -36,7 +34,7 @@ def _always(_machine: Machine) -> bool:
     return True
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Effect:
     """A physical effect.
 

@@ -1,7 +1,5 @@
 """What the effects over the turn come to, with the leading axes (...) of the layout."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from optimizer.mechanics.gas import Chambers, GasForces, indicated_work, switching_angles
@@ -9,9 +7,10 @@ from optimizer.mechanics.indicated import Trace
 from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Real
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class GasCycle:
     """Gas of all rows: forces over the samples, and what the chambers do whatever the samples."""
 
@@ -44,7 +43,7 @@ class GasCycle:
         return np.add.reduce(self.work, axis=-1) * self.layout.omega[..., None] / (2.0 * np.pi)
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class FrictionForces:
     """Friction of all rows over the samples, and of the shaft."""
 
@@ -53,7 +52,7 @@ class FrictionForces:
     torque: Real  # (...) N m
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class PistonForces:
     """What acts on the pistons, (..., rows, T) N."""
 
@@ -63,7 +62,7 @@ class PistonForces:
     total: Real
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class TorqueSeries:
     """Torque over the samples, N m."""
 
@@ -72,7 +71,7 @@ class TorqueSeries:
     rotating_friction: Real  # (...)
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class TorqueIntegrals:
     """Means and ranges over the turn, whatever the samples."""
 
@@ -84,7 +83,7 @@ class TorqueIntegrals:
     friction_power: Real  # (...) W
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class TorqueErrors:
     """By how much the integrals differ from those over panels twice as wide (...)."""
 
@@ -92,7 +91,7 @@ class TorqueErrors:
     fluctuation: Real  # J
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class FlywheelFigures:
     """Irregularity and inertia that belong to each other (...)."""
 

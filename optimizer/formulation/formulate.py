@@ -6,7 +6,6 @@ Fields may hold columns, as in :func:`optimizer.mechanics.layout.layout`.
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -17,6 +16,7 @@ from optimizer.mechanics.layout import Layout, outermost
 from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.numerics.arrays import SMALLEST, Reals
 from optimizer.numerics.memoization import remembered
+from optimizer.numerics.records import record
 from optimizer.responses.curve import TurnResponse
 from optimizer.responses.response import Response
 from schemas.base.responses import PAIR, CeilingFields, ResponseFields
@@ -46,7 +46,7 @@ def span(machine: Machine) -> Reals:
     return np.where(length <= SMALLEST, 1.0, length)[()]
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Weighable:
     """A response on the frame that an objective can weigh, limit and trade.
 

@@ -6,7 +6,6 @@ names the fields that ask for the whole turn; those of the first order are in
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -43,8 +42,7 @@ from schemas.request.scene import Fidelity
 _USUAL = Fidelity()
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Case:
     """A machine that the counterweights are to suit: the one that is given, or that of a scenario."""
 
@@ -57,7 +55,7 @@ class Case:
     masses: float = 0.0  # share by which every reciprocating mass may be off, over the turn
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Limited:
     """A ceiling on a quantity over the turn."""
 
@@ -69,8 +67,7 @@ class Limited:
     scenario: str | None
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Goals:
     """What is asked of the whole turn, or of several cases."""
 

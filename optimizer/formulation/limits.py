@@ -5,7 +5,6 @@ Fields may hold columns, as in :func:`optimizer.mechanics.layout.layout`.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import lru_cache, reduce
 from typing import NamedTuple, Protocol
 
@@ -18,6 +17,7 @@ from optimizer.mechanics.layout import stacked
 from optimizer.mechanics.shapes import plates
 from optimizer.numerics.arrays import Complex, Real, Reals, all_true, any_true, mapped, spread
 from optimizer.numerics.memoization import remembered
+from optimizer.numerics.records import record
 from optimizer.program.limits import Limits
 from optimizer.program.sensitivity import ShadowPrices
 from schemas.answer.limits import MachineLimit, WebLimit
@@ -60,7 +60,7 @@ class Limit(Protocol):
         ...
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class MassLimit:
     """What a counterweight may have at most of something that grows with its mass."""
 

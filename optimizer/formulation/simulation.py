@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import lru_cache
 from typing import Any
 
@@ -37,8 +37,7 @@ from schemas.request.requests import OptimizeRequest
 from schemas.request.scene import Scene
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Prepared:
     """A machine as arrays and what was simulated of it.
 

@@ -1,6 +1,6 @@
 """What an optimisation is to do, read once from a request: whoever solves goes by it, and sees no request."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 from optimizer.formulation.balance_shafts import DesignSpace, design_space
@@ -35,8 +35,7 @@ class ScenarioMachine(NamedTuple):
     changes: Path
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Task:
     """Counterweights that are wanted of a machine.
 

@@ -3,7 +3,6 @@
 Whatever is asked for at an angle, the rows are expanded about it once, and each force is read from that once.
 """
 
-from dataclasses import dataclass
 from itertools import accumulate, pairwise
 from typing import TYPE_CHECKING
 
@@ -13,6 +12,7 @@ from optimizer.mechanics.curve_series import CurveSeries
 from optimizer.mechanics.whole_turn import TurnCurves
 from optimizer.numerics.arrays import Complex, Real, spread
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 from optimizer.responses.piecewise_cubics import Index, Pieces
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from optimizer.responses.kernel.parts import Best, Cubics, Members
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class CurveBatch:
     """Curves of one turn of one machine, those of one part after those of another."""
 

@@ -1,7 +1,6 @@
 """Series of curves about angles within pieces of the turn: all rows are expanded about an angle once, whatever curves
 ask for it."""
 
-from dataclasses import dataclass
 from itertools import repeat
 from typing import TYPE_CHECKING
 
@@ -11,6 +10,7 @@ from optimizer.mechanics.row_data import RowData, compact
 from optimizer.mechanics.row_series import AT_ONCE, NO_WIDTHS, Reading, RowSeries
 from optimizer.numerics.arrays import Complex, Real, in_order, spread
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 from optimizer.responses.piecewise_cubics import Index
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 _POWERS = np.arange(4)
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class CurveSeries:
     """J curves, each a sum of one force of the rows over weights, and a constant; N designs of J / N curves each.
 

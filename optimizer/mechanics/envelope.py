@@ -10,13 +10,13 @@ functions broadcast.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 
 from optimizer.numerics.arrays import Real, Reals
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 
 #: cuts of an interval into as many parts: to the last bit
 _CUTS, _PARTS = 10, 64
@@ -28,7 +28,7 @@ _HUB = 1e-300
 _SMALL = 0.05
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Plate:
     """Where a counterweight may be.
 
@@ -77,7 +77,7 @@ class Envelope(Protocol):
         ...
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class AnnularSector(Plate):
     """m = rho t a (R2^2 - R1^2), U = 2/3 rho t (R2^3 - R1^3) sin a, J = rho t a (R2^4 - R1^4) / 2."""
 
@@ -109,7 +109,7 @@ class AnnularSector(Plate):
         return 2.0 / 3.0 * self.areal * (self.outer**3 - self.inner**3)
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Segment(Plate):
     """What lies beyond a chord at h = R2 cos a, of the disc of the outer radius without that of the inner one.
 

@@ -9,7 +9,6 @@ head side -p A, crank side +p A (design calculation of the 2D12, 2-14 and 2-15).
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
@@ -20,9 +19,10 @@ from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.layout import spread as spread_layout
 from optimizer.numerics.arrays import Real, in_order, mapped, spread
 from optimizer.numerics.memoization import cached_property, remembered, remembered_of_both
+from optimizer.numerics.records import record
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Chambers:
     """Data of the chambers, (..., rows, C), C twice the most cylinders of a row.
 
@@ -38,7 +38,7 @@ class Chambers:
     closed: np.ndarray  # bool
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class GasForces:
     """Gas over shaft angles."""
 

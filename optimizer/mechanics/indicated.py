@@ -6,13 +6,13 @@ but at the entries, which are breaks of the turn (:mod:`whole_turn`).
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from optimizer.mechanics.kinematics import steep_angles
 from optimizer.mechanics.turn import mean, panels
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.records import record
 from optimizer.responses.piecewise_cubics import Index
 
 TURN = 2.0 * np.pi
@@ -21,7 +21,7 @@ SLIVER = 1e-12
 _WIDEST_PANEL = np.deg2rad(10.0)
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Trace:
     """Indicated pressure of one chamber of each design (...): one of D tables of K entries.
 

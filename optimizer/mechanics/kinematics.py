@@ -6,7 +6,6 @@ derivatives, so that the inertia force +m a on the frame is positive in rod tens
 """
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,12 +13,13 @@ from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.layout import spread as spread_layout
 from optimizer.numerics.arrays import Real, in_order, spread
 from optimizer.numerics.memoization import cached_property, remembered
+from optimizer.numerics.records import record
 
 #: above this rod ratio the motion is steep near 90 and 270 degrees
 _STEEP = 0.8
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Motion:
     """Rows over shaft angles, (..., rows, T)."""
 

@@ -5,7 +5,7 @@ the same formulas. Angles are unit vectors (complex), as drawn at shaft angle 0.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 from functools import lru_cache, reduce
 from typing import Any
 
@@ -23,8 +23,7 @@ from schemas.machine.scroll_machine import ScrollMachine
 _TABLE, _NO_TABLE = 2, np.empty(0)
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Rotating:
     """Masses that turn with the shaft: (..., n)."""
 
@@ -34,8 +33,7 @@ class Rotating:
     position: Real  # m
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Reciprocating:
     """Masses that move along an axis, driven by a crank: (..., n)."""
 
@@ -55,8 +53,7 @@ class Reciprocating:
         return margin if self.rod_ratio_rest is None else margin - self.rod_ratio_rest
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Webs:
     """Places for counterweights: (..., n)."""
 
@@ -64,8 +61,7 @@ class Webs:
     radius: Real  # m
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class BalanceWebs:
     """Places for unbalances on balance shafts, one shaft after the other: (..., n)."""
 
@@ -76,8 +72,7 @@ class BalanceWebs:
     y: Real  # m
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Layout:
     """A machine as arrays."""
 

@@ -7,14 +7,13 @@ frame the ring slides with e omega sin, against the scroll, which circles, with 
 Angles in radians, counted in the direction of rotation.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.records import record
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Oldham:
     """An Oldham ring, (...)."""
 
@@ -25,7 +24,7 @@ class Oldham:
     omega: Real  # rad/s
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Keys:
     """Loads and sliding speeds of the keys at shaft angles (..., T)."""
 

@@ -1,19 +1,19 @@
 """Plates side by side: what is asked of all of them at once, those of one shape together."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from optimizer.mechanics.envelope import Envelope, opened_for
 from optimizer.numerics.arrays import Real, Reals
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 
 #: rad: openings from which on a mass says more than an unbalance; and the step of its slope
 _STEEP, _STEP = 1.5, 1e-3
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Plates:
     """The plates of P of the webs of a machine, whose figures are (..., P) as those of an envelope."""
 

@@ -1,16 +1,15 @@
 """From piston force to the forces on rod, guide and crank pin, and to the torque of a row."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from optimizer.mechanics.angles import turned
 from optimizer.mechanics.kinematics import Motion
 from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.records import record
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class RodForces:
     """Forces that a piston force sends into the mechanism, over shaft angles (..., rows, T); worked out when asked for.
 

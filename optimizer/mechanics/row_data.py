@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,12 +13,13 @@ from optimizer.mechanics.kinematics import angle_ahead
 from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Real, in_order, spread
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 
 if TYPE_CHECKING:
     from optimizer.mechanics.kernel.rows import Rows, Tables
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class RowData:
     """What the forces of the rows depend on; what is the same in all N designs stands there once, (1, R)."""
 
@@ -132,11 +133,11 @@ def _tables(traces: Sequence[Trace]) -> "Tables":
     sizes = [trace.angle.shape for trace in traces]
     shape = (number, *(max(entry) for entry in zip(*sizes, strict=True))) if sizes else (0, 1, 1)
     parts, lead, table = np.zeros((3, *shape)), np.empty((number, designs)), np.empty((number, designs), np.int64)
-    for k, (record, (tables, count)) in enumerate(zip(traces, sizes, strict=True)):
-        step = np.diff(record.angle, axis=-1)
-        parts[0, k, :tables, :count], parts[1, k, :tables, :count] = record.angle, record.pressure
-        parts[2, k, :tables, : count - 1] = np.diff(record.pressure, axis=-1) / np.where(step > 0.0, step, np.inf)
-        table[k], lead[k] = record.table, record.lead
+    for k, (trace, (tables, count)) in enumerate(zip(traces, sizes, strict=True)):
+        step = np.diff(trace.angle, axis=-1)
+        parts[0, k, :tables, :count], parts[1, k, :tables, :count] = trace.angle, trace.pressure
+        parts[2, k, :tables, : count - 1] = np.diff(trace.pressure, axis=-1) / np.where(step > 0.0, step, np.inf)
+        table[k], lead[k] = trace.table, trace.lead
     counts, cycles = np.array([count for _, count in sizes], np.int64), np.array([trace.cycle for trace in traces])
     angle, pressure, slope = parts
     return Tables(angle, pressure, slope, counts, cycles, table, lead)

@@ -3,7 +3,7 @@
 Gas and friction do not depend on masses, so that a curve is affine in them, row by row.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,10 +12,11 @@ from optimizer.mechanics.row_data import RowData
 from optimizer.mechanics.row_series import Reading, RowSeries
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 from optimizer.responses.piecewise_cubics import Index
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class RowParts:
     """Parts of J curves of one machine by its R rows, over the P pieces of the curves.
 

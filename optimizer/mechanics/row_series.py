@@ -6,7 +6,7 @@ Shapes: N designs or places, R rows, P angles.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Literal
 
@@ -15,6 +15,7 @@ import numpy as np
 from optimizer.mechanics.row_data import RowData, compact
 from optimizer.numerics.arrays import Real, spread
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 from optimizer.responses.piecewise_cubics import Index
 
 if TYPE_CHECKING:
@@ -31,7 +32,7 @@ Reading = Literal[
 ]
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class RowSeries:
     """Functions of the rows about shaft angles of N designs, to an order.
 

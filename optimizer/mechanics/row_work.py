@@ -7,7 +7,6 @@ those there is the quadrature of :mod:`optimizer.mechanics.turn`.
 """
 
 import math
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -19,6 +18,7 @@ from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.whole_turn import TurnCurves
 from optimizer.numerics.arrays import Real, in_order, spread
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 from optimizer.responses.piecewise_cubics import ROUNDING
 
 
@@ -29,7 +29,7 @@ class Range(NamedTuple):
     error: Real
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class RowWork:
     """Work that the rows take from the shaft, with the leading axes (...) of the layout.
 

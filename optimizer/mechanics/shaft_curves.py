@@ -9,7 +9,6 @@ finitely many responses, and no error. Everything is over omega^2.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -20,13 +19,14 @@ from optimizer.mechanics.row_series import Reading
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
 from optimizer.numerics.arrays import Complex, Real, spread
 from optimizer.numerics.memoization import remembered
+from optimizer.numerics.records import record
 from optimizer.responses.curve import TurnResponse
 
 #: bearing loads for unit loads: (..., B) and (..., L) m to (..., B, L)
 Influence = Callable[[Real, Real], Real]
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class ShaftCurves:
     """C curves of each of N designs: loads of bearings, kg m, or bending moments, kg m^2.
 

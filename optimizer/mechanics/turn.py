@@ -4,7 +4,6 @@ Forces jump or have kinks where valves open and rows reverse, and at the entries
 are smooth, so Gauss-Legendre panels between them converge fast; the end point of the turn is not counted twice.
 """
 
-from dataclasses import dataclass
 from functools import cache
 from typing import NamedTuple
 
@@ -13,6 +12,7 @@ from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
 from optimizer.numerics.arrays import Real, spread
+from optimizer.numerics.records import record
 
 #: nodes of a panel, by the number of panels up to which they serve: many breaks make narrow panels, which need fewer
 _NODES = ((500, 12), (1500, 8))
@@ -38,7 +38,7 @@ def _rule(nodes: int) -> _Rule:
     return _Rule(abscissae, weights, to_legendre, at_ends)
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Turn:
     """Panels over all turns. P panels with Gauss nodes each."""
 

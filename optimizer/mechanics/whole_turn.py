@@ -7,7 +7,6 @@ brackets peaks with.
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,6 +23,7 @@ from optimizer.mechanics.row_series import Reading, RowSeries
 from optimizer.mechanics.turn import Turn, panels
 from optimizer.numerics.arrays import Complex, Real, all_true, spread
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 from optimizer.responses.piecewise_cubics import Index, Pieces
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ def break_angles(layout: Layout, opens: tuple[Real, ...] = (), traces: Sequence[
     return angles[..., ~np.logical_and.reduce(same, axis=designs)]
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class WholeTurn:
     """The rows of N designs over P pieces of the turn.
 
@@ -195,7 +195,7 @@ def whole_turn(
     return WholeTurn(rows, spread(centre, shape), spread(half, shape), turns, means, squared, readings)
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class TurnCurves:
     """N C curves: sums of one force of the rows.
 

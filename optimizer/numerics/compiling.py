@@ -9,26 +9,11 @@ from collections.abc import Callable
 from typing import Any
 
 from numba import config, njit
-from numba.core.caching import FunctionCache
-from numba.core.runtime import rtsys
+
+from optimizer.numerics.loading import MachineCode
 
 # the third level takes 7 % more of the compiler's time; curves of sweeps are faster by 1 % with it, nothing else is
 config.OPT = type(config.OPT)(2)
-
-
-class _MachineCode(FunctionCache):  # type: ignore[misc]
-    """Loads machine code without all that numba would compile more with: a sixth of the command line's first answer."""
-
-    def load_overload(self, sig: Any, target_context: Any) -> Any:
-        # what makes arrays; numba's own loads every function that it knows as well
-        rtsys.initialize(target_context)
-        with self._guard_against_spurious_io_errors():
-            try:
-                return self._load_overload(sig, target_context)
-            except (AttributeError, ImportError):
-                # what another version has left names types that are no more: it is compiled anew
-                self.flush()
-        return None
 
 
 def _cached(**options: bool) -> Callable[[Any], Any]:
@@ -36,7 +21,7 @@ def _cached(**options: bool) -> Callable[[Any], Any]:
 
     def decorate(function: Any) -> Any:
         dispatcher = compiled(function)
-        dispatcher._cache = _MachineCode(function)  # noqa: SLF001 - numba has no option for it
+        dispatcher._cache = MachineCode(function)  # noqa: SLF001 - numba has no option for it
         return dispatcher
 
     return decorate

@@ -10,11 +10,12 @@ from typing import Any
 
 from llvmlite.binding import PassBuilder, create_pass_builder, create_pipeline_tuning_options
 from numba import config
-from numba.core.codegen import JITCodeLibrary
 from numba.core.registry import cpu_target
 
+from optimizer.numerics.loading import Library
 
-class _Linked(JITCodeLibrary):  # type: ignore[misc]
+
+class _Linked(Library):
     """A function and all that it calls, optimised when its machine code is first asked for."""
 
     _made = False
@@ -63,7 +64,7 @@ def link_first() -> None:
 
     def set_where_made(name: str, env: Any) -> None:
         # what is not machine code has no place for its environment, and nobody to look there
-        if codegen._engine.is_symbol_defined(name):  # noqa: SLF001
+        if codegen._engine.get_global_value_address(name):  # noqa: SLF001
             set_env(name, env)
 
     codegen.set_env = set_where_made

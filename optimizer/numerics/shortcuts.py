@@ -3,6 +3,7 @@
 Machine code stays the same to the byte. For every operator the compiler tries all that it may be, in order, and writes
 out why it is not that, whether or not it had the same types before. It reports every lock that it takes, though nothing
 listens. After every pass over a function it follows all variables through it, though the next pass reads none of that.
+For every function that it does not find at once it loads all registries, though they have nothing new.
 """
 
 from collections.abc import Callable, Iterable
@@ -14,11 +15,13 @@ from typing import Any
 from llvmlite.binding import ffi
 from numba.core import event, ir
 from numba.core.base import BaseContext
+from numba.core.cpu import CPUContext
 from numba.core.postproc import PostProcessor, VariableLifetime
 from numba.core.targetconfig import ConfigStack
 from numba.core.transforms import canonicalize_cfg
 from numba.core.types import Function
 from numba.core.typing.context import BaseContext as TypingContext
+from numba.core.typing.context import Context
 
 
 def take_shortcuts() -> None:
@@ -29,6 +32,7 @@ def take_shortcuts() -> None:
     _silence_events()
     _postpone_lifetimes()
     _list_variables_by_type()
+    _load_registries_once()
 
 
 def _keep_operators() -> None:
@@ -112,3 +116,20 @@ def _list_variables_by_type() -> None:
         return total
 
     ir.Inst._rec_list_vars = lambda _, value: variables((value,))  # noqa: SLF001
+
+
+def _load_registries_once() -> None:
+    # what a function adds stands in the registry of all targets, which is looked through as before
+    for context in (CPUContext, Context):
+        _once(context)
+
+
+def _once(context: Any) -> None:
+    load, loaded = context.load_additional_registries, set()
+
+    def load_additional_registries(self: Any) -> None:
+        if id(self) not in loaded:
+            load(self)
+            loaded.add(id(self))
+
+    context.load_additional_registries = load_additional_registries

@@ -1,7 +1,6 @@
 """Warnings of an answer: what is right as it stands and may still be taken for something else."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache
 from typing import Any, get_args
 
@@ -44,8 +43,7 @@ _FRAGILE = 0.5
 _CANCELLED = 1e-9
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Evidence:
     """What there is to look at."""
 

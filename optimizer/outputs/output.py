@@ -1,7 +1,6 @@
 """One output: what it means, what it needs, its figure in an answer and its columns in a sweep."""
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -9,10 +8,11 @@ import numpy as np
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.row_series import Reading
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.records import record
 from optimizer.outputs.peaks import Search
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Columns:
     """What an output comes to in a sweep; names, units and meanings are declared in :mod:`schemas.answer.outputs`.
 
@@ -36,7 +36,7 @@ def _none(_scene: Prepared, _unbalance: Complex | None) -> Iterable[Search]:
     return ()
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Output:
     """An output.
 

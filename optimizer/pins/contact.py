@@ -15,17 +15,16 @@ Where a rigid bearing holds the scroll on the eccentric, t = 0 and the loads nee
 one constraint less in the dual.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.records import record
 
 _ITERATIONS = 80
 _EPS = float(np.finfo(float).eps)
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Contact:
     """Loads of pins with clearance."""
 
@@ -36,7 +35,7 @@ class Contact:
     error_bound: Real  # (...) N, no load is further than this from the exact one
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class _Scaled:
     """Rows of the program in lengths: torque over (lever times stiffness), all data of the order of 1."""
 

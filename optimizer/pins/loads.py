@@ -17,12 +17,13 @@ A pattern holds no torque where all levers are equal; that happens only to pins 
 line, when the eccentric lies along it. Angles are in degrees, growing with the rotation; pins are the last axis.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from optimizer.mechanics.angles import direction
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.records import record
 
 #: pins whose places leave a line by less than this share of their span are on it; so near a dead point, in radians,
 #: the loads are of the order of 1e6 times the usual ones and mean nothing
@@ -31,7 +32,7 @@ _PANEL_DEG = 0.5
 _BISECTIONS = 48
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Pins:
     """Pins of a scroll, (..., n)."""
 
@@ -51,7 +52,7 @@ class Pins:
         return np.sum(weight[..., None, :] * apart, axis=-1)
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class PeriodicTable:
     """A quantity over one turn: linear between its entries, and from the last one on to the first."""
 
@@ -181,7 +182,7 @@ def at_dead_point(angle_deg: Real, dead_deg: Real) -> np.ndarray:
     return np.any(np.abs(away) <= np.rad2deg(COLLINEAR), axis=-1)
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class LoadShapes:
     """Loads of n pins as T_R(theta) c sin(theta - g) / (1 - e cos(2 (theta - b))); a rigid bearing's is the last.
 
@@ -271,7 +272,7 @@ def peaks(shapes: LoadShapes, torque: PeriodicTable) -> tuple[Real, Real]:
     return _largest(shapes, torque, np.mod(np.concatenate([edges, roots], axis=-1), 360.0))
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class _Piece:
     """Panels over which the torque is linear, (n, p)."""
 

@@ -1,17 +1,18 @@
 """Pins of a scroll and the drive's bearing as arrays, and the loads of such a pattern."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from optimizer.mechanics.angles import direction
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.records import record
 from optimizer.pins.contact import Contact, pin_contact
 from optimizer.pins.loads import LoadShapes, Pins, dead_points, elastic_loads, even_pin_loads, levers
 from schemas.scroll.pin_loads import PinLoadsRequest
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Pattern:
     """Pins as arrays (n,). Where the drive's bearing carries, the loads have it as their last column.
 

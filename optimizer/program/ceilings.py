@@ -1,7 +1,7 @@
 """Hard limits on peaks."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
@@ -16,8 +16,7 @@ from optimizer.responses.response import Response
 CEILING_TOLERANCE = 1e-9
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Ceilings:
     """Hard limits |c_i + H_i u| <= cap_i; a cap below 0 cannot be met."""
 

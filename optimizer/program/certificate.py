@@ -6,7 +6,6 @@ So any multipliers give a rigorous bound; better ones give a better bound.
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -20,8 +19,7 @@ _EPS = float(np.finfo(float).eps)
 _UP = 1.0 + 64 * _EPS
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Multipliers:
     """Multipliers of one program.
 

@@ -4,7 +4,6 @@ An answer asks for a handful of numbers many times: a loop of simple operations 
 """
 
 import math
-from dataclasses import dataclass
 from functools import cache, lru_cache
 from itertools import dropwhile
 from types import ModuleType
@@ -96,8 +95,7 @@ class Judgement(NamedTuple):
     clean: np.ndarray  # (N,) bool: no counterweight is next to nothing beside the largest
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Flat:
     """Programs of some leading axes, of which loops make one."""
 

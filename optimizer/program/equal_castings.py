@@ -5,15 +5,15 @@ t_k conj(w) where it is mirrored: what may be is a space over the real numbers, 
 mean over every unit (docs/mathematics.md section 5).
 """
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.records import record
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Alike:
     """Which webs are alike; what is no array is common to all programs."""
 

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cache
 from types import ModuleType
 from typing import Any, NamedTuple
@@ -38,8 +37,7 @@ class Region(NamedTuple):
     members: Real  # (K,) webs of that unit
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Limits:
     """0 <= m_k <= max_mass_k, |u_k| <= R_k m_k, u_k in its sector, sum m_k <= max_total_mass.
 

@@ -1,7 +1,7 @@
 """Norm terms |c_j + H_j u|, of which objectives and ceilings are made."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,8 +10,7 @@ from optimizer.numerics.arrays import SMALLEST, Complex, Real, columns, spread
 from optimizer.numerics.records import record
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Norms:
     """Terms |c_j + H_j u|; where counterweights scatter, each the largest of all that they may come to.
 

@@ -1,7 +1,6 @@
 """Weighted peaks, the rows that they add up to, and the program that makes these small."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -16,8 +15,7 @@ from optimizer.program.statement import PARTS, Names, Statement, Term
 from optimizer.responses.response import Response
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class WeightedPeak:
     """One weighted peak over a turn, as a floor and norm terms.
 

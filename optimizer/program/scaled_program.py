@@ -1,9 +1,9 @@
 """A program of order one as data: what a solver is given and what it returns, whichever it is."""
 
-from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.records import record
 
 Stage = Literal["objective", "mass"]
 
@@ -20,7 +20,7 @@ class Shape(NamedTuple):
     budget: bool
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class ScaledData:
     """Parameters of the program, of order one. K webs, J terms, I ceilings."""
 

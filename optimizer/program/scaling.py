@@ -7,20 +7,21 @@ sectors as cuts in sine and cosine (half-angles near 90 degrees and near 0).
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 from types import ModuleType
 
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, in_order
+from optimizer.numerics.records import record
 from optimizer.program.certificate import Multipliers
 from optimizer.program.norms import Norms
 from optimizer.program.scaled_program import ScaledData, ScaledSolution, Shape, Stage
 from optimizer.program.statement import Statement
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Scaling:
     """Units of one program: u_k = reach_k e^{j c_k} (x_k + j sine_k y_k)."""
 

@@ -5,8 +5,6 @@ it touches the smallest objective, so its slope is the shadow price (Boyd and Va
 Where several sets of multipliers prove the same optimum the prices to either side differ; each lies between them.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
@@ -15,8 +13,7 @@ from optimizer.program.certificate import Multipliers
 from optimizer.program.statement import Statement
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class ShadowPrices:
     """Fall of the smallest objective per unit of each limit, >= 0; 0 where a limit does not hold it up."""
 

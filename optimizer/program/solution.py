@@ -1,7 +1,7 @@
 """Counterweights with their proof."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 from typing import Any, TypeVar
 
 import numpy as np
@@ -26,7 +26,7 @@ INTERIOR_POINT = "interior point, compiled"
 CLOSED_FORM = "closed form, nothing to choose"
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class ConeSolution:
     """Counterweights with their proof; every figure is evaluated from ``unbalance``, none is the solver's.
 
@@ -81,8 +81,7 @@ class ConeSolution:
         )
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Solutions:
     """Counterweights of N programs with their proofs; every figure is evaluated from ``unbalance``."""
 

@@ -5,7 +5,7 @@ subject to  |c_i + H_i u| <= cap_i  for every ceiling i,  u within the limits.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -44,8 +44,7 @@ class Names(NamedTuple):
     rows: tuple[str, ...]
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Statement:
     """A program to solve."""
 

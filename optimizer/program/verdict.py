@@ -6,7 +6,6 @@ the rounding with which the value is known; a bound further above contradicts th
 
 import logging
 import math
-from dataclasses import dataclass
 from functools import cache
 from types import ModuleType
 
@@ -43,8 +42,7 @@ CONTRADICTED = "Nothing is proven: a bound contradicts the answer, which is a fa
 INFEASIBLE = "Proven infeasible: no counterweights within the limits keep the ceilings."
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Verdict:
     """What is proven of answers; NaN where nothing is."""
 
@@ -58,8 +56,7 @@ class Verdict:
     mass_yardstick: Real  # (...) kg
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Claim:
     """Goals that were made small, with what is proven: nothing is below the bounds in all of them.
 

@@ -1,9 +1,9 @@
 """What the built machine does: rounded bores, corrected pressures, losses, pressures in the cylinder."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from optimizer.errors import refuse
+from optimizer.numerics.records import record
 from optimizer.rating.curves import discharge_losses, suction_losses
 from optimizer.rating.design import StageDesign, delivery
 from optimizer.rating.losses import corrected_loss, mean_piston_speed, pressures_in_cylinder
@@ -14,7 +14,7 @@ from schemas.rating.answer import CylinderSize, DeliveryCoefficients, PressureLo
 from schemas.rating.request import RatingRequest
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class StageBuilt:
     """One stage as built."""
 

@@ -2,8 +2,8 @@
 
 import math
 from bisect import bisect_right
-from dataclasses import dataclass
 
+from optimizer.numerics.records import record
 from schemas.rating.request import RatingRequest
 
 #: where the customary figures are from
@@ -12,7 +12,7 @@ SOURCE = "design calculation of the 2D12-90/2-20 compressor"
 REQUEST = "request"
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Curve:
     """Readings of a share above 0 over a quantity above 0; beyond the last ones the power law goes on."""
 

@@ -1,9 +1,9 @@
 """What the capacity asks for: coefficients, volumes and bores between the nominal pressures."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from optimizer.errors import refuse
+from optimizer.numerics.records import record
 from optimizer.rating.curves import TEMPERATURE_COEFFICIENT, Curve, temperature_coefficients
 from optimizer.rating.delivery import (
     coefficients,
@@ -23,7 +23,7 @@ from schemas.rating.request import CompressionStage, RatingRequest
 SMALLEST_BORE_M, LARGEST_BORE_M = 1e-4, 100.0
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class StageDesign:
     """One stage between its nominal pressures."""
 

@@ -1,9 +1,9 @@
 """Swept volumes, areas and bores."""
 
 import math
-from dataclasses import dataclass
 from typing import Literal
 
+from optimizer.numerics.records import record
 from schemas.rating.answer import CylinderSize
 
 Acting = Literal["double", "head", "crank"]
@@ -35,7 +35,7 @@ def rod_area(rod: float) -> float:
     return math.pi / 4.0 * rod**2
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Piston:
     """How the pistons of a stage work: number, sides, diameter of the rod [m], stroke [m]."""
 

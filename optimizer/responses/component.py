@@ -1,11 +1,12 @@
 """Responses along one axis of the frame, of vectors that the shaft sees."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 from optimizer.responses.curve import Curves, TurnResponse
 from optimizer.responses.moving_curves import Axis, MovingCurve, along
 from optimizer.responses.piecewise_cubics import Index, Pieces
@@ -37,7 +38,7 @@ def component(response: TurnResponse, axis: str, sense: float) -> TurnResponse:
     )
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Component:
     """One of some curves along an axis, as the only one (:class:`optimizer.responses.curve.Curves`)."""
 
@@ -91,7 +92,7 @@ class Component:
         return 2.0 * self.pieces.half / np.deg2rad(self.period_deg)
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class _ComponentParts:
     """What rows add to the component (:class:`optimizer.responses.worst_masses.Parts`)."""
 

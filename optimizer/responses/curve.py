@@ -11,13 +11,13 @@ and the influence of a counterweight is free of speed. Angles are shaft angles t
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, Reals, in_order
 from optimizer.numerics.enclosing_circle import Circle
+from optimizer.numerics.records import record
 from optimizer.responses.moving_curves import Harmonics, moved
 from optimizer.responses.piecewise_cubics import Bracket, Index, Pieces
 from optimizer.responses.worst_masses import Parts
@@ -59,7 +59,7 @@ class Curves(Protocol):
         """The curves at angles (n,) rad: (J, n); in the middle between the limits at a jump or one of them."""
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class TurnResponse:
     """A response over the whole turn that is affine in the unbalance u of the counterweights.
 

@@ -5,13 +5,14 @@ Re(conj(e) e^{j s theta} d). What balance shafts put on the frame turns as the s
 n = s (rho - 1). The pieces of a curve in such motion are pieces all the same (:mod:`.kernel.motion`).
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, in_order, plain
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 from optimizer.responses.piecewise_cubics import Index, Pieces, Source
 
 if TYPE_CHECKING:
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
     from optimizer.responses.kernel.parts import Best, Cubics, Members
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Harmonics:
     """sum_i size_i e^{j times_i theta}, or the real part of it."""
 
@@ -33,7 +34,7 @@ class Harmonics:
         return values.real.astype(complex) if self.scalar else values
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Axis:
     """What the frame sees along an axis.
 
@@ -49,7 +50,7 @@ class Axis:
         return (self.unit * np.exp(1j * self.sense * angle) * vector).real.astype(complex)
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class MovingCurve:
     """One of the curves of a source, along an axis or as it is, with harmonics or without: a source of this alone."""
 

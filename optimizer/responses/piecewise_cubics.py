@@ -11,7 +11,6 @@ Shapes: J curves of P pieces each. A vector across the shaft is complex, x + jy;
 Source: R. T. Farouki, The Bernstein polynomial basis: a centennial retrospective, CAGD 29 (2012).
 """
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
@@ -19,6 +18,7 @@ from numpy.typing import NDArray
 
 from optimizer.numerics.arrays import Complex, Real, Reals, all_true, in_order
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 
 if TYPE_CHECKING:
     from optimizer.responses.kernel.motion import Motion
@@ -65,7 +65,7 @@ class Source(Protocol):
         """
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Pieces:
     """J curves over one period.
 

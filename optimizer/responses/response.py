@@ -5,7 +5,7 @@ shaft are complex, x + jy. A response of order k over the shaft angle theta is
 F(theta) = co e^{j s k theta} + counter e^{-j s k theta}, s the sense of rotation: an ellipse.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
@@ -14,8 +14,7 @@ from optimizer.numerics.arrays import Complex, Real, spread
 from optimizer.numerics.records import record
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Phasors:
     """A pair of rotating vectors; ``co`` turns with the shaft, ``counter`` against it. (...) complex."""
 
@@ -71,8 +70,7 @@ class Phasors:
         return self.co[..., None] * turn + self.counter[..., None] * np.conj(turn)
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Response:
     """A response that is affine in the unbalance u of the counterweights.
 

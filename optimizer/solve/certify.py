@@ -1,7 +1,7 @@
 """Certified counterweights of many designs of one shape; one request is a batch of one."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -11,6 +11,7 @@ from optimizer.formulation.goals import cone_program
 from optimizer.formulation.task import Demand
 from optimizer.mechanics.fixed_weights import fixed_mass
 from optimizer.numerics.arrays import Complex, Real, Reals
+from optimizer.numerics.records import record
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import Optima, optima
 from optimizer.program.methods.symmetry import symmetric
@@ -25,7 +26,7 @@ from schemas.request.objective import Objective
 MASS_FIGURES = ("mass_lower_bound_kg", "mass_relative_gap", "mass_yardstick_kg", "mass_objective_limit")
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Certified:
     """Counterweights of N designs as they are fitted, and what is proven of them."""
 

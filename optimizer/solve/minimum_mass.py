@@ -1,7 +1,5 @@
 """Of the sets that can be chosen and keep the ceilings the lightest, with a certified gap."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from optimizer.choices.construction import feasible_set
@@ -10,6 +8,7 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import beside, fixed_masses
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.records import record
 from optimizer.program.cuts.dominance import Group
 from optimizer.program.cuts.optimum import Conflict
 from optimizer.program.cuts.semi_infinite import Goal
@@ -27,7 +26,7 @@ _ROUNDING = 1e-12
 _SHARP = 1e-6
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class BestSet:
     """The best set that may be chosen, by its objective or its mass, and what is proven of all."""
 

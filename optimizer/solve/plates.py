@@ -7,7 +7,7 @@ until the gap is as asked. A budget holds of what is cut and not of its tangents
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from time import thread_time
 from typing import NamedTuple
 
@@ -21,6 +21,7 @@ from optimizer.mechanics.plates import Plates
 from optimizer.mechanics.shapes import fitted
 from optimizer.numerics.arrays import Complex, Real, mapped
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 from optimizer.program.cuts.optimum import CertifiedOptimum, Conflict
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.methods.implied_bounds import within_reach
@@ -98,7 +99,7 @@ class _Round(NamedTuple):
     called_for: Complex  # (K,) unbalances that the tangents call for, kg m
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class _CutSearch:
     machine: Machine  # with plates in place of some webs
     wanted: Demand

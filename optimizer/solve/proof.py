@@ -7,7 +7,7 @@ no multipliers of their own, so none is missing where the program went without t
 """
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
@@ -26,8 +26,7 @@ _INSIDE = 1.0 - 4 * np.finfo(float).eps
 Bounded = Literal["objective", "mass", "parameter"]
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class PhysicalMultipliers:
     """Multipliers in N, N m and kg; leading axes are programs."""
 

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 from optimizer.formulation.balance_shafts import Fitted
@@ -28,8 +28,7 @@ from schemas.answer.proof import BoundMultipliers
 from schemas.machine.machine import Machine
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Solution:
     """Counterweights as they are fitted, and what is proven of them."""
 
@@ -57,7 +56,7 @@ class Solution:
         return self
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Infeasible:
     """What is proven where no counterweights keep the ceilings, or none that may be chosen."""
 

@@ -8,7 +8,7 @@ until the counterweights have none that is worse: then the program is that of al
 
 import time
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -63,8 +63,7 @@ def scatter_of(tolerances: Tolerances | None) -> Scatter:
     return Scatter(float(max(ends)), tolerances.unbalance_kg_m)
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class MachineOfCase:
     """The machine as it is given, or that of a scenario, with reciprocating masses that scatter."""
 

@@ -28,6 +28,9 @@ from service.computations import COMPUTATIONS
 #: new objects before those are looked for that nothing holds any more; a first answer makes 220,000, nearly all of
 #: them modules and models
 _COLLECTED_AFTER = 250_000
+#: read by libraries when they are imported: matrices are small, and threads that wait for large ones take a fifteenth
+#: of a first answer; plugins of models are looked for in all that is installed
+_LIBRARIES = {"OPENBLAS_NUM_THREADS": "1", "PYDANTIC_DISABLE_PLUGINS": "__all__"}
 #: setting of the service; at debug a fault of the program is told with its traceback
 _LOG_LEVEL = "COUNTERWEIGHT_LOG_LEVEL"
 
@@ -74,6 +77,8 @@ def main() -> None:
     What nothing here expects is said in a line, and by an exit code of its own: an answer has another.
     """
     gc.set_threshold(_COLLECTED_AFTER)
+    for name, value in _LIBRARIES.items():
+        os.environ.setdefault(name, value)
     try:
         app()
     except Exception as error:

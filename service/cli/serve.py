@@ -25,10 +25,10 @@ def serve(
 
     from pydantic import ValidationError
 
-    from service.app import create_app
     from service.settings import Settings, unknown_variables, wrong_values
     from service.watch import logs
     from service.wire.server import listen, run, url
+    from service.workers.process import load
 
     options = {"host": host, "port": port, "engine": engine}
     values: dict[str, Any] = {key: value for key, value in options.items() if value is not None}
@@ -38,8 +38,12 @@ def serve(
     try:
         settings = Settings(**values)
         logs.configure(settings)
-        app = create_app(settings)
         socket = listen(settings)
+        # beside what takes as long here
+        load()
+        from service.app import create_app
+
+        app = create_app(settings)
     except ValidationError as error:
         fail(*wrong_values(error, values))
     except ValueError as error:

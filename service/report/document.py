@@ -19,6 +19,7 @@ from service.report.chapters.alternatives import alternatives
 from service.report.chapters.answers import outputs
 from service.report.chapters.balance_quality import balance_quality
 from service.report.chapters.foundation import foundation_loads
+from service.report.chapters.layout import layout
 from service.report.chapters.limits import prices
 from service.report.chapters.order import workshop_order
 from service.report.chapters.verification import Check, check, sentence
@@ -137,7 +138,7 @@ def _chapters(
     yield from alternatives(answer)
     if answer.foundation_loads is not None:
         yield foundation_loads(answer.foundation_loads)
-    yield balance.layout(request, answer, built)
+    yield layout(request, answer, built)
     yield from compared(request, answer)
     yield inputs.inputs(request, answer.reference_plane_m)
     yield balance.stages(request.machine, answer.stages, missing)

@@ -156,6 +156,12 @@ def preload() -> None:
     multiprocessing.set_forkserver_preload(_PRELOAD)
 
 
+def load() -> None:
+    """Start the process that others are forked from: it loads for a second, and so may another at the same time."""
+    preload()
+    forkserver.ensure_running()
+
+
 def forked(memory_bytes: int, folder: Path | None, first: bool) -> Worker:
     """A worker from the process that has loaded everything; the first one of all loads and compiles it.
 

@@ -1,6 +1,6 @@
 """What is made once, and what is made often: attributes that are kept, and frozen dataclasses made quickly."""
 
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import field, fields, make_dataclass, replace
 
 import pytest
 
@@ -11,8 +11,7 @@ from optimizer.program.methods.optima import Optima
 from optimizer.program.solution import Solutions
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Pair:
     """Two numbers, and what was written down of them."""
 
@@ -27,8 +26,7 @@ class Pair:
         return self.first + self.second
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Triple(Pair):
     third: int = 3
 
@@ -43,6 +41,23 @@ def test_a_record_is_made_as_its_dataclass_says() -> None:
         Pair()  # type: ignore[call-arg]
     with pytest.raises(TypeError, match="fourth"):
         Pair(1, fourth=4)  # type: ignore[call-arg]
+
+
+def test_records_are_compared_and_shown_as_dataclasses_are() -> None:
+    """Independent: as the standard library has it."""
+    plain = make_dataclass("Plain", ["first", "second"], frozen=True)
+    shown = make_dataclass("Shown", ["first", "second"], frozen=True, namespace={"__doc__": "Two."})
+    kept = record(frozen=True)(type("Shown", (), {"__annotations__": {"first": int, "second": int}}))
+    for first, second in ((1, 2), (0, "text"), ((), None)):
+        same, other = kept(first, second), kept(first, 7)
+        assert (same == kept(first, second), same == other, same == shown(first, second)) == (True, False, False)
+        assert hash(same) == hash(plain(first, second))
+        assert repr(same) == repr(shown(first, second))
+    assert hash(Pair(1, 2, ())) == hash(Pair(1, 2, ()))  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="unhashable"):
+        hash(Pair(1))
+    with pytest.raises(TypeError, match="nothing is written"):
+        record(frozen=False)
 
 
 def test_no_two_records_share_what_a_factory_makes() -> None:

@@ -32,7 +32,7 @@ from optimizer.studies.matching.kernel import halves
 from optimizer.warm_up import follow_a_turn, match_parts, plain_discs, warm_up
 
 #: what most answers need, and what few do: it takes longer than all else
-_NEEDED, _SELDOM = {"numba", "clarabel", "scipy.sparse"}, {"cvxpy", "scipy.spatial", "scipy.optimize", "openpyxl"}
+_NEEDED, _SELDOM = {"numba", "clarabel"}, {"cvxpy", "scipy.sparse", "scipy.spatial", "scipy.optimize", "openpyxl"}
 
 
 def test_what_most_answers_need_has_run_and_nothing_else_is_loaded() -> None:

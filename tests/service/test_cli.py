@@ -274,6 +274,28 @@ def test_help_does_not_load_the_optimiser() -> None:
     assert "optimize" in run("--help").stdout
 
 
+def test_a_first_answer_loads_nothing_that_no_terminal_shows() -> None:
+    code = (
+        "import os, sys, service.cli\n"
+        "sys.argv[1:] = ['optimize', '-']\n"
+        "try:\n"
+        "    service.cli.main()\n"
+        "except SystemExit:\n"
+        "    threads = len(os.listdir('/proc/self/task'))\n"
+        "    plugins = sys.modules['pydantic.plugin._loader']._plugins\n"
+        "    drawings = [name for name in sys.modules if name.startswith('service.drawings.')]\n"
+        "    print(threads, plugins, *drawings, file=sys.stderr)"
+    )
+    kept = {name: value for name, value in os.environ.items() if name != "OPENBLAS_NUM_THREADS"}
+    done = subprocess.run(
+        [sys.executable, "-c", code], input=load("v90-equal"), cwd=ROOT, timeout=180, capture_output=True, env=kept,
+        check=True,
+    )  # fmt: skip
+    assert "V 90 degrees, equal rows: optimal" in done.stdout.decode()
+    # pens and paper; no machine is drawn with them
+    assert done.stderr.decode().split() == ["1", "None", "service.drawings.svg"]
+
+
 def test_version(client: TestClient) -> None:
     shown = run("--version")
     assert (shown.exit_code, shown.stdout) == (0, f"{version(DISTRIBUTION)}\n")

@@ -6,7 +6,6 @@ returns, multipliers prove (``bound.py``), and options by which the bound rises 
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -19,6 +18,7 @@ from optimizer.choices.discrete.options import Incumbent, Options
 from optimizer.choices.discrete.relaxed import apart, on_first, relaxed
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 from optimizer.program.certificate import Multipliers
 from optimizer.program.methods.compiled import both_stages
 from optimizer.program.statement import Statement
@@ -82,7 +82,7 @@ def branch(
     return branch_and_bound(root, at_least, bounded, work.children, ends, clock, size)
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class _Work:
     options: Options
     incumbent: Incumbent

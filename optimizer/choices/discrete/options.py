@@ -1,11 +1,10 @@
 """Slots and their options, and the best set of them that was come upon."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 from optimizer.program.equal_castings import Alike
 from optimizer.program.statement import Statement
 
@@ -16,7 +15,7 @@ _SHARES, _WHOLE = 10, 1e-9
 _EPS = float(np.finfo(float).eps)
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Options:
     """What each of K slots can take, O options at most; the first option of every slot is nothing.
 

@@ -5,7 +5,6 @@ better than the best that is known, and every pair inside it is evaluated.
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -15,6 +14,7 @@ from optimizer.choices.discrete.options import Incumbent
 from optimizer.choices.discrete.sums import Half
 from optimizer.numerics.arrays import SMALLEST, Complex, Real
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 from optimizer.program.statement import Statement
 
 #: by which balls are larger than what they have to hold, and what sums may be off by as a share of their coordinates
@@ -39,7 +39,7 @@ _SUMS_A_LOOK = 20_000_000
 _LOOKS = 200
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Pairs:
     """Sums of one half beside those of the other."""
 
@@ -226,7 +226,7 @@ class _Grid(NamedTuple):
         return self.axes, self.low, self.side, self.cells
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class _Ball:
     """Points of both halves, of which those of a good pair are near to one another."""
 

@@ -1,12 +1,13 @@
 """What nodes of a tree leave the webs: nothing, anything in a sector, or at least the least that is fitted."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.records import record
 from optimizer.program.equal_castings import Alike
 from optimizer.program.limits import Limits
 
@@ -17,7 +18,7 @@ WIDEST = 0.25 * np.pi
 _OF_NODES = ("out", "fitted", "centre", "half")
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Places:
     """Of N nodes, in polar coordinates; a web that is neither out nor fitted may be either, if it has a least."""
 

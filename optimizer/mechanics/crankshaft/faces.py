@@ -1,19 +1,20 @@
 """Faces of a request as arrays, and the same in another frame."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.records import record
 from schemas.request.shaft import CylinderFace, OtherFace, PlaneFace, ShaftRequest
 
 Numbers = NDArray[np.intp]
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Frame:
     """An origin (3,) and three directions at right angles, the rows of `across` (3, 3)."""
 
@@ -29,7 +30,7 @@ class Frame:
         return directions @ self.across.T
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Cylinders:
     """Outer round faces: point and unit direction of their axes (n, 3), radius (n,), ends (n, 2), angle (n,) deg.
 
@@ -83,7 +84,7 @@ class Cylinders:
         )
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Planes:
     """Plane faces: a point and the unit normal out of the material (n, 3), area (n,), NaN where it is not known."""
 

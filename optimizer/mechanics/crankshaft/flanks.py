@@ -1,12 +1,11 @@
 """Plane faces across a shaft: flanks of webs, ends of bodies. Their normals say on which side the material is."""
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from optimizer.mechanics.crankshaft.faces import Numbers, Planes
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.records import record
 
 #: cosine with the shaft above which a face is across it; above the second it is a flank that leans
 _ACROSS, _LEANING = 1 - 1e-8, float(np.cos(np.deg2rad(20.0)))
@@ -14,7 +13,7 @@ _ACROSS, _LEANING = 1 - 1e-8, float(np.cos(np.deg2rad(20.0)))
 _CLOSED = 0.25
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Flanks:
     """Plane faces across the shaft (n,): number, height, sense of the normal, area, and where they are across it.
 

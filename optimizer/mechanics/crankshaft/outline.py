@@ -1,12 +1,12 @@
 """The outline of a web across the shaft: arcs and straight sides, and how far it reaches."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
 from optimizer.mechanics.crankshaft.faces import Cylinders, Planes
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.records import record
 
 #: cosine with the shaft below which a face is along it
 _ALONG = 1e-3
@@ -15,7 +15,7 @@ _WHOLE_DEG = 359.9
 _SAME_DEG = 1.0
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Arc:
     """Part of a circle: centre, radius, first angle and how far it goes on (rad)."""
 
@@ -45,7 +45,7 @@ class Arc:
         yield from (self.at(angle) for angle in angles if self.holds(angle))
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Outline:
     """Arcs and straight sides of a web."""
 

@@ -1,7 +1,7 @@
 """The material of webs: plane flanks between neighbours of which one is a crank pin, and what is free beside them."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from optimizer.mechanics.crankshaft.doubts import doubt
 from optimizer.mechanics.crankshaft.faces import Cylinders, Planes
@@ -9,13 +9,14 @@ from optimizer.mechanics.crankshaft.flanks import Flanks
 from optimizer.mechanics.crankshaft.outline import outline
 from optimizer.mechanics.crankshaft.stretches import Stretch
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.records import record
 from schemas.answer.shaft import Doubt
 
 #: share of the reach, above which a hub leaves no room for a plate
 _NO_ROOM = 0.98
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Sides:
     """What may bound a web, in the frame of the shaft."""
 
@@ -24,7 +25,7 @@ class Sides:
     others: Real
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Plate:
     """A web: its flanks along the shaft, the pins beside it by their place in the chain, how far it reaches."""
 
@@ -41,7 +42,7 @@ class Plate:
         return self.hub is not None and self.reach is not None and self.hub < _NO_ROOM * self.reach
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Plates:
     """Webs in their order, and the chain with what of journals and pins sticks in webs taken off."""
 

@@ -1,7 +1,6 @@
 """What faces and bodies show, as the answer states it."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import groupby
 
 import numpy as np
@@ -12,6 +11,7 @@ from optimizer.mechanics.crankshaft.plates import Plate, Plates
 from optimizer.mechanics.crankshaft.rotor import RotorMoments, density_doubts
 from optimizer.mechanics.crankshaft.stretches import Stretch
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.records import record
 from schemas.answer.shaft import (
     Doubt,
     PlaneUnbalance,
@@ -37,7 +37,7 @@ _ECCENTRIC = 0.1
 _AS_LONG = 0.7
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Shaft:
     """What the faces show in the frame of the shaft; its ends along the axis, None without faces."""
 

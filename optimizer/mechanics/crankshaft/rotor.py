@@ -1,7 +1,6 @@
 """The bodies of a shaft as one rotor: mass, centre, and its unbalance in two planes."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -9,6 +8,7 @@ from optimizer.errors import refuse
 from optimizer.mechanics.crankshaft.doubts import doubt
 from optimizer.mechanics.crankshaft.faces import Frame
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.records import record
 from schemas.answer.shaft import Doubt
 from schemas.base.model import FieldProblem
 from schemas.request.shaft import Body
@@ -21,7 +21,7 @@ _ROUNDING = 1e-6
 _FAR = 5.0
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class RotorMoments:
     """Mass [kg], sum m r (3,) [kg m], and sum m z (x + iy) [kg m2], about the origin of the shaft's frame."""
 

@@ -1,7 +1,7 @@
 """Round stretches along a shaft: journals, crank pins, and round webs among them."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +11,7 @@ from optimizer.mechanics.crankshaft.doubts import doubt
 from optimizer.mechanics.crankshaft.faces import Cylinders, Numbers
 from optimizer.mechanics.crankshaft.flanks import Flanks
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.records import record
 from schemas.answer.shaft import Doubt
 from schemas.base.model import FieldProblem
 
@@ -28,7 +29,7 @@ _ANOTHER = 0.1
 _THIN = 0.15
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Stretch:
     """What is round about a line along the shaft: its centre across, radius, both ends, angle, its faces."""
 
@@ -51,7 +52,7 @@ class Stretch:
         return self.high - self.low
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Stretches:
     """Journals and pins in their order along the shaft, apart from round webs."""
 
@@ -149,7 +150,7 @@ def _without_others(candidates: Sequence[Stretch], tolerance: float) -> tuple[li
     return members, doubts
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class _Table:
     """Measures of n stretches (n,)."""
 

@@ -7,13 +7,13 @@ every split of a unit between the part that stays and the part that moves.
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 from optimizer.responses.curve import TurnResponse
 
 #: by this share of them constants differ that are not one
@@ -66,7 +66,7 @@ class Evaluation(NamedTuple):
     cut: Cut
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Quantity:
     """What is to be small of a response over the turn."""
 

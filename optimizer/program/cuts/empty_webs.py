@@ -4,11 +4,12 @@ What rounding cannot take away is sought again without these webs, as the least 
 where it keeps them and is as light as is proven to be good enough: what is proven of all webs holds for it.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.records import record
 from optimizer.program.cuts.cut import Pool
 from optimizer.program.cuts.rounding import settled_turn
 from optimizer.program.cuts.semi_infinite import Problem
@@ -26,7 +27,7 @@ _NO_POINT = 2.0
 _ROUNDS = 3
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class EmptyWebs:
     """What the search without some webs needs to know of the program."""
 

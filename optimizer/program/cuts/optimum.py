@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -59,8 +59,7 @@ class GoalLevel(NamedTuple):
         return self.proof.bound
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class CertifiedOptimum:
     """Counterweights with their proof; the last goal is the objective."""
 
@@ -113,7 +112,7 @@ class CertifiedOptimum:
         return (self.point.mass - self.mass_proof.bound) / self.point.mass if self.point.mass > 0 else 0.0
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Conflict:
     """Proof that no counterweights keep the ceilings, and those that come closest."""
 

@@ -2,7 +2,7 @@
 than its cuts."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -26,8 +26,7 @@ from optimizer.program.statement import Statement
 _MEAN = 1.0 - 64 * np.finfo(float).eps
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Proof:
     """A bound by multipliers of a statement with finitely many cuts.
 

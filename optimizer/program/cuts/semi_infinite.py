@@ -1,7 +1,6 @@
 """The problem: goals in order under ceilings and limits, with quantities that are known by cuts where there are any.
 
-Such are bearing peaks beside force and moment, and root mean squares. Without them it is a program of finitely many
-norms, which :attr:`Problem.finite` is.
+Such are bearing peaks beside force and moment, and root mean squares. :attr:`Problem.finite` has finitely many norms.
 
 minimise    P_n(u) = sum_g max( rows of the group, w_q Q_q(u) of its quantities )      the last goal, or the mass
             or the largest of several such sums
@@ -12,13 +11,14 @@ of that is proven of the program.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from optimizer.numerics.arrays import SMALLEST, Complex, Real, Reals
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 from optimizer.program.ceilings import Ceilings, limited
 from optimizer.program.cuts.brackets import Brackets
 from optimizer.program.cuts.cut import EXACT, Cut, Evaluation, Quantity, Scatter
@@ -75,7 +75,7 @@ class Values(NamedTuple):
         return float(np.maximum.reduce(self.over)) if self.over.size else -np.inf
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Problem:
     """What is to be small, in order, and under which ceilings and limits; it knows no request.
 

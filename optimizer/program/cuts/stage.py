@@ -8,7 +8,6 @@ gap tells when to stop, and not the solver.
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -53,7 +52,7 @@ _LIGHTER, _WITHIN_BUDGET = 1e-7, 1e-10
 _JUDGED, _CLOSE = 5e-11, 1e-12
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Levels:
     """Levels of goals that come first, (goals,) each."""
 
@@ -62,8 +61,7 @@ class Levels:
     counted: Real  # that the bound counts with
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Point:
     """Counterweights and what they come to."""
 

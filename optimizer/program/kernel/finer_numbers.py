@@ -7,7 +7,6 @@ nothing).
 
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass
 from decimal import MAX_EMAX, MIN_EMIN, Context, Decimal, localcontext
 from functools import cache
 from types import FunctionType, ModuleType, SimpleNamespace
@@ -15,8 +14,10 @@ from typing import Any
 
 import numpy as np
 
+from optimizer.numerics.records import record
 
-@dataclass(frozen=True)
+
+@record(frozen=True)
 class Precision:
     """A kind of numbers to solve in."""
 

@@ -2,7 +2,6 @@
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cache
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -51,8 +50,7 @@ _SHARES = Shares(TARGET, ENOUGH_FOR_MASS, MASS_ENOUGH, HEAVIER, CEILING_ROUNDING
 _SHARES_OF_ANY_MASS = _SHARES._replace(enough=ENOUGH)
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class BothStages(Solutions):
     """Where both stages of N programs ended: of the points that they came upon the lightest that is an optimum."""
 
@@ -200,8 +198,7 @@ def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, s
     )
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class _Solved:
     """Where the stages of N programs ended."""
 

@@ -3,7 +3,7 @@
 All are solved side by side by the compiled interior point; what it does not certify goes down the cascade one by one.
 """
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 from operator import attrgetter
 from typing import Any
 
@@ -40,8 +40,7 @@ _NO_PROGRAM = np.zeros(0, int)
 _METHODS = (np.array([CLOSED_FORM], dtype=object), np.array([INTERIOR_POINT], dtype=object))
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Optima(Solutions):
     """Counterweights of N programs; of an unreachable one those that come closest to its ceilings."""
 

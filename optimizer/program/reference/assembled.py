@@ -9,19 +9,15 @@ follows belongs to the program at hand.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cache, lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.records import record
 from optimizer.program.reference.boost import Boost
 from optimizer.program.scaled_program import ScaledData, ScaledSolution
-
-# loaded with the first program: it takes as long as all else that is imported for an answer
-if TYPE_CHECKING:
-    from scipy import sparse
 
 #: of the solver, if nothing else is asked
 REGULARIZATION = 1e-8
@@ -29,14 +25,14 @@ REGULARIZATION = 1e-8
 _PLANE = 3
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class NoPoint:
     """A program that found nothing, and why."""
 
     reason: str
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Part:
     """Entries of a few columns of some rows."""
 
@@ -178,19 +174,32 @@ def _places(count: int) -> tuple[np.ndarray, np.ndarray]:
     return first, np.concatenate([first + 1, first + 2])
 
 
+@record(frozen=True)
+class _Columns:
+    """Entries of a matrix, column by column, with the names that clarabel reads.
+
+    It takes a matrix of scipy.sparse. For these names alone that would be imported: 60 ms of a service's start, half a
+    second of the first one, which has no bytecode yet.
+    """
+
+    has_canonical_format: ClassVar = True
+    shape: tuple[int, ...]
+    data: Real
+    indices: np.ndarray  # rows of the entries
+    indptr: np.ndarray  # first entry of each column, and their number
+
+
 @cache
-def _nothing(columns: int) -> "sparse.csc_matrix":
+def _nothing(columns: int) -> _Columns:
     """No quadratic part of a cost."""
     return _by_columns(np.zeros((columns, columns)))
 
 
-def _by_columns(matrix: Real) -> "sparse.csc_matrix":
+def _by_columns(matrix: Real) -> _Columns:
     """Entries of a dense matrix that are not 0, as the solver wants them."""
-    from scipy import sparse
-
     column, row = np.nonzero(matrix.T)
     start = np.concatenate([[0], np.cumsum(np.bincount(column, minlength=matrix.shape[1]))])
-    return sparse.csc_matrix((matrix[row, column], row, start), shape=matrix.shape)
+    return _Columns(matrix.shape, matrix[row, column], row, start)
 
 
 def vector_duals(dual: Real) -> Complex:

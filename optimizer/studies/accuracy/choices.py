@@ -24,6 +24,7 @@ from optimizer.mechanics.layout import stacked
 from optimizer.mechanics.shapes import closed, plates
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.statement import Statement
 from optimizer.solve.solution import Infeasible
@@ -145,7 +146,7 @@ def _timed(rung: Rung, left_s: float) -> Made | Nothing:
     return outcome
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class _Ways:
     """What is asked, and the ways to it."""
 

@@ -6,7 +6,6 @@ valves open and rows reverse. Beside it stands what a spreadsheet does: values a
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from functools import partial
 from typing import Literal
 
@@ -23,6 +22,7 @@ from optimizer.mechanics.rod import rod_forces
 from optimizer.mechanics.turn import fluctuation, mean, panels
 from optimizer.mechanics.whole_turn import break_angles
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.records import record
 from optimizer.studies.accuracy.ladder import median_ms, timed
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import ReciprocatingMachine
@@ -54,7 +54,7 @@ _INERTIA_ALONE: Mapping[Figure, Quantity] = {"peak": "peak_inertia_torque", "ene
 Torque = Callable[[Real], Real]
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class TorqueMethod:
     """One way to the figures of the turn."""
 

@@ -13,6 +13,7 @@ from typing import TypeVar
 
 import numpy as np
 
+from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.studies.accuracy.methods import LadderProgram, Method, MethodResult, Run
 
@@ -28,7 +29,7 @@ ROUNDS_S = 3.0
 LADDER_S = 60.0
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Judged:
     """One run, evaluated by the statement; in units of the objective."""
 
@@ -56,7 +57,7 @@ class Trial:
         return max(self.judged, key=lambda run: (run.excess > CEILING_TOLERANCE, run.objective))
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Clock:
     """When the work has to end."""
 

@@ -1,12 +1,13 @@
 """The methods that are compared, a small entry each; a new one is an entry more."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache, partial
 
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.records import record
 from optimizer.program.certificate import objective_lower_bound
 from optimizer.program.kernel.finer_numbers import PRECISIONS, Precision
 from optimizer.program.methods.compiled import BothStages, both_stages
@@ -30,7 +31,7 @@ POSITIONS = (0.0, 0.25, 0.5, 0.75)
 _FIXED = POSITIONS[:1]
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class LadderProgram:
     """The program to solve; all its webs can carry something."""
 
@@ -38,7 +39,7 @@ class LadderProgram:
     turn: OverTheTurn
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class MethodResult:
     """Counterweights that a method found, unjudged."""
 
@@ -51,7 +52,7 @@ class MethodResult:
 Run = Callable[[LadderProgram, float, float], MethodResult | str]
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Method:
     """One way to the smallest objective.
 

@@ -7,7 +7,7 @@ them. Neither knows what it misses.
 """
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import Literal, NamedTuple
 
@@ -20,6 +20,7 @@ from optimizer.mechanics.shaft import INFLUENCES, bearing_places
 from optimizer.mechanics.shaft_curves import bending_influence, planes, shaft_curves
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
 from optimizer.numerics.arrays import Complex
+from optimizer.numerics.records import record
 from optimizer.studies.accuracy.effects import MAX_ROWS
 from optimizer.studies.accuracy.ladder import median_ms, timed
 from schemas.machine.machine import Machine
@@ -46,7 +47,7 @@ class Peak(NamedTuple):
     upper: float | None
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class PeakMethod:
     """One way to a peak."""
 

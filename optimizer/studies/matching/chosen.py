@@ -6,7 +6,6 @@ assignment comes to is then searched, cut or certified by itself.
 """
 
 import time
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +19,7 @@ from optimizer.mechanics.layout import layout, spread
 from optimizer.mechanics.shapes import closed, plates
 from optimizer.numerics.arrays import Real
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 from optimizer.outputs.registry import prepare
 from optimizer.program.certificate import Multipliers, normalised, objective_lower_bound
 from optimizer.program.methods.optima import optima
@@ -50,7 +50,7 @@ class Solved(NamedTuple):
     fitted: list[Solution | None]  # None where any mass at any angle is a choice
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Chosen:
     """What counterweights make of assignments."""
 

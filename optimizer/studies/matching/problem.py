@@ -4,7 +4,7 @@ The weighted vectors of force and moment are v = v_0 + V m, with a mass m at eve
 largest of some convex functions of v, minorants: constant + Re(conj(slope) v) + sum_j weight_j |v_j|.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -14,12 +14,13 @@ from optimizer.formulation.formulate import responses, weights
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import Layout, layout, spread, stacked
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.records import record
 from optimizer.responses.response import Response
 from schemas.machine.machine import Machine
 from schemas.match.request import MatchRequest
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Minorants:
     """Convex functions of the vectors v (J,), K of them; the largest is what counts."""
 
@@ -46,7 +47,7 @@ class Minorants:
         return ones if len(ones) == 1 else [*ones, mean]
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Places:
     """Where the parts of one class may lie: its rows, and of nuts as many places beside the machine.
 
@@ -59,7 +60,7 @@ class Places:
     row: np.ndarray  # (n,) row of the machine, -1 beside it
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Problem:
     """Which part goes on which row, over omega squared."""
 

@@ -7,7 +7,7 @@ choice within the budget is below t_low times the unit in every other response.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from time import thread_time
 
 import numpy as np
@@ -19,6 +19,7 @@ from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import fixed_masses
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 from optimizer.solve.solution import Infeasible, Solution
 from optimizer.solve.solve import solve
 from optimizer.studies.pareto.measures import Measures, measures
@@ -34,7 +35,7 @@ _LEAST_TIME = 1e-3
 _INSIDE: Mapping[Traded, str] = {"bearings": "bearing_weight", "bending": "bending_weight"}
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class ChosenPoint:
     """Counterweights that are chosen, beside what they come to in D responses, in the units of the answer."""
 

@@ -6,11 +6,12 @@ anchor is smallest (normal-boundary intersection, Das and Dennis 1998): one prog
 whose lower bound t_low proves that no counterweights reach below the corner anchor + t_low unit in both.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from optimizer.numerics.arrays import SMALLEST, Complex, Real
+from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, ceiling_allowance, normalised, nothing_proven
 from optimizer.program.methods.implied_bounds import within_reach
@@ -46,7 +47,7 @@ _SOUNDINGS = 16
 _SOUNDED = 1e-3
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class FrontPoint:
     """Counterweights on the front; the figures are evaluated from ``solution.unbalance``."""
 
@@ -65,7 +66,7 @@ class FrontPoint:
         return replace(self, solution=solution, mass_proof=nothing_proven(trade.both), mass_limit=limit)
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Front:
     """Points in the order of rising force; a single one where both smallest peaks are reached together."""
 
@@ -183,7 +184,7 @@ def _between(
     return _points(trade, (ends[0], ends[1]), size, count, share, least_mass)
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class _End:
     """Where a peak is smallest and, among all such, the other is smallest."""
 

@@ -1,7 +1,7 @@
 """Any two or three responses that are traded for one another, and the programs over the turn that stand on them."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from optimizer.formulation.task import Task
 from optimizer.mechanics.shapes import closed
 from optimizer.numerics.arrays import SMALLEST, Complex, Real, Reals
 from optimizer.numerics.memoization import cached_property
+from optimizer.numerics.records import record
 from optimizer.program.cuts.dominance import Group, Weighed
 from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.norms import Norms
@@ -42,7 +43,7 @@ def alone(objective: Objective, names: Sequence[Traded]) -> Objective:
     )
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Measures:
     """D responses of a machine under its limits and ceilings, over omega^2 but for the mass.
 

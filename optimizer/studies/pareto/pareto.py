@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import beside, fixed_masses
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.records import record
 from optimizer.outputs.first_order import first_order, floor
 from optimizer.outputs.registry import prepare
 from optimizer.program.methods.symmetry import symmetric
@@ -93,7 +94,7 @@ def pareto(request: ParetoRequest) -> ParetoAnswer:
     )
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class _Made:
     """A front, and the time spent on its programs and on their bounds."""
 

@@ -1,12 +1,12 @@
 """Points of a front: its ends, those of two peaks that no other beats, and the knee."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
 
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.records import record
 from schemas.front.pareto import ParetoPoint
 
 Point = TypeVar("Point")
@@ -15,7 +15,7 @@ Point = TypeVar("Point")
 _STRAIGHT = 1e-4
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class TradeEnds:
     """Where each of D responses is smallest; in the answer all but sizes are times ``square`` and above ``there``."""
 

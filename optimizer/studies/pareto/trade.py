@@ -1,13 +1,14 @@
 """Two peaks that are traded for one another, and the programs that stand on them."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
 import numpy as np
 
 from optimizer.formulation.formulate import limited
 from optimizer.formulation.limits import limits
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.records import record
 from optimizer.program.certificate import Multipliers
 from optimizer.program.methods.implied_bounds import bounded, far_limits
 from optimizer.program.norms import Norms
@@ -19,7 +20,7 @@ from schemas.machine.machine import Machine
 from schemas.request.objective import Objective
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Trade:
     """Weighted peak force (0) and weighted peak moment (1) under the limits and ceilings of a machine.
 

@@ -1,7 +1,6 @@
 """The best rounding of an optimum to steps of mass and angle: a choice from a catalogue of what is on either side."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,6 +11,7 @@ from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import beside
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Real
+from optimizer.numerics.records import record
 from optimizer.optimize import optimize
 from optimizer.outputs.registry import prepare
 from optimizer.outputs.requirements import effects_of_objective
@@ -72,7 +72,7 @@ class _Set(NamedTuple):
         )
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class _Judge:
     """What sets come to, by the program of a request."""
 

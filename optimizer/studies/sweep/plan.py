@@ -1,12 +1,12 @@
 """What a sweep is before it runs: how many designs, in which pieces, with which columns."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import pyarrow as pa
 
 from optimizer.errors import MissingInput
 from optimizer.numerics.memoization import remembered
+from optimizer.numerics.records import record
 from optimizer.outputs.registry import missing_inputs
 from optimizer.outputs.requirements import missing
 from optimizer.studies.sweep.table import result_schema
@@ -51,7 +51,7 @@ _FILE_BYTES, _COLUMN_BYTES, _NAMED = 500, 220, 3
 _BLOCK_BYTES = 4096
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class Plan:
     """A sweep before it runs."""
 

@@ -1,4 +1,4 @@
-"""What was found: layout, stages, counterweights, first order before and after, orders."""
+"""What was found: stages, counterweights, first order before and after, orders."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -11,9 +11,6 @@ from schemas.base.model import FieldProblem
 from schemas.machine.machine import Machine
 from schemas.request.requests import OptimizeRequest
 from service.common.validation import pointer
-from service.drawings.front import front
-from service.drawings.layout import Layout, layout_of
-from service.drawings.side import side
 from service.report.blocks import (
     Block,
     Cell,
@@ -101,44 +98,6 @@ def added(answer: OptimizeAnswer, gaps: Mapping[str, float]) -> Iterator[tuple[s
 def which(answer: OptimizeAnswer) -> str:
     """What the counterweights are that :func:`shown` gives."""
     return "best compromise" if answer.infeasibility is not None else "with counterweights"
-
-
-def layout(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | None) -> Chapter:
-    """The machine with its counterweights, drawn."""
-    fitted, _ = shown(answer)
-    plan = layout_of(request.machine, fitted, () if built is None else built.counterweights)
-    return Chapter(
-        "Layout",
-        (
-            *(() if built is None else as_made(request.machine, fitted)),
-            Figure(
-                (front(plan),),
-                "Front view from +z at shaft angle 0, to scale: cranks black, axes of rows dash-dotted, "
-                f"{_drawn(answer, plan)}, angles that a web allows as green wedges." + _as_built(plan),
-            ),
-            Figure(
-                (side(plan, dimensions=True),),
-                "Side view along the shaft, heights along the direction of the first crank; the reference plane of "
-                "the moments green and dash-dotted. Below: places z and distances of the webs in mm; R is the radius "
-                "of a centre of mass. Along and across the shaft the scales differ." + _as_built(plan),
-            ),
-        ),
-    )
-
-
-def _drawn(answer: OptimizeAnswer, plan: Layout) -> str:
-    """How counterweights are drawn."""
-    what = "counterweights of the best compromise" if answer.infeasibility is not None else "counterweights"
-    if all(weight.shape is not None for weight in plan.best):
-        return f"{what} blue and true to shape, with their centres of mass as dots"
-    return (
-        f"{what} blue with their centres of mass as dots; a dashed disc stands for one of unknown shape, and its area "
-        "is as its mass"
-    )
-
-
-def _as_built(plan: Layout) -> str:
-    return " As built: dashed, without a ground." if plan.built else ""
 
 
 def stages(machine: Machine, results: Sequence[Stage] | None, missing: Sequence[FieldProblem]) -> Chapter:

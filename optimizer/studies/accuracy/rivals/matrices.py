@@ -1,10 +1,9 @@
 """The exact cone program as matrices, without a modelling layer, and what the programs of the ladder share."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.records import record
 from optimizer.program.certificate import Multipliers
 from optimizer.program.reference.assembled import Assembly, NoPoint, dense, solved
 from optimizer.program.scaled_program import ScaledData, ScaledSolution
@@ -15,7 +14,7 @@ from optimizer.program.statement import Statement
 _REACH = 10.0
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class RivalPoint:
     """What a program found, unjudged: the certificate decides what it is worth."""
 

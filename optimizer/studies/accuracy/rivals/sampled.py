@@ -10,11 +10,12 @@ is the smallest sampled objective of the smallest true one. It is a relaxation: 
 bound. The matrices go to clarabel directly, without the time of a modelling layer.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.records import record
 from optimizer.program.reference.assembled import Assembly, NoPoint, Part, add_discs, add_limits, dense, vector_duals
 from optimizer.program.scaling import Scaling
 from optimizer.program.statement import Statement
@@ -24,7 +25,7 @@ from optimizer.studies.accuracy.rivals.matrices import RivalPoint, point, scaled
 _TOLERANCE = 1e-9
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class WeightedResponse:
     """A response whose peak is to be small, with its weight and those of its components."""
 
@@ -38,7 +39,7 @@ class WeightedResponse:
         return WeightedResponse(chosen, self.weight, self.weight_x, self.weight_y)
 
 
-@dataclass(frozen=True)
+@record(frozen=True)
 class OverTheTurn:
     """What :func:`optimizer.program.rows.statement` was made of; the statement keeps no phases."""
 
