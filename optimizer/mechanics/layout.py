@@ -274,7 +274,8 @@ def _table(rows: Sequence[Any], parts: int) -> Sequence[Real]:
     except ValueError:
         # numbers beside columns make no array
         table = _NO_TABLE
-    return [*table] if table.ndim == _TABLE else [stacked(part) for part in every]
+    # to iterate over an array ends with an error that takes longer than the views do
+    return [table[k] for k in range(parts)] if table.ndim == _TABLE else [stacked(part) for part in every]
 
 
 def _middle(planes: Sequence[Any]) -> Real:

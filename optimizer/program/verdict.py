@@ -151,7 +151,9 @@ def verdict(claim: Claim, tolerance: float) -> Verdict:
         status = np.where(place == 0, "optimal", "inaccurate")
         # objects, as texts take the room of the longest in each design
         reason = np.asarray(np.array([why, NOT_LIGHT, NOT_CLOSE, ON_THE_BOUNDARY, CONTRADICTED], object)[place], object)
-    return Verdict(status, reason, *proven.reshape(2, *leading, several), *figures.reshape(4, *leading))
+    bound, relative = proven.reshape(2, *leading, several), figures.reshape(4, *leading)
+    # to iterate over an array ends with an error that takes longer than the views do
+    return Verdict(status, reason, bound[0], bound[1], relative[0], relative[1], relative[2], relative[3])
 
 
 def yardstick(statement: Statement) -> Real:

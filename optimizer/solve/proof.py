@@ -123,7 +123,7 @@ def implied_max_mass(machine: Machine, most: Real) -> list[dict[str, float]]:
     """Limits (N, K) that the proofs of N designs count with, in place of those of the machine, kg."""
     smaller = most < largest_mass(machine)
     if not np.count_nonzero(smaller):
-        return [{} for _ in most]
+        return [{} for _ in range(len(most))]
     return [
         {web.name: mass for web, mass, counts in zip(machine.webs, *of_design, strict=True) if counts}
         for of_design in zip(most.tolist(), smaller.tolist(), strict=True)

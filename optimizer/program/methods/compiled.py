@@ -182,14 +182,14 @@ def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, s
         RUNGS,
     )
     certify_s = time.perf_counter() - began
-    objective, mass, excess, _ = judgement.figures
+    figures = judgement.figures
     return BothStages(
         unbalance=judgement.unbalance,
-        objective=objective,
+        objective=figures[0],
         lower_bound=judgement.lower_bound,
-        mass=mass,
+        mass=figures[1],
         mass_lower_bound=judgement.mass_lower_bound,
-        excess=excess,
+        excess=figures[2],
         multipliers=Multipliers(*judgement.proof),
         mass_multipliers=solved.mass_proof if least_mass else nothing_proven(statement),
         mass_target=judgement.mass_target,
@@ -238,7 +238,7 @@ def _solve(
         return _Solved(nothing, nothing, proof, proof)
     reach, unit, demands = _scales(statement, share, tolerances, at_least)
     result = (method or _by_interior_point)(
-        statement, reach, unit, tolerances.ceilings, least_mass, *demands, tolerances.mass
+        statement, reach, unit, tolerances.ceilings, least_mass, demands[0], demands[1], tolerances.mass
     )
     points, (term, row, ceiling) = _physical(statement, (reach, unit), *result)
     proofs = Multipliers(term[0], row[0], ceiling[0]), Multipliers(term[1], row[1], ceiling[1])
