@@ -154,24 +154,26 @@ def _placed(
     square = (ratio * (machine.overspeed_rpm or machine.speed_rpm) * np.pi / 30.0) ** 2
     return tuple(
         [
-            Counterweight(
-                web=web.name,
-                mass_kg=mass,
-                angle_deg=angle,
-                position_m=web.position_m,
-                radius_m=radius,
-                throw=throw,
-                # twice, because a hair below 0 comes to 360
-                angle_from_crank_deg=None
-                if throw is None or mass == 0.0
-                else (angle - throws[throw].crank_angle_deg) % 360.0 % 360.0,
-                mass_radius_kg_m=mass * radius,
-                x_kg_m=vector.real,
-                y_kg_m=vector.imag,
-                centrifugal_force_N=mass * radius * square,
-                active_limits=() if web.fixed else active[k],
-                fixed=web.fixed is not None,
-                shape=shapes.get(k) if mass > 0.0 else None,
+            Counterweight.of_figures(
+                {
+                    "web": web.name,
+                    "mass_kg": mass,
+                    "angle_deg": angle,
+                    "position_m": web.position_m,
+                    "radius_m": radius,
+                    "throw": throw,
+                    # twice, because a hair below 0 comes to 360
+                    "angle_from_crank_deg": None
+                    if throw is None or mass == 0.0
+                    else (angle - throws[throw].crank_angle_deg) % 360.0 % 360.0,
+                    "mass_radius_kg_m": mass * radius,
+                    "x_kg_m": vector.real,
+                    "y_kg_m": vector.imag,
+                    "centrifugal_force_N": mass * radius * square,
+                    "active_limits": () if web.fixed else active[k],
+                    "fixed": web.fixed is not None,
+                    "shape": shapes.get(k) if mass > 0.0 else None,
+                }
             )
             for k, (web, radius, mass, angle, vector, throw) in enumerate(
                 zip(webs, radii, mass_kg.tolist(), angles_deg.tolist(), vectors.tolist(), own, strict=True)

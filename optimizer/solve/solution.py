@@ -150,7 +150,7 @@ def certificate(
     most : (K,) kg, largest masses that the proofs count with.
     multipliers : as of :meth:`Proofs.named`.
     """
-    return Certificate.model_validate(
+    return Certificate.of_figures(
         {name: value if isinstance(value, str) else finite_or_null(value) for name, value in figures.items()}
         | {
             "implied_max_mass_kg": implied_max_mass(machine, most[None])[0],
