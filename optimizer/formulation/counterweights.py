@@ -9,7 +9,7 @@ from optimizer.formulation.limits import all_free, limit_sizes, sectors
 from optimizer.mechanics.angles import angle_deg, direction
 from optimizer.mechanics.crank_of_web import own_throws
 from optimizer.mechanics.fixed_weights import beside
-from optimizer.mechanics.layout import stacked
+from optimizer.mechanics.layout import stacked, web_radii
 from optimizer.mechanics.shapes import plates
 from optimizer.numerics.arrays import Complex, Real, all_true, any_true
 from optimizer.program.limits import Limits
@@ -147,10 +147,10 @@ def _placed(
     limits = limit_sizes(machine)
     touched = [limit.touched(machine, mass_kg, angles_deg).tolist() for limit, _ in limits.values()]
     if vectors is None:
-        vectors = unbalance(mass_kg, angles_deg, stacked([web.radius_m for web in machine.webs]))
+        vectors = unbalance(mass_kg, angles_deg, web_radii(machine))
     throws, webs = machine.throws, machine.webs
     active = [tuple(compress(limits, at)) for at in zip(*touched, strict=True)] or [()] * len(webs)
-    shapes, radii = _shapes(machine, mass_kg), [web.radius_m for web in webs]
+    shapes, radii = _shapes(machine, mass_kg), web_radii(machine).tolist()
     square = (ratio * (machine.overspeed_rpm or machine.speed_rpm) * np.pi / 30.0) ** 2
     return tuple(
         [

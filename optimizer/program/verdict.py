@@ -12,7 +12,7 @@ from types import ModuleType
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, Reals, merged, spread
+from optimizer.numerics.arrays import Complex, Real, Reals, of_programs_of, spread
 from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, ceiling_allowance
@@ -121,7 +121,7 @@ def verdict(claim: Claim, tolerance: float) -> Verdict:
     tolerance : largest gap, in units of the yardsticks, that is certified enough.
     """
     leading, several = claim.value.shape[:-1], claim.value.shape[-1]
-    many, of_mass = math.prod(leading), claim.mass_lower_bound is not None
+    many, of_mass, of_programs = math.prod(leading), claim.mass_lower_bound is not None, of_programs_of(leading)
     goals = claim.value, claim.lower_bound, claim.rounding, claim.yardstick
     masses = (
         claim.excess,
@@ -131,8 +131,8 @@ def verdict(claim: Claim, tolerance: float) -> Verdict:
     )
     proven, figures, outcome = np.empty((2, many, several)), np.empty((4, many)), np.empty(many, np.int64)
     worst = _verdicts().verdicts(
-        tuple([merged(leading, values, 1) for values in goals]),
-        tuple([merged(leading, values, 0) for values in masses]),
+        tuple([of_programs(values, 1) for values in goals]),
+        tuple([of_programs(values, 0) for values in masses]),
         of_mass,
         bool(claim.contradicted),
         (float(tolerance), CEILING_TOLERANCE, MASS_GAP, _MASS_ROUNDING),

@@ -206,15 +206,18 @@ def _no_longer(vectors: Complex, allowed: Real) -> Complex:
 def _shared(names: tuple[str, ...], statement: Statement, multipliers: PhysicalMultipliers) -> dict[str, Any]:
     """What every bound has: rows of these names, a budget and ceilings."""
     ceilings = statement.ceilings
-    nothing = (None,) * len(ceilings.names)
-    angles, scenarios = ceilings.angles_deg or nothing, ceilings.scenarios or nothing
-    return {
+    shared = {
         "rows": [{"name": name, "value": value} for name, value in zip(names, multipliers.row.tolist(), strict=True)],
         "budget": float(multipliers.budget),
-        "ceilings": [
+        "ceilings": (),
+    }
+    if ceilings.names:
+        nothing = (None,) * len(ceilings.names)
+        angles, scenarios = ceilings.angles_deg or nothing, ceilings.scenarios or nothing
+        shared["ceilings"] = [
             {"response": name, "part": "co", "angle_deg": angle, "scenario": scenario, "x": p.real, "y": p.imag}
             for name, angle, scenario, p in zip(
                 ceilings.names, angles, scenarios, multipliers.ceiling.tolist(), strict=True
             )
-        ],
-    }
+        ]
+    return shared

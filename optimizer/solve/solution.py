@@ -162,4 +162,4 @@ def certificate(
 
 def finite_or_null(value: Real | float | None) -> float | None:
     """A figure, null where nothing is proven."""
-    return float(value) if value is not None and math.isfinite(value) else None
+    return None if value is None or not math.isfinite(value) else float(value)
