@@ -170,8 +170,8 @@ def _placed(
                     "x_kg_m": vector.real,
                     "y_kg_m": vector.imag,
                     "centrifugal_force_N": mass * radius * square,
-                    "active_limits": () if web.fixed else active[k],
-                    "fixed": web.fixed is not None,
+                    "active_limits": () if (fixed := web.fixed) else active[k],
+                    "fixed": fixed is not None,
                     "shape": shapes.get(k) if mass > 0.0 else None,
                 }
             )

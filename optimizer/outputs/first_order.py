@@ -18,7 +18,7 @@ from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.phasors import PlainWrench, PolarWrench, polar_wrenches, vectors_of
 from optimizer.responses.response import Phasors
 from schemas.answer.first_order import FirstOrder, Floor, Residual, ResponseChange, ResponsePeak
-from schemas.answer.outputs import Hodograph, Hodographs
+from schemas.answer.outputs import Hodograph, Hodographs, Order
 from schemas.answer.proof import BoundMultipliers
 from schemas.base.responses import PAIR
 
@@ -121,7 +121,9 @@ def residual(scene: Prepared, unbalance: Complex | None) -> Residual:
     fitted = unbalance is not None
     count, with_shafts = len(shown), [False, True] if fitted and scene.shafts is not None else [False]
     polars = polar_wrenches([*map(PlainWrench.of, shown), *_second_order(scene, with_shafts)])
-    first, twice = [polar.order(1) for polar in polars[:count]], [polar.order(2) for polar in polars[count:]]
+    first = [polar.order(1) for polar in polars[:count]]
+    # mostly one, which stands without counterweights and with them
+    twice = [Order.of_figures(polar.order(2)) for polar in polars[count:]]
     ellipses = _ellipses(polars[:count])
     # one validation of the whole takes a third of the time of one of each part
     return Residual.of_figures(
