@@ -12,7 +12,7 @@ from types import ModuleType
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, Reals, of_programs_of, spread
+from optimizer.numerics.arrays import Complex, Real, Reals, all_true, of_programs_of, spread
 from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, ceiling_allowance
@@ -163,7 +163,7 @@ def yardstick(statement: Statement) -> Real:
     does to a term.
     """
     rest = statement.at_rest
-    if rest > 0 if rest.ndim == 0 else np.count_nonzero(rest > 0) == rest.size:
+    if rest > 0 if rest.ndim == 0 else all_true(rest > 0):
         return rest
     reach = np.minimum(statement.limits.reach, natural_reach(statement)[..., None])
     change = np.add.reduce(np.abs(statement.norms.influence) * reach[..., None, :], axis=(-2, -1))

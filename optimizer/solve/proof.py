@@ -13,7 +13,7 @@ from typing import Any, Literal
 import numpy as np
 
 from optimizer.formulation.limits import largest_mass
-from optimizer.numerics.arrays import Complex, Real, Reals
+from optimizer.numerics.arrays import Complex, Real, Reals, any_true
 from optimizer.numerics.records import record
 from optimizer.program.certificate import Multipliers, budget_price, normalised, nothing_proven, together
 from optimizer.program.statement import Statement
@@ -122,7 +122,7 @@ def conflict(statement: Statement, excess: Multipliers, omega_squared: Reals) ->
 def implied_max_mass(machine: Machine, most: Real) -> list[dict[str, float]]:
     """Limits (N, K) that the proofs of N designs count with, in place of those of the machine, kg."""
     smaller = most < largest_mass(machine)
-    if not np.count_nonzero(smaller):
+    if not any_true(smaller):
         return [{} for _ in range(len(most))]
     return [
         {web.name: mass for web, mass, counts in zip(machine.webs, *of_design, strict=True) if counts}

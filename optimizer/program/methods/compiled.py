@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, in_order, mapped, parts, plain
+from optimizer.numerics.arrays import Complex, Real, all_true, in_order, mapped, parts, plain
 from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, nothing_proven
@@ -101,7 +101,7 @@ def both_stages(
     solved = _solve(part, share[some], least_mass, _DOUBLE, _in_discs, level[some])
     quick = _judged(part, share[some], demand[some], least_mass, solved)
     if discs.size == share.size:
-        if np.count_nonzero(quick.certified) < share.size:
+        if not all_true(quick.certified):
             left = np.flatnonzero(~quick.certified)
             quick.put(left, _in_any_limits(statement.chosen(left), share[left], demand[left], least_mass, level[left]))
         return quick
