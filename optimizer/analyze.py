@@ -8,7 +8,7 @@ from optimizer.formulation.counterweights import mass_and_angle, too_heavy
 from optimizer.formulation.placement import on_webs
 from optimizer.mechanics.shapes import fitted_masses
 from optimizer.outputs.registry import fields, prepare
-from schemas.answer.answers import AnalyzeAnswer, Timing
+from schemas.answer.answers import AnalyzeAnswer
 from schemas.base.mappings import or_mapping
 from schemas.request.requests import AnalyzeRequest
 
@@ -35,16 +35,18 @@ def analyze(request: AnalyzeRequest) -> AnalyzeAnswer:
     counterweights = fitted(machine, mass, angle)
     figures = fields(scene.beside(counterweights.on_shafts), counterweights.on_crank, request.outputs)
     end = time.perf_counter()
-    return AnalyzeAnswer(
-        **figures,
-        **counterweights.fields,
-        reference_plane_m=float(scene.layout.reference_plane),
-        effects=scene.simulated.uses,
-        timing=Timing(
-            total_ms=(end - start) * 1e3,
-            solve_ms=0.0,
-            mechanics_ms=scene.mechanics_ms,
-            certificate_ms=0.0,
-            report_ms=(end - reporting) * 1e3,
-        ),
+    return AnalyzeAnswer.of_figures(
+        {
+            **figures,
+            **counterweights.fields,
+            "reference_plane_m": float(scene.layout.reference_plane),
+            "effects": scene.simulated.uses,
+            "timing": {
+                "total_ms": (end - start) * 1e3,
+                "solve_ms": 0.0,
+                "mechanics_ms": scene.mechanics_ms,
+                "certificate_ms": 0.0,
+                "report_ms": (end - reporting) * 1e3,
+            },
+        }
     )

@@ -15,7 +15,7 @@ from optimizer.solve.solve import solve
 from optimizer.solve.turn_residual import with_turn
 from optimizer.solve.worst_case import nothing_off
 from schemas.answer.alternatives import Alternative
-from schemas.answer.answers import OptimizeAnswer, Timing
+from schemas.answer.answers import OptimizeAnswer
 from schemas.base.mappings import or_mapping
 from schemas.request.objective import Objective
 from schemas.request.requests import OptimizeRequest
@@ -67,21 +67,23 @@ def optimize(request: OptimizeRequest, outputs: Sequence[str] | None = None) -> 
     if task.objective.orders == "all":
         figures["residual"] = with_turn(figures["residual"], scene, u)
     end = time.perf_counter()
-    return OptimizeAnswer(
-        status=best.status,
-        status_reason=best.reason,
-        **answer,
-        **figures,
-        alternatives=cheaper,
-        reference_plane_m=float(scene.layout.reference_plane),
-        effects=scene.simulated.uses,
-        timing=Timing(
-            total_ms=(end - start) * 1e3,
-            solve_ms=(reporting - solving - best.certify_s - report_s) * 1e3,
-            mechanics_ms=scene.mechanics_ms,
-            certificate_ms=best.certify_s * 1e3,
-            report_ms=(end - reporting + report_s) * 1e3,
-        ),
+    return OptimizeAnswer.of_figures(
+        {
+            "status": best.status,
+            "status_reason": best.reason,
+            **answer,
+            **figures,
+            "alternatives": cheaper,
+            "reference_plane_m": float(scene.layout.reference_plane),
+            "effects": scene.simulated.uses,
+            "timing": {
+                "total_ms": (end - start) * 1e3,
+                "solve_ms": (reporting - solving - best.certify_s - report_s) * 1e3,
+                "mechanics_ms": scene.mechanics_ms,
+                "certificate_ms": best.certify_s * 1e3,
+                "report_ms": (end - reporting + report_s) * 1e3,
+            },
+        }
     )
 
 

@@ -151,7 +151,7 @@ class Simulated:
     def uses(self) -> dict[str, EffectUse]:
         """Every effect: whether it was simulated, for what, and how long it took."""
         return dict.fromkeys(EFFECTS, _UNUSED) | {
-            name: EffectUse(simulated=True, needed_by=self.needed_by[name], time_ms=time_ms)
+            name: EffectUse.of_figures({"simulated": True, "needed_by": self.needed_by[name], "time_ms": time_ms})
             for name, time_ms in self.times_ms.items()
         }
 

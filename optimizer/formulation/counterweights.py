@@ -9,7 +9,7 @@ from optimizer.formulation.limits import all_free, limit_sizes, sectors
 from optimizer.mechanics.angles import angle_deg, direction
 from optimizer.mechanics.crank_of_web import own_throws
 from optimizer.mechanics.fixed_weights import beside
-from optimizer.mechanics.layout import stacked
+from optimizer.mechanics.layout import stacked, web_radii
 from optimizer.mechanics.shapes import plates
 from optimizer.numerics.arrays import Complex, Real, all_true, any_true
 from optimizer.program.limits import Limits
@@ -147,31 +147,33 @@ def _placed(
     limits = limit_sizes(machine)
     touched = [limit.touched(machine, mass_kg, angles_deg).tolist() for limit, _ in limits.values()]
     if vectors is None:
-        vectors = unbalance(mass_kg, angles_deg, stacked([web.radius_m for web in machine.webs]))
+        vectors = unbalance(mass_kg, angles_deg, web_radii(machine))
     throws, webs = machine.throws, machine.webs
     active = [tuple(compress(limits, at)) for at in zip(*touched, strict=True)] or [()] * len(webs)
-    shapes, radii = _shapes(machine, mass_kg), [web.radius_m for web in webs]
+    shapes, radii = _shapes(machine, mass_kg), web_radii(machine).tolist()
     square = (ratio * (machine.overspeed_rpm or machine.speed_rpm) * np.pi / 30.0) ** 2
     return tuple(
         [
-            Counterweight(
-                web=web.name,
-                mass_kg=mass,
-                angle_deg=angle,
-                position_m=web.position_m,
-                radius_m=radius,
-                throw=throw,
-                # twice, because a hair below 0 comes to 360
-                angle_from_crank_deg=None
-                if throw is None or mass == 0.0
-                else (angle - throws[throw].crank_angle_deg) % 360.0 % 360.0,
-                mass_radius_kg_m=mass * radius,
-                x_kg_m=vector.real,
-                y_kg_m=vector.imag,
-                centrifugal_force_N=mass * radius * square,
-                active_limits=() if web.fixed else active[k],
-                fixed=web.fixed is not None,
-                shape=shapes.get(k) if mass > 0.0 else None,
+            Counterweight.of_figures(
+                {
+                    "web": web.name,
+                    "mass_kg": mass,
+                    "angle_deg": angle,
+                    "position_m": web.position_m,
+                    "radius_m": radius,
+                    "throw": throw,
+                    # twice, because a hair below 0 comes to 360
+                    "angle_from_crank_deg": None
+                    if throw is None or mass == 0.0
+                    else (angle - throws[throw].crank_angle_deg) % 360.0 % 360.0,
+                    "mass_radius_kg_m": mass * radius,
+                    "x_kg_m": vector.real,
+                    "y_kg_m": vector.imag,
+                    "centrifugal_force_N": mass * radius * square,
+                    "active_limits": () if (fixed := web.fixed) else active[k],
+                    "fixed": fixed is not None,
+                    "shape": shapes.get(k) if mass > 0.0 else None,
+                }
             )
             for k, (web, radius, mass, angle, vector, throw) in enumerate(
                 zip(webs, radii, mass_kg.tolist(), angles_deg.tolist(), vectors.tolist(), own, strict=True)

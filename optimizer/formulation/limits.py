@@ -13,7 +13,7 @@ import numpy as np
 from optimizer.formulation.groups import alike_webs
 from optimizer.mechanics.angles import direction
 from optimizer.mechanics.fixed_weights import any_fixed, fixed_mass, fixed_webs
-from optimizer.mechanics.layout import stacked
+from optimizer.mechanics.layout import stacked, web_radii
 from optimizer.mechanics.shapes import plates
 from optimizer.numerics.arrays import Complex, Real, Reals, all_true, any_true, mapped, spread
 from optimizer.numerics.memoization import remembered
@@ -148,7 +148,7 @@ def _force_per_kg(machine: Machine) -> Real:
     """Centrifugal force of a kilogram on every web (..., K) at the highest speed, N."""
     fastest = machine.speed_rpm if machine.overspeed_rpm is None else machine.overspeed_rpm
     omega = np.asarray(fastest) * (np.pi / 30.0)
-    return stacked([web.radius_m for web in machine.webs]) * np.square(omega)[..., None]
+    return web_radii(machine) * np.square(omega)[..., None]
 
 
 #: of every web, as the answer calls them and in its order; one more is one more entry
@@ -164,7 +164,7 @@ WEB_LIMITS: dict[WebLimit, Limit] = {
     "envelope": MassLimit(
         "(kg m)",
         largest=_largest_unbalances,
-        per_kg=lambda machine: stacked([web.radius_m for web in machine.webs]),
+        per_kg=web_radii,
         presence=lambda machine: plates(machine) is not None,
     ),
     "max_centrifugal_force": MassLimit(
@@ -220,7 +220,7 @@ def limits(machine: Machine, leading: tuple[int, ...] = ()) -> Limits:
     left = MACHINE_LIMITS["max_total_mass"].size(machine)[()]
     if any_fixed(machine):
         left = left - fixed_mass(machine)
-    radius, most = stacked([web.radius_m for web in webs]), largest_mass(machine)
+    radius, most = web_radii(machine), largest_mass(machine)
     if not leading:
         return Limits(radius, most, free, centre, cosine, sine, left, alike)
     return Limits(

@@ -49,8 +49,7 @@ def rotating(layout: Layout) -> Wrench:
     Source: Qian and Qu eqs (12)-(18); docs/mathematics.md section 2.
     """
     force, couple = _summed(layout, rotating_forces(layout).co[..., None, :], layout.rotating.position)
-    (own_force,), (own_couple,) = _entries(force), _entries(couple)
-    return _co_rotating(own_force, own_couple)
+    return _co_rotating(*_entries(force), *_entries(couple))
 
 
 @remembered
@@ -168,7 +167,9 @@ def first_order_responses(layout: Layout, baseline: Wrench) -> tuple[Response, R
 
 def _entries(sums: Complex) -> Sequence[Complex]:
     """The entries along the last axis (..., m): m arrays (...), numbers where there are no more axes."""
-    return list(sums) if sums.ndim == 1 else [sums[..., n] for n in range(sums.shape[-1])]
+    count = range(sums.shape[-1])
+    # to iterate over an array ends with an error that takes longer than the numbers do
+    return list(map(sums.__getitem__, count)) if sums.ndim == 1 else [sums[..., n] for n in count]
 
 
 def _summed(layout: Layout, forces: Complex, position: Real) -> tuple[Complex, Complex]:

@@ -166,6 +166,8 @@ def _columns(values: Sequence[Any]) -> Real:
 
 def outermost(planes: Sequence[Any]) -> tuple[Any, Any]:
     """Lowest and highest of at least one plane, each a number or a column (N,)."""
+    if np.ndarray not in map(type, planes):
+        return min(planes), max(planes)
     numbers = [plane for plane in planes if type(plane) is not np.ndarray]
     columns = [plane for plane in planes if type(plane) is np.ndarray]
     # numbers beside columns are compared once for all
@@ -191,10 +193,13 @@ def _halves(value: Any) -> tuple[Any, Any]:
 
 
 def _webs(machine: Rotor) -> Webs:
-    return Webs(
-        position=stacked([web.position_m for web in machine.webs]),
-        radius=stacked([web.radius_m for web in machine.webs]),
-    )
+    return Webs(position=stacked([web.position_m for web in machine.webs]), radius=web_radii(machine))
+
+
+@remembered
+def web_radii(machine: Rotor) -> Real:
+    """Radii of the centres of mass of what the webs of the crankshaft carry (..., K) m; nan where a plate decides."""
+    return stacked([web.radius_m for web in machine.webs])
 
 
 def _balance_webs(machine: Rotor) -> BalanceWebs | None:
@@ -269,7 +274,8 @@ def _table(rows: Sequence[Any], parts: int) -> Sequence[Real]:
     except ValueError:
         # numbers beside columns make no array
         table = _NO_TABLE
-    return [*table] if table.ndim == _TABLE else [stacked(part) for part in every]
+    # to iterate over an array ends with an error that takes longer than the views do
+    return [table[k] for k in range(parts)] if table.ndim == _TABLE else [stacked(part) for part in every]
 
 
 def _middle(planes: Sequence[Any]) -> Real:

@@ -1,15 +1,20 @@
 """Sums of forces and of their couples: by arrays of one machine, by a compiled loop of many."""
 
 import math
+from operator import mul
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, in_order, spread, total
+from optimizer.numerics.arrays import ROUNDING, SMALLEST, Complex, Real, in_order, spread, total
 
 #: so many forces are a loop's work; of fewer the compiler is not loaded
 MANY = 4096
 #: terms up to which the loop adds in the order in which numpy does
 _IN_ONE_ORDER = 64
+#: so many terms numpy adds in pairs, and those from the next on one by one, if they are less than two times as many
+_PAIRED = 4
+#: so many lists of forces of one machine are summed sooner in plain numbers than by arrays
+_FEW = 8
 
 
 def force_and_couple(forces: Complex, arm: Real) -> tuple[Complex, Complex]:
@@ -28,12 +33,35 @@ def force_and_couple(forces: Complex, arm: Real) -> tuple[Complex, Complex]:
     """
     if forces.ndim > 1 and forces.size >= MANY and forces.shape[-1] <= _IN_ONE_ORDER:
         return _in_a_loop(forces, arm)
+    if arm.size < 2 * _PAIRED and forces.size <= _FEW * arm.size and _single_machine(forces, arm):
+        return _in_plain_numbers(forces, arm)
     couples = arm * forces
     terms = np.empty((2, *couples.shape), complex)
     terms[0], terms[1] = forces, couples
     both = total(terms)
     # numbers where there are no more axes: arithmetic of arrays without axes takes several times as long
     return both[0], both[1]
+
+
+def _single_machine(forces: Complex, arm: Real) -> bool:
+    return arm.size == forces.shape[-1] and arm.ndim <= forces.ndim <= 2
+
+
+def _in_plain_numbers(forces: Complex, arm: Real) -> tuple[Complex, Complex]:
+    """Those of one machine, (n,) or (m, n) beside arms (n,), in the order in which numpy adds: four terms in pairs."""
+    arms = arm.ravel().tolist()
+    count, alone = len(arms), forces.ndim == 1
+    vectors: list[list[complex]] = [forces.tolist()] if alone else forces.tolist()
+    sums: list[complex] = []
+    for terms in (*vectors, *[list(map(mul, arms, own)) for own in vectors]):
+        most = ROUNDING * sum(map(abs, terms))
+        if count >= _PAIRED:
+            terms = [(terms[0] + terms[1]) + (terms[2] + terms[3]), *terms[_PAIRED:]]
+        value = sum(terms, 0j)
+        size = abs(value)
+        sums.append(0j if size <= most or size <= SMALLEST else value)
+    both = np.array(sums, complex)
+    return (both[0], both[1]) if alone else (both[: len(vectors)], both[len(vectors) :])
 
 
 def _in_a_loop(forces: Complex, arm: Real) -> tuple[Complex, Complex]:

@@ -69,7 +69,9 @@ def _rate(number: int, throw: Throw, rotating: complex, share: list[float], webs
     if not abs(rotating) > SMALLEST:
         return BalanceRate(throw=number, name=throw.name, rate=None, sideways=None)
     rate = -sum([part * vector for part, vector in zip(share, webs, strict=True)], 0j) / rotating
-    return BalanceRate(throw=number, name=throw.name, rate=rate.real + 0.0, sideways=rate.imag + 0.0)
+    return BalanceRate.of_figures(
+        {"throw": number, "name": throw.name, "rate": rate.real + 0.0, "sideways": rate.imag + 0.0}
+    )
 
 
 def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:

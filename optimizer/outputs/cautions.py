@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
+from operator import mul
 from typing import Any, get_args
 
 import numpy as np
@@ -56,7 +57,9 @@ class Evidence:
     def sizes(self) -> tuple[float, float]:
         """Sum of the centrifugal forces of all cranks [N], and that times the span [N m]."""
         masses, rows = self.scene.layout.rotating, self.scene.layout.reciprocating
-        unbalance = float(masses.mass @ masses.radius) + float(rows.mass @ rows.crank_radius)
+        # in plain numbers, as of one machine they are few
+        unbalance = sum(map(mul, masses.mass.tolist(), masses.radius.tolist()))
+        unbalance += sum(map(mul, rows.mass.tolist(), rows.crank_radius.tolist()))
         force = unbalance * self.scene.omega_squared
         return force, force * float(span(self.scene.machine))
 
@@ -76,7 +79,8 @@ def cautions(
 
 def _plain(value: float, digits: int = 4) -> str:
     """Some digits without an exponent, as forces and moments are read: 107600, not 1.076e+05."""
-    return f"{float(f'{value:.{digits}g}'):.15g}"
+    rounded = f"{value:.{digits}g}"
+    return f"{float(rounded):.15g}" if "e" in rounded else rounded
 
 
 def _no_gas(evidence: Evidence) -> Iterator[Caution]:
@@ -165,19 +169,22 @@ def _component_grows(evidence: Evidence) -> Iterator[Caution]:
     residual: Residual | None = evidence.fields.get("residual")
     if residual is None or residual.after is None:
         return
-    was, now = residual.before, residual.after
+    force, force_now = residual.before.force, residual.after.force
+    moment, moment_now = residual.before.moment, residual.after.moment
     for what, unit, kind, axis, before, after in (
-        ("force along x", "N", 0, "x", was.force.peak_x_N, now.force.peak_x_N),
-        ("force along y", "N", 0, "y", was.force.peak_y_N, now.force.peak_y_N),
-        (_COUPLES[0], "N m", 1, "x", was.moment.peak_x_Nm, now.moment.peak_x_Nm),
-        (_COUPLES[1], "N m", 1, "y", was.moment.peak_y_Nm, now.moment.peak_y_Nm),
+        ("force along x", "N", 0, "x", force.peak_x_N, force_now.peak_x_N),
+        ("force along y", "N", 0, "y", force.peak_y_N, force_now.peak_y_N),
+        (_COUPLES[0], "N m", 1, "x", moment.peak_x_Nm, moment_now.peak_x_Nm),
+        (_COUPLES[1], "N m", 1, "y", moment.peak_y_Nm, moment_now.peak_y_Nm),
     ):
         if after > before and after > before + _NOTABLE * evidence.sizes[kind]:
-            yield Caution(
-                code="component_grows",
-                message=f"The {what} grows from {_plain(before)} to {_plain(after)} {unit}: weigh "
-                "that direction more if it matters.",
-                pointer=f"/objective/direction_weights/{axis}",
+            yield Caution.of_figures(
+                {
+                    "code": "component_grows",
+                    "message": f"The {what} grows from {_plain(before)} to {_plain(after)} {unit}: weigh "
+                    "that direction more if it matters.",
+                    "pointer": f"/objective/direction_weights/{axis}",
+                }
             )
 
 

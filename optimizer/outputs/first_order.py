@@ -18,7 +18,7 @@ from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.phasors import PlainWrench, PolarWrench, polar_wrenches, vectors_of
 from optimizer.responses.response import Phasors
 from schemas.answer.first_order import FirstOrder, Floor, Residual, ResponseChange, ResponsePeak
-from schemas.answer.outputs import Hodograph, Hodographs
+from schemas.answer.outputs import Hodograph, Hodographs, Order
 from schemas.answer.proof import BoundMultipliers
 from schemas.base.responses import PAIR
 
@@ -42,7 +42,7 @@ _FIELDS = tuple(
 
 def first_order(wrench: Wrench) -> FirstOrder:
     """Ellipses of force [N] and moment [N m] of one machine."""
-    return FirstOrder.model_validate(_ellipses(polar_wrenches([PlainWrench.of(wrench)]))[0])
+    return FirstOrder.of_figures(_ellipses(polar_wrenches([PlainWrench.of(wrench)]))[0])
 
 
 def floor(layout: Layout, wrench: Wrench) -> Floor:
@@ -55,7 +55,7 @@ def floor(layout: Layout, wrench: Wrench) -> Floor:
         backwards = layout.balance.ratio == -1.0
         force = 0.0 if backwards.any() else force
         moment = 0.0 if (backwards & (shaft_arms(layout, layout.balance) != 0.0)).any() else moment
-    return Floor(force_N=force, moment_Nm=moment)
+    return Floor.of_figures({"force_N": force, "moment_Nm": moment})
 
 
 def peaks(wrench: Wrench) -> dict[str, Real]:
@@ -121,10 +121,12 @@ def residual(scene: Prepared, unbalance: Complex | None) -> Residual:
     fitted = unbalance is not None
     count, with_shafts = len(shown), [False, True] if fitted and scene.shafts is not None else [False]
     polars = polar_wrenches([*map(PlainWrench.of, shown), *_second_order(scene, with_shafts)])
-    first, twice = [polar.order(1) for polar in polars[:count]], [polar.order(2) for polar in polars[count:]]
+    first = [polar.order(1) for polar in polars[:count]]
+    # mostly one, which stands without counterweights and with them
+    twice = [Order.of_figures(polar.order(2)) for polar in polars[count:]]
     ellipses = _ellipses(polars[:count])
     # one validation of the whole takes a third of the time of one of each part
-    return Residual.model_validate(
+    return Residual.of_figures(
         {
             "before": ellipses[0],
             "after": ellipses[1] if fitted else None,

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, columns, mapped, of_programs_of, plain, spread
+from optimizer.numerics.arrays import Complex, Real, all_true, columns, mapped, of_programs_of, plain, spread
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
 from optimizer.program.equal_castings import Alike
@@ -72,7 +72,7 @@ class Limits:
     @cached_property
     def all_free(self) -> bool:
         """Whether no web of any program has a sector."""
-        return np.count_nonzero(self.free) == self.free.size
+        return all_true(self.free)
 
     @cached_property
     def budget_ends(self) -> np.ndarray:

@@ -43,6 +43,12 @@ def weighted_peak(response: Response, weight: Reals, weight_x: Reals = 1.0, weig
     p, q = 0.5 * weight * (weight_x + weight_y), 0.5 * weight * (weight_x - weight_y)
     f, b = response.baseline.co, response.baseline.counter
     against = response.counter_influence
+    if against is None and type(p) is float and not q and np.ndarray not in (type(f), type(b)):
+        # of one machine in plain numbers
+        vector = complex(p * f)
+        constant = np.array([vector if abs(vector) > SMALLEST else 0.0], complex)
+        norms = Norms(constant, p * response.influence[None])
+        return WeightedPeak(response.name, p * np.abs(b), norms, response.scenario)
     if against is None and not (np.count_nonzero(q) if isinstance(q, np.ndarray) else q):
         alone = p * f
         # what is too small to divide by is none, as in `total`

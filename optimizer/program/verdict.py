@@ -11,7 +11,7 @@ from types import ModuleType
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, Reals, merged, spread
+from optimizer.numerics.arrays import Complex, Real, Reals, all_true, of_programs_of, spread
 from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, ceiling_allowance
@@ -118,7 +118,7 @@ def verdict(claim: Claim, tolerance: float) -> Verdict:
     tolerance : largest gap, in units of the yardsticks, that is certified enough.
     """
     leading, several = claim.value.shape[:-1], claim.value.shape[-1]
-    many, of_mass = math.prod(leading), claim.mass_lower_bound is not None
+    many, of_mass, of_programs = math.prod(leading), claim.mass_lower_bound is not None, of_programs_of(leading)
     goals = claim.value, claim.lower_bound, claim.rounding, claim.yardstick
     masses = (
         claim.excess,
@@ -128,8 +128,8 @@ def verdict(claim: Claim, tolerance: float) -> Verdict:
     )
     proven, figures, outcome = np.empty((2, many, several)), np.empty((4, many)), np.empty(many, np.int64)
     worst = _verdicts().verdicts(
-        tuple([merged(leading, values, 1) for values in goals]),
-        tuple([merged(leading, values, 0) for values in masses]),
+        tuple([of_programs(values, 1) for values in goals]),
+        tuple([of_programs(values, 0) for values in masses]),
         of_mass,
         bool(claim.contradicted),
         (float(tolerance), CEILING_TOLERANCE, MASS_GAP, _MASS_ROUNDING),
@@ -148,7 +148,9 @@ def verdict(claim: Claim, tolerance: float) -> Verdict:
         status = np.where(place == 0, "optimal", "inaccurate")
         # objects, as texts take the room of the longest in each design
         reason = np.asarray(np.array([why, NOT_LIGHT, NOT_CLOSE, ON_THE_BOUNDARY, CONTRADICTED], object)[place], object)
-    return Verdict(status, reason, *proven.reshape(2, *leading, several), *figures.reshape(4, *leading))
+    bound, relative = proven.reshape(2, *leading, several), figures.reshape(4, *leading)
+    # to iterate over an array ends with an error that takes longer than the views do
+    return Verdict(status, reason, bound[0], bound[1], relative[0], relative[1], relative[2], relative[3])
 
 
 def yardstick(statement: Statement) -> Real:
@@ -158,7 +160,7 @@ def yardstick(statement: Statement) -> Real:
     does to a term.
     """
     rest = statement.at_rest
-    if rest > 0 if rest.ndim == 0 else np.count_nonzero(rest > 0) == rest.size:
+    if rest > 0 if rest.ndim == 0 else all_true(rest > 0):
         return rest
     reach = np.minimum(statement.limits.reach, natural_reach(statement)[..., None])
     change = np.add.reduce(np.abs(statement.norms.influence) * reach[..., None, :], axis=(-2, -1))

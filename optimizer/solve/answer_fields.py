@@ -239,13 +239,12 @@ def _claim(
     size = float(program.yardsticks_within(optimum.limits)[-1])
     *before, (bound, rounding) = (_bound(program, goal.proof, u, values) for goal in optimum.goals)
     # what goals before the last are proven to need, these counterweights need as well
-    against = [least > value + off for (least, off), value in zip(before, values.goals[:-1], strict=True)]
+    earlier = values.goals[:-1].tolist()
+    against = [least > value + off for (least, off), value in zip(before, earlier, strict=True)]
     mass_bound = None
     if wanted.least_mass:
         mass_bound = np.asarray(0.0 if optimum.mass_proof is None else optimum.mass_proof.bound)
-    feasible = all(
-        value <= goal.most * (1.0 + 1e-12) for value, goal in zip(values.goals[:-1], optimum.goals, strict=False)
-    )
+    feasible = all(value <= goal.most * (1.0 + 1e-12) for value, goal in zip(earlier, optimum.goals, strict=False))
     return Claim(
         values.goals[-1:],
         # a sum of sizes is not below 0, whatever the rounding of a proof

@@ -115,12 +115,14 @@ def shadow_prices(
     )
     return tuple(
         [
-            ShadowPrice(
-                limit=limit,
-                web=web,
-                # where a whole limit is worth less than the gap its price cannot be told from 0; a limit of 0 has one
-                value=price * omega_squared / quantity.weight if size == 0.0 or price * size > gap else 0.0,
-                unit=_UNITS[f"{quantity.unit}/{unit}"],
+            ShadowPrice.of_figures(
+                {
+                    "limit": limit,
+                    "web": web,
+                    # where a whole limit is worth less than the gap its price is not told from 0; a limit of 0 has one
+                    "value": price * omega_squared / quantity.weight if size == 0.0 or price * size > gap else 0.0,
+                    "unit": _UNITS[f"{quantity.unit}/{unit}"],
+                }
             )
             for limit, web, price, size, unit in limits
             if limit in active[web] or price * size > _WORTH * at_rest

@@ -13,7 +13,7 @@ from typing import Any, Literal
 import numpy as np
 
 from optimizer.formulation.limits import largest_mass
-from optimizer.numerics.arrays import Complex, Real, Reals
+from optimizer.numerics.arrays import Complex, Real, Reals, any_true
 from optimizer.numerics.records import record
 from optimizer.program.certificate import Multipliers, budget_price, normalised, nothing_proven, together
 from optimizer.program.statement import Statement
@@ -121,8 +121,8 @@ def conflict(statement: Statement, excess: Multipliers, omega_squared: Reals) ->
 def implied_max_mass(machine: Machine, most: Real) -> list[dict[str, float]]:
     """Limits (N, K) that the proofs of N designs count with, in place of those of the machine, kg."""
     smaller = most < largest_mass(machine)
-    if not np.count_nonzero(smaller):
-        return [{} for _ in most]
+    if not any_true(smaller):
+        return [{} for _ in range(len(most))]
     return [
         {web.name: mass for web, mass, counts in zip(machine.webs, *of_design, strict=True) if counts}
         for of_design in zip(most.tolist(), smaller.tolist(), strict=True)
@@ -205,15 +205,18 @@ def _no_longer(vectors: Complex, allowed: Real) -> Complex:
 def _shared(names: tuple[str, ...], statement: Statement, multipliers: PhysicalMultipliers) -> dict[str, Any]:
     """What every bound has: rows of these names, a budget and ceilings."""
     ceilings = statement.ceilings
-    nothing = (None,) * len(ceilings.names)
-    angles, scenarios = ceilings.angles_deg or nothing, ceilings.scenarios or nothing
-    return {
+    shared = {
         "rows": [{"name": name, "value": value} for name, value in zip(names, multipliers.row.tolist(), strict=True)],
         "budget": float(multipliers.budget),
-        "ceilings": [
+        "ceilings": (),
+    }
+    if ceilings.names:
+        nothing = (None,) * len(ceilings.names)
+        angles, scenarios = ceilings.angles_deg or nothing, ceilings.scenarios or nothing
+        shared["ceilings"] = [
             {"response": name, "part": "co", "angle_deg": angle, "scenario": scenario, "x": p.real, "y": p.imag}
             for name, angle, scenario, p in zip(
                 ceilings.names, angles, scenarios, multipliers.ceiling.tolist(), strict=True
             )
-        ],
-    }
+        ]
+    return shared

@@ -38,7 +38,9 @@ def sensitivity(goals: Goals, u: Complex, values: Values, omega_squared: float) 
 
 def _rises(objective: float, by_angle: float, by_mass: float, omega_squared: float) -> Sensitivity:
     # what is above is so but for rounding: there are no errors among the errors
-    return Sensitivity(
-        objective_rise_per_deg=max(by_angle - objective, 0.0) * omega_squared,
-        objective_rise_per_percent=max(by_mass - objective, 0.0) * omega_squared,
+    return Sensitivity.of_figures(
+        {
+            "objective_rise_per_deg": max(by_angle - objective, 0.0) * omega_squared,
+            "objective_rise_per_percent": max(by_mass - objective, 0.0) * omega_squared,
+        }
     )

@@ -149,7 +149,7 @@ def certificate(
     most : (K,) kg, largest masses that the proofs count with.
     multipliers : as of :meth:`Proofs.named`.
     """
-    return Certificate.model_validate(
+    return Certificate.of_figures(
         {name: value if isinstance(value, str) else finite_or_null(value) for name, value in figures.items()}
         | {
             "implied_max_mass_kg": implied_max_mass(machine, most[None])[0],
@@ -161,4 +161,4 @@ def certificate(
 
 def finite_or_null(value: Real | float | None) -> float | None:
     """A figure, null where nothing is proven."""
-    return float(value) if value is not None and math.isfinite(value) else None
+    return None if value is None or not math.isfinite(value) else float(value)

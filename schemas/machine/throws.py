@@ -67,10 +67,11 @@ class ConnectingRod(Ruled):
     @property
     def share(self) -> Any:
         """What reciprocates of a kilogram of it."""
-        if self.centre_of_mass_m is None or self.length_m is None:
+        centre = self.centre_of_mass_m
+        if centre is None or self.length_m is None:
             return self.reciprocating_share
         # two masses with the rod's own centre of mass
-        return self.centre_of_mass_m / self.length_m
+        return centre / self.length_m
 
     def rules(self) -> Iterator[Rule]:
         if self.centre_of_mass_m is None:
@@ -129,17 +130,20 @@ class Row(Ruled):
     @property
     def reciprocating_kg(self) -> Any:
         """All that moves along the axis, with the rod's share."""
-        own = sum((part.mass_kg for part in self.parts if part.motion == "reciprocating"), self.reciprocating_mass_kg)
-        return own if self.connecting_rod is None else own + self.connecting_rod.reciprocating_kg
+        own, rod, parts = self.reciprocating_mass_kg, self.connecting_rod, self.parts
+        if parts:
+            own = sum((part.mass_kg for part in parts if part.motion == "reciprocating"), own)
+        return own if rod is None else own + rod.reciprocating_kg
 
     @property
     def rotating_kg(self) -> Any:
         """All that turns with the crank pin in the plane of the row."""
-        rod = 0.0 if self.connecting_rod is None else self.connecting_rod.rotating_kg
-        return sum((part.mass_kg for part in self.parts if part.motion == "rotating"), rod)
+        rod, parts = self.connecting_rod, self.parts
+        own = 0.0 if rod is None else rod.rotating_kg
+        return sum((part.mass_kg for part in parts if part.motion == "rotating"), own) if parts else own
 
     def rules(self) -> Iterator[Rule]:
-        if not self.parts and "reciprocating_mass_kg" not in self.model_fields_set:
+        if not self.parts and "reciprocating_mass_kg" not in self.__pydantic_fields_set__:
             yield Rule(True, ("reciprocating_mass_kg",), REQUIRED)
         seen: set[str] = set()
         for k, part in enumerate(self.parts):

@@ -198,7 +198,7 @@ class Web(Ruled):
                     yield Rule(True, (name,), f"remove `{name}`: this web has a fixed counterweight")
         elif self.envelope is None:
             # left out, and not null: no limit has to be meant
-            if "max_mass_kg" not in self.model_fields_set:
+            if "max_mass_kg" not in self.__pydantic_fields_set__:
                 yield Rule(True, ("max_mass_kg",), REQUIRED)
             if self.counterweight_radius_m is None:
                 yield Rule(True, ("counterweight_radius_m",), REQUIRED)

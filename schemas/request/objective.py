@@ -171,7 +171,7 @@ class Objective(Ruled):
     @property
     def over_the_turn(self) -> tuple[str, ...]:
         """Fields by which more is asked than one goal of the first order on the frame."""
-        if OVER_THE_TURN.keys().isdisjoint(self.model_fields_set):
+        if OVER_THE_TURN.keys().isdisjoint(self.__pydantic_fields_set__):
             return ()
         own = vars(self)
         return tuple([name for name, nothing in OVER_THE_TURN.items() if own[name] != nothing])

@@ -32,8 +32,8 @@ def say(to: socket.socket, item: object, file: BinaryIO | None = None) -> None:
     """
     content = pickle.dumps(item)
     message = _LENGTH.pack(len(content)) + content
-    sent = socket.send_fds(to, [message], [] if file is None else [file.fileno()])
-    to.sendall(memoryview(message)[sent:])
+    sent = 0 if file is None else socket.send_fds(to, [message], [file.fileno()])
+    to.sendall(memoryview(message)[sent:] if sent else message)
 
 
 class Listener:

@@ -18,7 +18,7 @@ from threading import Lock, Timer
 from service.fairness.length import QUICK_S
 from service.workers.messages import Listener
 from service.workers.task import Priority, Task
-from service.workers.worker import Long, Outcome, niceness, serve
+from service.workers.worker import Answer, Long, Outcome, Reply, niceness, serve
 
 _LOG = logging.getLogger(__name__)
 #: what the process has loaded that workers are forked from; every worker runs ``__main__`` anew, which is the last one
@@ -90,11 +90,14 @@ class Worker:
 
     async def outcome(self) -> Outcome | Long:
         try:
-            reply, file = await self._says.receive()
+            parts, file = await self._says.receive()
         except EOFError as error:
             raise Dead from error
+        reply = Reply.of(parts)
         self.computed_s, self._before_s = reply.computed_s, reply.altogether_s
-        return reply.outcome if file is None else replace(reply.outcome, file=file)
+        outcome = reply.outcome
+        # a file comes with an answer alone
+        return replace(outcome, file=file) if file is not None and isinstance(outcome, Answer) else outcome
 
     @property
     def computing_s(self) -> float:

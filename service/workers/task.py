@@ -7,6 +7,7 @@ from enum import IntEnum
 from functools import lru_cache
 from typing import BinaryIO
 
+from optimizer.numerics.records import record
 from service.common.coding import Coding
 from service.computations import Computation, Form
 from service.guard.sizes import SizeLimits
@@ -28,6 +29,7 @@ class Priority(IntEnum):
     LONG = 2
 
 
+@record
 @dataclass(frozen=True)
 class Task:
     """What to compute, and in which form and coding to answer; all data: what it names is looked up in the worker.

@@ -18,9 +18,10 @@ from dataclasses import dataclass, replace
 from functools import cache, partial
 from pathlib import Path
 from tempfile import TemporaryFile
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 from optimizer.errors import NotComputable
+from optimizer.numerics.records import record
 from schemas.base.model import Model
 from service.common.coding import SMALL_BYTES, Coding, coded
 from service.common.faults import error_log
@@ -53,6 +54,7 @@ class NoRoom(Exception):
     """There is no room on disk for a large answer; a retry may help."""
 
 
+@record
 @dataclass(frozen=True)
 class Certified:
     """How an optimum was found: method, seconds, certified relative gap."""
@@ -62,6 +64,7 @@ class Certified:
     relative_gap: float
 
 
+@record
 @dataclass(frozen=True)
 class Answer:
     """What a task came to.
@@ -122,6 +125,7 @@ class Long:
 Outcome = Answer | Refused | Crashed
 
 
+@record
 @dataclass(frozen=True)
 class Reply:
     """What a worker says: the outcome of a task, for how long cores have computed it, and all its tasks so far [s]."""
@@ -129,6 +133,28 @@ class Reply:
     outcome: Outcome | Long
     computed_s: float
     altogether_s: float
+
+    @property
+    def parts(self) -> "Reply | Parts":
+        """What is pickled of it: of an answer plain values, for pickle takes longer to find the classes of both."""
+        outcome = self.outcome
+        if not isinstance(outcome, Answer):
+            return self
+        proof = None if outcome.certified is None else tuple(vars(outcome.certified).values())
+        return vars(outcome) | {"certified": None}, proof, self.computed_s, self.altogether_s
+
+    @classmethod
+    def of(cls, parts: "Reply | Parts") -> "Reply":
+        """One of its parts."""
+        if isinstance(parts, Reply):
+            return parts
+        fields, proof, computed_s, altogether_s = parts
+        fields["certified"] = None if proof is None else Certified(*proof)
+        return cls(Answer(**fields), computed_s, altogether_s)
+
+
+#: fields of an answer, those of its proof, and both times of the reply
+Parts = tuple[dict[str, Any], tuple[Any, ...] | None, float, float]
 
 
 def serve(connection: socket.socket, memory_bytes: int, folder: Path | None) -> None:
@@ -209,7 +235,7 @@ def _send(connection: socket.socket, reply: Reply, folder: Path | None) -> None:
     """Hand over an outcome; of a large answer an open file, which the service need not hold in memory."""
     outcome = reply.outcome
     if not (isinstance(outcome, Answer) and len(outcome.content) > LARGE_BYTES):
-        say(connection, reply)
+        say(connection, reply.parts)
         return
     try:
         if folder is not None:
@@ -217,7 +243,7 @@ def _send(connection: socket.socket, reply: Reply, folder: Path | None) -> None:
         with TemporaryFile(dir=folder) as file:
             file.write(outcome.content)
             file.seek(0)
-            say(connection, replace(reply, outcome=replace(outcome, content=b"")), file)
+            say(connection, replace(reply, outcome=replace(outcome, content=b"")).parts, file)
     except OSError as error:
         if error.errno not in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.ENOTDIR, errno.EACCES):
             raise

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, in_order, mapped, parts, plain
+from optimizer.numerics.arrays import Complex, Real, all_true, in_order, mapped, parts, plain
 from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, nothing_proven
@@ -99,7 +99,7 @@ def both_stages(
     solved = _solve(part, share[some], least_mass, _DOUBLE, _in_discs, level[some])
     quick = _judged(part, share[some], demand[some], least_mass, solved)
     if discs.size == share.size:
-        if np.count_nonzero(quick.certified) < share.size:
+        if not all_true(quick.certified):
             left = np.flatnonzero(~quick.certified)
             quick.put(left, _in_any_limits(statement.chosen(left), share[left], demand[left], least_mass, level[left]))
         return quick
@@ -180,14 +180,14 @@ def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, s
         RUNGS,
     )
     certify_s = time.perf_counter() - began
-    objective, mass, excess, _ = judgement.figures
+    figures = judgement.figures
     return BothStages(
         unbalance=judgement.unbalance,
-        objective=objective,
+        objective=figures[0],
         lower_bound=judgement.lower_bound,
-        mass=mass,
+        mass=figures[1],
         mass_lower_bound=judgement.mass_lower_bound,
-        excess=excess,
+        excess=figures[2],
         multipliers=Multipliers(*judgement.proof),
         mass_multipliers=solved.mass_proof if least_mass else nothing_proven(statement),
         mass_target=judgement.mass_target,
@@ -235,7 +235,7 @@ def _solve(
         return _Solved(nothing, nothing, proof, proof)
     reach, unit, demands = _scales(statement, share, tolerances, at_least)
     result = (method or _by_interior_point)(
-        statement, reach, unit, tolerances.ceilings, least_mass, *demands, tolerances.mass
+        statement, reach, unit, tolerances.ceilings, least_mass, demands[0], demands[1], tolerances.mass
     )
     points, (term, row, ceiling) = _physical(statement, (reach, unit), *result)
     proofs = Multipliers(term[0], row[0], ceiling[0]), Multipliers(term[1], row[1], ceiling[1])

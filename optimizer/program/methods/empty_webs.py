@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, all_true
 from optimizer.program.methods.compiled import TARGET, ends, suits_kernel
 from optimizer.program.methods.rounding import dust, has_dust, settled
 from optimizer.program.points import Points, points_at
@@ -53,7 +53,7 @@ def leave_empty(statement: Statement, solutions: Solutions, share: Real, least_m
     """
     if statement.limits.radius.shape[-1] < 2:
         return
-    if np.count_nonzero(solutions.clean) == solutions.clean.size:
+    if all_true(solutions.clean):
         return
     dusty = has_dust(statement.limits, solutions.unbalance)
     if not np.count_nonzero(dusty):

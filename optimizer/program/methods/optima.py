@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from optimizer.numerics.arrays import Real
+from optimizer.numerics.arrays import Real, all_true, any_true
 from optimizer.numerics.records import record
 from optimizer.program.certificate import Multipliers, mass_bound_up_to, nothing_proven
 from optimizer.program.equal_unknowns import apart, united
@@ -123,7 +123,7 @@ def _optima(statement: Statement, relative_gap: float, least_mass: bool) -> Opti
             interior_point(program, target) if stages is None else only(program, target, stages.chosen(np.array([n])))
         )
         _put(answer, n, cascade(program, target, quick))
-    if not np.count_nonzero(answer.unreachable):
+    if not any_true(answer.unreachable):
         leave_empty(statement, answer, share, least_mass)
         return answer
     # without any of the webs what comes closest to the ceilings is no closer
@@ -137,7 +137,7 @@ def _optima(statement: Statement, relative_gap: float, least_mass: bool) -> Opti
 def _uncertified(stages: BothStages) -> np.ndarray:
     """Programs that both stages left open; mostly none."""
     certified = stages.certified
-    return _NO_PROGRAM if np.count_nonzero(certified) == certified.size else np.flatnonzero(~certified)
+    return _NO_PROGRAM if all_true(certified) else np.flatnonzero(~certified)
 
 
 def _without_unreachable(statement: Statement, answer: Optima, programs: np.ndarray) -> np.ndarray:
