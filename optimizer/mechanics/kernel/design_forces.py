@@ -15,8 +15,8 @@ from optimizer.numerics.compiling import inner, inner_with_arrays
 
 #: order of a cubic, as numpy's integers like all else that is handed on
 _CUBIC = np.int64(3)
-#: angles of each place
-_SINGLE = np.int64(1)
+#: angles of each place, and what is counted from
+_SINGLE, _NONE = np.int64(1), np.int64(0)
 #: rows times pieces of a block of designs: what their forces are made of fits the cache; and designs of it at most
 _AT_ONCE, _MOST = 1_500, 32
 
@@ -32,7 +32,7 @@ def design_forces(rows, wanted, centre, half, order, pressed):  # type: ignore[n
     pressed : whether gas is a part of any.
     """
     (designs, pieces), count = centre.shape, rows.motion.shape[1]
-    of_parts, readings = 0, 0
+    of_parts, readings = _NONE, _NONE
     for reading in range(wanted.size):
         if wanted[reading]:
             readings += 1
@@ -71,7 +71,7 @@ def design_forces(rows, wanted, centre, half, order, pressed):  # type: ignore[n
         if once and first > 0:
             mask, other = np.empty((count, pieces), np.bool_), equal
             _mark(equal, False, mask)
-        part, k = 0, 0
+        part, k = _NONE, _NONE
         for reading in range(wanted.size):
             if not wanted[reading]:
                 continue

@@ -189,7 +189,7 @@ def _expand(rows, places, counted, alike, series, room, functions):  # type: ign
             move(series, lane, cranks, trig, lanes)
             accelerate(series, lane, rows.exact, lanes)
             carry(series, lane)
-            travels = 0
+            travels = np.int64(0)
             for t in range(r, count):
                 if alike[t] != r or (counted.size > 0 and not any_of(counted[t], first, lanes)):
                     continue
