@@ -2,7 +2,6 @@
 
 import pickle
 import struct
-from dataclasses import dataclass
 from enum import IntEnum
 from functools import lru_cache
 from typing import BinaryIO
@@ -29,8 +28,7 @@ class Priority(IntEnum):
     LONG = 2
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Task:
     """What to compute, and in which form and coding to answer; all data: what it names is looked up in the worker.
 

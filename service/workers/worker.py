@@ -54,8 +54,7 @@ class NoRoom(Exception):
     """There is no room on disk for a large answer; a retry may help."""
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Certified:
     """How an optimum was found: method, seconds, certified relative gap."""
 
@@ -64,8 +63,7 @@ class Certified:
     relative_gap: float
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Answer:
     """What a task came to.
 
@@ -125,8 +123,7 @@ class Long:
 Outcome = Answer | Refused | Crashed
 
 
-@record
-@dataclass(frozen=True)
+@record(frozen=True)
 class Reply:
     """What a worker says: the outcome of a task, for how long cores have computed it, and all its tasks so far [s]."""
 
