@@ -17,6 +17,7 @@ def serve(
 ) -> None:
     """Run the REST service until it is interrupted."""
     import os
+    from contextlib import ExitStack
 
     from service.watch.memory import keep_little
 
@@ -38,12 +39,14 @@ def serve(
     try:
         settings = Settings(**values)
         logs.configure(settings)
-        socket = listen(settings)
-        # beside what takes as long here
-        load()
-        from service.app import create_app
+        with ExitStack() as refused:
+            socket = refused.enter_context(listen(settings))
+            # beside what takes as long here
+            load()
+            from service.app import create_app
 
-        app = create_app(settings)
+            app = create_app(settings)
+            refused.pop_all()
     except ValidationError as error:
         fail(*wrong_values(error, values))
     except ValueError as error:

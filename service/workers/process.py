@@ -160,9 +160,13 @@ def preload() -> None:
 
 
 def load() -> None:
-    """Start the process that others are forked from: it loads for a second, and so may another at the same time."""
+    """Start the process that others are forked from: it loads for a second, and so may another at the same time.
+
+    Where it cannot be started, the first worker says so.
+    """
     preload()
-    forkserver.ensure_running()
+    with suppress(OSError):
+        forkserver.ensure_running()
 
 
 def forked(memory_bytes: int, folder: Path | None, first: bool) -> Worker:
