@@ -5,6 +5,7 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
@@ -18,7 +19,8 @@ from service.settings import Settings
 from tests.clients.conftest import ROOT
 
 FORMS = ROOT / "tests/clients/forms"
-DENO = shutil.which("deno", path=f"{ROOT / '.venv/bin'}{os.pathsep}{os.environ.get('PATH', '')}")
+#: of the packages that run the tests, which are not in a copy of the tree
+DENO = shutil.which("deno", path=f"{Path(sys.executable).parent}{os.pathsep}{os.environ.get('PATH', '')}")
 
 
 def deno(*arguments: str | Path, given: str | None = None) -> subprocess.CompletedProcess[str]:
