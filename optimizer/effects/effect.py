@@ -23,7 +23,7 @@ class Context:
     angle: Real  # (T,) shaft angles, or (..., T) others for each machine, rad
     results: Mapping[str, Any]
     wanted: Collection[str] = ()  # effects whose results are read once all have run
-    readings: tuple[Reading, ...] = ()  # of the forces of many designs over the turn, that will be asked for
+    readings: tuple[Reading, ...] = ()  # of the forces of many designs over the turn, that columns will need
 
 
 def _none(_machine: Machine) -> Iterator[Any]:

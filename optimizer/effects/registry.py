@@ -182,7 +182,7 @@ def simulate(
     demands : outputs and other purposes by name, with the effects that each needs.
     angle : (T,) rad, shaft angles of the samples; needed only by sampled effects.
     results : of effects that need not run, by name.
-    readings : of the forces of many designs over the turn, that will be asked for.
+    readings : of the forces of many designs over the turn, that columns will need.
     """
     samples = np.zeros(0) if angle is None else angle
     wanted = tuple(need for needs in demands.values() for need in needs)

@@ -213,7 +213,7 @@ def simulated(
     samples : number of sampled shaft angles in one turn.
     leading : axes of all results; none for one machine.
     machine : another in place of that of the request.
-    readings : of the forces of many designs over the turn, that will be asked for.
+    readings : of the forces of many designs over the turn, that columns will need.
     """
     start = time.perf_counter()
     machine = request.machine if machine is None else machine

@@ -79,7 +79,7 @@ class WholeTurn:
     turns : of the shaft, after which all repeats.
     means : (N, R) N, of the tangential forces, where there is a closed form.
     squared : whether mean squares are asked for: what bounds their quadratures bounds the pieces too.
-    readings : of the forces of many designs, that will be asked for.
+    readings : of the forces of many designs, that columns will need.
     """
 
     rows: RowData

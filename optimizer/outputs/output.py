@@ -21,7 +21,7 @@ class Columns:
     needs : effects whose results they read, where the figure reads others.
     keys : of those in detail (:mod:`schemas.sweep.details`), which are worked out only where one of them is wanted.
     alone : whether a design takes about as long as in a single answer, however many there are.
-    readings : of the forces of the rows over the turn that are asked for.
+    readings : of the forces of the rows over the turn that they need.
     """
 
     values: Callable[[Prepared, Complex], Mapping[str, Real]]
