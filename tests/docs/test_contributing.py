@@ -17,7 +17,7 @@ _STEP = re.compile(
     r"```\w+\n(?P<block>.*?)```\n",
     re.DOTALL,
 )
-_NUMBERS = ("One", "Two", "Three", "Four", "Five", "Six")
+_NUMBERS = ("One", "Two", "Three", "Four", "Five", "Six", "Seven")
 _SCRIPT = """
 import json, time
 from math import asin, degrees

@@ -14,8 +14,8 @@ from tests.analyze.engines import UNEVEN, cylinder, engine, trace
 from tests.studies.sweep.single import assert_row_is_the_single_answer, example, numeric_paths, sweep, table
 
 GOAL = {"moment_weight": 1.5, "direction_weights": {"x": 1.0, "y": 0.8}}
-TURN = ["gas", "piston_force", "rod_loads", "torque", "flywheel", "overturning", "roll", "loads", "main_bearings"]
-DRIVE = [*TURN, "orders", "stages", "internal_moment", "balance_rate"]
+#: outputs with columns that a machine of rods answers beside its residual
+DRIVE = [name for name in OUTPUT_COLUMNS if name not in ("residual", "pin_loads")]
 TABLE = {"angle_deg": [0, 90, 200, 360], "torque_Nm": [10, 12, 14, 10]}
 
 
@@ -140,10 +140,6 @@ def test_columns_of_every_output_are_the_single_answers(seed: int) -> None:
     request = sweep(base, speed, *others, task="analyze", design="paired")
     seen = {assert_row_is_the_single_answer(request, row, 1e-12) for row in table(request).to_pylist()}
     assert "analyzed" in seen
-
-
-def test_every_output_with_columns_is_compared() -> None:
-    assert {"residual", "pin_loads", *DRIVE} == set(OUTPUT_COLUMNS)
 
 
 @pytest.mark.parametrize(
