@@ -50,7 +50,7 @@ def run(arguments: list[str], folder: Path, programs: Path | None = None) -> Non
     done = subprocess.run(
         arguments, cwd=folder, env={**os.environ, "PATH": path}, capture_output=True, text=True, check=False
     )
-    # a sweep that goes on puts files into its folder, and the service its mark beside the folders: no fault by the guide
+    # a sweep that goes on puts files into its folder, and the service its mark beside them: no fault by the guide
     grown = all(
         re.fullmatch(r"tar: results(/\w+)?: file changed as we read it", line) for line in done.stderr.splitlines()
     )
