@@ -73,12 +73,15 @@ class CrankOrders:
         return pairs // alike * 2 ** sum(swapped)
 
 
-def crank_orders(machine: Machine, angles_deg: Sequence[float], alike_across: bool = True) -> CrankOrders:
+def crank_orders(
+    machine: Machine, angles_deg: Sequence[float], alike_across: bool = True, fitted: bool = False
+) -> CrankOrders:
     """The orders of angles on the throws of a machine.
 
     Parameters
     ----------
     alike_across : whether all directions across the shaft count alike.
+    fitted : whether counterweights are given, which stand at angles and on webs of their own.
     """
     reduced = [angle % 360.0 for angle in angles_deg]
     different: list[float] = []
@@ -90,18 +93,18 @@ def crank_orders(machine: Machine, angles_deg: Sequence[float], alike_across: bo
     times = tuple(counts[k] for k in range(len(different)))
     symmetries = {
         Symmetry(image, ends): None
-        for image in _images(machine, different, times, alike_across)
-        for ends in ((False, True) if _same_from_both_ends(machine) else (False,))
+        for image in _images(machine, different, times, alike_across, fitted)
+        for ends in ((False, True) if not fitted and _same_from_both_ends(machine) else (False,))
     }
     return CrankOrders(tuple(different), times, tuple(symmetries))
 
 
 def _images(
-    machine: Machine, angles: Sequence[float], times: Sequence[int], alike_across: bool
+    machine: Machine, angles: Sequence[float], times: Sequence[int], alike_across: bool, fitted: bool
 ) -> Iterator[tuple[int, ...]]:
     """Images of the angles that the machine allows and that leave every angle as often as it was."""
     yield tuple(range(len(angles)))
-    if not _turns_freely(machine):
+    if fitted or not _turns_freely(machine):
         return
     for sign in (1.0, -1.0) if _same_in_a_mirror(machine, alike_across) else (1.0,):
         for angle in angles:

@@ -237,7 +237,8 @@ class SweepRequest(Ruled):
         elif len(angles) > MAX_ORDERED:
             yield FieldProblem(("angles_deg",), f"at most {MAX_ORDERED} throws are put in order")
         else:
-            orders = crank_orders(machine, angles, self._alike_across)
+            fitted = isinstance(self.base, AnalyzeRequest) and bool(self.base.counterweights)
+            orders = crank_orders(machine, angles, self._alike_across, fitted)
             if orders.sequence_count > MAX_SEQUENCES:
                 message = f"at most {MAX_SEQUENCES} sequences are looked through; these angles make more"
                 yield FieldProblem(("angles_deg",), message)

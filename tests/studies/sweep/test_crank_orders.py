@@ -192,3 +192,18 @@ def test_with_counterweights() -> None:
     assert set(other["status"].to_pylist()) == {"optimal"}
     before = one["force_peak_N"].to_numpy() + one["moment_peak_Nm"].to_numpy() / 1.4
     assert np.all(other["objective"].to_numpy() <= before * (1 + 1e-9) + 1e-9)
+
+
+def test_counterweights_that_are_given_stay_where_they_are() -> None:
+    """Analytic: no order of cranks is another one seen differently, so that none is left out."""
+    webs = [
+        {"name": name, "position_m": place, "counterweight_radius_m": 0.1, "max_mass_kg": 1}
+        for name, place in (("a", 0.0), ("b", PITCH))
+    ]
+    given = body([0.0, 180.0], webs=webs)
+    given["base"]["counterweights"] = [{"web": "a", "mass_kg": MASS, "angle_deg": 180}]
+    request = SweepRequest.model_validate(given)
+    assert request.total == 2
+    moments = run_chunk(request.model_dump_json().encode(), 0, 2)["moment_peak_Nm"].to_numpy()
+    # the rows leave half of UNIT in either sense; the counterweight takes that of its sense away, or doubles it
+    assert moments == pytest.approx([UNIT / 2, 3 * UNIT / 2], rel=1e-12)
