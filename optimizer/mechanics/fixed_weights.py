@@ -6,7 +6,7 @@ import numpy as np
 
 from optimizer.mechanics.angles import direction
 from optimizer.mechanics.layout import Layout, Rotating, stacked
-from optimizer.numerics.arrays import Real
+from optimizer.numerics.arrays import Real, side_by_side
 from optimizer.numerics.memoization import remembered
 from schemas.machine.machine import Machine
 
@@ -68,10 +68,5 @@ def laden(layout: Layout, machine: Machine) -> Layout:
         "position": layout.webs.position[..., there],
     }
     return replace(
-        layout, rotating=Rotating(**{name: _behind(getattr(turning, name), more) for name, more in parts.items()})
+        layout, rotating=Rotating(**{name: side_by_side(getattr(turning, name), more) for name, more in parts.items()})
     )
-
-
-def _behind(arrays: np.ndarray, more: np.ndarray) -> np.ndarray:
-    leading = np.broadcast_shapes(arrays.shape[:-1], more.shape[:-1])
-    return np.concatenate([np.broadcast_to(array, (*leading, array.shape[-1])) for array in (arrays, more)], axis=-1)

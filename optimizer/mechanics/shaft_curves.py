@@ -17,7 +17,7 @@ from optimizer.mechanics.bearings import bending_moment
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.row_series import Reading
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
-from optimizer.numerics.arrays import Complex, Real, spread
+from optimizer.numerics.arrays import Complex, Real, side_by_side, spread
 from optimizer.numerics.memoization import remembered
 from optimizer.numerics.records import record
 from optimizer.responses.curve import TurnResponse
@@ -115,9 +115,7 @@ def bending_influence(layout: Layout, places: Real, reaction: Real, corners: Rea
 @remembered
 def planes(layout: Layout) -> Real:
     """Planes of rows, rotating masses and webs (..., L) m."""
-    parts = (layout.reciprocating.position, layout.rotating.position, layout.webs.position)
-    leading = np.broadcast_shapes(*(part.shape[:-1] for part in parts))
-    return np.concatenate([spread(part, (*leading, part.shape[-1])) for part in parts], axis=-1)
+    return side_by_side(layout.reciprocating.position, layout.rotating.position, layout.webs.position)
 
 
 def shaft_curves(turn: WholeTurn, layout: Layout, influence: Real, reading: Reading = "on_shaft") -> ShaftCurves:

@@ -60,6 +60,12 @@ def spread(array: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:
     return np.broadcast_to(array, shape)
 
 
+def side_by_side(*arrays: NDArray[Any]) -> NDArray[Any]:
+    """All (..., n) on one last axis, leading axes broadcast."""
+    leading = np.broadcast_shapes(*(array.shape[:-1] for array in arrays))
+    return np.concatenate([spread(array, (*leading, array.shape[-1])) for array in arrays], axis=-1)
+
+
 def read_only(array: NDArray[Any]) -> NDArray[Any]:
     """The same numbers, which cannot be written there: an answer keeps them without a copy."""
     view = array.view()

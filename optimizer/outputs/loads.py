@@ -15,7 +15,7 @@ from optimizer.mechanics.layout import stacked
 from optimizer.mechanics.row_series import Reading
 from optimizer.mechanics.shaft import INFLUENCES, bearing_places
 from optimizer.mechanics.weight import GRAVITY, along_axis, on_guide
-from optimizer.numerics.arrays import Complex, Real, spread
+from optimizer.numerics.arrays import Complex, Real, side_by_side
 from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.peaks import (
     Search,
@@ -195,13 +195,7 @@ def _turning(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | N
     webs = scene.layout.webs
     size = np.abs(fitted)
     # of designs without counterweights they are nan
-    return _joined(places, webs.position), _joined(masses, np.where(np.isnan(size), 0.0, size) / webs.radius)
-
-
-def _joined(first: Any, second: Any) -> Any:
-    """Side by side on the last axis, leading axes broadcast."""
-    leading = np.broadcast_shapes(first.shape[:-1], second.shape[:-1])
-    return np.concatenate([spread(part, (*leading, part.shape[-1])) for part in (first, second)], axis=-1)
+    return side_by_side(places, webs.position), side_by_side(masses, np.where(np.isnan(size), 0.0, size) / webs.radius)
 
 
 def on_bearings(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | None) -> Complex:
@@ -212,7 +206,7 @@ def on_bearings(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex 
     load = masses * GRAVITY * np.asarray(down)[..., None]
     if machine.gravity_deg is not None:
         rows = scene.layout.reciprocating
-        places, load = _joined(places, rows.position), _joined(load, along_axis(rows.mass, rows.axis, down))
+        places, load = side_by_side(places, rows.position), side_by_side(load, along_axis(rows.mass, rows.axis, down))
     influence = INFLUENCES[scene.request.fidelity.shaft](bearing_places(machine), places)
     result: Complex = (influence @ load[..., None])[..., 0]
     return result
@@ -233,9 +227,11 @@ def _weights(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | N
 def whole_weight(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | None) -> Real:
     """Weight of a machine that says what stands still on its foundation, (...) N."""
     _, turning = _turning(scene, machine, fitted)
-    shafts = 0.0
+    shafts: Real | float = 0.0
     if scene.layout.balance is not None and scene.shafts is not None:
-        shafts = float(np.sum(np.abs(scene.shafts) / scene.layout.balance.radius))
+        size = np.abs(scene.shafts) / scene.layout.balance.radius
+        # of designs without counterweights they are nan
+        shafts = np.sum(np.where(np.isnan(size), 0.0, size), axis=-1)
     moving = np.sum(turning, axis=-1) + np.sum(scene.layout.reciprocating.mass, axis=-1) + shafts
     return np.asarray((machine.stationary_mass_kg + moving) * GRAVITY)
 

@@ -2,16 +2,16 @@
 
 import numpy as np
 
-from optimizer.mechanics.fixed_weights import _behind
+from optimizer.numerics.arrays import side_by_side
 
 
 def test_weights_stand_behind_others_in_every_design() -> None:
     """Analytic: whichever of both has the leading axes."""
     many, few = np.arange(24.0).reshape(2, 3, 4), np.array([-1.0, -2.0])
-    found = _behind(many, few)
+    found = side_by_side(many, few)
     assert found.shape == (2, 3, 6)
     assert found[1, 2].tolist() == [20.0, 21.0, 22.0, 23.0, -1.0, -2.0]
-    turned = _behind(few, many)
+    turned = side_by_side(few, many)
     assert turned.shape == (2, 3, 6)
     assert turned[0, 1].tolist() == [-1.0, -2.0, 4.0, 5.0, 6.0, 7.0]
-    assert _behind(few, few).tolist() == [-1.0, -2.0, -1.0, -2.0]
+    assert side_by_side(few, few).tolist() == [-1.0, -2.0, -1.0, -2.0]
