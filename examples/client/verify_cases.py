@@ -131,18 +131,6 @@ def nominal(machine: Machine, goal: Place, rows: Dict[str, Dict[str, Number]], r
     return largest(ZERO, *Statement(machine, goal, rows, capped=False).values(responses).values())
 
 
-def peak(machine: Machine, responses: Responses, name: str, off: Scatter, sizes: Sequence[Number]) -> Number:
-    """The largest of a response of the first order where counterweights are off."""
-    co, counter = responses[name]
-    return abs(co) + abs(counter) + grown(machine, name, off, sizes)
-
-
-def grown(machine: Machine, name: str, off: Scatter, sizes: Sequence[Number]) -> Number:
-    """What a response of the first order grows by at most."""
-    arms = [machine.arm(name, web.position) for web in machine.webs]
-    return off.of([arm * machine.square for arm in arms], sizes)
-
-
 def with_value(body: Any, parts: Sequence[str], value: Any, place: Place) -> Any:
     """A copy of a body with another value at a JSON pointer (RFC 6901)."""
     if not parts:

@@ -7,7 +7,7 @@ from typing import Dict, Iterable, List, NamedTuple, Optional, Sequence, Tuple
 
 from verify_answer import Fitted
 from verify_bearings import SAMPLE
-from verify_cases import Case, Scatter, corners, goal_of, peak
+from verify_cases import Case, Scatter, corners, goal_of
 from verify_curves import Turn
 from verify_loads import Loads
 from verify_machine import ON_FRAME, Mass, Responses, over
@@ -209,7 +209,14 @@ class Part:
 
     def peak(self, weights: Sequence[Mass], name: str, off: Scatter, sizes: Sequence[Number]) -> Number:
         """The largest of a response of the first order, likewise."""
-        return largest(ZERO, *(peak(corner, corner.responses(weights), name, off, sizes) for corner in self.machines))
+        phasors = [corner.responses(weights)[name] for corner in self.machines]
+        return largest(ZERO, *(abs(co) + abs(counter) for co, counter in phasors)) + self.grown(name, off, sizes)
+
+    def grown(self, name: str, off: Scatter, sizes: Sequence[Number]) -> Number:
+        """What both lengths of a response of the first order grow by at most."""
+        first = (gear if abs(gear.ratio) == 1 else None for gear in self.geared)
+        on_shafts = [ZERO if gear is None else self._arm(name, gear) for gear in first]
+        return off.of([*self._factors(name, ONE), *on_shafts], sizes)
 
     def _group(self, kind: str) -> Group:
         goal = goal_of(kind, self.named)

@@ -81,7 +81,8 @@ def _exactly(request: Place, answer: Place, program: Program, fitted: Fitted) ->
     """Values of goals of the first order, in exact numbers."""
     masses = fitted.first
     proof, worst, price = answer / "certificate", answer / "worst_case", answer / "price_of_robustness"
-    sizes, nothing = off_sizes(program.machine, fitted), [ZERO for _ in masses]
+    sizes = off_sizes(program.parts[0], fitted)
+    nothing = [ZERO for _ in sizes]
     parts = [(part, part.placed(fitted).first) for part in program.parts]
     value = largest(ZERO, *(part.value(weights, program.off, sizes) for part, weights in parts))
     rest = largest(ZERO, *(part.value(part.machine.there, program.off, nothing) for part, _ in parts))

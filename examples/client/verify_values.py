@@ -7,10 +7,10 @@ from typing import Iterator, List, NamedTuple, Sequence
 
 from verify_answer import Fitted
 from verify_bearings import SAMPLE, peak_of
-from verify_cases import Scatter, grown
+from verify_cases import Scatter
 from verify_cuts import Part
 from verify_harmonics import Curve
-from verify_machine import ON_FRAME, Machine
+from verify_machine import ON_FRAME
 from verify_numbers import ZERO, Number, largest
 from verify_program import phasors
 
@@ -39,11 +39,12 @@ def _range(number: Number) -> Range:
     return Range(float(Number(number.low, number.low)), float(number))
 
 
-def off_sizes(machine: Machine, fitted: Fitted) -> List[Number]:
-    """What is off by a share of itself [kg m], web by web: what is fixed is as it is."""
-    webs = zip(fitted.turning, machine.webs)
+def off_sizes(part: Part, fitted: Fitted) -> List[Number]:
+    """What is off by a share of itself [kg m], web by web, those of balance shafts last: what is fixed is as it is."""
+    webs = zip(fitted.turning, part.machine.webs)
     own = [ZERO if web.fixed else mass.product for mass, web in webs]
-    return [*own, *(mass.product for mass in fitted.first[len(own) :])]
+    on_shafts = [mass.product for _, mass in fitted.on_shafts] or [ZERO for _ in part.geared]
+    return [*own, *on_shafts]
 
 
 class Value:
@@ -73,15 +74,14 @@ class Value:
         if name not in ON_FRAME:
             return self.response(response)
         if not self.part.all:
-            sizes = off_sizes(self.part.machine, self.fitted)
-            every = [(corner, phasors(corner.responses(self.fitted.first), response)) for corner in self.part.machines]
-            grow = (abs(co) + abs(counter) + grown(corner, name, self.off, sizes) for corner, (co, counter) in every)
-            return _range(largest(ZERO, *grow))
+            every = (phasors(corner.responses(self.fitted.first), response) for corner in self.part.machines)
+            most_of = largest(ZERO, *(abs(co) + abs(counter) for co, counter in every))
+            return _range(most_of + self.part.grown(name, self.off, off_sizes(self.part, self.fitted)))
         return self.response(name, axis=axis)
 
     def of_first_order(self, name: str) -> Range:
         """A peak of the first order."""
-        return _range(self.part.peak(self.fitted.first, name, self.off, off_sizes(self.part.machine, self.fitted)))
+        return _range(self.part.peak(self.fitted.first, name, self.off, off_sizes(self.part, self.fitted)))
 
     def bearings(self) -> Range:
         """The largest load."""
@@ -95,10 +95,14 @@ class Value:
             return 0.0
         share, besides = float(self.off.share), float(self.off.besides)
         loads = self.part.loads
-        sizes = zip(self.part.machine.webs, off_sizes(self.part.machine, self.fitted))
+        factors = [loads.factor(name, web.position) for web in self.part.machine.webs]
+        for gear in self.part.geared:
+            arm = loads.factor(name, gear.web.position) if name in ON_FRAME else 0.0
+            factors.append(gear.ratio**2 * (abs(gear.place.middle()) if name == "roll" else arm))
+        sizes = off_sizes(self.part, self.fitted)
         return sum(
-            abs(loads.factor(name, web.position)) * loads.square * (share * abs(size.middle().real) + besides)
-            for web, size in sizes
+            abs(factor) * loads.square * (share * abs(size.middle().real) + besides)
+            for factor, size in zip(factors, sizes)
         )
 
     def _external(self) -> Iterator[Range]:
@@ -110,7 +114,7 @@ class Value:
                 if name in weights:
                     yield self._weighed(name, float(weights[name]))
             return
-        sizes = off_sizes(self.part.machine, self.fitted)
+        sizes = off_sizes(self.part, self.fitted)
         value = self.part.value(self.fitted.first, self.off, sizes)
         yield _range(value)
 

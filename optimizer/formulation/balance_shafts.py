@@ -19,16 +19,11 @@ from schemas.answer.counterweights import Counterweight, FittedShaft
 from schemas.answer.limits import MachineLimit, WebLimit
 from schemas.base.variation import with_fields
 from schemas.machine.machine import Machine
-from schemas.machine.reciprocating import BalanceShaft, ReciprocatingMachine
+from schemas.machine.reciprocating import BalanceShaft, balance_shafts
 from schemas.machine.webs import Web
 from schemas.request.objective import Objective
 
 _TURNS = {1: "at its speed", 2: "at twice its speed"}
-
-
-def balance_shafts(machine: Machine) -> tuple[BalanceShaft, ...]:
-    """Those of a machine."""
-    return machine.balance_shafts if isinstance(machine, ReciprocatingMachine) else ()
 
 
 class DesignSpace(NamedTuple):
@@ -61,6 +56,11 @@ class Fitted(NamedTuple):
     balance_shafts: tuple[FittedShaft, ...]
     on_crank: Complex  # (K,) kg m
     on_shafts: Complex | None  # (S,) kg m; None without balance shafts
+
+    @property
+    def unbalance(self) -> Complex:
+        """Of all of them (K + S,) kg m."""
+        return self.on_crank if self.on_shafts is None else np.concatenate([self.on_crank, self.on_shafts])
 
     @property
     def all_of_them(self) -> tuple[Counterweight, ...]:
@@ -98,18 +98,28 @@ def chosen(
     mass_kg, angle_deg : (K + S,) of the webs of :func:`design_space`.
     vectors : (K + S,) kg m, their unbalances where they are known.
     """
-    shafts = balance_shafts(machine)
-    if not shafts and not any_fixed(machine):
+    if not balance_shafts(machine) and not any_fixed(machine):
         return fitted(machine, mass_kg, angle_deg, vectors)
+    return fitted(machine, *drawn(machine, objective, mass_kg, angle_deg))
+
+
+def drawn(machine: Machine, objective: Objective, mass_kg: Real, angle_deg: Real) -> tuple[Real, Real]:
+    """Masses [kg] and angles [deg] of all webs (..., K + S) as they are drawn, with the fixed weights in their places.
+
+    Parameters
+    ----------
+    mass_kg, angle_deg : (..., K + S) as a program has chosen them, of the webs of :func:`design_space`.
+    """
     mass_kg, angle_deg = beside(machine, mass_kg, angle_deg)
+    shafts = balance_shafts(machine)
     if not shafts:
-        return fitted(machine, mass_kg, angle_deg)
+        return mass_kg, angle_deg
     ratio = np.array([shaft.speed_ratio for shaft in shafts for _ in shaft.webs])
     mirrored = (ratio == -1) & (objective.orders == "first")
     own = len(machine.webs)
     angle = angle_deg.copy()
-    angle[own:] = np.where(mirrored, np.mod(-angle[own:], 360.0), angle[own:])
-    return fitted(machine, mass_kg, np.mod(angle, 360.0))
+    angle[..., own:] = np.where(mirrored, np.mod(-angle[..., own:], 360.0), angle[..., own:])
+    return mass_kg, np.mod(angle, 360.0)
 
 
 def fitted(machine: Machine, mass_kg: Real, angle_deg: Real, vectors: Complex | None = None) -> Fitted:

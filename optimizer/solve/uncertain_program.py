@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.errors import MissingInput
-from optimizer.formulation.balance_shafts import DesignSpace
+from optimizer.formulation.balance_shafts import DesignSpace, design_space
 from optimizer.formulation.formulate import counted, objective_ceilings, responses, weights
 from optimizer.formulation.goals import Case, Goals, formulate
 from optimizer.formulation.simulation import Prepared
@@ -231,7 +231,7 @@ def _scenarios(task: Task, nominal: Prepared, share: float) -> Iterator[MachineO
         if lacking:
             raise MissingInput(FieldProblem(changes, f"{pointer(path)}: {message}") for path, message in lacking)
         scene = prepare(nominal.request, ("residual",), effects_of_objective(objective), machine)
-        yield MachineOfCase(DesignSpace(machine, objective), replace(scene, objective=objective), name, weight, share)
+        yield MachineOfCase(design_space(machine, objective), replace(scene, objective=objective), name, weight, share)
 
 
 def _measures(task: Task) -> Iterator[Measure]:

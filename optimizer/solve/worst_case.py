@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from optimizer.formulation.balance_shafts import DesignSpace, Fitted, chosen
+from optimizer.formulation.balance_shafts import Fitted, chosen
 from optimizer.formulation.counterweights import unbalance
 from optimizer.formulation.formulate import added, counted, of_all_orders
 from optimizer.formulation.goals import Goals, bearing_responses, formulate
@@ -151,8 +151,10 @@ def _external(robust: Robust, machine: MachineOfCase, response: int, u: Complex)
     if robust.task.objective.orders == "all":
         every = of_all_orders(machine.turn, machine.scene.laden, robust.task.objective)
         return _peak(robust, machine, every[response : response + 1], u)
-    measure = Measure(response, 1.0, 1.0)
-    off = robust.scatter.of(machine.nominal[response].influence, u)
+    measure, nominal = Measure(response, 1.0, 1.0), machine.nominal[response]
+    off = robust.scatter.of(nominal.influence, u)
+    if nominal.counter_influence is not None:
+        off += robust.scatter.of(nominal.counter_influence, u)
     return (float(np.max(machine.sizes(measure, machine.corners(measure), u))) + off) * machine.scene.omega_squared
 
 
@@ -203,8 +205,8 @@ def _price(robust: Robust, u: Complex, best: Complex | None) -> dict[str, float 
 def _nominal(robust: Robust) -> Goals:
     """The program of the machine as it is given, with nothing off."""
     task, scene = robust.task, robust.scene
-    case = MachineOfCase(DesignSpace(task.machine, task.objective), scene, None, 1.0, 0.0).case()
-    return formulate(task.machine, task.objective, [case], scene.omega_squared, task.fidelity)
+    case = MachineOfCase(task.space, scene, None, 1.0, 0.0).case()
+    return formulate(*task.space, [case], scene.omega_squared, task.fidelity)
 
 
 def _objective(robust: Robust, u: Complex) -> float:

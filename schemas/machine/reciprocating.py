@@ -143,11 +143,15 @@ class ReciprocatingMachine(Rotor):
         yield Rule(self.max_total_mass_kg is not None, ("max_total_mass_kg",), message)
 
 
+def balance_shafts(machine: Rotor) -> tuple[BalanceShaft, ...]:
+    """Those of a machine, of whichever kind."""
+    return machine.balance_shafts if isinstance(machine, ReciprocatingMachine) else ()
+
+
 def no_balance_shafts(machine: Rotor, path: Path, what: str) -> Iterator[Rule]:
     """Refuses balance shafts, where something is of the crankshaft alone."""
-    if isinstance(machine, ReciprocatingMachine):
-        message = f"{what} has no balance shafts: it is of the crankshaft alone"
-        yield Rule(bool(machine.balance_shafts), (*path, "balance_shafts"), message)
+    message = f"{what} has no balance shafts: it is of the crankshaft alone"
+    yield Rule(bool(balance_shafts(machine)), (*path, "balance_shafts"), message)
 
 
 def _throw_rules(path: Path, throw: Throw, sense: float) -> Iterator[Rule]:

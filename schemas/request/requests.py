@@ -21,7 +21,7 @@ from schemas.base.rules import Rule, Ruled
 from schemas.base.units import Unit
 from schemas.machine.catalogue import DISCRETE_GAP
 from schemas.machine.fitted import FittedCounterweight, GivenCounterweight, fitted_rules
-from schemas.machine.reciprocating import no_balance_shafts
+from schemas.machine.reciprocating import balance_shafts, no_balance_shafts
 from schemas.machine.rotor import MAX_WEBS, Choice
 from schemas.request.cases import Case, case_rules, cases, stated
 from schemas.request.objective import Objective
@@ -236,14 +236,11 @@ class OptimizeRequest(Scene, Ruled):
     def _shaft_rules(self) -> Iterator[Rule]:
         """What does not go with balance shafts."""
         machine, goal = self.machine, self.objective
-        shafts = machine.balance_shafts if machine.kind == "reciprocating" else ()
-        if shafts:
-            yield from self.worst_case_rules("does not go with balance shafts")
-        else:
-            rolling = goal.roll_weight != 0
-            if rolling is not False:
-                message = "balance shafts alone change the roll moment, and the machine has none"
-                yield Rule(rolling, ("objective", "roll_weight"), message)
+        shafts = balance_shafts(machine)
+        rolling = not shafts and goal.roll_weight != 0
+        if rolling is not False:
+            message = "balance shafts alone change the roll moment, and the machine has none"
+            yield Rule(rolling, ("objective", "roll_weight"), message)
         if any(shaft.speed_ratio == -1 for shaft in shafts):
             for name in (ceiling.field for ceiling in limited(goal) if ceiling.axis is None):
                 whole = goal.orders == "first"

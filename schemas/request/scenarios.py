@@ -113,7 +113,7 @@ def _refused(path: Path) -> str | None:
     """Why a scenario may not change a field."""
     if path[0] != "machine":
         return "only numbers of the machine can change"
-    of_webs = path[1] == "webs" and path[-1] != "position_m"
+    of_webs = "webs" in path and path[-1] != "position_m"
     if of_webs or path[1] == "max_total_mass_kg":
         return "the counterweights and their limits are the same in all scenarios"
     return None

@@ -14,7 +14,6 @@ from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.accuracy import AccuracyRequest
 from schemas.request.objective import Objective
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
-from schemas.sweep.request import SweepRequest
 from tests.night import part
 from tests.optimize.machines import throw, web
 from tests.optimize.shafts import WHOLE, at, in_line_four, shaft, single
@@ -168,10 +167,6 @@ def test_what_is_not_done_with_balance_shafts_is_refused_by_name() -> None:
         assert _refused(OptimizeRequest, {**body, "objective": {field: 100.0}}) == ("objective", field)
     assert _refused(ParetoRequest, body) == ("machine", "balance_shafts")
     assert _refused(AccuracyRequest, body) == ("machine", "balance_shafts")
-    swept = {"base": body, "axes": [{"path": "/machine/speed_rpm", "values": [500, 600]}]}
-    assert _refused(SweepRequest, swept) == ("base", "machine", "balance_shafts")
-    assert _refused(OptimizeRequest, {**body, "tolerances": {"mass_relative": 0.1}}) == ("tolerances",)
-    assert _refused(OptimizeRequest, {**body, "scenarios": [{"name": "as it is"}]}) == ("scenarios",)
     forward = {"machine": single([shaft("one", 1)]), "objective": {"force_ceiling_N": 0.7 * WHOLE}}
     assert optimized(forward).status == "optimal"
 
