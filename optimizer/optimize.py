@@ -17,12 +17,11 @@ from optimizer.solve.worst_case import nothing_off
 from schemas.answer.alternatives import Alternative
 from schemas.answer.answers import OptimizeAnswer
 from schemas.base.mappings import or_mapping
-from schemas.request.objective import Objective
+from schemas.request.objective import outputs_about
 from schemas.request.requests import OptimizeRequest
 
-#: outputs that every answer holds, and what it holds too where bearings or bending count, or the roll moment
+#: outputs that every answer holds
 _ALWAYS = ("residual",)
-_OF_THE_SHAFT, _ROLL = "main_bearings", "roll"
 
 
 @or_mapping(OptimizeRequest)
@@ -46,7 +45,8 @@ def optimize(request: OptimizeRequest, outputs: Sequence[str] | None = None) -> 
     if lacking:
         raise MissingInput(lacking)
     refuse(too_heavy(request.machine, request.fitted, "fitted"))
-    names = (*_always(task.objective), *(request.outputs if outputs is None else outputs))
+    always = (*_ALWAYS, *outputs_about(task.objective.over_the_turn))
+    names = (*always, *(request.outputs if outputs is None else outputs))
     # of cases every one is a machine of its own, simulated for itself
     scene = prepare(request, names, () if task.scenarios else effects_of_objective(task.objective))
     solving, began = time.perf_counter(), time.thread_time()
@@ -85,9 +85,3 @@ def optimize(request: OptimizeRequest, outputs: Sequence[str] | None = None) -> 
             },
         }
     )
-
-
-def _always(objective: Objective) -> tuple[str, ...]:
-    """Outputs that an answer holds, whether they were asked for or not."""
-    counted = ((_OF_THE_SHAFT, objective.of_the_shaft), (_ROLL, objective.roll_weight > 0))
-    return (*_ALWAYS, *(name for name, counts in counted if counts))

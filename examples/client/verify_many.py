@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from functools import partial
-from typing import Any, Dict, Iterator, Sequence
+from typing import Any, Dict, Iterator, List, Sequence
 
 from verify_answer import MASS_GAP, before, touched
 from verify_cases import with_value
@@ -230,13 +230,15 @@ def _row(request: Place, row: Place, chosen: bool) -> Claims:
         proof = None
     if not isinstance(proof, dict):
         raise Unreadable((*row.path, "multipliers"), "must be a JSON object as a text")
-    status, weights = (row / "status").value, []
-    for web in request / "machine" / "webs":
-        name = (web / "name").text()
-        weights.append({"web": name, **{of: (row / f"{of}.{name}").value for of in ("mass_kg", "angle_deg")}})
-        if status != "infeasible" and (web / "envelope" or weights[-1]["mass_kg"] is None):
-            # a column that was not asked for; and of what is cut from a plate no row tells the radius
-            raise NotCovered(row / f"mass_kg.{name}")
+    status = (row / "status").value
+    weights = _weights(request / "machine", row, status)
+    shafts = [
+        {
+            **{name: (shaft / name).value for name in ("name", "speed_ratio")},
+            "counterweights": _weights(shaft, row, status),
+        }
+        for shaft in request / "machine" / "balance_shafts"
+    ]
     limits = [field for field in (*CEILINGS.values(), *LOADED) if request / "objective" / field]
     peaks = {name: {f"peak_{unit}": (row / f"{name}_peak_{unit}").value} for name, unit in NAMES.items()}
     proofs = {**proof, **row.value, "multipliers": proof}
@@ -244,6 +246,8 @@ def _row(request: Place, row: Place, chosen: bool) -> Claims:
         "status": status,
         "counterweights": weights if status != "infeasible" else [],
         "total_mass_kg": (row / "total_mass_kg").value,
+        "balance_shafts": shafts if status != "infeasible" else [],
+        "balance_shafts_mass_kg": (row / "balance_shafts_mass_kg").value,
         "residual": {"after": peaks, "responses": list(_beside(row))} if status != "infeasible" else {"after": None},
         "certificate": proofs if status != "infeasible" else None,
         "infeasibility": {**proofs, "conflict": limits} if status == "infeasible" else None,
@@ -253,13 +257,25 @@ def _row(request: Place, row: Place, chosen: bool) -> Claims:
         yield EVIDENCE, row / "multipliers", None, ONE
 
 
+def _weights(shaft: Place, row: Place, status: Any) -> List[Dict[str, Any]]:
+    """What the webs of a shaft carry."""
+    weights = []
+    for web in shaft / "webs":
+        name = (web / "name").text()
+        weights.append({"web": name, **{of: (row / f"{of}.{name}").value for of in ("mass_kg", "angle_deg")}})
+        if status != "infeasible" and (web / "envelope" or weights[-1]["mass_kg"] is None):
+            # a column that was not asked for; and of what is cut from a plate no row tells the radius
+            raise NotCovered(row / f"mass_kg.{name}")
+    return weights
+
+
 def _by_columns(claims: Claims, row: Place, fields: Any, chosen: bool) -> Claims:
     """Claims by the columns that they are about: of one that there is not nothing is claimed."""
     untold = chosen and not {*row.value} >= OF_STATUS
     try:
         for claim, place, room, size in claims:
-            if claim == "active_limits":
-                # which limits are touched is in no column
+            if claim in ("active_limits", "balance_shafts"):
+                # which limits are touched, and how shafts are geared, is in no column
                 continue
             room = None if claim == "status" and untold else room
             path = _column(place.path, len(row.path), fields)
@@ -284,8 +300,12 @@ def _beside(row: Place) -> Iterator[Dict[str, Any]]:
 def _column(path: Path, start: int, answer: Any) -> Path:
     """The column of a row in which a field of an answer stands."""
     row, inner = path[:start], path[start:]
-    if inner[:1] == ("counterweights",) and len(inner) == 3:
-        return (*row, f"{inner[2]}.{answer['counterweights'][inner[1]]['web']}")
+    if inner[-3:-2] == ("counterweights",):
+        # of the crankshaft or of a balance shaft
+        weight = answer
+        for step in inner[:-1]:
+            weight = weight[step]
+        return (*row, f"{inner[-1]}.{weight['web']}")
     if inner[:2] == ("residual", "after") and len(inner) == 4:
         return (*row, f"{inner[2]}_{inner[3]}")
     if inner[:2] == ("residual", "responses") and len(inner) == 4:

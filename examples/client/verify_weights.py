@@ -198,7 +198,9 @@ def shafts(machine: Machine, design: Place, place: Place) -> Claims:
             on_shaft = on_shaft + (weight / "mass_kg").number()
             back = Mass(turns.product, ZERO, turns.co, turns.position)
             weights.append((abs(ratio), turns if ratio > 0 else back))
-        yield near("total_mass", entry / "total_mass_kg", on_shaft * machine.wide)
+        if entry / "total_mass_kg":
+            # rows of sweeps have that of all shafts alone
+            yield near("total_mass", entry / "total_mass_kg", on_shaft * machine.wide)
         mass = mass + on_shaft
     return weights, mass * machine.wide
 

@@ -55,7 +55,7 @@ class Prepared:
     angle_deg: Real  # (T,) sampled shaft angles, the end point not repeated
     simulated: Simulated
     mechanics_ms: float
-    shafts: Complex | None = None  # (S,) kg m, unbalances of the balance shafts that go with counterweights
+    shafts: Complex | None = None  # (..., S) kg m, unbalances of the balance shafts that go with counterweights
     turns: int = 1  # over which the samples go: 2 where gas takes so long
     peaks: PeakTable = field(default_factory=PeakTable)  # over the turn, searched before outputs show them
 
@@ -144,7 +144,7 @@ class Prepared:
         return wrench.plus(of_balance_shafts(self.layout, self.layout.balance, self.shafts, order))
 
     def beside(self, shafts: Complex | None) -> "Prepared":
-        """The same with unbalances of the balance shafts (S,) kg m; None where there are no such shafts."""
+        """The same with unbalances of the balance shafts (..., S) kg m; None where there are no such shafts."""
         return self if shafts is None else variant(self, shafts=shafts)
 
     @cached_property

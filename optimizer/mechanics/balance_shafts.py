@@ -12,7 +12,7 @@ import numpy as np
 from optimizer.mechanics import inertia
 from optimizer.mechanics.inertia import Wrench
 from optimizer.mechanics.layout import BalanceWebs, Layout
-from optimizer.numerics.arrays import Complex, Real, total
+from optimizer.numerics.arrays import Complex, Real, side_by_side, total
 from optimizer.responses.curve import TurnResponse
 from optimizer.responses.response import Phasors, Response
 
@@ -60,8 +60,8 @@ def _widened(response: Response, shafts: BalanceWebs, arm: Real) -> Response:
     own = np.zeros_like(response.influence)
     return replace(
         response,
-        influence=np.concatenate([response.influence, co], axis=-1),
-        counter_influence=np.concatenate([own, counter], axis=-1) if np.any(shafts.ratio == -1.0) else None,
+        influence=side_by_side(response.influence, co),
+        counter_influence=side_by_side(own, counter) if np.any(shafts.ratio == -1.0) else None,
     )
 
 

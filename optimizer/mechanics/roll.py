@@ -14,7 +14,7 @@ import numpy as np
 
 from optimizer.mechanics.layout import BalanceWebs, Layout
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
-from optimizer.numerics.arrays import Complex, Real, spread, variant
+from optimizer.numerics.arrays import Complex, Real, side_by_side, spread, variant
 from optimizer.responses.curve import TurnResponse
 
 
@@ -23,14 +23,25 @@ def roll(turn: WholeTurn, layout: Layout) -> TurnResponse:
 
     Gas and friction count. Webs of balance shafts stand behind those of the crankshaft, which do nothing.
     """
-    curves = roll_curves(turn, layout)
+    (response,) = rolls(turn, layout)
+    return response
+
+
+def rolls(turn: WholeTurn, layout: Layout) -> list[TurnResponse]:
+    """The same of N machines of one shape, of layouts (N,) or of one without leading axes."""
+    curves, count = roll_curves(turn, layout), len(turn.centre)
     own = np.zeros(layout.webs.position.shape)
+    influence: Real | Complex = own
+    turning: Real = own
     shafts = layout.balance
-    if shafts is None:
-        return TurnResponse("roll", "N m", own, curves, 0, own, scalar=True)
-    influence: Complex = np.concatenate([own, -1j * np.conj(shafts.x + 1j * shafts.y) * shafts.ratio**2])
-    turning: Real = np.concatenate([own, layout.sense * shafts.ratio])
-    return TurnResponse("roll", "N m", influence, curves, 0, turning, scalar=True)
+    if shafts is not None:
+        influence = side_by_side(own, -1j * np.conj(shafts.x + 1j * shafts.y) * shafts.ratio**2)
+        turning = side_by_side(own, layout.sense[..., None] * shafts.ratio)
+    both = (spread(of_webs, (count, of_webs.shape[-1])) for of_webs in (influence, turning))
+    return [
+        TurnResponse("roll", "N m", of_webs, curves, number, at, scalar=True)
+        for number, (of_webs, at) in enumerate(zip(*both, strict=True))
+    ]
 
 
 def roll_curves(turn: WholeTurn, layout: Layout) -> TurnCurves:

@@ -114,7 +114,8 @@ def columns(request: Scene, unbalance: Complex, always: tuple[str, ...], wanted:
     Parameters
     ----------
     request : of columns (n,), valid and complete.
-    unbalance : (n, webs) kg m, the counterweights; nan where there are none.
+    unbalance : (n, places) kg m, the counterweights, those on balance shafts behind those on the crankshaft; nan where
+        there are none.
     always : outputs whose columns are needed whether they were asked for or not.
     wanted : keys of the columns that are (:func:`schemas.sweep.details.key`); what comes along beside them costs
         little.
@@ -124,6 +125,9 @@ def columns(request: Scene, unbalance: Complex, always: tuple[str, ...], wanted:
     needs = {str(k): group.needs or () for k, group in enumerate(groups)}
     readings = tuple(dict.fromkeys(reading for group in groups for reading in group.readings))
     scene = simulated(request, needs, samples, unbalance.shape[:1], readings=readings)
+    own = len(request.machine.webs)
+    if unbalance.shape[-1] > own:
+        unbalance, scene = unbalance[:, :own], scene.beside(unbalance[:, own:])
     results: dict[str, Real] = {}
     for group in groups:
         results |= group.values(scene, unbalance)

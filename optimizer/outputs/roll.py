@@ -5,8 +5,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.roll import rolls
 from optimizer.mechanics.whole_turn import TurnCurves
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, side_by_side
 from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.peaks import TOLERANCE, Search, of_torque, peak_list, unsigned
 from optimizer.responses.curve import peaks
@@ -62,10 +63,18 @@ def _curves(scene: Prepared) -> TurnCurves:
     return curves
 
 
-def _columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
-    # friction of the shaft does not reach the frame
-    mean = np.sum(scene.results["torque_integrals"].row_mean, axis=-1)
-    return {"peak_roll_Nm": of_torque(scene, -mean)}
+def _columns(scene: Prepared, fitted: Complex) -> dict[str, Real]:
+    if scene.shafts is None:
+        # friction of the shaft does not reach the frame
+        mean = np.sum(scene.results["torque_integrals"].row_mean, axis=-1)
+        return {"peak_roll_Nm": of_torque(scene, -mean)}
+    designs = rolls(scene.results["whole_turn"], scene.layout)
+    with_shafts = side_by_side(fitted, scene.shafts)
+    peak: list[float] = [
+        np.nan if np.isnan(own).any() else peaks([design], own, TOLERANCE).lower[0]
+        for design, own in zip(designs, with_shafts, strict=True)
+    ]
+    return {"peak_roll_Nm": np.array(peak) * scene.layout.omega**2}
 
 
 ROLL = Output(

@@ -1,6 +1,6 @@
 """What is to be small, and what is limited."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from typing import Annotated, Any, Literal, get_args
 
 from pydantic import Field
@@ -67,6 +67,12 @@ OVER_THE_TURN: dict[str, Any] = {
 def of_the_shaft(names: Iterable[str]) -> bool:
     """Whether one of these fields is about bearing loads or bending moments."""
     return any(name.startswith(("bearing", "specific", "bending")) for name in names)
+
+
+def outputs_about(names: Collection[str]) -> tuple[str, ...]:
+    """Outputs that show what these fields are about: an answer holds them, whether they were asked for or not."""
+    loads, roll = of_the_shaft(names), "roll_weight" in names
+    return (*(("main_bearings",) if loads else ()), *(("roll",) if roll else ()))
 
 
 class Objective(Ruled):

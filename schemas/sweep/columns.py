@@ -4,9 +4,12 @@ from collections.abc import Iterator, Sequence
 
 from schemas.answer.outputs import COLUMNS_OF_PARTS, OUTPUT_COLUMNS, Column, labels
 from schemas.base.responses import PAIR, counted
+from schemas.base.rules import Path
 from schemas.base.target import Target, pointer
 from schemas.base.variation import with_fields
 from schemas.machine.machine import Machine
+from schemas.machine.reciprocating import balance_shafts
+from schemas.machine.webs import Web
 from schemas.request.objective import COSTS, Objective
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep.details import detail_columns
@@ -41,6 +44,7 @@ CERTIFICATE = tuple(column.name for column in _CERTIFICATE if column.kind == "nu
 #: column of the proofs, which comes only if asked for
 MULTIPLIERS = "multipliers"
 _TOTAL_MASS = Column("total_mass_kg", "number", "kg", "total mass of the counterweights")
+_SHAFTS_MASS = Column("balance_shafts_mass_kg", "number", "kg", "total mass of what the balance shafts carry")
 
 
 def result_columns(
@@ -93,6 +97,8 @@ def _columns(
         if details:
             yield from detail_columns(base.machine, "residual")
     yield _TOTAL_MASS
+    if balance_shafts(base.machine):
+        yield _SHAFTS_MASS
     if optimizes:
         yield from _CERTIFICATE
     if isinstance(base, OptimizeRequest):
@@ -103,13 +109,21 @@ def _columns(
         if details:
             yield from detail_columns(base.machine, output)
     if optimizes:
-        for k, web in enumerate(base.machine.webs):
-            path = pointer(("machine", "webs", k))
-            yield Column(f"mass_kg.{web.name}", "number", "kg", "mass of the counterweight on this web", path)
-            yield Column(f"angle_deg.{web.name}", "number", "deg", "its angle as drawn at shaft angle 0", path)
-            if web.envelope is not None:
-                meaning = "half of the opening of what is cut from its plate"
-                yield Column(f"half_angle_deg.{web.name}", "number", "deg", meaning, path)
+        yield from _of_webs(base.machine)
+
+
+def _of_webs(machine: Machine) -> Iterator[Column]:
+    """What is fitted on each web, on those of balance shafts behind those of the crankshaft."""
+    webs: list[tuple[Path, Web]] = [(("machine", "webs", k), web) for k, web in enumerate(machine.webs)]
+    for n, shaft in enumerate(balance_shafts(machine)):
+        webs += [(("machine", "balance_shafts", n, "webs", k), web) for k, web in enumerate(shaft.webs)]
+    for place, web in webs:
+        path = pointer(place)
+        yield Column(f"mass_kg.{web.name}", "number", "kg", "mass of the counterweight on this web", path)
+        yield Column(f"angle_deg.{web.name}", "number", "deg", "its angle as drawn at shaft angle 0", path)
+        if web.envelope is not None:
+            meaning = "half of the opening of what is cut from its plate"
+            yield Column(f"half_angle_deg.{web.name}", "number", "deg", meaning, path)
 
 
 def _residual(base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target]) -> Iterator[Column]:

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 from schemas.machine.choices import own_options
 from schemas.machine.machine import Machine
+from schemas.machine.reciprocating import balance_shafts
 from schemas.machine.throws import Row, row_cylinders
 
 #: angles and planes so near are one
@@ -127,7 +128,8 @@ def _turns_freely(machine: Machine) -> bool:
     rows = [row for throw in machine.throws for row in throw.rows]
     tabled = any(cylinder.pressure is not None for row in rows for _, cylinder in row_cylinders(row))
     own = [own_options(web) for web in machine.webs]
-    free = all(web.sector is None and web.fixed is None for web in machine.webs)
+    webs = (*machine.webs, *(web for shaft in balance_shafts(machine) for web in shaft.webs))
+    free = all(web.sector is None and web.fixed is None for web in webs)
     free = free and all(options.angles is None and options.pairs is None for options in own)
     return not tabled and not machine.unbalances and free
 
@@ -135,6 +137,9 @@ def _turns_freely(machine: Machine) -> bool:
 def _same_in_a_mirror(machine: Machine, alike_across: bool) -> bool:
     """Whether there is a line along which every throw's rows are their own mirror image; gas knows its direction."""
     throws = machine.throws
+    if balance_shafts(machine):
+        # they stand beside the crankshaft and turn the other way in a mirror
+        return False
     if any(row.cylinder is not None or row.cylinders for throw in throws for row in throw.rows):
         return False
     axes = [row.axis_deg for throw in throws[:1] for row in throw.rows] or [0.0]
@@ -175,8 +180,8 @@ def _same_from_both_ends(machine: Machine) -> bool:
     plane = machine.reference_plane_m
     if machine.unbalances or any(web.fixed is not None for web in machine.webs):
         return False
-    if machine.web_groups:
-        # the groups would have to change ends too
+    if machine.web_groups or balance_shafts(machine):
+        # the groups, and what is on other shafts, would have to change ends too
         return False
     if plane is not None and abs(2 * plane - ends) > _NEAR * max(size, abs(plane)):
         return False

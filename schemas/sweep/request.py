@@ -12,9 +12,9 @@ from schemas.base.quantities import Angle, Count, Flag
 from schemas.base.responses import limited
 from schemas.base.rules import Path, Rule, Ruled
 from schemas.base.target import BadPointer, Target, find_target
-from schemas.machine.reciprocating import ReciprocatingMachine, no_balance_shafts
+from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.machine.throws import MAX_THROWS
-from schemas.request.objective import OVER_THE_TURN, of_the_shaft
+from schemas.request.objective import OVER_THE_TURN, outputs_about
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep.alone import MAX_SEARCHED, alone_problems, searched, separate
 from schemas.sweep.axes import MAX_DESIGNS, Axis
@@ -175,7 +175,7 @@ class SweepRequest(Ruled):
     @property
     def always(self) -> tuple[str, ...]:
         """Outputs that rows hold whether they were asked for or not."""
-        return ("main_bearings",) if of_the_shaft(self.over_the_turn) else ()
+        return outputs_about(self.over_the_turn)
 
     @property
     def all_columns(self) -> tuple[Column, ...]:
@@ -211,9 +211,6 @@ class SweepRequest(Ruled):
             for broken, path, message in self.base.worst_case_rules("serves only to optimize one machine, not a sweep"):
                 if broken:
                     yield FieldProblem(("base", *path), message)
-        for broken, path, message in no_balance_shafts(self.base.machine, ("base", "machine"), "a sweep"):
-            if broken:
-                yield FieldProblem(path, message)
         for j, output in enumerate(self.base.outputs):
             if output not in OUTPUT_COLUMNS:
                 yield FieldProblem(("base", "outputs", j), "a sweep has no columns for this output")

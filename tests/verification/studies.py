@@ -43,7 +43,7 @@ def sweep_of(asked: Body, rng: random.Random) -> Body:
     InvalidRequest
         if that is none, without what a sweep does not take.
     """
-    base = _base(asked)
+    base = {name: value for name, value in asked.items() if name not in _ALONE}
     sent: Body = {"base": base, "multipliers": rng.randrange(_BARE) > 0, "details": rng.randrange(_BARE) == 0}
     request = check(OptimizeRequest, base)
     cranks = [throw.crank_angle_deg for throw in getattr(request.machine, "throws", ())]
@@ -62,7 +62,9 @@ def sweep_of(asked: Body, rng: random.Random) -> Body:
 
 def front_of(asked: Body, rng: random.Random) -> Body:
     """A front of force and moment of a request to optimise."""
-    found = _base(asked) | {"points": rng.choice([2, 3, 3, 5])}
+    machine = {name: value for name, value in asked["machine"].items() if name != "balance_shafts"}
+    kept = {name: value for name, value in asked.items() if name not in _ALONE}
+    found = kept | {"machine": machine, "points": rng.choice([2, 3, 3, 5])}
     webs, machine = found["machine"].get("webs", ()), found["machine"]
     chosen = {"catalogue", "web_groups"} & machine.keys() or any(
         {"envelope", "min_fitted_mass_kg", "hole_angles_deg", "catalogue_masses_kg"} & web.keys() for web in webs
@@ -94,13 +96,6 @@ def sweep_rows(sent: Body) -> Any:
 def front_answer(sent: Body) -> Any:
     """A front as a client reads it."""
     return json.loads(pareto(check(ParetoRequest, sent)).model_dump_json())
-
-
-def _base(asked: Body) -> Body:
-    """A request without what is of one machine alone."""
-    found = {name: value for name, value in asked.items() if name not in _ALONE}
-    machine = {name: value for name, value in asked["machine"].items() if name != "balance_shafts"}
-    return found | {"machine": machine}
 
 
 def _numbers(value: Any, path: tuple[str | int, ...], request: Model) -> Iterator[tuple[Target, float | None]]:

@@ -4,16 +4,18 @@ from typing import Any
 
 import numpy as np
 
-from optimizer.formulation.counterweights import mass_and_angle, unbalance
+from optimizer.formulation.balance_shafts import design_space, drawn
+from optimizer.formulation.counterweights import mass_and_angle, places, unbalance
 from optimizer.formulation.formulate import responses, shape_facts
 from optimizer.formulation.task import Task
-from optimizer.mechanics.fixed_weights import beside, laden
+from optimizer.mechanics.fixed_weights import laden
 from optimizer.mechanics.inertia import first_order
 from optimizer.mechanics.layout import layout as layout_of
 from optimizer.mechanics.layout import stacked
-from optimizer.numerics.arrays import Complex
+from optimizer.numerics.arrays import Complex, Real
 from optimizer.solve.certify import Certified, certified
 from optimizer.studies.sweep.proofs import multipliers_as_text
+from schemas.machine.machine import Machine
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep.columns import MULTIPLIERS
 
@@ -22,12 +24,12 @@ Columns = dict[str, Any]
 
 def shape_keys(request: OptimizeRequest, count: int) -> np.ndarray:
     """Number of the shape of program that each design has (count,): which terms and rows it is made of."""
-    facts = shape_facts(request.machine, request.objective)
+    facts = shape_facts(*design_space(request.machine, request.objective))
     return sum((np.broadcast_to(fact, (count,)) << k for k, fact in enumerate(facts)), np.zeros(count, dtype=np.int64))
 
 
 def optimal(request: OptimizeRequest, count: int, multipliers: bool = False) -> tuple[Columns, Complex]:
-    """Columns of certified optima, and the unbalance of the counterweights (count, webs) kg m.
+    """Columns of certified optima, and the unbalance of the counterweights (count, places) kg m.
 
     Parameters
     ----------
@@ -38,44 +40,55 @@ def optimal(request: OptimizeRequest, count: int, multipliers: bool = False) -> 
     turning, moving = first_order(layout)
     baseline = turning.plus(moving)
     square = np.broadcast_to(layout.omega**2, (count,))
-    machine, objective, every = request.machine, request.objective, responses(layout, baseline, request.objective)
-    best = certified(machine, objective, every, square, Task.of(request).demand)
+    task = Task.of(request)
+    machine, objective = task.space
+    best = certified(machine, objective, responses(layout, baseline, objective), square, task.demand)
     return columns_of(request, best, multipliers)
 
 
 def columns_of(request: OptimizeRequest, best: Certified, multipliers: bool) -> tuple[Columns, Complex]:
     """The same of what was certified; the request is of the radii that it has."""
-    mass, angle = beside(request.machine, best.mass_kg, best.angle_deg)
+    machine, every = request.machine, places(request.machine)
+    mass, angle = drawn(machine, request.objective, best.mass_kg, best.angle_deg)
     optimal, none = best.status == "optimal", best.status == "infeasible"
     columns: Columns = {
         **best.certificate,
         "status": best.status,
         "message": np.broadcast_to("", optimal.shape) if optimal.all() else np.where(optimal, "", best.reason),
-        "total_mass_kg": np.sum(mass, axis=-1),
+        **_total_masses(machine, mass),
     }
     if multipliers:
         columns[MULTIPLIERS] = multipliers_as_text(request, best)
     # one after the other, as the table has them
-    for web, of_web, towards in zip(request.machine.webs, mass.T.copy(), angle.T.copy(), strict=False):
+    for web, of_web, towards in zip(every, mass.T.copy(), angle.T.copy(), strict=True):
         columns[f"mass_kg.{web.name}"], columns[f"angle_deg.{web.name}"] = of_web, towards
     if none.any():
         columns = {
             name: np.where(none, np.nan, column) if column.dtype == float else column
             for name, column in columns.items()
         }
-    if mass is best.mass_kg:
+    if angle is best.angle_deg:
         return columns, best.unbalance
-    return columns, unbalance(mass, angle, stacked([web.radius_m for web in request.machine.webs]))
+    return columns, unbalance(mass, angle, stacked([web.radius_m for web in every]))
+
+
+def _total_masses(machine: Machine, mass: Real) -> Columns:
+    """Of counterweights (..., places) kg: on the crankshaft, and on the balance shafts where there are any."""
+    own = len(machine.webs)
+    columns = {"total_mass_kg": np.sum(mass[..., :own], axis=-1)}
+    if mass.shape[-1] > own:
+        columns["balance_shafts_mass_kg"] = np.sum(mass[..., own:], axis=-1)
+    return columns
 
 
 def fixed_columns(request: AnalyzeRequest, count: int) -> tuple[Columns, Complex]:
-    """Total mass, and the unbalance of the counterweights (count, webs) kg m."""
+    """Total mass, and the unbalance of the counterweights (count, places) kg m."""
     mass, angle = mass_and_angle(request.machine, request.counterweights)
-    radius = stacked([web.radius_m for web in request.machine.webs])
+    radius = stacked([web.radius_m for web in places(request.machine)])
     shape = (count, radius.shape[-1])
     columns: Columns = {
         "status": np.broadcast_to("analyzed", count),
         "message": np.broadcast_to("", count),
-        "total_mass_kg": np.broadcast_to(np.sum(mass, axis=-1), count),
     }
+    columns |= {name: np.broadcast_to(column, count) for name, column in _total_masses(request.machine, mass).items()}
     return columns, np.broadcast_to(unbalance(mass, angle, radius), shape)

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from optimizer.formulation.balance_shafts import design_space
 from optimizer.program.certificate import Multipliers
 from optimizer.solve.certify import Certified
 from optimizer.solve.proof import Bounded, conflict, implied_max_mass, named, named_conflict, physical_bounds
@@ -21,7 +22,8 @@ def multipliers_as_text(request: OptimizeRequest, best: Certified) -> np.ndarray
     objective, mass = physical_bounds(program, bounds, square)
     texts = np.full(square.shape, None, dtype=object)
     limit = (optima.mass_target * square).tolist()
-    implied = implied_max_mass(request.machine, program.limits.max_mass)
+    machine = design_space(request.machine, request.objective).machine
+    implied = implied_max_mass(machine, program.limits.max_mass)
     for n, unreachable in enumerate(optima.unreachable.tolist()):
         of_mass = least_mass and not unreachable
         against = conflict(program.chosen(n), optima.conflict.chosen(n), square[n]) if unreachable else None

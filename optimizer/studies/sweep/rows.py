@@ -1,7 +1,7 @@
 """From numbers of designs to columns of the result: axes, validity, mechanics, program, outputs."""
 
 import logging
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import Any, Generic, TypeVar
 
@@ -21,6 +21,7 @@ from optimizer.studies.sweep.work import work_per_design
 from schemas.base.rules import Path, Rule, all_rules
 from schemas.base.target import pointer
 from schemas.base.variation import with_fields
+from schemas.request.objective import outputs_about
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep.request import SweepRequest
 
@@ -150,8 +151,9 @@ class Group(Generic[Base]):
         self._targets, self._values = request.targets, values
         self.multipliers, self.always = request.multipliers, request.always
         self.wanted = _wanted(request)
-        #: designs without the outputs that all hold: they do not ask for them, and their machines lack what these need
-        self.bare = set[int]()
+        #: by an output that all hold, designs without it: their goals are not about it, and their machines lack what it
+        #: needs
+        self.bare: dict[str, set[int]] = {output: set() for output in self.always}
         #: whether the objective of some design may look at the whole turn
         self.turns = bool(request.over_the_turn)
         self._last: tuple[Designs, Base] | None = None
@@ -211,7 +213,7 @@ def _fill_or_fail(table: Rows, fill: Callable[[Designs], None], designs: Designs
 def _fill_analyzed(table: Rows, group: Group[AnalyzeRequest], designs: Designs) -> None:
     """Rows of designs whose counterweights are given."""
     designs = _refuse(table, designs, all_rules(group.of(designs)))
-    designs = _with_inputs(table, group, designs, set())
+    designs = _with_inputs(table, group, designs, {})
     if designs.size:
         columns, unbalance = fixed_columns(on_webs(group.of(designs)), designs.size)
         table.put(designs, columns)
@@ -233,8 +235,7 @@ def _fill_optima(table: Rows, group: Group[OptimizeRequest], designs: Designs) -
         if lacking is not None:
             table.refuse(np.array([design]), Rule(True, *lacking))
             designs = designs[designs != design]
-    of_shaft = {design for design, alone in turning.items() if alone.objective.of_the_shaft}
-    designs = _with_inputs(table, group, designs, of_shaft)
+    designs = _with_inputs(table, group, designs, turning)
     if not designs.size:
         return
     if not turning:
@@ -259,7 +260,7 @@ def _fill_singles(table: Rows, group: Group[OptimizeRequest], designs: Designs) 
         lacking = next(missing(alone.machine, alone.objective), None) if alone.objective.over_the_turn else None
         if not _refuse(table, at, [Rule(True, *lacking)] if lacking else []).size:
             continue
-        if not _with_inputs(table, group, at, {design} if alone.objective.of_the_shaft else set()).size:
+        if not _with_inputs(table, group, at, {design: alone}).size:
             continue
         try:
             columns, unbalance = single_optima([alone], group.multipliers)
@@ -282,34 +283,36 @@ def _fill_first_order(table: Rows, group: Group[OptimizeRequest], designs: Desig
         _fill_outputs(table, group, alike, unbalance)
 
 
-def _with_inputs(table: Rows, group: AnyGroup, designs: Designs, of_shaft: set[int]) -> Designs:
+def _with_inputs(table: Rows, group: AnyGroup, designs: Designs, turning: Mapping[int, OptimizeRequest]) -> Designs:
     """The designs whose machines give what their outputs need; the others say what is missing.
 
     Parameters
     ----------
-    of_shaft : designs whose objectives ask for what all rows hold.
+    turning : by itself every design whose goals may be about what all rows hold.
     """
     if designs.size:
         request = group.of(designs)
         designs = _refuse(table, designs, input_rules(request.machine, request.outputs))
-    if not (designs.size and group.always):
-        return designs
-    rules = list(input_rules(group.of(designs).machine, group.always))
-    lacking = np.any([np.broadcast_to(rule.broken, designs.shape) for rule in rules], axis=0) if rules else False
-    bare = lacking & ~np.isin(designs, list(of_shaft))
-    group.bare.update(designs[bare].tolist())
-    return np.sort(np.concatenate([designs[bare], _refuse(table, designs, rules, ~bare)]))
+    for output in group.always if designs.size else ():
+        rules = list(input_rules(group.of(designs).machine, (output,)))
+        lacking = np.any([np.broadcast_to(rule.broken, designs.shape) for rule in rules], axis=0) if rules else False
+        about = [design for design, alone in turning.items() if output in outputs_about(alone.objective.over_the_turn)]
+        bare = lacking & ~np.isin(designs, about)
+        group.bare[output].update(designs[bare].tolist())
+        designs = np.sort(np.concatenate([designs[bare], _refuse(table, designs, rules, ~bare)]))
+    return designs
 
 
 def _fill_outputs(table: Rows, group: AnyGroup, designs: Designs, unbalance: Complex) -> None:
-    """Columns of the outputs."""
-    if not group.bare:
+    """Columns of the outputs, of designs that hold the same ones together."""
+    if not any(group.bare.values()):
         _fill_columns(table, group, designs, unbalance, group.always)
         return
-    bare = np.isin(designs, list(group.bare))
-    for some, always in ((bare, ()), (~bare, group.always)):
-        if np.any(some):
-            _fill_columns(table, group, designs[some], unbalance[some], always)
+    lacks = np.stack([np.isin(designs, list(bare)) for bare in group.bare.values()], axis=-1)
+    for pattern in np.unique(lacks, axis=0):
+        some = (lacks == pattern).all(axis=-1)
+        held = tuple(output for output, without in zip(group.bare, pattern.tolist(), strict=True) if not without)
+        _fill_columns(table, group, designs[some], unbalance[some], held)
 
 
 def _fill_columns(table: Rows, group: AnyGroup, designs: Designs, unbalance: Complex, always: tuple[str, ...]) -> None:

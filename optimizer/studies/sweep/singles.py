@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from optimizer.formulation.counterweights import places
 from optimizer.formulation.task import Task
 from optimizer.numerics.arrays import Complex
 from optimizer.outputs.registry import prepare
@@ -12,12 +13,13 @@ from optimizer.solve.solution import Infeasible, Solution
 from optimizer.solve.solve import solve
 from schemas.answer.answers import GoalReached
 from schemas.answer.proof import DesignMultipliers
+from schemas.machine.reciprocating import balance_shafts
 from schemas.request.requests import OptimizeRequest
 from schemas.sweep.columns import CERTIFICATE, MULTIPLIERS, goal_columns
 
 
 def single_optima(requests: Sequence[OptimizeRequest], multipliers: bool) -> tuple[dict[str, Any], Complex]:
-    """Columns of certified optima, and the unbalance of the counterweights (count, webs) kg m; nan where none.
+    """Columns of certified optima, and the unbalance of the counterweights (count, places) kg m; nan where none.
 
     Parameters
     ----------
@@ -32,9 +34,9 @@ def single_optima(requests: Sequence[OptimizeRequest], multipliers: bool) -> tup
         name: np.array([row[name] for row in rows], dtype=object if isinstance(first, str | None) else float)
         for name, first in rows[0].items()
     }
-    nothing = np.full(len(requests[0].machine.webs), complex(np.nan))
+    nothing = np.full(len(places(requests[0].machine)), complex(np.nan))
     return columns, np.array(
-        [solution.shown.on_crank if isinstance(solution, Solution) else nothing for solution in solutions]
+        [solution.shown.unbalance if isinstance(solution, Solution) else nothing for solution in solutions]
     )
 
 
@@ -47,6 +49,8 @@ def _row(request: OptimizeRequest, best: Solution | Infeasible, multipliers: boo
         "method": best.method,
         "total_mass_kg": np.nan if shown is None else shown.total_mass_kg,
     }
+    if balance_shafts(request.machine):
+        row["balance_shafts_mass_kg"] = np.nan if shown is None else _or_nan(shown.fields["balance_shafts_mass_kg"])
     for name in CERTIFICATE:
         row[name] = _or_nan(getattr(certificate, name, None))
     goals = () if certificate is None else certificate.goals
@@ -54,10 +58,10 @@ def _row(request: OptimizeRequest, best: Solution | Infeasible, multipliers: boo
     for column in goal_columns(request.objective):
         field, _, goal = column.name.removeprefix("goal_").partition(".")
         row[column.name] = _or_nan(getattr(by_name.get(goal), field, None))
-    fitted = () if shown is None else shown.counterweights
+    fitted = () if shown is None else shown.all_of_them
     masses = {weight.web: (weight.mass_kg, weight.angle_deg) for weight in fitted}
     openings = {weight.web: weight.shape.half_angle_deg for weight in fitted if weight.shape is not None}
-    for web in request.machine.webs:
+    for web in places(request.machine):
         if web.envelope is not None:
             row[f"half_angle_deg.{web.name}"] = openings.get(web.name, np.nan)
         row[f"mass_kg.{web.name}"], row[f"angle_deg.{web.name}"] = masses.get(web.name, (np.nan, np.nan))

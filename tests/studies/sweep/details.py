@@ -6,6 +6,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer
+from schemas.machine.reciprocating import balance_shafts
 from schemas.sweep.details import DETAILS, Of, parts_of
 from schemas.sweep.request import SweepRequest
 
@@ -75,6 +76,9 @@ _OF: dict[str, Of] = {key: details.of for group in DETAILS.values() for details 
 def detail_figures(request: SweepRequest, answer: OptimizeAnswer | AnalyzeAnswer) -> Iterator[tuple[str, Any]]:
     """Columns in detail of a row from the answer to its design alone."""
     for path, key in FIGURES.items():
+        if balance_shafts(request.base.machine):
+            # they change what counterweights on the crankshaft do not
+            path = path.replace("residual.before.", "residual.after.")
         parts = list(parts_of(request.base.machine, _OF[key]))
         found = list(figures(answer, path.replace("[]", ".[]").split(".")))
         if getattr(answer, path.split(".")[0]) is not None:

@@ -16,6 +16,7 @@ from optimizer.studies.sweep import run_chunk
 from schemas.answer.answers import AnalyzeAnswer, Certificate, OptimizeAnswer
 from schemas.answer.outputs import Order
 from schemas.base.target import BadPointer, find_target
+from schemas.machine.reciprocating import balance_shafts
 from schemas.request.objective import OVER_THE_TURN
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep.request import SweepRequest
@@ -134,7 +135,8 @@ def _figures(request: SweepRequest, answer: OptimizeAnswer | AnalyzeAnswer) -> A
             yield "method", next(of_choices, usual)
         else:
             yield from _certificate_figures(answer.certificate)
-        for one in answer.counterweights:
+        on_shafts = (one for shaft in answer.balance_shafts or () for one in shaft.counterweights)
+        for one in (*answer.counterweights, *on_shafts):
             yield f"mass_kg.{one.web}", one.mass_kg
             yield f"angle_deg.{one.web}", one.angle_deg
             if f"half_angle_deg.{one.web}" in {column.name for column in request.all_columns}:
@@ -142,11 +144,12 @@ def _figures(request: SweepRequest, answer: OptimizeAnswer | AnalyzeAnswer) -> A
     else:
         yield "status", "analyzed"
     yield "total_mass_kg", answer.total_mass_kg
+    yield "balance_shafts_mass_kg", answer.balance_shafts_mass_kg
     if answer.residual is not None and "force_peak_N" in {column.name for column in request.all_columns}:
         after = answer.residual.after
         yield "force_peak_N", None if after is None else after.force.peak_N
         yield "moment_peak_Nm", None if after is None else after.moment.peak_Nm
-    yield from _drive_figures(answer)
+    yield from _drive_figures(request, answer)
     yield from _balance_figures(request, answer)
 
 
@@ -168,7 +171,7 @@ def _certificate_figures(certificate: Certificate) -> Any:
         yield f"goal_limit.{goal.goal}", goal.limit
 
 
-def _drive_figures(answer: OptimizeAnswer | AnalyzeAnswer) -> Any:
+def _drive_figures(request: SweepRequest, answer: OptimizeAnswer | AnalyzeAnswer) -> Any:
     if answer.gas is not None:
         yield "indicated_power_W", answer.gas.indicated_power_W
     if answer.piston_force is not None:
@@ -191,7 +194,9 @@ def _drive_figures(answer: OptimizeAnswer | AnalyzeAnswer) -> Any:
     if answer.overturning is not None:
         yield "peak_overturning_Nm", answer.overturning.peak_Nm
     if answer.roll is not None:
-        yield "peak_roll_Nm", answer.roll.before.peak_Nm
+        # balance shafts alone change it, and without counterweights there is nothing that they carry
+        with_shafts = answer.roll.after if balance_shafts(request.base.machine) else answer.roll.before
+        yield "peak_roll_Nm", None if with_shafts is None else with_shafts.peak_Nm
     if answer.loads is not None:
         yield "peak_crosshead_pin_N", max(row.crosshead_pin_N for row in answer.loads.rows)
         yield "peak_sudden_stop_N", max(row.stop_over_the_turn_N for row in answer.loads.rows)

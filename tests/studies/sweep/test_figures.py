@@ -33,7 +33,7 @@ USUAL = {
     "flywheel.irregularity": "irregularity",
     "flywheel.inertia_J_kg_m2": "inertia_J_kg_m2",
     "overturning.peak_Nm": "peak_overturning_Nm",
-    # nothing but balance shafts changes it, and a sweep takes none
+    # nothing but balance shafts changes it
     "roll.before.peak_Nm": "peak_roll_Nm",
     "roll.after.peak_Nm": "peak_roll_Nm",
     "loads.own_base_peak_Nm": "own_base_peak_Nm",
@@ -60,8 +60,8 @@ WITHOUT = {
     "*.before.*": "without counterweights: the same sweep as an analysis of the bare machine",
     "orders.before[[]].*": "without counterweights, likewise",
     "internal_moment.before_Nm": "without counterweights, likewise",
-    "residual.after.force.counter_rotating_N": "what counterweights leave alone: that before is a column",
-    "residual.after.moment.counter_rotating_Nm": "what counterweights leave alone: that before is a column",
+    "residual.after.force.counter_rotating_N": "what balance shafts alone change: that before is a column, with them",
+    "residual.after.moment.counter_rotating_Nm": "what balance shafts alone change: that before is a column, with them",
     "main_bearings.bearings[[]].after.floor_N": "what counterweights leave alone: that before is a column",
     "residual.orders.*": "columns of the output orders",
     "foundation_loads[[]].*": "made of phasors that are columns of the output orders",
