@@ -12,6 +12,7 @@ import shutil
 import sys
 import tempfile
 from collections import Counter
+from itertools import islice
 from pathlib import Path
 from typing import NamedTuple
 
@@ -130,11 +131,12 @@ def sample(room: Room, count: int, seed: int) -> list[tuple[Path, Mutant]]:
     """Mutants of the files of a room by chance."""
     files = texts(room)
     every = [(path, number) for path, text in files.items() for number in range(mutants.count(text))]
-    numbers = random.Random(seed).sample(every, min(count, len(every)))
-    found = ((path, mutants.mutant(files[path], number)) for path, number in numbers)
-    return [
+    random.Random(seed).shuffle(every)
+    found = ((path, mutants.mutant(files[path], number)) for path, number in every)
+    unequal = (
         (file, one) for file, one in found if not {f"{file} {one.of}", f"{file} {one.of}: {one.fault}"} & EQUAL.keys()
-    ]
+    )
+    return list(islice(unequal, count))
 
 
 def texts(room: Room) -> dict[Path, str]:
