@@ -59,8 +59,8 @@ class Norms:
 
 
 def scalars(norms: Norms) -> tuple[bool, ...]:
-    """Whether each term of one program is a scalar (J,)."""
-    return norms.scalar or (False,) * norms.constant.size
+    """Whether each term of programs is a scalar (J,)."""
+    return norms.scalar or (False,) * norms.constant.shape[-1]
 
 
 def join(norms: Sequence[Norms]) -> Norms:

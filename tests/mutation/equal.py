@@ -65,8 +65,8 @@ _PROGRAM: dict[str, str] = {
     "methods/implied_bounds.py _in_sectors: np.min(along[outside], initial=1.0)"
     " -> np.min(along[outside], initial=1.011)": "the shortest support is 1 along some ray outside; without such a ray"
     " nothing is divided by it",
-    "methods/implied_bounds.py responses: np.abs(row - other) <= _SAME -> np.abs(row - other) < _SAME": "rows that"
-    " differ by their rounding may count as one or as two",
+    "methods/implied_bounds.py _owners: np.abs(rows[:, r] - rows[:, n]) <= _SAME"
+    " -> np.abs(rows[:, r] - rows[:, n]) < _SAME": "rows that differ by their rounding may count as one or as two",
     "methods/polish.py lightened: _ROOM_FOR_MASS * before.mass < worth_less * np.minimum(limits.max_mass,"
     " limits.max_total_mass) -> _ROOM_FOR_MASS * before.mass <= worth_less * np.minimum(limits.max_mass,"
     " limits.max_total_mass)": _STEERS,

@@ -8,13 +8,13 @@ import pytest
 from optimizer.formulation.goals import cone_program
 from optimizer.outputs.registry import prepare
 from optimizer.program.limits import Limits
-from optimizer.program.methods.implied_bounds import carrying_mass
 from optimizer.program.methods.semicontinuous_bounds import within_semicontinuous_reach
 from schemas.request.requests import OptimizeRequest
 from service.common.validation import InvalidRequest, check
 from tests.dust.machines import crankshaft
 from tests.hard.cases.case import Body
 from tests.night import part
+from tests.program.alone import carrying_mass
 from tests.verification.checking import optimized
 
 

@@ -36,6 +36,7 @@ from optimizer.program.points import points_at
 from optimizer.program.rows import statement, total_mass
 from optimizer.program.statement import Statement
 from tests.prints import Record
+from tests.program.alone import masses_by_inverse, responses
 from tests.program.cases import random_point, stacked
 from tests.program.test_alike import GROUPS, alike
 from tests.program.test_leading_axes import FUNCTIONS, KINDS, WEBS, _multipliers, _program
@@ -169,15 +170,15 @@ def _reach(kind: str) -> list[Any]:
         program, far = _program(seed, kind), np.isin(np.arange(WEBS), some)
         wide = replace(program.limits, max_mass=np.where(far, np.inf, program.limits.max_mass))
         one = replace(program, limits=wide)
-        level = implied_bounds.level_above(one, np.zeros(WEBS, complex))
+        level = float(implied_bounds.level_above(one, np.zeros(WEBS, complex)))
         least = np.where(far, 0.05, 0.0)
         bounded = [implied_bounds.bounded(one, level), within_semicontinuous_reach(one, least, level)]
         # linear programs are solved to some digits alone
         found.append([np.round(np.log(np.minimum(each.limits.max_mass, 1e300)), 6) for each in bounded])
-        rows, most, scalar = implied_bounds.responses(one, far, level)
+        rows, most, scalar = responses(one, far, level)
         found.append([rows, most, scalar, implied_bounds.far_limits(one)])
         if len(rows) >= far.sum():
-            found.append([implied_bounds._masses_by_inverse(rows * 0.3, most)])
+            found.append([masses_by_inverse(rows * 0.3, most)])
     return found
 
 

@@ -16,12 +16,9 @@ from optimizer.program.equal_castings import Alike
 from optimizer.program.kernel.cancelling import least_changes_of_real
 from optimizer.program.limits import Limits
 from optimizer.program.methods.implied_bounds import (
-    _masses_by_inverse,
     bounded,
-    carrying_mass,
     far_limits,
     level_above,
-    responses,
     within_reach,
 )
 from optimizer.program.methods.semicontinuous_bounds import _subset_mass, _subsets
@@ -32,6 +29,7 @@ from optimizer.program.scaling import least_change, natural_reach
 from optimizer.program.solution import evaluated
 from optimizer.program.statement import Names, Statement, Term
 from optimizer.responses.response import Phasors, Response
+from tests.program.alone import carrying_mass, masses_by_inverse, responses
 
 #: of a web that is all but free: where a cone is held up by next to nothing
 STEEP = 89.999999
@@ -52,14 +50,14 @@ def test_webs_that_are_told_by_what_they_change(webs: int, scale: float) -> None
     for _ in range(20):
         matrix = rng.normal(size=(3, webs)) * scale ** rng.uniform(0, 1, webs)
         masses: Complex = rng.normal(size=(2, webs)).T @ np.array([1, 1j])
-        told = _masses_by_inverse(matrix, np.abs(matrix @ masses))
+        told = masses_by_inverse(matrix, np.abs(matrix @ masses))
         assert np.all(np.abs(masses) <= told)
-    assert np.all(np.isinf(_masses_by_inverse(rng.normal(size=(webs - 1, webs)), np.ones(webs - 1))))
+    assert np.all(np.isinf(masses_by_inverse(rng.normal(size=(webs - 1, webs)), np.ones(webs - 1))))
 
 
 def test_one_web_is_told_by_one_response() -> None:
     """Analytic: half a unit a kilogram, and one unit at most."""
-    assert _masses_by_inverse(np.array([[0.5]]), np.array([1.0])) == pytest.approx([2.0], rel=1e-12)
+    assert masses_by_inverse(np.array([[0.5]]), np.array([1.0])) == pytest.approx([2.0], rel=1e-12)
 
 
 def test_a_response_that_a_web_does_not_change_tells_nothing_of_it() -> None:
@@ -69,8 +67,8 @@ def test_a_response_that_a_web_does_not_change_tells_nothing_of_it() -> None:
 
 
 def test_webs_that_cannot_be_told_apart_are_not() -> None:
-    assert np.all(np.isinf(_masses_by_inverse(np.array([[1.0, 1.0], [2.0, 2.0]]), np.ones(2))))
-    assert np.all(np.isinf(_masses_by_inverse(np.array([[1.0, 0.0], [2.0, 0.0]]), np.ones(2))))
+    assert np.all(np.isinf(masses_by_inverse(np.array([[1.0, 1.0], [2.0, 2.0]]), np.ones(2))))
+    assert np.all(np.isinf(masses_by_inverse(np.array([[1.0, 0.0], [2.0, 0.0]]), np.ones(2))))
 
 
 def test_a_web_that_is_all_but_free_has_a_proven_reach() -> None:
@@ -311,3 +309,24 @@ def test_real_influences_are_complex_ones_to_the_last_digit(terms: int, webs: in
     constant = source.normal(size=(20, terms)) + 1j * source.normal(size=(20, terms))
     found = least_change(influence, constant, passes)
     np.testing.assert_array_equal(found, least_change(influence.astype(complex), constant, passes))
+
+
+@given(seed=st.integers(0, 10_000))
+def test_many_programs_reach_as_far_as_each_alone(seed: int) -> None:
+    """Property: to the last bit, whichever webs have limits, whatever they change, and whether ceilings are kept."""
+    rng = np.random.default_rng(seed)
+    count, webs = int(rng.integers(2, 6)), int(rng.integers(1, 4))
+    # some programs feel some webs alike, some not at all
+    of_force, of_moment = (rng.choice([0.0, 1.0, -0.5], (count, webs)) for _ in range(2))
+    names, responses_of = ("force", "moment"), []
+    for name, influence in zip(names, (of_force, of_moment), strict=True):
+        co, counter = (rng.normal(size=(2, count)).T @ np.array([1, 1j]) for _ in range(2))
+        responses_of.append(Response(name, "N", Phasors(co, counter), influence))
+    peaks = [weighted_peak(response, rng.uniform(0.5, 2.0, count)) for response in responses_of]
+    edges = limits(webs, STEEP)
+    many = edges.mapped(lambda array: np.broadcast_to(array, (count, *array.shape)).copy())
+    many = replace(many, max_mass=rng.choice([np.inf, 1e9, 0.3], (count, webs)), free=np.ones((count, webs), bool))
+    program = statement(combined(peaks, str(rng.choice(["sum", "max"]))), [], many)
+    together = within_reach(program).limits.max_mass
+    for n in range(count):
+        assert within_reach(program.chosen(n)).limits.max_mass.tolist() == together[n].tolist()

@@ -6,7 +6,10 @@ a ceiling, bounds every response of an optimum, so c is bounded; and any c that 
 can carry with little mass. So the lightest optimum is no heavier there (docs/mathematics.md section 5).
 """
 
+from collections.abc import Iterator
 from dataclasses import replace
+from operator import itemgetter
+from typing import NamedTuple
 
 import numpy as np
 
@@ -48,10 +51,18 @@ def within_reach(statement: Statement) -> Statement:
     if not (statement.reaches.beyond and np.count_nonzero(webs := far_limits(statement))):
         return statement
     far = np.asarray(webs.any(axis=-1))
+    if not far.ndim:
+        return _within_reach(statement)
     most = statement.limits.max_mass.copy()
-    for place in np.ndindex(far.shape):
-        if far[place]:
-            most[place] = _within_reach(statement.chosen(place)).limits.max_mass
+    nothing = np.zeros(statement.limits.radius.shape[-1:], complex)
+    kept = far & np.all(statement.ceilings.excess(nothing) <= 0, axis=-1)
+    if statement.limits.alike is None and np.any(kept):
+        # all those together that nothing need be found out about
+        some = statement.chosen(kept)
+        most[kept] = _finite(some, level_above(some, nothing))
+        far = far & ~kept
+    for place in np.argwhere(far).tolist():
+        most[tuple(place)] = _within_reach(statement.chosen(tuple(place))).limits.max_mass
     return replace(statement, limits=replace(statement.limits, max_mass=most))
 
 
@@ -60,20 +71,20 @@ def _within_reach(statement: Statement) -> Statement:
     point = np.zeros(statement.limits.radius.shape, complex)
     if np.any(statement.ceilings.excess(point) > 0):
         excess = statement.excess()
-        excess = bounded(excess, level_above(excess, point))
+        excess = bounded(excess, float(level_above(excess, point)))
         nearest = smallest_objective(excess, 0.1 * CEILING_TOLERANCE)
         if nearest.lower_bound > 0:
             return replace(statement, limits=excess.limits)
         point = nearest.unbalance
         if nearest.objective > CEILING_TOLERANCE:
             return bounded(statement, np.inf)
-    return bounded(statement, level_above(statement, point))
+    return bounded(statement, float(level_above(statement, point)))
 
 
-def level_above(statement: Statement, point: Complex) -> float:
-    """A level that leaves room for all that counts as an optimum, if this point may be reached."""
-    value = float(statement.objective(point))
-    return value + (value - float(np.sum(-statement.largest(-statement.floor))))
+def level_above(statement: Statement, point: Complex) -> Real:
+    """A level (...) that leaves room for all that counts as an optimum, if this point may be reached."""
+    value = statement.objective(point)
+    return np.asarray(value + (value - np.add.reduce(-statement.largest(-statement.floor), axis=-1)))
 
 
 def bounded(statement: Statement, level: float) -> Statement:
@@ -95,148 +106,190 @@ def bounded(statement: Statement, level: float) -> Statement:
         mask = (proven != together.limits.max_mass)[alike.owner]
         max_mass = np.where(mask, (proven / alike.count)[alike.owner], limits.max_mass)
         return replace(statement, limits=replace(limits, max_mass=max_mass))
-    far = far_limits(statement)
+    max_mass = _finite(statement.alone(), np.array([level]))[0]
+    return replace(statement, limits=replace(limits, max_mass=max_mass))
+
+
+def _finite(statement: Statement, level: Real) -> Real:
+    """Largest masses (N, K) kg of N programs, finite wherever webs were far."""
+    limits, far = statement.limits, far_limits(statement)
+    max_mass = limits.max_mass.copy()
     while np.any(far):
-        mass = np.minimum(_masses(statement, far, level), limits.max_total_mass)
-        near = far & (limits.max_mass < mass)
-        if not np.any(near):
-            return replace(statement, limits=replace(limits, max_mass=np.where(far, mass, limits.max_mass)))
-        far = far & ~near
-    return statement
+        for webs, programs in _alike(far):
+            if not np.any(webs):
+                continue
+            some = statement.chosen(programs)
+            mass = np.minimum(_masses(some, webs, level[programs]), some.limits.max_total_mass[:, None])
+            near = webs & (some.limits.max_mass < mass)
+            done = ~np.any(near, axis=-1)
+            max_mass[programs[done]] = np.where(webs, mass, some.limits.max_mass)[done]
+            # webs whose limits are nearer than what is proven are as they are; of the others it is found out anew
+            far[programs] &= ~near & ~done[:, None]
+    return max_mass
 
 
-def _masses(statement: Statement, far: np.ndarray, level: float) -> Real:
-    """Masses (K,) with which the far webs carry whatever they carry in the lightest optimum, kg; of the others inf."""
-    limits, masses = statement.limits.only(far), np.full(far.shape, np.inf)
-    scattered = _scattered(statement, far, level)
-    if scattered is not None:
-        masses[far] = scattered
+def _alike(patterns: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Patterns (N, n), each once, with the numbers of those that have it."""
+    if (patterns == patterns[:1]).all():
+        yield patterns[0], np.arange(len(patterns))
+        return
+    different, which = np.unique(patterns, axis=0, return_inverse=True)
+    for k, pattern in enumerate(different):
+        yield pattern, np.flatnonzero(which.reshape(-1) == k)
+
+
+def _masses(statement: Statement, far: np.ndarray, level: Real) -> Real:
+    """Masses (N, K) kg with which far webs (K,) carry what they carry in the lightest optimum; of the others inf."""
+    masses = np.full(statement.limits.radius.shape, np.inf)
+    if statement.norms.scatter or statement.ceilings.norms.scatter:
+        masses[:, far] = _scattered(statement, far, level)[:, None]
         return masses
-    rows, most, scalar = responses(statement, far, level)
-    if not np.any(most):
-        masses[far] = 0.0
-        return masses
-    influence = rows * limits.radius
-    together = carrying_mass(influence, limits, most, scalar)
-    bound = _MARGIN * np.minimum(together, _masses_by_inverse(influence[~scalar], most[~scalar]))
-    masses[far] = np.where(np.isfinite(bound), bound, LARGEST)
+    for some in responses(statement, far, level):
+        limits = statement.chosen(some.programs).limits.only(far)
+        influence, most, scalar = some.influence * limits.radius[:, None, :], some.most, some.scalar
+        together = carrying_mass(influence, limits, most, scalar)
+        by_inverse = _masses_by_inverse(influence[:, ~scalar], most[:, ~scalar])
+        bound = _MARGIN * np.minimum(together[:, None], by_inverse)
+        bound = np.where(np.isfinite(bound), bound, LARGEST)
+        # what changes nothing is of no use
+        bound[~np.any(most, axis=-1)] = 0.0
+        masses[np.ix_(some.programs, far)] = bound
     return masses
 
 
-def carrying_mass(influence: Real, limits: Limits, most: Real, scalar: np.ndarray) -> float:
-    """Mass with which webs carry whatever they can with |c_s| <= most_s, kg; inf where none is proven.
+def carrying_mass(influence: Real, limits: Limits, most: Real, scalar: np.ndarray) -> Real:
+    """Masses (N,) with which webs carry whatever they can with |c_s| <= most_s, kg; inf where none is proven.
 
     Parameters
     ----------
-    influence : (s, n) of one kilogram.
-    most : (s,); inf where nothing bounds a response, as while no choice is known to keep the ceilings.
+    influence : (N, s, n) of one kilogram.
+    most : (N, s); inf where nothing bounds a response, as while no choice is known to keep the ceilings.
     """
-    if np.all(limits.free) and len(most) <= 2 and not np.any(scalar):
-        return _in_planes(influence, most)
-    return _in_sectors(influence, limits, most, scalar) if np.all(np.isfinite(most)) else np.inf
+    plane = np.all(limits.free, axis=-1) if most.shape[-1] <= 2 and not np.any(scalar) else np.zeros(len(most), bool)
+    masses = np.full(len(most), np.inf)
+    # of nothing that can be changed there is nothing to carry
+    plane &= np.any(most, axis=-1)
+    if np.any(plane):
+        masses[plane] = _in_planes(influence[plane], most[plane])
+    for n in np.flatnonzero(~plane & np.any(most, axis=-1) & np.all(np.isfinite(most), axis=-1)).tolist():
+        masses[n] = _in_sectors(influence[n], limits.mapped(itemgetter(n)), most[n], scalar)
+    return masses
 
 
-def _scattered(statement: Statement, far: np.ndarray, level: float) -> float | None:
-    """The same where counterweights scatter by a share of themselves, None where they do not.
+def _scattered(statement: Statement, far: np.ndarray, level: Real) -> Real:
+    """The same (N,) where counterweights scatter by a share of themselves.
 
     Then a row, and a limited response, grows with the mass of every web that it feels, whichever way it points; a web
     that none feels is of no use.
     """
     norms, ceilings = statement.norms, statement.ceilings
-    if not norms.scatter and not ceilings.norms.scatter:
-        return None
     highest = statement.largest(statement.floor)
-    others = np.sum(highest) - highest
-    left = level - (statement.floor + others[statement.group])
-    growth = norms.scatter * (statement.membership @ np.abs(norms.influence))[:, far]
-    growth = np.concatenate([growth, ceilings.norms.scatter * np.abs(ceilings.norms.influence)[:, far]])
-    left = np.maximum(np.concatenate([left, ceilings.cap + CEILING_TOLERANCE * ceilings.size]), 0.0)
-    most = (
-        np.where(growth > 0, left[:, None] / np.where(growth > 0, growth, 1.0), np.inf) / statement.limits.radius[far]
-    )
-    of_webs = np.min(most, axis=0)
-    mass = _MARGIN * float(np.max(of_webs[np.isfinite(of_webs)], initial=0.0))
-    return min(mass, LARGEST)
+    others = np.add.reduce(highest, axis=-1)[..., None] - highest
+    left = level[:, None] - (statement.floor + others[:, statement.group])
+    growth = norms.scatter * (statement.membership @ np.abs(norms.influence))[..., far]
+    growth = np.concatenate([growth, ceilings.norms.scatter * np.abs(ceilings.norms.influence)[..., far]], axis=-2)
+    left = np.maximum(np.concatenate([left, ceilings.cap + CEILING_TOLERANCE * ceilings.size], axis=-1), 0.0)
+    radius = statement.limits.radius[:, None, far]
+    most = np.where(growth > 0, left[..., None] / np.where(growth > 0, growth, 1.0), np.inf) / radius
+    of_webs = np.min(most, axis=-2)
+    mass = _MARGIN * np.max(np.where(np.isfinite(of_webs), of_webs, 0.0), axis=-1)
+    return np.asarray(np.minimum(mass, LARGEST))
 
 
-def responses(statement: Statement, far: np.ndarray, level: float) -> tuple[Real, Real, np.ndarray]:
-    """What the far webs can change: rows of influence (s, far) of size 1, the most that each may change (s,).
+class Responses(NamedTuple):
+    """What the far webs of n programs can change, all of which have the same responses."""
 
-    And whether only its real part counts (s,).
-    """
+    programs: np.ndarray  # (n,) their numbers
+    influence: Real  # (n, s, far) of size 1
+    most: Real  # (n, s) that each may change
+    scalar: np.ndarray  # (s,) whether only its real part counts
+
+
+def responses(statement: Statement, far: np.ndarray, level: Real) -> Iterator[Responses]:
+    """What the far webs (K,) of N programs can change; level (N,)."""
     norms, ceilings, highest = statement.norms, statement.ceilings, statement.largest(statement.floor)
     # a term is no larger than what the objective leaves it, a limited response no larger than its cap
-    others = np.sum(highest) - highest
-    floor = (statement.floor + others[statement.group])[statement.row]
-    within = np.concatenate([level - floor, ceilings.cap + CEILING_TOLERANCE * ceilings.size])
+    others = np.add.reduce(highest, axis=-1)[..., None] - highest
+    floor = (statement.floor + others[:, statement.group])[:, statement.row]
+    within = np.concatenate([level[:, None] - floor, ceilings.cap + CEILING_TOLERANCE * ceilings.size], axis=-1)
     constant, influence = statement.every_constant, statement.every_influence
     near = np.where(far, 0.0, statement.limits.reach)
-    allowed = np.abs(constant) + np.maximum(within, 0.0) + np.sum(np.abs(influence) * near, axis=-1)
-    every = np.array([*scalars(norms), *scalars(ceilings.norms)])
-    rows: list[Real] = []
-    most: list[float] = []
-    kinds: list[bool] = []
-    for row, limit, scalar in zip(influence[:, far], allowed, every, strict=True):
-        largest = row[np.argmax(np.abs(row))]
-        if largest == 0.0:
-            continue
-        # a scalar in another direction is another one
-        row, limit = row / (abs(largest) if scalar else largest), limit / abs(largest)
-        alike = ((n, other) for n, other in enumerate(rows) if kinds[n] == scalar)
-        same = [n for n, other in alike if np.all(np.abs(row - other) <= _SAME)]
-        if same:
-            most[same[0]] = min(most[same[0]], limit)
-        else:
-            rows.append(row)
-            most.append(limit)
-            kinds.append(bool(scalar))
-    return np.array(rows), np.array(most) * _MARGIN, np.array(kinds)
+    allowed = np.abs(constant) + np.maximum(within, 0.0)
+    allowed = allowed + np.add.reduce(np.abs(influence) * near[:, None, :], axis=-1)
+    scalar = np.array([*scalars(norms), *scalars(ceilings.norms)], bool)
+    rows = influence[..., far]
+    largest = np.take_along_axis(rows, np.argmax(np.abs(rows), axis=-1)[..., None], axis=-1)[..., 0]
+    size = np.abs(largest)
+    some = size > 0.0
+    # a scalar in another direction is another one
+    unit = np.where(some, np.where(scalar, size, largest), 1.0)
+    rows, allowed = rows / unit[..., None], allowed / np.where(some, size, 1.0)
+    for owner, programs in _alike(_owners(rows, some, scalar)):
+        first = np.flatnonzero(owner == np.arange(owner.size))
+        most = [np.minimum.reduce(allowed[programs][:, owner == n], axis=-1) for n in first.tolist()]
+        of_all = np.stack(most, axis=-1) if most else np.zeros((programs.size, 0))
+        yield Responses(programs, rows[np.ix_(programs, first)], of_all * _MARGIN, scalar[first])
+
+
+def _owners(rows: Real | Complex, some: np.ndarray, scalar: np.ndarray) -> np.ndarray:
+    """Numbers (N, R) of the first rows (N, R, far) that each is alike; -1 of a row that nothing changes."""
+    owner = np.where(some, np.arange(scalar.size), -1)
+    for r in range(1, scalar.size):
+        # the first of those that stand for themselves
+        for n in np.flatnonzero((owner[:, :r] == np.arange(r)).any(axis=0) & (scalar[:r] == scalar[r]))[::-1].tolist():
+            same = some[:, r] & (owner[:, n] == n) & np.all(np.abs(rows[:, r] - rows[:, n]) <= _SAME, axis=-1)
+            owner[same, r] = n
+    return owner
 
 
 def _masses_by_inverse(influence: Real | Complex, most: Real) -> Real:
-    """Masses (n,) of webs that are told by what they change, of which every c has |c_s| <= most_s, kg; else inf.
+    """Masses (N, n) of webs that are told by what they change, of which every c has |c_s| <= most_s, kg; else inf.
 
     Each is G c, with G a left inverse of the influences, but for the error 1 - G A of that.
 
     Parameters
     ----------
-    influence : (s, n) of one kilogram.
+    influence : (N, s, n) of one kilogram.
     """
-    rows, webs = influence.shape
-    if rows < webs or not np.any(most):
-        return np.full(webs, np.inf)
-    matrix = influence / np.where(most > 0, most, np.min(most[most > 0]))[:, None]
-    size = np.max(np.abs(matrix), axis=0)
-    if not np.all((size > SMALLEST) & np.isfinite(size)):
-        return np.full(webs, np.inf)
-    matrix = matrix / size
+    count, rows, webs = influence.shape
+    if rows < webs:
+        return np.full((count, webs), np.inf)
+    least = np.min(np.where(most > 0, most, np.inf), axis=-1)
+    matrix = influence / np.where(most > 0, most, np.where(np.isfinite(least), least, 1.0)[:, None])[..., None]
+    size = np.max(np.abs(matrix), axis=-2)
+    told = np.isfinite(least) & np.all((size > SMALLEST) & np.isfinite(size), axis=-1)
+    matrix, size = np.where(told[:, None, None], matrix, 0.0), np.where(told[:, None], size, 1.0)
+    matrix = matrix / size[:, None, :]
     inverse = np.linalg.pinv(matrix)
     error = np.abs(np.eye(webs) - inverse @ matrix) + (4 + rows) * _EPS * (np.abs(inverse) @ np.abs(matrix))
-    carried, lost = np.sum(np.abs(inverse), axis=1), np.sum(error, axis=1)
-    if not np.max(lost) < 0.5:
-        return np.full(webs, np.inf)
-    return (carried + lost * np.max(carried) / (1.0 - np.max(lost))) / size
+    carried, lost = np.add.reduce(np.abs(inverse), axis=-1), np.add.reduce(error, axis=-1)
+    most_lost, most_carried = np.max(lost, axis=-1), np.max(carried, axis=-1)
+    told &= most_lost < 0.5
+    rest = np.where(told, 1.0 - most_lost, 1.0)
+    masses = (carried + lost * (most_carried / rest)[:, None]) / size
+    return np.where(told[:, None], masses, np.inf)
 
 
-def _in_planes(influence: Real, most: Real) -> float:
-    """Mass that carries every c with |c_s| <= most_s on webs without sectors: on one of them, or on two planes, kg.
+def _in_planes(influence: Real, most: Real) -> Real:
+    """Masses (N,) kg that carry every c with |c_s| <= most_s on webs without sectors: on one, or in two planes.
 
     Parameters
     ----------
-    influence : (s, n) of one kilogram, s at most 2.
+    influence : (N, s, n) of one kilogram, s at most 2.
     """
-    if len(most) == 1:
-        return float(most[0] / np.max(np.abs(influence)))
-    a, b = influence
-    apart = np.abs(a[:, None] * b - b[:, None] * a)
-    apart = apart - 8 * _EPS * (np.abs(a[:, None] * b) + np.abs(b[:, None] * a))
+    if most.shape[-1] == 1:
+        return np.asarray(most[:, 0] / np.max(np.abs(influence), axis=(-2, -1)))
+    a, b = influence[:, 0], influence[:, 1]
+    across, back = a[:, :, None] * b[:, None, :], b[:, :, None] * a[:, None, :]
+    apart = np.abs(across - back) - 8 * _EPS * (np.abs(across) + np.abs(back))
     # a response that nothing bounds bounds a web only where that does not change it
-    products = _product(np.abs(b), most[0]) + _product(np.abs(a), most[1])
-    pairs = products[:, None] + products
-    return float(np.min(np.where(apart > 0, pairs / np.where(apart > 0, apart, 1.0), np.inf)))
+    products = _product(np.abs(b), most[:, :1]) + _product(np.abs(a), most[:, 1:])
+    pairs = products[:, :, None] + products[:, None, :]
+    masses = np.where(apart > 0, pairs / np.where(apart > 0, apart, 1.0), np.inf)
+    return np.asarray(np.min(masses, axis=(-2, -1)))
 
 
-def _product(influence: Real, most: float) -> Real:
+def _product(influence: Real, most: Real) -> Real:
     """|influence| * most, 0 where nothing is changed, though nothing bounds how much."""
     return np.where(influence > 0, np.where(influence > 0, influence, 1.0) * most, 0.0)
 

@@ -38,7 +38,7 @@ def within_semicontinuous_reach(statement: Statement, least: Real, level: float 
     if level is None:
         nothing = np.zeros(far.shape, complex)
         feasibility = bool(np.all(statement.ceilings.excess(nothing) <= 0))
-        level = level_above(statement, nothing) if feasibility else np.inf
+        level = float(level_above(statement, nothing)) if feasibility else np.inf
     while far.any():
         mass = np.minimum(np.maximum(_mass(statement, far, least, level), least), limits.max_total_mass)
         near = far & (limits.max_mass < mass)
@@ -53,11 +53,11 @@ def _mass(statement: Statement, far: np.ndarray, least: Real, level: float) -> f
     limits = statement.limits.only(far)
     if limits.alike is not None or statement.norms.scatter or statement.ceilings.norms.scatter:
         return LARGEST
-    rows, most, scalar = responses(statement, far, level)
-    if not most.size:
+    (every,) = responses(statement.alone(), far, np.array([level]))
+    if not every.most.size:
         return 0.0
-    influence = rows * limits.radius
-    most = most + np.abs(influence) @ least[far]
+    influence, scalar = every.influence[0] * limits.radius, every.scalar
+    most = every.most[0] + np.abs(influence) @ least[far]
     masses = (_subset_mass(influence, limits, list(webs), most, scalar) for webs in _subsets(influence, limits, scalar))
     mass = _MARGIN * max(masses, default=np.inf)
     return mass if np.isfinite(mass) else LARGEST
@@ -68,7 +68,10 @@ def _subset_mass(influence: Real, limits: Limits, webs: list[int], most: Real, s
     if len(webs) == 1 and not np.any(scalar):
         does = np.abs(influence[:, webs[0]])
         return float(np.min(most[does > 0] / does[does > 0]))
-    return carrying_mass(influence[:, webs], limits.only(np.isin(np.arange(limits.radius.size), webs)), most, scalar)
+    if not np.any(most):
+        return 0.0
+    some = limits.only(np.isin(np.arange(limits.radius.size), webs)).mapped(lambda array: array[None])
+    return float(carrying_mass(influence[None, :, webs], some, most[None], scalar)[0])
 
 
 def _subsets(influence: Real, limits: Limits, scalar: np.ndarray) -> Iterator[tuple[int, ...]]:

@@ -144,7 +144,8 @@ def _figures(request: SweepRequest, answer: OptimizeAnswer | AnalyzeAnswer) -> A
     else:
         yield "status", "analyzed"
     yield "total_mass_kg", answer.total_mass_kg
-    yield "balance_shafts_mass_kg", answer.balance_shafts_mass_kg
+    if balance_shafts(request.base.machine):
+        yield "balance_shafts_mass_kg", answer.balance_shafts_mass_kg
     if answer.residual is not None and "force_peak_N" in {column.name for column in request.all_columns}:
         after = answer.residual.after
         yield "force_peak_N", None if after is None else after.force.peak_N
