@@ -5,9 +5,10 @@ from typing import Any
 import pyarrow as pa
 import pytest
 
+from optimizer.program.methods import implied_bounds
 from schemas.sweep.request import SweepRequest
 from tests.analyze.engines import UNEVEN, cylinder, engine, trace
-from tests.studies.sweep.single import sweep, table
+from tests.studies.sweep.single import example, sweep, table
 from tests.studies.sweep.test_rows import DRIVE, fitted
 
 _ROW = "/machine/throws/0/rows/0"
@@ -42,3 +43,15 @@ def assert_alike(request: SweepRequest, monkeypatch: pytest.MonkeyPatch) -> None
     # places in many parts, of which what forces are made of is not kept
     monkeypatch.setattr("optimizer.mechanics.row_series.AT_ONCE", 100)
     assert table(request).equals(together)
+
+
+def test_designs_without_largest_masses_are_proven_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    def never(_one: object) -> None:
+        raise AssertionError("no design needs to be looked at by itself")
+
+    monkeypatch.setattr(implied_bounds, "_within_reach", never)
+    base = example("2d12")
+    for web in base["machine"]["webs"]:
+        web["max_mass_kg"] = None
+    result = table(sweep(base, {"path": "/machine/throws/0/rows/0/reciprocating_mass_kg", "values": [240, 260, 280]}))
+    assert set(result["status"].to_pylist()) == {"optimal"}
