@@ -4,6 +4,8 @@ from optimizer.program.kernel.compiling import in_place
 
 #: multiple of the natural reach beyond which limits are ignored
 _REACH = 10.0
+#: of the largest influence, by which those of a vector may miss a multiple of force or moment: their rounding
+_SAME = 1e-14
 
 
 @in_place
@@ -76,3 +78,40 @@ def forms(constant, influence, multiple, terms, limits, ceilings, margin, reach,
         for i in range(cap.shape[1]):
             own = cap[n, i] / size[n, i]
             of_cap[n, i] = own - min(max(own, 0.0), margin)
+
+
+@in_place
+def pairs(influence, basis, multiple, two, holds):  # type: ignore[no-untyped-def]
+    """Vectors of N programs as multiples of two, the largest of either response: of equal ones the first.
+
+    Parameters
+    ----------
+    influence : (N, Q, K) of all vectors.
+    basis : (Q,) of which response, 0 or 1.
+    multiple, two, holds : (N, Q), (N, 2, K) and (N,) bool, whether the vectors are such multiples: what is found.
+    """
+    number, vectors, webs = influence.shape
+    for n in range(number):
+        holds[n] = True
+        for b in range(2):
+            largest, most, own, square = -1, -1.0, 0, 0.0
+            for q in range(vectors):
+                if basis[q] == b:
+                    size, own = 0.0, own + 1
+                    for k in range(webs):
+                        size = max(size, abs(influence[n, q, k]))
+                    largest, most = (q, size) if size > most else (largest, most)
+            for k in range(webs):
+                two[n, b, k] = influence[n, largest, k] if own > 0 else 0.0
+                square += two[n, b, k] * two[n, b, k]
+            for q in range(vectors):
+                if basis[q] == b:
+                    along, size = 0.0, 0.0
+                    for k in range(webs):
+                        along += influence[n, q, k] * two[n, b, k]
+                        size = max(size, abs(influence[n, q, k]))
+                    along = along / square if square > 0.0 else along
+                    multiple[n, q] = along if own > 1 else 1.0
+                    for k in range(webs):
+                        off = abs(influence[n, q, k] - along * two[n, b, k])
+                        holds[n] = holds[n] and (own < 2 or off <= _SAME * size)

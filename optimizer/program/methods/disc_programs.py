@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 _VECTORS = 6
 #: sine of the half-angle below which sectors need coordinates of their own, as the method for any limits has them
 _THINNEST = 1e-3
-#: of the largest influence, by which those of a vector may miss a multiple of force or moment: their rounding
-_SAME = 1e-14
 
 
 def suits_discs(statement: Statement, least_mass: bool = True) -> np.ndarray:
@@ -129,28 +127,15 @@ class _Pair(NamedTuple):
 @remembered
 def _pair(statement: Statement) -> _Pair | None:
     """The same of a statement whose influences are real; None where there are more than two responses."""
-    basis, every = _basis(statement), statement.every_influence.real
+    basis = _basis(statement)
     if basis is None:
         return None
+    every = statement.flat.programs.influence
     number, vectors, webs = every.shape
     if vectors < 3:
         return _Pair(basis, *_by_themselves(number, vectors), every)
-    multiple, holds = np.ones((number, vectors)), np.ones(number, bool)
-    two = np.zeros((number, 2, webs))
-    for b in range(2):
-        (own,) = (basis == b).nonzero()
-        if own.size == 1:
-            two[:, b] = every[:, own[0]]
-        if own.size < 2:
-            continue
-        influence = every[:, own]
-        size = np.maximum.reduce(np.abs(influence), axis=-1)
-        largest = influence[np.arange(number), np.argmax(size, axis=-1)]
-        square = np.einsum("nk,nk->n", largest, largest)
-        along = np.einsum("nqk,nk->nq", influence, largest) / np.where(square > 0, square, 1.0)[:, None]
-        off = np.abs(influence - along[..., None] * largest[:, None])
-        multiple[:, own], two[:, b] = along, largest
-        holds &= (np.maximum.reduce(off, axis=-1) <= _SAME * size).all(axis=-1)
+    multiple, two, holds = np.empty((number, vectors)), np.empty((number, 2, webs)), np.empty(number, bool)
+    _disc_forms().pairs(every, basis, multiple, two, holds)
     return _Pair(basis, multiple, holds, two)
 
 
