@@ -119,40 +119,37 @@ def _add_block(own, at, h, xx, xy, yx, yy):  # type: ignore[no-untyped-def]
     own[at + 3 * LANES] += h * yy
 
 
-@fused
-def _hold_by_edges(sized, webs, web, edge, own):  # type: ignore[no-untyped-def]
-    """What the steps of webs with edges are made of; apart, for its numbers fill the registers of the processor."""
-    for k in range(webs):
-        for t in range(LANES):
-            at, on = k * WEB + t, k * EDGE + t
-            vx, vy, x, z, px, py = web[at + VX], web[at + VY], web[at + X], web[at + Z], web[at + PX], web[at + PY]
-            n1x, n1y, n2x, n2y = edge[on + N1X], edge[on + N1Y], edge[on + N2X], edge[on + N2Y]
-            e1, e2, g1, g2 = edge[on + E1], edge[on + E2], edge[on + G1], edge[on + G2]
-            q = 1.0 - x if sized else 0.0
-            zq = z - own[t + BUDGET] * web[at + COST] if sized else 1.0
-            a, d = x * z - (vx * px + vy * py), z * z - px * px - py * py
-            e12, g12, sizes, det = e1 * e2, g1 * g2, z * q + x * zq, a * zq + d * q
-            own_det, own_edges = det * sizes, e12 * g12
-            both = 1.0 / (own_det * own_edges)
-            per_own, per_edges = both * own_edges, both * own_det
-            per_det, per_e, per_g = per_own * sizes, per_edges * g12, per_edges * e12
-            per1, per2 = per_e * e2, per_e * e1
-            edge[on + PER1], edge[on + PER2], edge[on + PER_SIZES] = per1, per2, per_own * det
-            edge[on + PAIR1], edge[on + PAIR2] = per1 * g2 * per_g, per2 * g1 * per_g
-            k1, k2 = g1 * per1, g2 * per2
-            exx, eyy = k1 * n1x * n1x + k2 * n2x * n2x, k1 * n1y * n1y + k2 * n2y * n2y
-            exy, cross = k1 * n1x * n1y + k2 * n2x * n2y, n1x * n2y - n1y * n2x
-            det_s = x * z * (zq * (x * x - vx * vx - vy * vy) + q * a) * per_det
-            mx, my = x * px - z * vx, x * py - z * vy
-            ux, uy = (vx * zq + px * q) * per_det, (vy * zq + py * q) * per_det
-            sxx, sxy, syx, syy = x + ux * mx, ux * my, uy * mx, x + uy * my
-            trace = sxx * exx + (sxy + syx) * exy + syy * eyy
-            per = 1.0 / (z * z + z * trace + det_s * k1 * k2 * cross * cross)
-            edge[on + TXX], edge[on + TYY] = per * (z * sxx + det_s * eyy), per * (z * syy + det_s * exx)
-            edge[on + TXY], edge[on + TYX] = per * (z * sxy - det_s * exy), per * (z * syx - det_s * exy)
-            edge[on + MXX], edge[on + MYY] = per * (z + eyy * syy + exy * syx), per * (z + exx * sxx + exy * sxy)
-            edge[on + MXY], edge[on + MYX] = -per * (eyy * sxy + exy * sxx), -per * (exx * syx + exy * syy)
-            web[at + PER_DET], web[at + PER] = per_det, per
+@fused_inlined
+def _hold_by_edges(sized, web, edge, own, at, on, t):  # type: ignore[no-untyped-def]
+    """What the step of a web with edges is made of; apart, for its numbers fill the registers of the processor."""
+    vx, vy, x, z, px, py = web[at + VX], web[at + VY], web[at + X], web[at + Z], web[at + PX], web[at + PY]
+    n1x, n1y, n2x, n2y = edge[on + N1X], edge[on + N1Y], edge[on + N2X], edge[on + N2Y]
+    e1, e2, g1, g2 = edge[on + E1], edge[on + E2], edge[on + G1], edge[on + G2]
+    q = 1.0 - x if sized else 0.0
+    zq = z - own[t + BUDGET] * web[at + COST] if sized else 1.0
+    a, d = x * z - (vx * px + vy * py), z * z - px * px - py * py
+    e12, g12, sizes, det = e1 * e2, g1 * g2, z * q + x * zq, a * zq + d * q
+    own_det, own_edges = det * sizes, e12 * g12
+    both = 1.0 / (own_det * own_edges)
+    per_own, per_edges = both * own_edges, both * own_det
+    per_det, per_e, per_g = per_own * sizes, per_edges * g12, per_edges * e12
+    per1, per2 = per_e * e2, per_e * e1
+    edge[on + PER1], edge[on + PER2], edge[on + PER_SIZES] = per1, per2, per_own * det
+    edge[on + PAIR1], edge[on + PAIR2] = per1 * g2 * per_g, per2 * g1 * per_g
+    k1, k2 = g1 * per1, g2 * per2
+    exx, eyy = k1 * n1x * n1x + k2 * n2x * n2x, k1 * n1y * n1y + k2 * n2y * n2y
+    exy, cross = k1 * n1x * n1y + k2 * n2x * n2y, n1x * n2y - n1y * n2x
+    det_s = x * z * (zq * (x * x - vx * vx - vy * vy) + q * a) * per_det
+    mx, my = x * px - z * vx, x * py - z * vy
+    ux, uy = (vx * zq + px * q) * per_det, (vy * zq + py * q) * per_det
+    sxx, sxy, syx, syy = x + ux * mx, ux * my, uy * mx, x + uy * my
+    trace = sxx * exx + (sxy + syx) * exy + syy * eyy
+    per = 1.0 / (z * z + z * trace + det_s * k1 * k2 * cross * cross)
+    edge[on + TXX], edge[on + TYY] = per * (z * sxx + det_s * eyy), per * (z * syy + det_s * exx)
+    edge[on + TXY], edge[on + TYX] = per * (z * sxy - det_s * exy), per * (z * syx - det_s * exy)
+    edge[on + MXX], edge[on + MYY] = per * (z + eyy * syy + exy * syx), per * (z + exx * sxx + exy * sxy)
+    edge[on + MXY], edge[on + MYX] = -per * (eyy * sxy + exy * sxx), -per * (exx * syx + exy * syy)
+    web[at + PER_DET], web[at + PER] = per_det, per
 
 
 @fused_inlined
@@ -171,9 +168,10 @@ def look_at_webs(sized, webs, web, edge, own):  # type: ignore[no-untyped-def]
     """Where the webs stand: what the matrix is made of, their gap, and the right sides of a step to products of 0."""
     clear(own, U, DW)
     clear(own, GAP, CHANGE)
-    if edge is not None:
-        _hold_by_edges(sized, webs, web, edge, own)
     for k in range(webs):
+        if edge is not None:
+            for t in range(LANES):
+                _hold_by_edges(sized, web, edge, own, k * WEB + t, k * EDGE + t, t)
         for t in range(LANES):
             at = k * WEB + t
             h1, h2, cost = web[at + H1], web[at + H2], web[at + COST]
