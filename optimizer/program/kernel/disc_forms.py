@@ -42,7 +42,7 @@ def scales(rest, influence, changes, single, limits, at_least, share, gaps, reac
 
 
 @in_place
-def forms(constant, influence, multiple, terms, limits, ceilings, margin, reach, unit, budgeted, parts):  # type: ignore[no-untyped-def]
+def forms(constant, influence, multiple, terms, limits, sectors, ceilings, margin, reach, unit, budgeted, parts):  # type: ignore[no-untyped-def]
     """N programs as :class:`optimizer.program.kernel.disc_starts.Discs` has them.
 
     Parameters
@@ -50,12 +50,14 @@ def forms(constant, influence, multiple, terms, limits, ceilings, margin, reach,
     constant, multiple : (N, Q), of the terms and of what is under ceilings.
     influence : (N, B, K) on one or both of two responses.
     limits : (N, K) radius of the webs, and (N,) budget.
+    sectors : (N, K) whether there is none, centre, cosine and sine of the half-angle.
     ceilings : (N, I) caps and sizes.
     margin : share of its size by which a ceiling is lowered.
     reach, unit : of :func:`scales`.
-    budgeted, parts : (N,) bool, whether the budget can bind, and the six arrays that follow the basis.
+    budgeted, parts : (N,) bool, whether the budget can bind, and the seven arrays that follow the basis.
     """
-    of_multiple, of_constant, of_influence, mass, of_budget, of_cap = parts
+    of_multiple, of_constant, of_influence, mass, of_budget, of_cap, normals = parts
+    free, centre, cosine, sine = sectors
     radius, budget = limits
     cap, size = ceilings
     (number, webs), vectors = mass.shape, multiple.shape[1]
@@ -72,6 +74,12 @@ def forms(constant, influence, multiple, terms, limits, ceilings, margin, reach,
             total += mass[n, k]
             for b in range(2):
                 of_influence[n, b, k] = influence[n, b, k] * reach[n, k] if b < influence.shape[1] else 0.0
+        for k in range(normals.shape[2]):
+            # the centre turned by the rest to a right angle
+            present = 0.0 if free[n, k] else 1.0
+            c, s, x, y = present * cosine[n, k], present * sine[n, k], centre[n, k].real, centre[n, k].imag
+            normals[n, 0, k], normals[n, 1, k] = s * x - c * y, s * y + c * x
+            normals[n, 2, k], normals[n, 3, k], normals[n, 4, k] = s * x + c * y, s * y - c * x, present
         budgeted[n] = total > budget[n]
         for k in range(webs):
             of_budget[n, k] = mass[n, k] / budget[n] if budgeted[n] else 0.0
