@@ -48,9 +48,10 @@ def designs() -> None:
 
 
 def proofs() -> None:
-    """Compile what proves bounds of single proofs, and settles by itself: one web, one term, one row."""
+    """Compile what proves bounds of single proofs, settles by itself or is for ceilings: one web, one term, one row."""
     from optimizer.program.ceilings import Ceilings
     from optimizer.program.certificate import affine_minorant, nothing_proven, objective_lower_bound
+    from optimizer.program.kernel.disc_forms import pairs
     from optimizer.program.limits import Limits, within
     from optimizer.program.methods.compensation import near_limits
     from optimizer.program.methods.rounding import settled
@@ -69,6 +70,7 @@ def proofs() -> None:
     within(limits.region((1,)), (1,), np.ones((1, 1), complex))
     least_change(np.ones((1, 1, 1), complex), np.ones((1, 1), complex), 1)
     settled(program.alone(), points_at(program.alone(), np.zeros((1, 1), complex)), unit, None)
+    pairs(np.ones((1, 3, 1)), np.zeros(3, int), np.empty((1, 3)), np.empty((1, 2, 1)), np.empty(1, bool))
 
 
 def misplacements() -> None:

@@ -75,7 +75,7 @@ def test_what_is_compiled_is_what_answers_need() -> None:
         symmetries: ("means",),
         outlines: ("worst_scaled", "worst_turned"),
         cancelling: ("least_changes", "least_changes_of_real"),
-        disc_forms: ("forms", "scales"),
+        disc_forms: ("forms", "pairs", "scales"),
         entry: ("_over_turn",),
         knapsack: ("filled",),
         of_forces: ("force_and_couple",),

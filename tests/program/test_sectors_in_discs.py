@@ -266,12 +266,14 @@ def test_a_step_solves_the_linearised_equations(budget: bool) -> None:
         sizes = z * (x * dz + z * dx + _dot(v, dp) + _dot(p, dv)) - web["R0"] - _dot(p, r)
         vectors = x * dp + v * dz + z * dv + p * dx - r
         normals = edge["N1X"] + 1j * edge["N1Y"], edge["N2X"] + 1j * edge["N2Y"]
-        turned = edge["DG1"] * normals[0] + edge["DG2"] * normals[1]
+        # the multipliers' steps and right sides are over the multipliers
+        turned = edge["G1"] * edge["DG1"] * normals[0] + edge["G2"] * edge["DG2"] * normals[1]
         moved = web["H1"] * (own["DW"][0] + 1j * own["DW"][1]) + web["H2"] * (own["DW"][2] + 1j * own["DW"][3])
         off = [sizes, vectors, dp + moved + turned]
         for e, n in zip("12", normals, strict=True):
             slack, grip = edge[f"E{e}"], edge[f"G{e}"]
-            off += [slack * (edge[f"DG{e}"] - edge[f"Q{e}"]) + grip * edge[f"DE{e}"], edge[f"DE{e}"] - _dot(n, dv)]
+            change = slack * (edge[f"DG{e}"] - edge[f"Q{e}"]) + edge[f"DE{e}"]
+            off += [grip * change, edge[f"DE{e}"] - _dot(n, dv)]
         if least or budgeted:
             off.append((1.0 - x) * (dz - cost * d_price) - (z - own["BUDGET"] * cost) * dx - web["RQ"])
         if budgeted:

@@ -4,6 +4,8 @@ from optimizer.program.kernel.compiling import in_place
 
 #: multiple of the natural reach beyond which limits are ignored
 _REACH = 10.0
+#: of the largest influence, by which those of a vector may miss a multiple of force or moment: their rounding
+_SAME = 1e-14
 
 
 @in_place
@@ -40,7 +42,7 @@ def scales(rest, influence, changes, single, limits, at_least, share, gaps, reac
 
 
 @in_place
-def forms(constant, influence, multiple, terms, limits, ceilings, margin, reach, unit, budgeted, parts):  # type: ignore[no-untyped-def]
+def forms(constant, influence, multiple, terms, limits, sectors, ceilings, margin, reach, unit, budgeted, parts):  # type: ignore[no-untyped-def]
     """N programs as :class:`optimizer.program.kernel.disc_starts.Discs` has them.
 
     Parameters
@@ -48,12 +50,14 @@ def forms(constant, influence, multiple, terms, limits, ceilings, margin, reach,
     constant, multiple : (N, Q), of the terms and of what is under ceilings.
     influence : (N, B, K) on one or both of two responses.
     limits : (N, K) radius of the webs, and (N,) budget.
+    sectors : (N, K) whether there is none, centre, cosine and sine of the half-angle.
     ceilings : (N, I) caps and sizes.
     margin : share of its size by which a ceiling is lowered.
     reach, unit : of :func:`scales`.
-    budgeted, parts : (N,) bool, whether the budget can bind, and the six arrays that follow the basis.
+    budgeted, parts : (N,) bool, whether the budget can bind, and the seven arrays that follow the basis.
     """
-    of_multiple, of_constant, of_influence, mass, of_budget, of_cap = parts
+    of_multiple, of_constant, of_influence, mass, of_budget, of_cap, normals = parts
+    free, centre, cosine, sine = sectors
     radius, budget = limits
     cap, size = ceilings
     (number, webs), vectors = mass.shape, multiple.shape[1]
@@ -70,9 +74,52 @@ def forms(constant, influence, multiple, terms, limits, ceilings, margin, reach,
             total += mass[n, k]
             for b in range(2):
                 of_influence[n, b, k] = influence[n, b, k] * reach[n, k] if b < influence.shape[1] else 0.0
+        for k in range(normals.shape[2]):
+            # the centre turned by the rest to a right angle
+            present = 0.0 if free[n, k] else 1.0
+            c, s, x, y = present * cosine[n, k], present * sine[n, k], centre[n, k].real, centre[n, k].imag
+            normals[n, 0, k], normals[n, 1, k] = s * x - c * y, s * y + c * x
+            normals[n, 2, k], normals[n, 3, k], normals[n, 4, k] = s * x + c * y, s * y - c * x, present
         budgeted[n] = total > budget[n]
         for k in range(webs):
             of_budget[n, k] = mass[n, k] / budget[n] if budgeted[n] else 0.0
         for i in range(cap.shape[1]):
             own = cap[n, i] / size[n, i]
             of_cap[n, i] = own - min(max(own, 0.0), margin)
+
+
+@in_place
+def pairs(influence, basis, multiple, two, holds):  # type: ignore[no-untyped-def]
+    """Vectors of N programs as multiples of two, the largest of either response: of equal ones the first.
+
+    Parameters
+    ----------
+    influence : (N, Q, K) of all vectors.
+    basis : (Q,) of which response, 0 or 1.
+    multiple, two, holds : (N, Q), (N, 2, K) and (N,) bool, whether the vectors are such multiples: what is found.
+    """
+    number, vectors, webs = influence.shape
+    for n in range(number):
+        holds[n] = True
+        for b in range(2):
+            largest, most, own, square = -1, -1.0, 0, 0.0
+            for q in range(vectors):
+                if basis[q] == b:
+                    size, own = 0.0, own + 1
+                    for k in range(webs):
+                        size = max(size, abs(influence[n, q, k]))
+                    largest, most = (q, size) if size > most else (largest, most)
+            for k in range(webs):
+                two[n, b, k] = influence[n, largest, k] if own > 0 else 0.0
+                square += two[n, b, k] * two[n, b, k]
+            for q in range(vectors):
+                if basis[q] == b:
+                    along, size = 0.0, 0.0
+                    for k in range(webs):
+                        along += influence[n, q, k] * two[n, b, k]
+                        size = max(size, abs(influence[n, q, k]))
+                    along = along / square if square > 0.0 else along
+                    multiple[n, q] = along if own > 1 else 1.0
+                    for k in range(webs):
+                        off = abs(influence[n, q, k] - along * two[n, b, k])
+                        holds[n] = holds[n] and (own < 2 or off <= _SAME * size)

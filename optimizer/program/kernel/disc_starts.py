@@ -13,9 +13,9 @@ from optimizer.numerics.arrays import Real
 from optimizer.program.kernel.compiling import inner
 from optimizer.program.kernel.stages import CENTRALITY, OPEN, RESERVE
 
-#: first stage: product of slack and multiplier of a web at the start, what sizes are above their vectors, share of its
-#: size that a web has along a sector, and share of a budget that is spent at most
-_PRODUCT, _ABOVE_VECTOR, _ALONG, _SPENT = 0.1, 0.1, 0.6, 0.75
+#: first stage: product of slack and multiplier of a web at the start, the same within a budget, what sizes are above
+#: their vectors, share of its size that a web has along a sector, and share of a budget that is spent at most
+_PRODUCT, _PRODUCT_IN_BUDGET, _ABOVE_VECTOR, _ALONG, _SPENT = 0.1, 0.02, 0.1, 0.6, 0.85
 #: second stage: what the size of the multiplier of a web is above its mass at least
 _ABOVE_MASS = 0.05
 
@@ -41,21 +41,21 @@ def begin_first(programs, n, budgeted, cost, where):  # type: ignore[no-untyped-
     terms, at_prices = vectors - programs.cap.shape[1], 6 * webs + 4 * vectors
     for k in range(webs):
         where[2 * webs + k] = 1.0
-    price = 0.0
+    price, product = 0.0, _PRODUCT
     if budgeted:
-        # near the middle of 0 <= x <= 1 and the budget, as if the rest of it were an even share
-        full = 0.0
+        # near the middle of 0 <= x <= 1 and the budget, as if the rest of it were two even shares
+        full, product = 0.0, _PRODUCT_IN_BUDGET
         for k in range(webs):
             cost[k] = programs.budget[n, k]
-            worth = cost[k] * (webs + 1.0)
+            worth = 0.5 * cost[k] * (webs + 1.0)
             where[2 * webs + k] = 2.0 / (2.0 + worth + np.sqrt(4.0 + worth * worth))
             full += cost[k] * where[2 * webs + k]
         for k in range(webs):
             where[2 * webs + k] *= min(_SPENT / full, 1.0)
-        price = _PRODUCT / (1.0 - min(full, _SPENT))
+        price = product / (1.0 - min(full, _SPENT))
     where[at_prices], where[at_prices + 1] = 1.0, price
     for k in range(webs):
-        where[3 * webs + k] = max(_PRODUCT / where[2 * webs + k], price * cost[k] + _PRODUCT)
+        where[3 * webs + k] = max(product / where[2 * webs + k], price * cost[k] + product)
     for k in range(programs.normals.shape[2]):
         normals = programs.normals[n]
         grip = 1.0

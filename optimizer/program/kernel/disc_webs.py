@@ -15,8 +15,8 @@ dp = dp_0 + E dv, with E = sum_e (g / e) n_e n_e', and
 
     dv = (z + S E)^-1 (y - S dp_0),   (z + S E)^-1 = (z + adj(E) adj(S)) / (z^2 + z tr(S E) + det(S) det(E))
 
-where again nothing is subtracted that could cancel: det(S) = x z (zq (x^2 - |v|^2) + q A) / (A zq + D q), and of
-n_e' adj(E) only the other edge is left.
+where again nothing is subtracted that could cancel: det(S) = x z (zq (x^2 - |v|^2) + q A) / (A zq + D q). This inverse
+and its product with S, by which v follows p, are for predictor and corrector; all else of a step follows from dv.
 
 A number of a web stands at ``k WEB + NAME + t`` of ``web``, t the lane; one of its edges at ``k EDGE + NAME + t`` of
 ``edge``, which is None where no web has a sector; one of a program at ``NAME + t`` of ``own``. All offsets are known to
@@ -43,11 +43,15 @@ LANES = 16
 (
     N1X, N1Y, N2X, N2Y, PRESENT,  # normals of the edges; 1 where there are any, else 0
     E1, E2, G1, G2,  # slacks and multipliers
-    PER1, PER2, PER_SIZES,  # 1 / e and 1 / (z q + x zq)
-    RS, Q1, Q2,  # right sides: r_0, and those of the edges over e
-    DE1, DE2, DG1, DG2,  # the step
+    PER1, PER2, PAIR1, PAIR2, PER_SIZES,  # 1 / e, 1 / (e g), and 1 / (z q + x zq)
+    MXX, MXY, MYX, MYY,  # (z + S E)^-1
+    TXX, TXY, TYX, TYY,  # (z + S E)^-1 S
+    BX, BY,  # step of v by the price of the budget
+    RS, Q1, Q2,  # right sides: r_0, and those of the edges over e g
+    GX, GY,  # step of v where no multiplier of force, moment or budget changes
+    DE1, DE2, DG1, DG2,  # the step, that of the multipliers over them
     EDGE,  # numbers of the edges of a web
-) = range(0, 20 * LANES, LANES)  # fmt: skip
+) = range(0, 34 * LANES, LANES)  # fmt: skip
 
 (
     U,  # what the webs add to force and moment, two numbers each
@@ -97,29 +101,89 @@ def clear(values, begin, end):  # type: ignore[no-untyped-def]
         values[i] = 0.0
 
 
+@fused_inlined
+def _add_vector(own, at, h1, h2, x, y):  # type: ignore[no-untyped-def]
+    """A vector of a web, to what the webs add to force and moment."""
+    own[at] += h1 * x
+    own[at + LANES] += h1 * y
+    own[at + 2 * LANES] += h2 * x
+    own[at + 3 * LANES] += h2 * y
+
+
+@fused_inlined
+def _add_block(own, at, h, xx, xy, yx, yy):  # type: ignore[no-untyped-def]
+    """A matrix of 2 x 2 of a web, likewise."""
+    own[at] += h * xx
+    own[at + LANES] += h * xy
+    own[at + 2 * LANES] += h * yx
+    own[at + 3 * LANES] += h * yy
+
+
+@fused_inlined
+def _hold_by_edges(sized, web, edge, own, at, on, t):  # type: ignore[no-untyped-def]
+    """What the step of a web with edges is made of; apart, for its numbers fill the registers of the processor."""
+    vx, vy, x, z, px, py = web[at + VX], web[at + VY], web[at + X], web[at + Z], web[at + PX], web[at + PY]
+    n1x, n1y, n2x, n2y = edge[on + N1X], edge[on + N1Y], edge[on + N2X], edge[on + N2Y]
+    e1, e2, g1, g2 = edge[on + E1], edge[on + E2], edge[on + G1], edge[on + G2]
+    q = 1.0 - x if sized else 0.0
+    zq = z - own[t + BUDGET] * web[at + COST] if sized else 1.0
+    a, d = x * z - (vx * px + vy * py), z * z - px * px - py * py
+    e12, g12, sizes, det = e1 * e2, g1 * g2, z * q + x * zq, a * zq + d * q
+    own_det, own_edges = det * sizes, e12 * g12
+    both = 1.0 / (own_det * own_edges)
+    per_own, per_edges = both * own_edges, both * own_det
+    per_det, per_e, per_g = per_own * sizes, per_edges * g12, per_edges * e12
+    per1, per2 = per_e * e2, per_e * e1
+    edge[on + PER1], edge[on + PER2], edge[on + PER_SIZES] = per1, per2, per_own * det
+    edge[on + PAIR1], edge[on + PAIR2] = per1 * g2 * per_g, per2 * g1 * per_g
+    k1, k2 = g1 * per1, g2 * per2
+    exx, eyy = k1 * n1x * n1x + k2 * n2x * n2x, k1 * n1y * n1y + k2 * n2y * n2y
+    exy, cross = k1 * n1x * n1y + k2 * n2x * n2y, n1x * n2y - n1y * n2x
+    det_s = x * z * (zq * (x * x - vx * vx - vy * vy) + q * a) * per_det
+    mx, my = x * px - z * vx, x * py - z * vy
+    ux, uy = (vx * zq + px * q) * per_det, (vy * zq + py * q) * per_det
+    sxx, sxy, syx, syy = x + ux * mx, ux * my, uy * mx, x + uy * my
+    trace = sxx * exx + (sxy + syx) * exy + syy * eyy
+    per = 1.0 / (z * z + z * trace + det_s * k1 * k2 * cross * cross)
+    edge[on + TXX], edge[on + TYY] = per * (z * sxx + det_s * eyy), per * (z * syy + det_s * exx)
+    edge[on + TXY], edge[on + TYX] = per * (z * sxy - det_s * exy), per * (z * syx - det_s * exy)
+    edge[on + MXX], edge[on + MYY] = per * (z + eyy * syy + exy * syx), per * (z + exx * sxx + exy * sxy)
+    edge[on + MXY], edge[on + MYX] = -per * (eyy * sxy + exy * sxx), -per * (exx * syx + exy * syy)
+    web[at + PER_DET], web[at + PER] = per_det, per
+
+
+@fused_inlined
+def _alone_at_edges(yx, yy, q1, q2, edge, on):  # type: ignore[no-untyped-def]
+    """Step of v, kept too, where no multiplier of force, moment or budget changes; normals are 0 where no edge is."""
+    q1, q2 = q1 * edge[on + G1], q2 * edge[on + G2]
+    ex, ey = edge[on + N1X] * q1 + edge[on + N2X] * q2, edge[on + N1Y] * q1 + edge[on + N2Y] * q2
+    gx = edge[on + MXX] * yx + edge[on + MXY] * yy + edge[on + TXX] * ex + edge[on + TXY] * ey
+    gy = edge[on + MYX] * yx + edge[on + MYY] * yy + edge[on + TYX] * ex + edge[on + TYY] * ey
+    edge[on + GX], edge[on + GY] = gx, gy
+    return gx, gy
+
+
 @fused
 def look_at_webs(sized, webs, web, edge, own):  # type: ignore[no-untyped-def]
     """Where the webs stand: what the matrix is made of, their gap, and the right sides of a step to products of 0."""
     clear(own, U, DW)
     clear(own, GAP, CHANGE)
     for k in range(webs):
+        if edge is not None:
+            for t in range(LANES):
+                _hold_by_edges(sized, web, edge, own, k * WEB + t, k * EDGE + t, t)
         for t in range(LANES):
             at = k * WEB + t
             h1, h2, cost = web[at + H1], web[at + H2], web[at + COST]
             vx, vy, x, z, px, py = web[at + VX], web[at + VY], web[at + X], web[at + Z], web[at + PX], web[at + PY]
-            if edge is not None:
-                on = k * EDGE + t
-                n1x, n1y, n2x, n2y = edge[on + N1X], edge[on + N1Y], edge[on + N2X], edge[on + N2Y]
-                e1, e2, g1, g2 = edge[on + E1], edge[on + E2], edge[on + G1], edge[on + G2]
-                dpx, dpy = g1 * n1x + g2 * n2x, g1 * n1y + g2 * n2y
             q = 1.0 - x if sized else 0.0
             zq = z - own[t + BUDGET] * cost if sized else 1.0
             vp = vx * px + vy * py
             a, d = x * z - vp, z * z - px * px - py * py
-            det = a * zq + d * q
-            mx, my = x * px - z * vx, x * py - z * vy
             rx, ry, r0, rq = -(x * px + z * vx), -(x * py + z * vy), -x * d, -q * zq
             if edge is None:
+                mx, my = x * px - z * vx, x * py - z * vy
+                det = a * zq + d * q
                 both = 1.0 / (det * z)
                 per_det, per = both * z, both * det
                 ux, uy = (vx * zq + px * q) * per_det, (vy * zq + py * q) * per_det
@@ -127,53 +191,19 @@ def look_at_webs(sized, webs, web, edge, own):  # type: ignore[no-untyped-def]
                 dz, dx = (zq * r0 + d * rq) * per_det, (q * r0 - a * rq) * per_det
                 gx, gy = (rx - vx * dz - px * dx) * per, (ry - vy * dz - py * dx) * per
             else:
-                e12 = e1 * e2
-                sizes = z * q + x * zq
-                both = 1.0 / (det * e12 * sizes)
-                per_det, per_12 = both * e12 * sizes, both * det * sizes
-                edge[on + PER_SIZES], edge[on + RS] = both * det * e12, -(x * z + vp)
-                ux, uy = (vx * zq + px * q) * per_det, (vy * zq + py * q) * per_det
-                per1, per2 = per_12 * e2, per_12 * e1
-                k1, k2 = g1 * per1, g2 * per2
-                exx, eyy = k1 * n1x * n1x + k2 * n2x * n2x, k1 * n1y * n1y + k2 * n2y * n2y
-                exy = k1 * n1x * n1y + k2 * n2x * n2y
-                cross = n1x * n2y - n1y * n2x
-                det_s = x * z * (zq * (x * x - vx * vx - vy * vy) + q * a) * per_det
-                trace = x * (exx + eyy) + mx * (exx * ux + exy * uy) + my * (exy * ux + eyy * uy)
-                per = 1.0 / (z * z + z * trace + det_s * k1 * k2 * cross * cross)
-                txx, tyy = per * (z * (x + ux * mx) + det_s * eyy), per * (z * (x + uy * my) + det_s * exx)
-                txy, tyx = per * (z * ux * my - det_s * exy), per * (z * uy * mx - det_s * exy)
-                r = r0 + mx * dpx + my * dpy
-                dz, dx = (zq * r + d * rq) * per_det, (q * r - a * rq) * per_det
-                yx, yy = rx - x * dpx - vx * dz - px * dx, ry - x * dpy - vy * dz - py * dx
-                turn = yx * uy - yy * ux
-                sx, sy = x * yx + turn * my, x * yy - turn * mx
-                gx, gy = per * (z * yx + eyy * sx - exy * sy), per * (z * yy + exx * sy - exy * sx)
+                on = k * EDGE + t
+                per_det, per = web[at + PER_DET], web[at + PER]
+                txx, txy, tyx, tyy = edge[on + TXX], edge[on + TXY], edge[on + TYX], edge[on + TYY]
+                dz, dx = (zq * r0 + d * rq) * per_det, (q * r0 - a * rq) * per_det
                 present = edge[on + PRESENT]
-                own[t + GAP] += present * (e1 * g1 + e2 * g2)
-                edge[on + PER1], edge[on + PER2] = per1, per2
-                edge[on + Q1], edge[on + Q2] = -g1 * present, -g2 * present
-            h11, h12, h22 = h1 * h1, h1 * h2, h2 * h2
-            own[t + N] += h11 * txx
-            own[t + N + LANES] += h11 * txy
-            own[t + N + 2 * LANES] += h11 * tyx
-            own[t + N + 3 * LANES] += h11 * tyy
-            own[t + N + 4 * LANES] += h12 * txx
-            own[t + N + 5 * LANES] += h12 * txy
-            own[t + N + 6 * LANES] += h12 * tyx
-            own[t + N + 7 * LANES] += h12 * tyy
-            own[t + N + 8 * LANES] += h22 * txx
-            own[t + N + 9 * LANES] += h22 * txy
-            own[t + N + 10 * LANES] += h22 * tyx
-            own[t + N + 11 * LANES] += h22 * tyy
-            own[t + G] += h1 * gx
-            own[t + G + LANES] += h1 * gy
-            own[t + G + 2 * LANES] += h2 * gx
-            own[t + G + 3 * LANES] += h2 * gy
-            own[t + U] += h1 * vx
-            own[t + U + LANES] += h1 * vy
-            own[t + U + 2 * LANES] += h2 * vx
-            own[t + U + 3 * LANES] += h2 * vy
+                gx, gy = _alone_at_edges(rx - vx * dz - px * dx, ry - vy * dz - py * dx, -present, -present, edge, on)
+                own[t + GAP] += present * (edge[on + E1] * edge[on + G1] + edge[on + E2] * edge[on + G2])
+                edge[on + Q1], edge[on + Q2], edge[on + RS] = -present, -present, -(x * z + vp)
+            _add_block(own, t + N, h1 * h1, txx, txy, tyx, tyy)
+            _add_block(own, t + N + 4 * LANES, h1 * h2, txx, txy, tyx, tyy)
+            _add_block(own, t + N + 8 * LANES, h2 * h2, txx, txy, tyx, tyy)
+            _add_vector(own, t + G, h1, h2, gx, gy)
+            _add_vector(own, t + U, h1, h2, vx, vy)
             own[t + GAP] += x * z + vp + q * zq
             own[t + MASS] += cost * x
             web[at + PER_DET], web[at + PER] = per_det, per
@@ -182,7 +212,8 @@ def look_at_webs(sized, webs, web, edge, own):  # type: ignore[no-untyped-def]
 
 @fused
 def share_budget(webs, web, edge, own):  # type: ignore[no-untyped-def]
-    """What the price of a budget and the webs do to each other: ``TOLL``, ``GIVE``, ``TOLL_MASS`` and ``OWN_MASS``."""
+    """What the price of a budget and the webs do to each other: ``TOLL``, ``GIVE``, ``TOLL_MASS`` and, where no web has
+    edges, ``OWN_MASS``."""
     clear(own, TOLL, BUDGET)
     for k in range(webs):
         for t in range(LANES):
@@ -193,41 +224,28 @@ def share_budget(webs, web, edge, own):  # type: ignore[no-untyped-def]
             vp = vx * px + vy * py
             a, d, ahead = x * z - vp, z * z - px * px - py * py, cost * q * per_det
             mx, my = x * px - z * vx, x * py - z * vy
-            zq, r0, rx, ry, rq = z - own[t + BUDGET] * cost, web[at + R0], web[at + RX], web[at + RY], web[at + RQ]
             # steps of v and of x by the price; of x by p
             bx, by, forth = -(vx * d - px * a), -(vy * d - py * a), -a * ahead
             if edge is None:
                 bx, by, cx, cy = per * bx, per * by, mx, my
                 own[t + TOLL_MASS] += cost * forth
-                own[t + OWN_MASS] += cost * (q * r0 - a * rq) * per_det
+                own[t + OWN_MASS] += cost * (q * web[at + R0] - a * web[at + RQ]) * per_det
             else:
                 on = k * EDGE + t
                 n1x, n1y, n2x, n2y = edge[on + N1X], edge[on + N1Y], edge[on + N2X], edge[on + N2Y]
                 k1, k2 = edge[on + G1] * edge[on + PER1], edge[on + G2] * edge[on + PER2]
-                exx, eyy = k1 * n1x * n1x + k2 * n2x * n2x, k1 * n1y * n1y + k2 * n2y * n2y
-                exy = k1 * n1x * n1y + k2 * n2x * n2y
-                across = vx * py - vy * px
-                sx, sy = x * bx - across * my, x * by + across * mx
-                bx, by = per * (z * bx + eyy * sx - exy * sy), per * (z * by + exx * sy - exy * sx)
-                cx, cy = z * per * (z * mx + x * (eyy * mx - exy * my)), z * per * (z * my + x * (exx * my - exy * mx))
+                bx, by = edge[on + MXX] * bx + edge[on + MXY] * by, edge[on + MYX] * bx + edge[on + MYY] * by
+                edge[on + BX], edge[on + BY] = bx * ahead, by * ahead
+                first, second = x * k1 * (n1x * my - n1y * mx), x * k2 * (n2x * my - n2y * mx)
+                cx = z * per * (z * mx - n1y * first - n2y * second)
+                cy = z * per * (z * my + n1x * first + n2x * second)
                 # and of p by v
-                ex, ey = exx * bx + exy * by, exy * bx + eyy * by
-                own[t + TOLL_MASS] += cost * (forth + q * per_det * (mx * ex + my * ey) * ahead)
-                dx, _, _, _, _, _, _, _ = _step_at_edges(
-                    x, z, vx, vy, px, py, q, zq, a, d, per_det, edge[on + PER_SIZES], per,
-                    r0, rx, ry, rq, edge[on + RS], 0.0, 0.0,
-                    n1x, n1y, n2x, n2y, k1, k2, edge[on + Q1], edge[on + Q2],
-                )  # fmt: skip
-                own[t + OWN_MASS] += cost * dx
+                first, second = k1 * (n1x * mx + n1y * my), k2 * (n2x * mx + n2y * my)
+                along = first * (n1x * bx + n1y * by) + second * (n2x * bx + n2y * by)
+                own[t + TOLL_MASS] += cost * (forth + q * per_det * along * ahead)
             bx, by, cx, cy = bx * ahead, by * ahead, -cx * ahead, -cy * ahead
-            own[t + TOLL] += h1 * bx
-            own[t + TOLL + LANES] += h1 * by
-            own[t + TOLL + 2 * LANES] += h2 * bx
-            own[t + TOLL + 3 * LANES] += h2 * by
-            own[t + GIVE] += h1 * cx
-            own[t + GIVE + LANES] += h1 * cy
-            own[t + GIVE + 2 * LANES] += h2 * cx
-            own[t + GIVE + 3 * LANES] += h2 * cy
+            _add_vector(own, t + TOLL, h1, h2, bx, by)
+            _add_vector(own, t + GIVE, h1, h2, cx, cy)
 
 
 @fused_inlined
@@ -239,29 +257,31 @@ def _step_of_web(x, z, vx, vy, px, py, q, zq, a, d, per_det, per, r0, rx, ry, rq
 
 
 @fused_inlined
-def _step_at_edges(  # type: ignore[no-untyped-def]
-    x, z, vx, vy, px, py, q, zq, a, d, per_det, per_sizes, per, r0, rx, ry, rq, rs, dpx, dpy,
-    n1x, n1y, n2x, n2y, k1, k2, q1, q2,
-):  # fmt: skip
-    """Steps (dx, dz, dvx, dvy, de1, de2, dpx, dpy) of a web with edges."""
-    mx, my = x * px - z * vx, x * py - z * vy
-    ux, uy = (vx * zq + px * q) * per_det, (vy * zq + py * q) * per_det
-    bare_x, bare_y = dpx - n1x * q1 - n2x * q2, dpy - n1y * q1 - n2y * q2
-    r = r0 + mx * bare_x + my * bare_y
-    dz, dx = (zq * r + d * rq) * per_det, (q * r - a * rq) * per_det
-    yx, yy = rx - x * bare_x - vx * dz - px * dx, ry - x * bare_y - vy * dz - py * dx
-    turn = yx * uy - yy * ux
-    sx, sy = x * yx + turn * my, x * yy - turn * mx
-    first, second = k1 * (n1x * sy - n1y * sx), k2 * (n2x * sy - n2y * sx)
-    dvx = per * (z * yx - n1y * first - n2y * second)
-    dvy = per * (z * yy + n1x * first + n2x * second)
-    cross = n1x * n2y - n1y * n2x
-    de1 = per * (z * (n1x * yx + n1y * yy) - cross * second)
-    de2 = per * (z * (n2x * yx + n2y * yy) + cross * first)
-    dpx, dpy = bare_x + n1x * k1 * de1 + n2x * k2 * de2, bare_y + n1y * k1 * de1 + n2y * k2 * de2
+def _follow_edges(x, z, vx, vy, px, py, q, zq, per_sizes, rq, dpx, dpy, dvx, dvy, edge, on):  # type: ignore[no-untyped-def]
+    """Steps (dx, dz, de1, de2, dg1, dg2, dpx, dpy) that follow from that of v; of dp what the edges add is missing."""
+    n1x, n1y, n2x, n2y = edge[on + N1X], edge[on + N1Y], edge[on + N2X], edge[on + N2Y]
+    de1, de2 = n1x * dvx + n1y * dvy, n2x * dvx + n2y * dvy
+    dg1, dg2 = edge[on + Q1] - de1 * edge[on + PER1], edge[on + Q2] - de2 * edge[on + PER2]
+    more1, more2 = edge[on + G1] * dg1, edge[on + G2] * dg2
+    dpx, dpy = dpx - n1x * more1 - n2x * more2, dpy - n1y * more1 - n2y * more2
     # sizes from vectors: a web between its limits is off along itself by far more than rounding, and so is its size
-    r = rs - vx * dpx - vy * dpy - px * dvx - py * dvy
-    return (q * r - x * rq) * per_sizes, (zq * r + z * rq) * per_sizes, dvx, dvy, de1, de2, dpx, dpy
+    r = edge[on + RS] - vx * dpx - vy * dpy - px * dvx - py * dvy
+    return (q * r - x * rq) * per_sizes, (zq * r + z * rq) * per_sizes, de1, de2, dg1, dg2, dpx, dpy
+
+
+@fused
+def add_own_mass(webs, web, edge, own):  # type: ignore[no-untyped-def]
+    """``OWN_MASS`` of webs with edges, from their right sides."""
+    clear(own, OWN_MASS, BUDGET)
+    for k in range(webs):
+        for t in range(LANES):
+            at, on = k * WEB + t, k * EDGE + t
+            x, z, cost = web[at + X], web[at + Z], web[at + COST]
+            dx, _, _, _, _, _, _, _ = _follow_edges(
+                x, z, web[at + VX], web[at + VY], web[at + PX], web[at + PY], 1.0 - x, z - own[t + BUDGET] * cost,
+                edge[on + PER_SIZES], web[at + RQ], 0.0, 0.0, edge[on + GX], edge[on + GY], edge, on,
+            )  # fmt: skip
+            own[t + OWN_MASS] += cost * dx
 
 
 @fused
@@ -287,24 +307,16 @@ def step_webs(sized, webs, web, edge, own):  # type: ignore[no-untyped-def]
                 )
             else:
                 on = k * EDGE + t
-                n1x, n1y, n2x, n2y = edge[on + N1X], edge[on + N1Y], edge[on + N2X], edge[on + N2Y]
-                g1, g2, per1, per2 = edge[on + G1], edge[on + G2], edge[on + PER1], edge[on + PER2]
-                q1, q2, k1, k2 = edge[on + Q1], edge[on + Q2], g1 * per1, g2 * per2
-                dx, dz, dvx, dvy, de1, de2, dpx, dpy = _step_at_edges(
-                    x, z, vx, vy, px, py, q, zq, a, d, per_det, edge[on + PER_SIZES], per,
-                    r0, rx, ry, rq, edge[on + RS], dpx, dpy,
-                    n1x, n1y, n2x, n2y, k1, k2, q1, q2,
-                )  # fmt: skip
-                dg1, dg2 = q1 - k1 * de1, q2 - k2 * de2
-                per = 1.0 / (g1 * g2)
-                own[t + PRIMAL] = _larger(own[t + PRIMAL], _larger(-de1 * per1, -de2 * per2))
-                own[t + DUAL] = _larger(own[t + DUAL], _larger(-dg1 * g2, -dg2 * g1) * per)
+                dvx = edge[on + GX] - edge[on + TXX] * dpx - edge[on + TXY] * dpy + edge[on + BX] * own[t + D_BUDGET]
+                dvy = edge[on + GY] - edge[on + TYX] * dpx - edge[on + TYY] * dpy + edge[on + BY] * own[t + D_BUDGET]
+                dx, dz, de1, de2, dg1, dg2, dpx, dpy = _follow_edges(
+                    x, z, vx, vy, px, py, q, zq, edge[on + PER_SIZES], rq, dpx, dpy, dvx, dvy, edge, on
+                )
+                own[t + PRIMAL] = _larger(own[t + PRIMAL], _larger(-de1 * edge[on + PER1], -de2 * edge[on + PER2]))
+                own[t + DUAL] = _larger(own[t + DUAL], _larger(-dg1, -dg2))
                 edge[on + DE1], edge[on + DE2], edge[on + DG1], edge[on + DG2] = de1, de2, dg1, dg2
             dx = dx if sized else 0.0
-            own[t + DU] += h1 * dvx
-            own[t + DU + LANES] += h1 * dvy
-            own[t + DU + 2 * LANES] += h2 * dvx
-            own[t + DU + 3 * LANES] += h2 * dvy
+            _add_vector(own, t + DU, h1, h2, dvx, dvy)
             own[t + CHANGE] += cost * dx
             # one division for all: they cost most here
             c = determinant(x, vx, vy)
@@ -327,8 +339,7 @@ def step_webs(sized, webs, web, edge, own):  # type: ignore[no-untyped-def]
 def correct_webs(sized, webs, web, edge, own):  # type: ignore[no-untyped-def]
     """Right sides of a step to products ``AIM`` that allows for what the products miss in the direction found last."""
     clear(own, G, DW)
-    for t in range(LANES):
-        own[t + OWN_MASS] = 0.0
+    clear(own, OWN_MASS, BUDGET)
     for k in range(webs):
         for t in range(LANES):
             at = k * WEB + t
@@ -348,22 +359,14 @@ def correct_webs(sized, webs, web, edge, own):  # type: ignore[no-untyped-def]
                 dx, dz, gx, gy = _step_of_web(x, z, vx, vy, px, py, q, zq, a, d, per_det, per, r0, rx, ry, rq, 0.0, 0.0)
             else:
                 on = k * EDGE + t
-                n1x, n1y, n2x, n2y = edge[on + N1X], edge[on + N1Y], edge[on + N2X], edge[on + N2Y]
-                g1, g2, per1, per2 = edge[on + G1], edge[on + G2], edge[on + PER1], edge[on + PER2]
-                present = edge[on + PRESENT]
+                present, per1, per2 = edge[on + PRESENT], edge[on + PER1], edge[on + PER2]
                 edge[on + RS] += aim - dx * dz - dvx * dpx - dvy * dpy
-                q1 = ((aim - both * edge[on + DE1] * edge[on + DG1]) * per1 - g1) * present
-                q2 = ((aim - both * edge[on + DE2] * edge[on + DG2]) * per2 - g2) * present
+                q1 = (aim * edge[on + PAIR1] - both * edge[on + DE1] * edge[on + DG1] * per1 - 1.0) * present
+                q2 = (aim * edge[on + PAIR2] - both * edge[on + DE2] * edge[on + DG2] * per2 - 1.0) * present
                 edge[on + Q1], edge[on + Q2] = q1, q2
-                dx, dz, gx, gy, _, _, _, _ = _step_at_edges(
-                    x, z, vx, vy, px, py, q, zq, a, d, per_det, edge[on + PER_SIZES], per,
-                    r0, rx, ry, rq, edge[on + RS], 0.0, 0.0,
-                    n1x, n1y, n2x, n2y, g1 * per1, g2 * per2, q1, q2,
-                )  # fmt: skip
-            own[t + G] += h1 * gx
-            own[t + G + LANES] += h1 * gy
-            own[t + G + 2 * LANES] += h2 * gx
-            own[t + G + 3 * LANES] += h2 * gy
+                dz, dx = (zq * r0 + d * rq) * per_det, (q * r0 - a * rq) * per_det
+                gx, gy = _alone_at_edges(rx - vx * dz - px * dx, ry - vy * dz - py * dx, q1, q2, edge, on)
+            _add_vector(own, t + G, h1, h2, gx, gy)
             own[t + OWN_MASS] += cost * dx
             web[at + R0], web[at + RX], web[at + RY], web[at + RQ] = r0, rx, ry, rq
 
@@ -391,5 +394,5 @@ def move_edges(webs, edge, own):  # type: ignore[no-untyped-def]
             on, primal, dual = k * EDGE + t, own[t + PRIMAL], own[t + DUAL]
             edge[on + E1] += primal * edge[on + DE1]
             edge[on + E2] += primal * edge[on + DE2]
-            edge[on + G1] += dual * edge[on + DG1]
-            edge[on + G2] += dual * edge[on + DG2]
+            edge[on + G1] *= 1.0 + dual * edge[on + DG1]
+            edge[on + G2] *= 1.0 + dual * edge[on + DG2]

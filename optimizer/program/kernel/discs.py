@@ -34,6 +34,7 @@ from optimizer.program.kernel.disc_webs import (
     AIM,
     BOTH,
     BUDGET,
+    BX,
     CHANGE,
     COST,
     DUAL,
@@ -54,6 +55,7 @@ from optimizer.program.kernel.disc_webs import (
     RISE,
     VX,
     WEB,
+    add_own_mass,
     correct_webs,
     look_at_webs,
     move_edges,
@@ -106,6 +108,8 @@ def _load_edges(normals, where, vectors, t, edge):  # type: ignore[no-untyped-de
             slack = normals[2 * i, k] * where[k] + normals[2 * i + 1, k] * where[webs + k]
             edge[on + E1 + i * LANES] = slack + 1.0 - normals[4, k]
             edge[on + G1 + i * LANES] = where[6 * webs + 4 * vectors + 2 + i * webs + k]
+            # what the lane held before may be no number
+            edge[on + BX + i * LANES] = 0.0
 
 
 @inner
@@ -223,6 +227,8 @@ def run(least_mass, budgeted, edged, programs, first, edge, cost, most, toleranc
                 else:
                     correct_webs(sized, webs, web, None, own)
                 correct_peaks(least_mass, budgeted, peak, own)
+            if budgeted and edged:
+                add_own_mass(webs, web, edge, own)
             solve_peaks(least_mass, budgeted, terms, basis, peak, own, matrix, step)
             if edged:
                 step_webs(sized, webs, web, edge, own)

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 _VECTORS = 6
 #: sine of the half-angle below which sectors need coordinates of their own, as the method for any limits has them
 _THINNEST = 1e-3
-#: of the largest influence, by which those of a vector may miss a multiple of force or moment: their rounding
-_SAME = 1e-14
 
 
 def suits_discs(statement: Statement, least_mass: bool = True) -> np.ndarray:
@@ -60,13 +58,16 @@ def discs_of(
     assert pair is not None
     (many, vectors, webs), region = programs.influence.shape, programs.region
     shapes = (many, vectors), (many, vectors, 2), (many, 2, webs), (many, webs), (many, webs), programs.cap.shape
-    every, budgeted = tuple(map(np.empty, shapes)), np.empty(many, bool)
+    sectors = ~np.logical_and.reduce(region.free, axis=-1)
+    edges = (many, 5, webs if np.count_nonzero(sectors) else 0)
+    every, budgeted = tuple(map(np.empty, (*shapes, edges))), np.empty(many, bool)
     _disc_forms().forms(
         programs.constant,
         programs.influence if vectors < 3 else pair.influence,
         pair.multiple,
         statement.norms.constant.shape[-1],
         (region.radius, region.budget),
+        (region.free, region.centre, region.cosine, region.sine),
         (programs.cap, programs.size),
         margin,
         reach,
@@ -74,34 +75,17 @@ def discs_of(
         budgeted,
         every,
     )
-    none = np.empty((many, 5, 0))
-    if many == 1:
-        normals = none if statement.limits.all_free else _frame(statement)
-        return [(None, bool(budgeted[0]), _disc_starts().Discs(pair.basis, *every, normals))]
-    sectors = ~np.logical_and.reduce(region.free, axis=-1)
     kinds = 2 * sectors + budgeted
-    if (kinds == kinds[0]).all():
-        normals = _frame(statement) if sectors[0] else none
-        return [(None, bool(budgeted[0]), _disc_starts().Discs(pair.basis, *every, normals))]
-    frame, parts = _frame(statement) if np.count_nonzero(sectors) else none, []
+    if many == 1 or (kinds == kinds[0]).all():
+        return [(None, bool(budgeted[0]), _disc_starts().Discs(pair.basis, *every))]
+    parts = []
     for part in np.unique(kinds).tolist():
         which = np.flatnonzero(kinds == part)
-        arrays = [values[which] for values in (*every, frame if part > 1 else none)]
-        parts.append((which, part % 2 == 1, _disc_starts().Discs(pair.basis, *arrays)))
+        *others, normals = (values[which] for values in every)
+        # without any sector there is no place for edges
+        own = normals if part > 1 else normals[..., :0].copy()
+        parts.append((which, part % 2 == 1, _disc_starts().Discs(pair.basis, *others, own)))
     return parts
-
-
-def _frame(statement: Statement) -> Real:
-    """Both normals of sectors, the centre turned by the rest to a right angle, and whether a web has one (N, 5, K)."""
-    limits = statement.limits
-    present = np.where(limits.free, 0.0, 1.0)
-    sine, cosine = present * limits.half_angle_sin, present * limits.half_angle_cos
-    x, y = limits.centre.real, limits.centre.imag
-    normals = np.empty((len(present), 5, present.shape[-1]))
-    along_x, along_y, across_x, across_y = sine * x, sine * y, cosine * y, cosine * x
-    normals[:, 0], normals[:, 1] = along_x - across_x, along_y + across_y
-    normals[:, 2], normals[:, 3], normals[:, 4] = along_x + across_x, along_y - across_y, present
-    return normals
 
 
 def _basis(statement: Statement) -> np.ndarray | None:
@@ -129,28 +113,15 @@ class _Pair(NamedTuple):
 @remembered
 def _pair(statement: Statement) -> _Pair | None:
     """The same of a statement whose influences are real; None where there are more than two responses."""
-    basis, every = _basis(statement), statement.every_influence.real
+    basis = _basis(statement)
     if basis is None:
         return None
+    every = statement.flat.programs.influence
     number, vectors, webs = every.shape
     if vectors < 3:
         return _Pair(basis, *_by_themselves(number, vectors), every)
-    multiple, holds = np.ones((number, vectors)), np.ones(number, bool)
-    two = np.zeros((number, 2, webs))
-    for b in range(2):
-        (own,) = (basis == b).nonzero()
-        if own.size == 1:
-            two[:, b] = every[:, own[0]]
-        if own.size < 2:
-            continue
-        influence = every[:, own]
-        size = np.maximum.reduce(np.abs(influence), axis=-1)
-        largest = influence[np.arange(number), np.argmax(size, axis=-1)]
-        square = np.einsum("nk,nk->n", largest, largest)
-        along = np.einsum("nqk,nk->nq", influence, largest) / np.where(square > 0, square, 1.0)[:, None]
-        off = np.abs(influence - along[..., None] * largest[:, None])
-        multiple[:, own], two[:, b] = along, largest
-        holds &= (np.maximum.reduce(off, axis=-1) <= _SAME * size).all(axis=-1)
+    multiple, two, holds = np.empty((number, vectors)), np.empty((number, 2, webs)), np.empty(number, bool)
+    _disc_forms().pairs(every, basis, multiple, two, holds)
     return _Pair(basis, multiple, holds, two)
 
 

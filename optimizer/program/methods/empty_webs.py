@@ -154,15 +154,14 @@ def _without(
     if not suits_kernel(programs):
         return best, success
     part, left = programs.only(~empty), _WITH_ROOM * share
-    tried = np.arange(share.size)
+    some, wanted, whole, tried = part, optimum, programs, np.arange(share.size)
     for _ in range(2):
-        some, wanted = part.chosen(tried), optimum.chosen(tried)
         smallest, lightest = (points_at(some, end) for end in ends(some, left, least_mass))
         room = _WITH_ROOM * (wanted.objective - smallest.objective)
         point = settled(some, lightest if least_mass else smallest, wanted.objective, wanted.mass_bound)
         u = np.zeros((tried.size, empty.shape[-1]), complex)
         u[~empty[tried]] = point.unbalance.reshape(-1)
-        new = points_at(programs.chosen(tried), u)
+        new = points_at(whole, u)
         admitted = wanted.admits(new)
         best.put(tried, new)
         success[tried] = admitted
@@ -171,4 +170,5 @@ def _without(
         tried, left = tried[again], room[again]
         if not tried.size:
             break
+        some, wanted, whole = part.chosen(tried), optimum.chosen(tried), programs.chosen(tried)
     return best, success
