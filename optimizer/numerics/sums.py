@@ -107,4 +107,4 @@ def _in_a_loop(forces: Complex, arm: Real) -> tuple[Complex, Complex]:
 def _loop() -> Callable[..., None]:
     from optimizer.numerics.kernel.sums import force_and_couple as loop
 
-    return loop  # type: ignore[no-any-return]
+    return loop
