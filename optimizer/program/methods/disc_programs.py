@@ -66,13 +66,15 @@ def discs_of(
         programs.influence if vectors < 3 else pair.influence,
         pair.multiple,
         statement.norms.constant.shape[-1],
-        (region.radius, region.budget),
-        (programs.cap, programs.size),
+        region.radius,
+        region.budget,
+        programs.cap,
+        programs.size,
         margin,
         reach,
         unit,
         budgeted,
-        every,
+        *every,
     )
     none = np.empty((many, 5, 0))
     if many == 1:
