@@ -87,9 +87,17 @@ def angle_deg(vector: Complex) -> Real:
     vector : (...) complex, any unit.
     """
     value = np.asarray(np.rad2deg(np.arctan2(vector.imag, vector.real)))
+    if value.ndim == 1 and value.size <= _FEW:
+        return np.array([_of_turn(*pair) for pair in zip(vector.tolist(), value.tolist(), strict=True)])
     value += 360.0 * (value < 0.0)
     # a hair below 0 comes to 360; the zero vector has parts of either sign
     none = value >= 360.0
     if np.count_nonzero(vector) < vector.size:
         none |= vector == 0.0
     return np.where(none, 0.0, value) if np.count_nonzero(none) else value
+
+
+def _of_turn(vector: complex, degrees: float) -> float:
+    """The same of one vector at an angle from -180 to 180."""
+    angle = degrees + 360.0 if degrees < 0.0 else degrees + 0.0
+    return angle if vector and angle < 360.0 else 0.0

@@ -80,6 +80,7 @@ def magnitudes(vectors: Sequence[complex]) -> list[float]:
 
 def polar_pairs(vectors: Sequence[complex]) -> list[PolarPair]:
     """Pairs of phasors, each pair one that turns with the shaft and then the other."""
-    sizes, phases = magnitudes(vectors), [phase(vector) for vector in vectors]
-    of_both = [part for every in (vectors, sizes, phases) for part in (every[::2], every[1::2])]
-    return [PolarPair(*pair) for pair in zip(*of_both, strict=True)]
+    sizes, phases = magnitudes(vectors), list(map(phase, vectors))
+    co, counter = slice(0, None, 2), slice(1, None, 2)
+    parts = vectors[co], vectors[counter], sizes[co], sizes[counter], phases[co], phases[counter]
+    return list(map(PolarPair, *parts))

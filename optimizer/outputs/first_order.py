@@ -1,7 +1,9 @@
 """First-order force and moment as ellipses, their floor, and their hodographs."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,22 +24,20 @@ from schemas.answer.outputs import Hodograph, Hodographs, Order
 from schemas.answer.proof import BoundMultipliers
 from schemas.base.responses import PAIR
 
-#: figures of an ellipse in their units
-_FIELDS = tuple(
-    (
-        name,
-        (
-            f"peak_{unit}",
-            f"minor_{unit}",
-            "major_axis_deg",
-            f"peak_x_{unit}",
-            f"peak_y_{unit}",
-            f"co_rotating_{unit}",
-            f"counter_rotating_{unit}",
-        ),
-    )
-    for name, unit in (("force", "N"), ("moment", "Nm"))
-)
+
+class _Names(NamedTuple):
+    """Fields of an ellipse in their unit."""
+
+    peak: str
+    minor: str
+    peak_x: str
+    peak_y: str
+    co_rotating: str
+    counter_rotating: str
+
+
+#: of force and moment
+_FIELDS = tuple(_Names._make(f"{name}_{unit}" for name in _Names._fields) for unit in ("N", "Nm"))
 
 
 def first_order(wrench: Wrench) -> FirstOrder:
@@ -177,22 +177,36 @@ def _ellipses(wrenches: Sequence[PolarWrench]) -> list[dict[str, dict[str, float
 
     Each figure is that of :class:`optimizer.responses.response.Phasors`, from parts that several figures share.
     """
-    pairs = [pair for wrench in wrenches for pair in wrench]
-    mirrored = [pair.counter.conjugate() for pair in pairs]
-    along_x = [pair.co + across for pair, across in zip(pairs, mirrored, strict=True)]
-    along_y = [pair.co - across for pair, across in zip(pairs, mirrored, strict=True)]
-    sizes = magnitudes(along_x + along_y)
-    figures = list(map(_figures, pairs, sizes[: len(pairs)], sizes[len(pairs) :]))
+    components: list[complex] = []
+    for pair in chain.from_iterable(wrenches):
+        across = pair.counter.conjugate()
+        components += (pair.co + across, pair.co - across)
+    along = iter(magnitudes(components))
+    of_force, of_moment = _FIELDS
     return [
-        {name: dict(zip(fields, own, strict=True)) for (name, fields), own in zip(_FIELDS, of_wrench, strict=True)}
-        for of_wrench in zip(figures[::2], figures[1::2], strict=True)
+        {"force": _ellipse(of_force, force, along), "moment": _ellipse(of_moment, moment, along)}
+        for force, moment in wrenches
     ]
 
 
-def _figures(pair: PolarPair, along_x: float, along_y: float) -> tuple[float, ...]:
-    """Those of an ellipse in the order of its fields."""
+def _ellipse(fields: _Names, pair: PolarPair, along: Iterator[float]) -> dict[str, float]:
+    """Fields of one.
+
+    Parameters
+    ----------
+    along : from the largest components along x and y on.
+    """
+    peak, minor, peak_x, peak_y, co_rotating, counter_rotating = fields
     co, counter = pair.co_size, pair.counter_size
-    return co + counter, abs(co - counter), pair.axis_deg, along_x, along_y, co, counter
+    return {
+        peak: co + counter,
+        minor: abs(co - counter),
+        "major_axis_deg": pair.axis_deg,
+        peak_x: next(along),
+        peak_y: next(along),
+        co_rotating: co,
+        counter_rotating: counter,
+    }
 
 
 RESIDUAL = Output(

@@ -1,7 +1,8 @@
 """Co- and counter-rotating phasors of one order as an answer holds them."""
 
-import math
 from collections.abc import Iterable, Sequence
+from itertools import chain
+from math import degrees
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -36,7 +37,13 @@ class PlainWrench(NamedTuple):
     @classmethod
     def of(cls, wrench: Wrench, factor: float = 1.0) -> "PlainWrench":
         """Those of a wrench () without leading axes, times a factor."""
-        return cls._make([complex(phasor) * factor for pair in wrench for phasor in (pair.co, pair.counter)])
+        force, moment = wrench
+        return cls(
+            complex(force.co) * factor,
+            complex(force.counter) * factor,
+            complex(moment.co) * factor,
+            complex(moment.counter) * factor,
+        )
 
     def plus(self, other: "PlainWrench") -> "PlainWrench":
         return PlainWrench._make([own + further for own, further in zip(self, other, strict=True)])
@@ -55,8 +62,8 @@ class PolarWrench(NamedTuple):
 
 def polar_wrenches(wrenches: Iterable[PlainWrench]) -> list[PolarWrench]:
     """Wrenches with magnitudes and phases, all at once."""
-    pairs = polar_pairs([vector for wrench in wrenches for vector in wrench])
-    return [PolarWrench(*pair) for pair in zip(pairs[::2], pairs[1::2], strict=True)]
+    pairs = polar_pairs(list(chain.from_iterable(wrenches)))
+    return list(map(PolarWrench, pairs[::2], pairs[1::2]))
 
 
 def vectors_of(wrenches: Sequence[Wrench]) -> Complex:
@@ -66,18 +73,21 @@ def vectors_of(wrenches: Sequence[Wrench]) -> Complex:
 
 
 def _fields(names: _Names, pair: PolarPair) -> dict[str, Any]:
+    co, counter, co_size, counter_size, co_phase, counter_phase = pair
+    real, imag, magnitude, peak = names
+    # nothing has no direction
     return {
-        "co_rotating": _phasor(names, pair.co, pair.co_phase),
-        "counter_rotating": _phasor(names, pair.counter, pair.counter_phase),
-        names.peak: pair.co_size + pair.counter_size,
-    }
-
-
-def _phasor(names: _Names, vector: complex, phase_rad: float) -> dict[str, float]:
-    return {
-        names.real: vector.real,
-        names.imag: vector.imag,
-        names.magnitude: abs(vector),
-        # nothing has no direction
-        "phase_deg": math.degrees(phase_rad) if vector else 0.0,
+        "co_rotating": {
+            real: co.real,
+            imag: co.imag,
+            magnitude: abs(co),
+            "phase_deg": degrees(co_phase) if co else 0.0,
+        },
+        "counter_rotating": {
+            real: counter.real,
+            imag: counter.imag,
+            magnitude: abs(counter),
+            "phase_deg": degrees(counter_phase) if counter else 0.0,
+        },
+        peak: co_size + counter_size,
     }

@@ -16,8 +16,8 @@ from schemas.scroll.pin_loads import PinLoads
 
 
 def _figure(scene: Prepared, _fitted: Complex | None) -> PinLoads:
-    result: PinLoads = scene.results["pin_loads"]
-    return result
+    # an answer to pins alone says besides who computed it
+    return PinLoads.of_figures(vars(scene.results["pin_loads"]))
 
 
 def _columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:

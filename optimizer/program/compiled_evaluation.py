@@ -13,39 +13,11 @@ import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, in_order, merged, of_programs_of, spread
 from optimizer.numerics.records import record
-from optimizer.program.limits import Limits, Region
+from optimizer.program.kernel.programs import Programs, Region
+from optimizer.program.limits import Limits
 
 #: a limit this many times the unbalance that cancels everything is as far away as none
 FAR = 1e3
-
-
-class Programs(NamedTuple):
-    """N programs in the usual order in memory. Their work is written to by whoever holds the interpreter."""
-
-    owner: np.ndarray  # (J,) row of a term
-    group: np.ndarray  # (R,)
-    scalar: np.ndarray  # (J + I,) bool
-    scatter: Real  # (2,) of the terms, and of what is under ceilings
-    constant: Complex  # (N, J + I) of the terms, then of what is under ceilings
-    influence: Real  # (N, J + I, K) real parts
-    across: Real  # (N, J + I, K) imaginary parts; (N, J + I, 0) where all are real, and so is the next
-    magnitude: Real  # (N, J + I, K)
-    floor: Real  # (N, R)
-    cap: Real  # (N, I)
-    counted: Real  # (N, I) cap up to which a ceiling counts as kept
-    size: Real  # (N, I)
-    region: Region
-    numbers: Real  # (6, ...) work, as are the next
-    vectors: Complex  # (4, ...)
-    places: np.ndarray  # (2, K)
-
-
-class Rows(NamedTuple):
-    """The rows of N programs alone."""
-
-    owner: np.ndarray  # (J,) row of a term
-    group: np.ndarray  # (R,)
-    floor: Real  # (N, R)
 
 
 class Minorants(NamedTuple):
@@ -110,7 +82,7 @@ class Flat:
         leading = self._of(u.shape[:-1])
         many = math.prod(leading)
         result = np.empty((4, many))
-        _values().values(*_rows(leading, u), self.programs, result)
+        _values().values(*_rows(leading, u), result, *self.programs.arrays)
         return result.reshape(4, *leading)
 
     def bounds(self, term: Complex, row: Real, ceiling: Complex, target: Real | None = None) -> Real:
@@ -160,7 +132,9 @@ class Flat:
             priced.reshape(many),
             factor.reshape(many),
             inside,
-            self.rows,
+            programs.owner,
+            programs.group,
+            programs.floor,
             programs.scalar,
             programs.numbers[0],
             *(part.reshape(many, part.shape[-1]) for part in dual),
@@ -176,20 +150,15 @@ class Flat:
         programs, region, least = self.programs, self.programs.region, np.empty(math.prod(self.leading))
         limits, size = (region.radius, region.max_mass, region.budget), merged(self.leading, objective, 1)
         rows = programs.floor.shape[1]
-        _units().least_masses(programs.owner, rows, self._magnitude, limits, size, programs.size, least)
+        _units().least_masses(programs.owner, rows, self._magnitude, *limits, size, programs.size, least)
         return least.reshape(self.leading)
 
     def single_reaches(self, sizes: Real) -> Reaches:
         """What vectors of some sizes (*leading, J + I) call for one by one."""
         region, reach = self.programs.region, np.empty(math.prod(self.leading))
         limits = region.radius, region.max_mass, region.budget
-        flags = _units().single_reaches(merged(self.leading, sizes, 1), self._magnitude, limits, FAR, reach)
+        flags = _units().single_reaches(merged(self.leading, sizes, 1), self._magnitude, *limits, FAR, reach)
         return Reaches(reach.reshape(self.leading), *flags)
-
-    @property
-    def rows(self) -> Rows:
-        """The rows alone."""
-        return Rows(self.programs.owner, self.programs.group, self.programs.floor)
 
     @property
     def _magnitude(self) -> Real:
@@ -244,21 +213,21 @@ class Flat:
             in_order(share),
             in_order(demand),
             mass_solver is not None,
-            shares,
+            *shares,
             smallest,
             lightest,
-            own,
-            own if mass_solver is None else _in_order(mass_solver),
-            self.programs,
+            *own,
+            *(own if mass_solver is None else _in_order(mass_solver)),
             in_order(sizes),
             rungs,
             *settling_work(self.programs.region, terms, webs),
             points,
             figures,
-            proof,
+            *proof,
             bounds,
             certified,
             clean,
+            *self.programs.arrays,
         )
         return Judgement(smallest, points, figures, proof, bounds[0], bounds[1], bounds[2], certified, clean)
 

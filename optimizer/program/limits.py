@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable
 from functools import cache
 from types import ModuleType
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -12,29 +12,12 @@ from optimizer.numerics.arrays import Complex, Real, all_true, columns, mapped, 
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
 from optimizer.program.equal_castings import Alike
+from optimizer.program.kernel.programs import Region
 
 #: fields with an entry for each web
 OF_WEBS = ("radius", "max_mass", "free", "centre", "half_angle_cos", "half_angle_sin")
-
-
 #: leaders, images and numbers of webs where none are alike
 _NONE_ALIKE = (np.empty(0, np.int64), np.empty(0, bool), np.empty(0))
-
-
-class Region(NamedTuple):
-    """The limits of N programs in the usual order in memory."""
-
-    radius: Real  # (N, K)
-    max_mass: Real  # (N, K)
-    budget: Real  # (N,)
-    free: np.ndarray  # (N, K) bool
-    centre: Complex  # (N, K)
-    cosine: Real  # (N, K)
-    sine: Real  # (N, K)
-    turn: Complex  # (N, K) of webs that are alike; (N, 0) where none are, and so on
-    leader: np.ndarray  # (K,) first web of the unit of each web
-    mirrored: np.ndarray  # (K,) bool
-    members: Real  # (K,) webs of that unit
 
 
 @record(frozen=True)

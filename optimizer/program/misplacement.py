@@ -25,7 +25,9 @@ def worst_objectives(statement: Statement, u: Complex, angle: float, share: floa
     flat = statement.flat
     programs, objectives = flat.programs, np.empty((3, math.prod(flat.leading)))
     _outlines().objectives(
-        flat.rows,
+        programs.owner,
+        programs.group,
+        programs.floor,
         programs.scalar,
         programs.constant,
         programs.influence,

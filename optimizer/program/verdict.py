@@ -128,11 +128,14 @@ def verdict(claim: Claim, tolerance: float) -> Verdict:
     )
     proven, figures, outcome = np.empty((2, many, several)), np.empty((4, many)), np.empty(many, np.int64)
     worst = _verdicts().verdicts(
-        tuple([of_programs(values, 1) for values in goals]),
-        tuple([of_programs(values, 0) for values in masses]),
+        *[of_programs(values, 1) for values in goals],
+        *[of_programs(values, 0) for values in masses],
         of_mass,
         bool(claim.contradicted),
-        (float(tolerance), CEILING_TOLERANCE, MASS_GAP, _MASS_ROUNDING),
+        float(tolerance),
+        CEILING_TOLERANCE,
+        MASS_GAP,
+        _MASS_ROUNDING,
         proven,
         figures,
         outcome,

@@ -21,7 +21,7 @@ from schemas.answer.proof import BoundMultipliers
 from schemas.machine.machine import Machine
 
 #: |y| <= lambda holds for the printed numbers too, whatever the rounding of the division by omega^2
-_INSIDE = 1.0 - 4 * np.finfo(float).eps
+_INSIDE = 1.0 - 4 * float(np.finfo(float).eps)
 
 Bounded = Literal["objective", "mass", "parameter"]
 

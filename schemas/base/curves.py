@@ -16,7 +16,6 @@ from typing import Any, SupportsIndex, TypeVar, get_args, overload
 from pydantic import (
     BaseModel,
     GetCoreSchemaHandler,
-    SerializationInfo,
     ValidatorFunctionWrapHandler,
 )
 from pydantic_core import CoreSchema, core_schema
@@ -24,8 +23,6 @@ from pydantic_core import CoreSchema, core_schema
 #: a float with its unit
 _Number = TypeVar("_Number", bound=float)
 _DOUBLE = "<f8" if sys.byteorder == "little" else ">f8"
-#: mode of serialisation in which curves stay arrays; in all others they are tuples, or lists of JSON
-ARRAYS = "arrays"
 
 
 class Curve(Sequence[_Number]):
@@ -103,6 +100,13 @@ class Curve(Sequence[_Number]):
         numbers = memoryview(self._values).toreadonly()
         return {"version": 3, "shape": (len(self),), "typestr": _DOUBLE, "data": numbers}
 
+    @property
+    def numbers(self) -> Any:
+        """The numbers as they are held, an array of numpy that cannot be changed; or a list of those that came one by
+        one."""
+        values = self._values
+        return values.tolist() if type(values) is array else values
+
     @classmethod
     def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         number = next(iter(get_args(source)), float)
@@ -110,7 +114,7 @@ class Curve(Sequence[_Number]):
         # what is text in JSON alone stays as it is elsewhere, and is not looked through
         stays = core_schema.any_schema(serialization=core_schema.to_string_ser_schema(when_used="json"))
         content, numbers, jsonable = (
-            core_schema.plain_serializer_function_ser_schema(cls._content, info_arg=True, return_schema=stays),
+            core_schema.plain_serializer_function_ser_schema(tuple, return_schema=stays),
             core_schema.plain_serializer_function_ser_schema(tuple, return_schema=listed),
             core_schema.plain_serializer_function_ser_schema(tuple, when_used="json"),
         )
@@ -120,11 +124,6 @@ class Curve(Sequence[_Number]):
                 _read, {**listed, "serialization": content}, serialization=jsonable
             ),
         )
-
-    def _content(self, info: SerializationInfo) -> Any:
-        """What stands for it in dumped models that are no JSON."""
-        values = self._values
-        return values if info.mode == ARRAYS and type(values) is not array else tuple(values.tolist())
 
 
 def _is_array(values: object) -> bool:

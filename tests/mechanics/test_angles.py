@@ -67,6 +67,17 @@ def test_angle_of_a_direction_analytic(angle: float) -> None:
 def test_angle_of_special_vectors() -> None:
     vectors = np.array([0, 1, 1j, -1, -1j, complex(1.0, -1e-300), complex(-1.0, -0.0)])
     assert np.array_equal(angle_deg(vectors), [0.0, 0.0, 90.0, 180.0, 270.0, 0.0, 180.0])
+    assert np.array_equal(angle_deg(vectors[None])[0], [0.0, 0.0, 90.0, 180.0, 270.0, 0.0, 180.0])
+
+
+_PARTS = st.sampled_from([0.0, -0.0, 1.0, -1.0, 5e-324, -1e-300]) | st.floats(-1e6, 1e6)
+
+
+@given(st.lists(st.tuples(_PARTS, _PARTS), max_size=16))
+def test_few_vectors_have_the_angles_of_many_to_the_last_bit(parts: list[tuple[float, float]]) -> None:
+    """Independent: few are brought into a turn one by one, in plain numbers, many as an array."""
+    vectors = np.array([complex(*part) for part in parts], complex)
+    assert angle_deg(vectors).tobytes() == angle_deg(vectors[None])[0].tobytes()
 
 
 @given(st.lists(st.floats(-1e6, 1e6) | st.sampled_from([30.0, 45.0, -45.0, 90.0, 150.0]), min_size=1, max_size=16))

@@ -1,10 +1,11 @@
-"""Independent: the loop sums as arrays do, to the last digit."""
+"""Independent: the loop sums as arrays and plain numbers do, to the last digit."""
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from optimizer.numerics import sums
 from optimizer.numerics.sums import MANY, force_and_couple
 
 #: more than the loop takes at least, of the shortest sums
@@ -12,8 +13,10 @@ _MACHINES = MANY
 
 
 def _one_by_one(forces: np.ndarray, arm: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The same of one machine at a time, of which no loop is worth its time."""
-    pairs = [force_and_couple(force, own) for force, own in zip(forces, arm, strict=True)]
+    """The same of one machine at a time, by arrays or in plain numbers."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(sums, "_compiler_is_loaded", lambda: False)
+        pairs = [force_and_couple(force, own) for force, own in zip(forces, arm, strict=True)]
     force, couple = zip(*pairs, strict=True)
     return np.array(force), np.array(couple)
 
@@ -33,6 +36,10 @@ def test_sums_of_many_machines_are_those_of_each(terms: int, many: int, seed: in
     found, expected = force_and_couple(forces, arm), _one_by_one(forces, arm)
     for ours, theirs in zip(found, expected, strict=True):
         np.testing.assert_array_equal(ours, theirs)
+    alone = force_and_couple(forces[0], arm[0])
+    for ours, theirs in zip(alone, expected, strict=True):
+        np.testing.assert_array_equal(ours, theirs[0])
+        assert ours.shape == rows
 
 
 def test_arms_of_all_machines_may_be_the_same() -> None:

@@ -244,7 +244,7 @@ def _steps(problem: Statement) -> Iterator[tuple[dict[str, Any], dict[str, Any],
     reach, unit = np.minimum(one.limits.reach, 10.0), np.ones(1)
     ((_, budgeted, programs),) = discs_of(one, reach, unit, 0.0)
     with np.errstate(all="ignore"):
-        space["solve"](programs, budgeted, True, np.full(1, 1e-6), np.full(1, 1e-9), 1e-6)
+        space["solve"](*programs, budgeted, True, np.full(1, 1e-6), np.full(1, 1e-9), 1e-6)
     yield from taken
 
 

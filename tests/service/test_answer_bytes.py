@@ -2,12 +2,13 @@
 
 import json
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
+from pydantic import PlainSerializer, WrapSerializer
 
 from optimizer.analyze import analyze
 from optimizer.errors import MissingInput
@@ -17,12 +18,14 @@ from optimizer.pins.answer import pin_loads
 from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer
 from schemas.answer.outputs import Hodograph, Hodographs
 from schemas.base.curves import curve_fields
-from schemas.base.model import Answer
+from schemas.base.model import Answer, Model
 from schemas.request.requests import OptimizeRequest
 from schemas.scroll.pin_loads import PinLoadsAnswer
 from service.common.answer_bytes import json_bytes
 from service.documents.examples import bodies
 
+#: functions of a model by which pydantic writes it otherwise
+WRITERS = ("model_serializers", "field_serializers", "computed_fields")
 FINITE = st.floats(allow_nan=False, allow_infinity=False)
 
 
@@ -99,6 +102,32 @@ def test_nothing_infinite_goes_out_as_null() -> None:
         _drawn("", [1.0, np.nan])
 
 
-@pytest.mark.parametrize("model", [OptimizeAnswer, AnalyzeAnswer, PinLoadsAnswer])
+WITH_CURVES = [OptimizeAnswer, AnalyzeAnswer, PinLoadsAnswer]
+
+
+def _models(annotation: Any) -> Iterator[type[Model]]:
+    """A type's models, and those in them."""
+    if isinstance(annotation, type) and issubclass(annotation, Model):
+        yield annotation
+        for field in annotation.model_fields.values():
+            yield from _models(field.annotation)
+    for part in get_args(annotation):
+        yield from _models(part)
+
+
+# a writer that knows no pydantic takes what a model holds by the names of its fields
+@pytest.mark.parametrize("model", WITH_CURVES)
+def test_fields_of_answers_with_curves_go_out_as_they_stand(model: type[Any]) -> None:
+    models = set(_models(model))
+    assert len(models) > 3
+    for part in models:
+        assert not any(getattr(part.__pydantic_decorators__, kind) for kind in WRITERS)
+        for field in part.model_fields.values():
+            assert field.serialization_alias is None
+            assert not field.exclude
+            assert not any(isinstance(entry, PlainSerializer | WrapSerializer) for entry in field.metadata)
+
+
+@pytest.mark.parametrize("model", WITH_CURVES)
 def test_answers_with_curves_are_known(model: type[Any]) -> None:
     assert set(curve_fields(model)) >= ({"angle_deg"} if model is PinLoadsAnswer else {"hodograph", "torque", "roll"})

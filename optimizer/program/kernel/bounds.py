@@ -1,6 +1,6 @@
 """The lower bounds that multipliers prove, compiled: :mod:`optimizer.program.certificate`, which says why they hold.
 
-Programs are :class:`optimizer.program.compiled_evaluation.Programs`, whose work is written to.
+Programs are :class:`optimizer.program.kernel.programs.Programs`, whose work is written to.
 """
 
 import numpy as np
@@ -22,12 +22,12 @@ _DEAR = 1e-10
 
 
 @folded
-def admissible_rows(row, programs, n, lam):  # type: ignore[no-untyped-def]
+def admissible_rows(row, group, floor, n, lam):  # type: ignore[no-untyped-def]
     """Multipliers of rows (R,), no less than 0 and of one sum in every group, and that sum, the price.
 
     What a group lacks it gets at its highest floor, which is true of any u.
     """
-    price, rows, group = 0.0, row.size, programs.group
+    price, rows = 0.0, row.size
     for r in range(rows):
         lam[r] = 0.0 if row[r] < 0.0 else row[r]
         price += lam[r]
@@ -42,7 +42,7 @@ def admissible_rows(row, programs, n, lam):  # type: ignore[no-untyped-def]
     for r in range(rows):
         new = r == 0 or group[r] != group[r - 1]
         price = lam[r] + (0.0 if new else price)
-        highest = r if new or programs.floor[n, r] > programs.floor[n, highest] else highest
+        highest = r if new or floor[n, r] > floor[n, highest] else highest
         if r == rows - 1 or group[r + 1] != group[r]:
             lam[highest] += most - price
     price = 0.0
@@ -72,7 +72,7 @@ def minorant(term, row, ceiling, programs, n, cap, normal):  # type: ignore[no-u
     influence, across, magnitude = programs.influence, programs.across, programs.magnitude
     lam, size_of, rounding, spread = programs.numbers[0], programs.numbers[1], programs.numbers[2], programs.numbers[3]
     y, slopes, turned = programs.vectors[0], programs.vectors[1], programs.across.shape[2] > 0
-    price = admissible_rows(row, programs, n, lam)
+    price = admissible_rows(row, programs.group, programs.floor, n, lam)
     finite = price > 0.0 and price < np.inf
     factor = 1.0 / price if finite and normal else 1.0
     for j in range(terms):

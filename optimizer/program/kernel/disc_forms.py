@@ -9,7 +9,23 @@ _SAME = 1e-14
 
 
 @in_place
-def scales(rest, influence, changes, single, limits, at_least, share, gaps, reach, unit, targets):  # type: ignore[no-untyped-def]
+def scales(  # type: ignore[no-untyped-def]
+    rest,
+    influence,
+    changes,
+    single,
+    radius,
+    most,
+    budget,
+    at_least,
+    share,
+    sharpness,
+    finest,
+    coarsest,
+    reach,
+    unit,
+    targets,
+):
     """How far webs reach, what the objective is measured by, and what is asked of it in that unit, of N programs.
 
     Parameters
@@ -17,13 +33,12 @@ def scales(rest, influence, changes, single, limits, at_least, share, gaps, reac
     rest : (N,) sum of the sizes of the J terms without counterweights.
     influence : (N, J, K) of the terms, real.
     changes, single : (N, K) kg m, sizes of what cancels everything, and (N,) the largest that one vector calls for.
-    limits : (N, K) radius and (N, K) largest mass of the webs, and (N,) budget.
+    radius, most, budget : (N, K) radius and (N, K) largest mass of the webs, and (N,) budget.
     at_least : (N,) what the objective comes to under the ceilings, or less.
     share : (N,) what optima may differ by.
-    gaps : of the first stage: as a share of that, and between which ends.
+    sharpness, finest, coarsest : gap of the first stage: as a share of that, and between which ends.
     reach, unit, targets : (N, K), (N,) and (2, N), what is found: the last are the share and the gap.
     """
-    radius, most, budget = limits
     number, terms, webs = influence.shape
     for n in range(number):
         reachable, natural = 0.0, single[n]
@@ -38,28 +53,50 @@ def scales(rest, influence, changes, single, limits, at_least, share, gaps, reac
         # a level far above where the search starts is hardly found
         unit[n] = max(own, at_least[n])
         targets[0, n] = share[n] / unit[n]
-        targets[1, n] = min(max(gaps[0] * share[n] / unit[n], gaps[1]), gaps[2])
+        targets[1, n] = min(max(sharpness * share[n] / unit[n], finest), coarsest)
 
 
 @in_place
-def forms(constant, influence, multiple, terms, limits, sectors, ceilings, margin, reach, unit, budgeted, parts):  # type: ignore[no-untyped-def]
+def forms(  # type: ignore[no-untyped-def]
+    constant,
+    influence,
+    multiple,
+    terms,
+    radius,
+    budget,
+    free,
+    centre,
+    cosine,
+    sine,
+    cap,
+    size,
+    margin,
+    reach,
+    unit,
+    budgeted,
+    of_multiple,
+    of_constant,
+    of_influence,
+    mass,
+    of_budget,
+    of_cap,
+    normals,
+):
     """N programs as :class:`optimizer.program.kernel.disc_starts.Discs` has them.
 
     Parameters
     ----------
     constant, multiple : (N, Q), of the terms and of what is under ceilings.
     influence : (N, B, K) on one or both of two responses.
-    limits : (N, K) radius of the webs, and (N,) budget.
-    sectors : (N, K) whether there is none, centre, cosine and sine of the half-angle.
-    ceilings : (N, I) caps and sizes.
+    radius, budget : (N, K) radius of the webs, and (N,) budget.
+    free, centre, cosine, sine : (N, K) whether there is no sector, centre, cosine and sine of the half-angle.
+    cap, size : (N, I) of the ceilings.
     margin : share of its size by which a ceiling is lowered.
     reach, unit : of :func:`scales`.
-    budgeted, parts : (N,) bool, whether the budget can bind, and the seven arrays that follow the basis.
+    budgeted : (N,) bool, whether the budget can bind, to be written to.
+    of_multiple, of_constant, of_influence, mass, of_budget, of_cap, normals : the seven arrays that follow the basis,
+        likewise.
     """
-    of_multiple, of_constant, of_influence, mass, of_budget, of_cap, normals = parts
-    free, centre, cosine, sine = sectors
-    radius, budget = limits
-    cap, size = ceilings
     (number, webs), vectors = mass.shape, multiple.shape[1]
     for n in range(number):
         for q in range(vectors):

@@ -29,7 +29,7 @@ from optimizer.program.kernel.disc_peaks import (
     move_peaks,
     step_peaks,
 )
-from optimizer.program.kernel.disc_starts import begin_first, begin_second
+from optimizer.program.kernel.disc_starts import Discs, begin_first, begin_second
 from optimizer.program.kernel.disc_webs import (
     AIM,
     BOTH,
@@ -250,11 +250,27 @@ def run(least_mass, budgeted, edged, programs, first, edge, cost, most, toleranc
 
 
 @kernel
-def solve(programs, budgeted, least_mass, share, tolerance, mass_tolerance):  # type: ignore[no-untyped-def]
-    """Both stages of N programs, Discs, all with a budget that can bind or none, all with sectors or none.
+def solve(  # type: ignore[no-untyped-def]
+    basis,
+    multiple,
+    constant,
+    influence,
+    mass,
+    budget,
+    cap,
+    normals,
+    budgeted,
+    least_mass,
+    share,
+    tolerance,
+    mass_tolerance,
+):
+    """Both stages of N programs, all with a budget that can bind or none, all with sectors or none.
 
     Parameters
     ----------
+    basis, multiple, constant, influence, mass, budget, cap, normals : as of
+        :class:`optimizer.program.kernel.disc_starts.Discs`.
     budgeted : whether they have a budget.
 
     Others are those of :func:`optimizer.program.kernel.interior_point.solve`.
@@ -264,7 +280,8 @@ def solve(programs, budgeted, least_mass, share, tolerance, mass_tolerance):  # 
     v (2, N, K, 2), multipliers of the vectors (2, N, Q, 2) and of the row (2, N, 1), for the first and for the second
     stage; and the unit of mass of the second stage (N,). Of a stage that did not end well all is 0.
     """
-    (number, vectors), webs = programs.multiple.shape, programs.mass.shape[1]
+    programs = Discs(basis, multiple, constant, influence, mass, budget, cap, normals)
+    (number, vectors), webs = multiple.shape, mass.shape[1]
     v, p = np.zeros((2, number, webs, 2)), np.zeros((2, number, vectors, 2))
     prices, mass_unit = np.zeros((2, number, 1)), np.ones(number)
     edged = programs.normals.shape[2] > 0

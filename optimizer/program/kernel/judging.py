@@ -7,7 +7,7 @@ from optimizer.program.kernel.bounds import bound
 from optimizer.program.kernel.compiling import folded, in_place
 from optimizer.program.kernel.lengths import length
 from optimizer.program.kernel.settling import copy, settle_point
-from optimizer.program.kernel.values import value
+from optimizer.program.kernel.values import programs_of, value
 
 #: of what optima may differ by, a gap in which no other proof is worth its time
 _SHARP = 1e-4
@@ -142,60 +142,74 @@ def judge(  # type: ignore[no-untyped-def]
     share,
     demand,
     least_mass,
-    shares,
+    ample,
+    enough,
+    mass_enough,
+    heavier,
+    rounding,
+    tolerance,
     smallest,
     lightest,
-    solver,
-    mass_solver,
-    programs,
+    term,
+    row,
+    ceiling,
+    mass_term,
+    mass_row,
+    mass_ceiling,
     sizes,
     rungs,
     work,
     scaled,
     unbalance,
     figures,
-    proof,
+    proven_term,
+    proven_row,
+    proven_ceiling,
     bounds,
     certified,
     clean,
+    *parts,
 ):
     """Of the ends of both stages of N programs the points to take, with their proofs.
 
     Parameters
     ----------
     share, demand : (N,) as of :func:`optimizer.program.methods.compiled.both_stages`.
-    shares : :class:`optimizer.program.compiled_evaluation.Shares`.
+    ample, enough, mass_enough, heavier, rounding, tolerance : as of
+        :class:`optimizer.program.compiled_evaluation.Shares`.
     smallest, lightest : (N, K) the ends; the first is written to: the smallest objective, rest among them.
-    solver, mass_solver : multipliers, three arrays (N, J), (N, R), (N, I) each.
+    term, row, ceiling : (N, J), (N, R), (N, I) multipliers; those of the mass likewise.
     sizes : (N, J + I) of the constants of the terms, and of more.
     rungs, work, scaled : as of :func:`optimizer.program.kernel.settling.settle`.
     unbalance, figures : (N, K), and (4, N) as of :func:`optimizer.program.kernel.values.values`, to be written to.
-    proof : three arrays as of the multipliers, to be written to.
+    proven_term, proven_row, proven_ceiling : of the objective, to be written to.
     bounds : (3, N) of the objective, of the mass, and the largest objective that this one counts as an optimum.
     certified, clean : (N,) bool, the second whether all counterweights are well above dust.
+    parts : of :func:`optimizer.program.kernel.values.programs_of`.
     """
+    programs = programs_of(parts)
     number, _, webs = programs.influence.shape
     for n in range(number):
         u, best, light = unbalance[n], smallest[n], lightest[n]
         first, light_figures = value(best, programs, n), value(light, programs, n)
         u[:] = 0.0
         rest = value(u, programs, n)
-        own = solver[0][n], solver[1][n], solver[2][n]
-        lower = proof_of(programs, n, sizes[n], own, share[n], first[0], rest[0], proof[0][n], proof[1][n], proof[2][n])
+        own, proof = (term[n], row[n], ceiling[n]), (proven_term[n], proven_row[n], proven_ceiling[n])
+        lower = proof_of(programs, n, sizes[n], own, share[n], first[0], rest[0], proof[0], proof[1], proof[2])
         chosen = rest
-        if is_better(rest, first, shares.tolerance):
+        if is_better(rest, first, tolerance):
             chosen = first
         else:
             best[:] = 0.0
         smallest_figures = chosen
         copy(best, u)
         # the lightest by its room below the largest objective of an optimum
-        target = larger(chosen[0], lower + shares.target * share[n] - chosen[3])
+        target = larger(chosen[0], lower + ample * share[n] - chosen[3])
         counted, mass_bound = larger(chosen[0], lower) + share[n], 0.0
         if least_mass:
             # what can be kept up to rounding is not traded for their tolerance
-            allowance = shares.rounding if light_figures[2] < shares.rounding else light_figures[2]
-            allowance = shares.tolerance if allowance > shares.tolerance else allowance
+            allowance = rounding if light_figures[2] < rounding else light_figures[2]
+            allowance = tolerance if allowance > tolerance else allowance
             if light_figures[1] < chosen[1] and light_figures[0] <= target and light_figures[2] <= allowance:
                 chosen = light_figures
                 copy(light, u)
@@ -214,20 +228,18 @@ def judge(  # type: ignore[no-untyped-def]
             if rest[1] < chosen[1] and rest[0] <= target and rest[2] <= allowance:
                 chosen = rest
                 u[:] = 0.0
-            mass_bound = bound(
-                1.0, counted, mass_solver[0][n], mass_solver[1][n], mass_solver[2][n], programs, n, programs.counted
-            )
+            mass_bound = bound(1.0, counted, mass_term[n], mass_row[n], mass_ceiling[n], programs, n, programs.counted)
         loose = demand[n] > share[n] and chosen[0] - lower <= demand[n]
-        done = (loose or smallest_figures[0] - lower <= shares.enough * share[n]) and chosen[2] <= shares.rounding
+        done = (loose or smallest_figures[0] - lower <= enough * share[n]) and chosen[2] <= rounding
         heaviest = np.inf
         if least_mass:
             # what counts as an optimum is told from a point that keeps the ceilings
-            done = done and smallest_figures[2] <= shares.rounding
-            done = done and chosen[1] - mass_bound <= shares.mass_enough * chosen[1]
-            heaviest = mass_bound / (1.0 - shares.heavier)
+            done = done and smallest_figures[2] <= rounding
+            done = done and chosen[1] - mass_bound <= mass_enough * chosen[1]
+            heaviest = mass_bound / (1.0 - heavier)
         else:
-            target = lower + shares.enough * share[n]
+            target = lower + enough * share[n]
         figures[0, n], figures[1, n], figures[2, n], figures[3, n] = chosen
-        settle_point(u, figures, target, heaviest, shares.rounding, rungs, programs, n, work, scaled)
+        settle_point(u, figures, target, heaviest, rounding, rungs, programs, n, work, scaled)
         bounds[0, n], bounds[1, n], bounds[2, n], certified[n] = lower, mass_bound, counted, done
         clean[n] = is_clean(u, programs.region.radius[n], rungs[0, 0])

@@ -104,13 +104,13 @@ def worst_scaled(vectors, middle, share, worst):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def objectives(rows, scalar, constant, influence, across, u, angle, share, objective):  # type: ignore[no-untyped-def]
+def objectives(owner, group, floor, scalar, constant, influence, across, u, angle, share, objective):  # type: ignore[no-untyped-def]
     """What the objectives of N programs come to as they are, where all counterweights are turned, and where all are
     longer or shorter; of a sum of peaks no less than they come to together.
 
     Parameters
     ----------
-    rows : :class:`optimizer.program.compiled_evaluation.Rows`.
+    owner, group, floor : (J,), (R,) and (N, R) of :class:`optimizer.program.kernel.programs.Programs`.
     scalar : (J,) bool or more.
     constant, influence : (N, J) and (N, J, K), the real part of the latter, or more.
     across : (N, J, K) its imaginary part; (N, J, 0) where all are real.
@@ -119,11 +119,11 @@ def objectives(rows, scalar, constant, influence, across, u, angle, share, objec
     objective : (3, N), to be written to.
     """
     number, webs = u.shape
-    sums, vectors = np.empty((3, rows.floor.shape[1])), np.empty(webs, np.complex128)
+    sums, vectors = np.empty((3, floor.shape[1])), np.empty(webs, np.complex128)
     numbers, turned, order = np.empty((2, 3 * webs)), np.empty(3 * webs, np.complex128), np.empty(3 * webs, np.int64)
     for n in range(number):
         sums[:] = 0.0
-        for j in range(rows.owner.size):
+        for j in range(owner.size):
             middle = constant[n, j]
             for k in range(webs):
                 answer = complex(influence[n, j, k], across[n, j, k] if across.shape[2] else 0.0)
@@ -131,14 +131,14 @@ def objectives(rows, scalar, constant, influence, across, u, angle, share, objec
                 middle += vectors[k]
             if scalar[j]:
                 middle = complex(middle.real, 0.0)
-            row = rows.owner[j]
+            row = owner[j]
             sums[0, row] += abs(middle)
             sums[1, row] += farthest_turned(vectors, constant[n, j], angle, numbers, turned, order)
             sums[2, row] += farthest_scaled(vectors, middle, share, numbers[0], turned, order)
         for way in range(3):
             objective[way, n], largest = 0.0, -np.inf
-            for r in range(rows.floor.shape[1]):
-                if r > 0 and rows.group[r] != rows.group[r - 1]:
+            for r in range(floor.shape[1]):
+                if r > 0 and group[r] != group[r - 1]:
                     objective[way, n], largest = objective[way, n] + largest, -np.inf
-                largest = max(largest, rows.floor[n, r] + sums[way, r])
+                largest = max(largest, floor[n, r] + sums[way, r])
             objective[way, n] += largest

@@ -1,6 +1,6 @@
 """Where counterweights may be, compiled: :mod:`optimizer.program.limits`, which says what is meant.
 
-A region is a :class:`optimizer.program.compiled_evaluation.Region` of N programs.
+A region is a :class:`optimizer.program.kernel.programs.Region` of N programs.
 """
 
 from optimizer.program.kernel.compiling import folded, in_place

@@ -27,38 +27,43 @@ class Alike(NamedTuple):
     half_angle_sin: Real  # (N, K)
 
 
-class Work(NamedTuple):
-    """Memory for one program after the other."""
-
-    relative: Real  # (Q, K)
-    level: Real  # (Q,)
-    ones: Real  # (Q,)
-    counts: np.ndarray  # (Q,) bool
-    along: Real  # (K,)
-    own: Real  # (K,)
-    moved: Complex  # (K,)
-    order: np.ndarray  # (K,)
-    begin: np.ndarray  # (2, K)
-    end: np.ndarray  # (2, K)
-
-
 @in_place
-def means(constant, influence, limits, kinds, u, work, middle):  # type: ignore[no-untyped-def]
+def means(  # type: ignore[no-untyped-def]
+    constant,
+    influence,
+    radius,
+    max_mass,
+    free,
+    centre,
+    half_angle_sin,
+    kinds,
+    u,
+    relative,
+    level,
+    ones,
+    counts,
+    along,
+    own,
+    moved,
+    order,
+    begin,
+    end,
+    middle,
+):
     """The mean of every program over its symmetries, and what it was where that is worse.
 
     Parameters
     ----------
     constant, influence : (N, Q) and (N, Q, K) of all that has a size.
-    limits : Alike.
+    radius, max_mass, free, centre, half_angle_sin : (N, K) as of :class:`Alike`.
     kinds : (K,) webs of different numbers are never alike.
     u : (N, K) kg m.
-    work : to be written to.
+    relative, level, ones, counts : (Q, K), (Q,), (Q,) and (Q,) bool, memory to be written to, as is the next.
+    along, own, moved, order, begin, end : (K,), (K,), (K,) complex, (K,) and (2, K), (2, K) integers.
     middle : (N, K) the same as u, to be written to.
     """
     number, terms, webs = influence.shape
-    relative, along, own, moved = work.relative, work.along, work.own, work.moved
-    level, ones, counts = work.level, work.ones, work.counts
-    order, begin, end = work.order, work.begin, work.end
+    limits = Alike(radius, max_mass, free, centre, half_angle_sin)
     for q in range(terms):
         ones[q] = 1.0
     for n in range(number):

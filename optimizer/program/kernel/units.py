@@ -8,11 +8,12 @@ import numpy as np
 from optimizer.program.kernel.bounds import admissible_rows
 from optimizer.program.kernel.compiling import in_place
 from optimizer.program.kernel.lengths import length
+from optimizer.program.kernel.programs import Region
 from optimizer.program.kernel.regions import into
 
 
 @in_place
-def physical(v, cone, row, mass_unit, reach, unit, size, region, mean, points, proof):  # type: ignore[no-untyped-def]
+def physical(v, cone, row, mass_unit, reach, unit, size, mean, points, term, price, ceiling, *region):  # type: ignore[no-untyped-def]
     """Where the two stages of N programs ended, from units of their own.
 
     Parameters
@@ -23,18 +24,18 @@ def physical(v, cone, row, mass_unit, reach, unit, size, region, mean, points, p
     reach, unit : (N, K) kg m of webs, and (N,) of the objective.
     size : (N, I) of the ceilings.
     mean : (K,) complex, to be written to.
-    points, proof : (2, N, K) kg m within the region, and multipliers (2, N, J), (2, N, R) and (2, N, I) per unit of
-        objective or response, to be written to.
+    points : (2, N, K) kg m within the region, to be written to.
+    term, price, ceiling : multipliers (2, N, J), (2, N, R) and (2, N, I) per unit of objective or response, likewise.
+    region : arrays of :class:`optimizer.program.kernel.programs.Region`.
     """
-    term, price, ceiling = proof
-    _, number, webs = v.shape
+    (_, number, webs), within = v.shape, Region(*region)
     for stage in range(2):
         for n in range(number):
             value = mass_unit[n] if stage else 1.0
             worth = value / unit[n]
             for k in range(webs):
                 points[stage, n, k] = complex(reach[n, k] * v[stage, n, k].real, reach[n, k] * v[stage, n, k].imag)
-            into(points[stage, n], region, n, mean)
+            into(points[stage, n], within, n, mean)
             for j in range(term.shape[2]):
                 term[stage, n, j] = complex(cone[stage, n, j, 0] * worth, cone[stage, n, j, 1] * worth)
             for r in range(price.shape[2]):
@@ -48,7 +49,7 @@ def physical(v, cone, row, mass_unit, reach, unit, size, region, mean, points, p
 
 
 @in_place
-def printed(priced, factor, inside, rows, scalar, lam, term, row, ceiling):  # type: ignore[no-untyped-def]
+def printed(priced, factor, inside, owner, group, floor, scalar, lam, term, row, ceiling):  # type: ignore[no-untyped-def]
     """Multipliers of M = P N bounds of N programs as they are printed, in place: admissible, and times a factor.
 
     Parameters
@@ -56,14 +57,14 @@ def printed(priced, factor, inside, rows, scalar, lam, term, row, ceiling):  # t
     priced : (M,) bool, whether rows are made to sum to 1 in place of the factor.
     factor : (M,).
     inside : share of its row that a term may have at most.
-    rows : :class:`optimizer.program.compiled_evaluation.Rows`.
+    owner, group, floor : (J,), (R,) and (N, R) of :class:`optimizer.program.kernel.programs.Programs`.
     scalar : (J + I,) bool.
     lam : (R,) or more, to be written to.
     term, row, ceiling : (M, J), (M, R) and (M, I).
     """
-    number = rows.floor.shape[0]
+    number = floor.shape[0]
     for m in range(factor.size):
-        price = admissible_rows(row[m], rows, m % number, lam)
+        price = admissible_rows(row[m], group, floor, m % number, lam)
         own = factor[m]
         if priced[m]:
             own = 1.0 / price if price > 0.0 and price < np.inf else 1.0
@@ -71,7 +72,7 @@ def printed(priced, factor, inside, rows, scalar, lam, term, row, ceiling):  # t
             row[m, r] = lam[r] * own
         for j in range(term.shape[1]):
             y = complex(term[m, j].real * own, term[m, j].imag * own)
-            size, most = length(y), row[m, rows.owner[j]] * inside
+            size, most = length(y), row[m, owner[j]] * inside
             shrink = most / size if size > most else 1.0
             term[m, j] = complex(y.real * shrink, 0.0 if scalar[j] else y.imag * shrink)
         for i in range(ceiling.shape[1]):
@@ -80,7 +81,7 @@ def printed(priced, factor, inside, rows, scalar, lam, term, row, ceiling):  # t
 
 
 @in_place
-def least_masses(owner, rows, influence, region, objective, size, least):  # type: ignore[no-untyped-def]
+def least_masses(owner, rows, influence, radius, largest, budget, objective, size, least):  # type: ignore[no-untyped-def]
     """Least mass that could cancel a row of the objective, or a response under a ceiling, at the web where a kilogram
     does most, of N programs; 0 where none does anything.
 
@@ -88,12 +89,11 @@ def least_masses(owner, rows, influence, region, objective, size, least):  # typ
     ----------
     owner, rows : (J,) row of a term, and how many there are.
     influence : (N, J + I, K) magnitudes, or real.
-    region : (N, K) radius and (N, K) largest mass of the webs, and (N,) budget.
+    radius, largest, budget : (N, K) radius and (N, K) largest mass of the webs, and (N,) budget.
     objective : (N, 1) size of the objective, or (N, R) of its rows.
     size : (N, I) of the ceilings.
     least : (N,) kg, to be written to.
     """
-    radius, largest, budget = region
     number, terms, webs = influence.shape
     own = owner.size
     for n in range(number):
@@ -114,7 +114,7 @@ def least_masses(owner, rows, influence, region, objective, size, least):  # typ
 
 
 @in_place
-def single_reaches(sizes, influence, limits, far, reach):  # type: ignore[no-untyped-def]
+def single_reaches(sizes, influence, radius, largest, budget, far, reach):  # type: ignore[no-untyped-def]
     """The largest unbalance that one vector calls for by itself, of N programs.
 
     And whether some web has no limit, or one that is far beyond that, and whether some can carry nothing.
@@ -123,11 +123,10 @@ def single_reaches(sizes, influence, limits, far, reach):  # type: ignore[no-unt
     ----------
     sizes : (N, Q) of the vectors without counterweights.
     influence : (N, Q, K) magnitudes, or real.
-    limits : (N, K) radius and (N, K) largest mass of the webs, and (N,) budget.
+    radius, largest, budget : (N, K) radius and (N, K) largest mass of the webs, and (N,) budget.
     far : multiple of that unbalance which is far beyond it.
     reach : (N,) kg m, to be written to.
     """
-    radius, largest, budget = limits
     number, vectors, webs = influence.shape
     beyond, idle = False, False
     for n in range(number):

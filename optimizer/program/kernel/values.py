@@ -1,15 +1,22 @@
 """What points come to, compiled: :meth:`optimizer.program.statement.Statement.objective` and what is asked beside it.
 
-Programs are :class:`optimizer.program.compiled_evaluation.Programs`.
+Programs are :class:`optimizer.program.kernel.programs.Programs`.
 """
 
 import numpy as np
 
 from optimizer.program.kernel.compiling import folded, in_place
 from optimizer.program.kernel.lengths import length
+from optimizer.program.kernel.programs import Programs, Region
 
 #: of a sum, in units of the sum of the magnitudes of its terms
 ROUNDING = 4 * float(np.finfo(float).eps)
+
+
+@folded
+def programs_of(parts):  # type: ignore[no-untyped-def]
+    """Programs of their arrays one by one, as :attr:`Programs.arrays` has them."""
+    return Programs(*parts[:12], Region(*parts[12:23]), *parts[23:])  # type: ignore[call-arg]
 
 
 @folded
@@ -66,8 +73,14 @@ def value(u, programs, n):  # type: ignore[no-untyped-def]
 
 
 @in_place
-def values(u, programs, figures):  # type: ignore[no-untyped-def]
-    """The same (4, M) of M = P N points of N programs, point m of program m % N, which all have a leading axis."""
+def values(u, figures, *parts):  # type: ignore[no-untyped-def]
+    """The same (4, M) of M = P N points of N programs, point m of program m % N, which all have a leading axis.
+
+    Parameters
+    ----------
+    parts : of :func:`programs_of`.
+    """
+    programs = programs_of(parts)
     for m in range(figures.shape[1]):
         n = m % programs.floor.shape[0]
         figures[0, m], figures[1, m], figures[2, m], figures[3, m] = value(u[m], programs, n)

@@ -256,7 +256,7 @@ def _physical(
     terms, ceilings = programs.owner.size, programs.size.shape[1]
     proof = np.empty((*stages, terms), complex), np.empty(row.shape), np.empty((*stages, ceilings), complex)
     arrays = in_order(v), in_order(cone), in_order(row), in_order(mass_unit)
-    _units().physical(*arrays, *scales, programs.size, programs.region, programs.vectors[0], points, proof)
+    _units().physical(*arrays, *scales, programs.size, programs.vectors[0], points, *proof, *programs.region)
     return points, proof
 
 
@@ -272,10 +272,14 @@ def _scales(
         influence,
         np.abs(cancelling(statement)),
         in_order(statement.single_reach),
-        (region.radius, region.max_mass, region.budget),
+        region.radius,
+        region.max_mass,
+        region.budget,
         at_least if isinstance(at_least, np.ndarray) else np.full(many, at_least),
         in_order(share),
-        (tolerances.sharpness, tolerances.finest, tolerances.coarsest),
+        tolerances.sharpness,
+        tolerances.finest,
+        tolerances.coarsest,
         reach,
         unit,
         demands,
@@ -321,7 +325,7 @@ def _in_discs(statement: Statement, reach: Real, unit: Real, margin: float, *sta
     results, places = [], []
     for which, budgeted, programs in discs_of(statement, reach, unit, margin):
         demands = (share, tolerance) if which is None else (share[which], tolerance[which])
-        v, p, price, mass_unit = _discs().solve(programs, budgeted, least_mass, *demands, mass_tolerance)
+        v, p, price, mass_unit = _discs().solve(*programs, budgeted, least_mass, *demands, mass_tolerance)
         if which is None:
             return v.view(complex)[..., 0], p, price, mass_unit
         results.append((v.view(complex)[..., 0], p, price, mass_unit[None]))

@@ -66,14 +66,19 @@ def discs_of(
         programs.influence if vectors < 3 else pair.influence,
         pair.multiple,
         statement.norms.constant.shape[-1],
-        (region.radius, region.budget),
-        (region.free, region.centre, region.cosine, region.sine),
-        (programs.cap, programs.size),
+        region.radius,
+        region.budget,
+        region.free,
+        region.centre,
+        region.cosine,
+        region.sine,
+        programs.cap,
+        programs.size,
         margin,
         reach,
         unit,
         budgeted,
-        every,
+        *every,
     )
     kinds = 2 * sectors + budgeted
     if many == 1 or (kinds == kinds[0]).all():

@@ -8,16 +8,12 @@ the mass (docs/mathematics.md section 9).
 
 from functools import cache, lru_cache
 from types import ModuleType
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, in_order
 from optimizer.program.equal_unknowns import apart, united
 from optimizer.program.statement import Statement
-
-if TYPE_CHECKING:
-    from optimizer.program.kernel.symmetries import Work
 
 
 def symmetric(statement: Statement, u: Complex, kinds: np.ndarray | None = None) -> Complex:
@@ -43,10 +39,14 @@ def symmetric(statement: Statement, u: Complex, kinds: np.ndarray | None = None)
     _symmetries().means(
         programs.constant,
         programs.influence,
-        _symmetries().Alike(region.radius, region.max_mass, region.free, region.centre, region.sine),
+        region.radius,
+        region.max_mass,
+        region.free,
+        region.centre,
+        region.sine,
         _single_kind(webs) if kinds is None else kinds.astype(np.int64),
         in_order(u),
-        _work(terms, webs),
+        *_work(terms, webs),
         means,
     )
     return means
@@ -60,9 +60,10 @@ def _single_kind(webs: int) -> np.ndarray:
 
 # the kernel writes to it and leaves nothing there
 @lru_cache(maxsize=64)
-def _work(terms: int, webs: int) -> "Work":
+def _work(terms: int, webs: int) -> tuple[np.ndarray, ...]:
+    """Memory of the kernel, in its order."""
     numbers, own, places = np.empty((terms + 2, webs)), np.empty((2, terms)), np.empty((5, webs), np.int64)
-    return _symmetries().Work(
+    return (
         numbers[:terms], own[0], own[1], np.empty(terms, bool), numbers[terms], numbers[terms + 1],
         np.empty(webs, complex), places[0], places[1:3], places[3:],
     )  # fmt: skip
