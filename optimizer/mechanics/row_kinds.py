@@ -45,6 +45,12 @@ class RowKinds:
         """Kinds and pieces, as what is compiled takes them, (2, R)."""
         return np.array([self.kind, self.later])
 
+    @cached_property
+    def ahead_deg(self) -> list[float]:
+        """The same in degrees."""
+        degrees: list[float] = np.rad2deg(self.ahead).tolist()
+        return degrees
+
     def of_parts(self, later: Index) -> "RowKinds":
         """The same over parts of pieces, of which equal pieces have equally many: how many parts later (R,)."""
         return replace(self, later=later)

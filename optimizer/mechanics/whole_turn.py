@@ -104,15 +104,17 @@ class WholeTurn:
         return WholeTurn(rows, self.centre[some], self.half[some], self.turns, means, self.squared)
 
     def of_rows(self, reading: Reading) -> "TurnCurves":
-        """A force of every row by itself."""
+        """A force of every row by itself; of the first row of each kind alone, where there are kinds."""
         if reading not in self._of_rows:
             self._of_rows[reading] = self.curves(reading, self._alone)
         return self._of_rows[reading]
 
     @cached_property
     def _alone(self) -> Real:
-        """Weights (N, R, R) of each row by itself."""
+        """Weights (N, R, R) or (1, K, R) of each row by itself."""
         count = self.rows.crank_radius.shape[-1]
+        if self.kinds is not None:
+            return np.eye(count)[self.kinds.first][None]
         return spread(np.eye(count), (len(self.centre), count, count))
 
     @cached_property

@@ -13,11 +13,11 @@ from tests import night
 from tests.analyze.driven import STYLES, arrays, random_driven
 
 #: equal throws, evenly spaced by whole steps of the pieces
-_COUNTS = (2, 3, 4, 8)
+COUNTS = (2, 3, 4, 8)
 _READINGS = ("piston", "rod_at_rest", "side", "tangential", "on_shaft", "on_frame")
 
 
-def _equal_throws(seed: int, style: str, count: int, apart_deg: float | None = None) -> dict[str, Any]:
+def equal_throws(seed: int, style: str, count: int, apart_deg: float | None = None) -> dict[str, Any]:
     body = random_driven(seed, style, throws=1)
     first = body["throws"][0]
     body["throws"] = []
@@ -51,10 +51,10 @@ def _curves(turn: WholeTurn, reading: Any, seed: int) -> TurnCurves:
 
 
 @pytest.mark.parametrize("style", night.part(1, STYLES))
-@pytest.mark.parametrize("count", night.part(2, _COUNTS))
+@pytest.mark.parametrize("count", night.part(2, COUNTS))
 def test_curves_are_those_of_rows_one_by_one(count: int, style: str) -> None:
     # analytic: a row that is ahead does the same, that much earlier
-    body = _equal_throws(count, style, count)
+    body = equal_throws(count, style, count)
     turn, single = _turn(body), _turn(body, kinds=False)
     assert turn.kinds is not None
     assert turn.kinds.first.size == len(body["throws"][0]["rows"])
@@ -75,7 +75,7 @@ def test_curves_are_those_of_rows_one_by_one(count: int, style: str) -> None:
     [("reciprocating_mass_kg", 1.25), ("axis_deg", 0.5), ("cylinder", None), ("connecting_rod", {"length_m": 9.0})],
 )
 def test_a_row_that_differs_is_of_a_kind_of_its_own(field: str, value: Any) -> None:
-    body = _equal_throws(1, "single", 4)
+    body = equal_throws(1, "single", 4)
     for throw in body["throws"]:
         throw["crank_angle_deg"] = 90.0 * round(throw["crank_angle_deg"] / 90.0)
         throw["rows"][0]["axis_deg"] = 0.0
@@ -97,15 +97,15 @@ def test_a_row_that_differs_is_of_a_kind_of_its_own(field: str, value: Any) -> N
 
 def test_kinds_need_pieces_that_repeat() -> None:
     # analytic: 72 degrees are no whole number of pieces
-    assert _turn(_equal_throws(2, "single", 5)).kinds is None
+    assert _turn(equal_throws(2, "single", 5)).kinds is None
     # nor are throws that are 90 degrees apart and do not go around
-    assert _turn(_equal_throws(2, "single", 3, apart_deg=90.0)).kinds is None
+    assert _turn(equal_throws(2, "single", 3, apart_deg=90.0)).kinds is None
     assert _turn(random_driven(3, "v")).kinds is None
 
 
 def test_equal_rows_that_do_the_same_at_once_are_one() -> None:
     # analytic: crank and axis turned together
-    body = _equal_throws(4, "single", 2, apart_deg=180.0)
+    body = equal_throws(4, "single", 2, apart_deg=180.0)
     body["throws"][1]["rows"][0]["axis_deg"] += 180.0
     kinds = _turn(body).kinds
     assert kinds is not None
