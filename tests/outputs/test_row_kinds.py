@@ -47,6 +47,20 @@ def test_answers_are_those_of_rows_one_by_one(count: int, style: str, monkeypatc
         assert bearing.before.rms_N == pytest.approx(wanted.before.rms_N, rel=1e-10)
 
 
+def test_counterweights_without_mass_change_no_bearing_load() -> None:
+    # analytic: what is nothing adds nothing, and is searched once
+    body = equal_throws(1, "single", 2)
+    found = ask(body, "main_bearings", step_deg=30.0).main_bearings
+    assert found is not None
+    assert found.bending.after_Nm == found.bending.before_Nm
+    assert all(bearing.after == bearing.before for bearing in found.bearings)
+    fitted = [{"web": web["name"], "mass_kg": 20.0, "angle_deg": 30.0} for web in body["webs"]]
+    laden = ask(body, "main_bearings", step_deg=30.0, counterweights=fitted).main_bearings
+    assert laden is not None
+    assert all(bearing.after != bearing.before for bearing in laden.bearings)
+    assert [bearing.before for bearing in laden.bearings] == [bearing.before for bearing in found.bearings]
+
+
 @pytest.mark.parametrize("reading", ["piston", "rod", "rod_at_rest", "side"])
 def test_a_row_has_its_peaks_where_it_stands(reading: Any) -> None:
     # independent: the force of the row at the angle that is shown
