@@ -126,7 +126,7 @@ def _add_rows(sums, curve, reading, of_rows, order, half, turned, room, results)
                 component = series[0, k, n, kind] if k < terms else bound[0, 0, n, kind]
                 if parts > 1:
                     other = series[1, k, n, kind] if k < terms else bound[1, 0, n, kind]
-                    _add_vectors(weight, component, other, cut, total[0, k], total[1, k])
+                    _add_both(weight, component, other, cut, total[0, k], total[1, k])
                 else:
                     _add(weight.real, component, cut, total[0, k])
                     if weight.imag != 0.0:
@@ -149,30 +149,43 @@ def _add_rows(sums, curve, reading, of_rows, order, half, turned, room, results)
 
 @inner
 def _add(weight, numbers, cut, total):  # type: ignore[no-untyped-def]
-    """Numbers (P,) times a weight to a sum, of which the last so many come first."""
+    """Numbers (P,) times a weight to a sum; what is beyond the cut of the sum comes first in them."""
+    if cut == numbers.size:
+        _add_scalars(weight, numbers, total)
+        return
     beyond = numbers.size - cut
-    for p in range(cut):
-        total[p] += weight * numbers[beyond + p]
-    for p in range(beyond):
-        total[cut + p] += weight * numbers[p]
+    _add_scalars(weight, numbers[beyond:], total[:cut])
+    _add_scalars(weight, numbers[:beyond], total[cut:])
 
 
 @inner
-def _add_vectors(weight, first, second, cut, along, across):  # type: ignore[no-untyped-def]
-    """Vectors of which both parts are given, (P,) each; all at once, as to fetch the sum takes longer than to add."""
-    beyond = first.size - cut
-    if weight.imag == 0.0:
-        _add(weight.real, first, cut, along)
-        _add(weight.real, second, cut, across)
+def _add_both(weight, first, second, cut, along, across):  # type: ignore[no-untyped-def]
+    """The same of vectors of which both parts are given."""
+    if cut == first.size:
+        _add_vectors(weight, first, second, along, across)
         return
-    for p in range(cut):
-        q = beyond + p
-        along[p] = along[p] + weight.real * first[q] - weight.imag * second[q]
-        across[p] = across[p] + weight.imag * first[q] + weight.real * second[q]
-    for p in range(cut, first.size):
-        q = p - cut
-        along[p] = along[p] + weight.real * first[q] - weight.imag * second[q]
-        across[p] = across[p] + weight.imag * first[q] + weight.real * second[q]
+    beyond = first.size - cut
+    _add_vectors(weight, first[beyond:], second[beyond:], along[:cut], across[:cut])
+    _add_vectors(weight, first[:beyond], second[:beyond], along[cut:], across[cut:])
+
+
+@inner
+def _add_scalars(weight, numbers, total):  # type: ignore[no-untyped-def]
+    for p in range(numbers.size):
+        total[p] += weight * numbers[p]
+
+
+@inner
+def _add_vectors(weight, first, second, along, across):  # type: ignore[no-untyped-def]
+    """All at once, as to fetch the sum takes longer than to add."""
+    if weight.imag == 0.0:
+        for p in range(first.size):
+            along[p] += weight.real * first[p]
+            across[p] += weight.real * second[p]
+    else:
+        for p in range(first.size):
+            along[p] = along[p] + weight.real * first[p] - weight.imag * second[p]
+            across[p] = across[p] + weight.imag * first[p] + weight.real * second[p]
 
 
 @inner
