@@ -11,7 +11,7 @@ and the influence of a counterweight is free of speed. Angles are shaft angles t
 """
 
 from collections.abc import Sequence
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -238,11 +238,17 @@ def floors(
     sought = upper >= (outline.lower if group is None else _largest(outline.lower, group))
     points = _Points(outline.centre, outline.lower)
     open_ = np.flatnonzero(sought)
+    # the first points of a curve are those that hold its outline
+    held = sought[outline.curve]
+    first: tuple[Any, ...] = outline.curve[held], outline.at[held], outline.angle[held]
     for _ in range(_MOST_POINTS):
         # all points that may hold a circle about this centre, not only the farthest
         of, curve, piece, half, near = farthest(every, number, outline, open_, centre[open_])
         cubic = in_order(np.asarray(pieces.source.cubics(curve, piece, near, half), complex))
         near = nearer(every, curve, piece, near, cubic, centre[of])
+        if first:
+            of, piece, near = (np.concatenate(both) for both in zip(first, (of, piece, near), strict=True))
+            curve, first = number[of], ()
         points.add(of, near, pieces.source.values(curve, piece, near))
         centre[open_], radius[open_] = points.surround(open_)
         peak = pieces.peaks(-centre[open_], 0.5 * tolerance, number[open_])

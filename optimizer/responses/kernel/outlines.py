@@ -32,6 +32,7 @@ class Outlines(NamedTuple):
     lower, upper : (J,) what the radius of the smallest circle around the curve is not below, and what none of its
         points is farther than from the centre.
     size : (J,) largest distance of a place from the origin.
+    curve, at, angle : (m,) which pieces and angles [rad] hold which circle.
     """
 
     piece: np.ndarray
@@ -41,6 +42,9 @@ class Outlines(NamedTuple):
     lower: Real
     upper: Real
     size: Real
+    curve: np.ndarray
+    at: np.ndarray
+    angle: Real
 
 
 @kernel
@@ -49,13 +53,14 @@ def outlines(cubics, number, held, group):  # type: ignore[no-untyped-def]
 
     Between two places a cubic is no farther from its chord than an eighth of the square of their distance times its
     largest second derivative. A curve in a box that is smaller than the circle of another of its group has the circle
-    around that box.
+    around that box, and no places that hold it.
     """
     curves, share = number.size, PLACES.size
     values = np.empty((curves, held.size * share), np.complex128)
     centre, radius = np.empty(curves, np.complex128), np.empty(curves)
     lower, upper = np.empty(curves), np.empty(curves)
-    size = np.zeros(curves)
+    size, count = np.zeros(curves), 0
+    curve, at, angle = np.empty(3 * curves, np.int64), np.empty(3 * curves, np.int64), np.empty(3 * curves)
     largest_of, bounds = np.full(curves, -1), np.full(curves, -np.inf)
     for j in range(curves):
         centre[j], radius[j] = _box(cubics, number[j], held)
@@ -75,7 +80,12 @@ def outlines(cubics, number, held, group):  # type: ignore[no-untyped-def]
         for k in range(values.shape[1]):
             largest = max(largest, values[j, k].real ** 2 + values[j, k].imag ** 2)
         size[j] = np.sqrt(largest)
-        centre[j], radius[j], _, _ = smallest(values[j])
+        centre[j], radius[j], support, _ = smallest(values[j])
+        for k in range(support.size):
+            there, place = held[support[k] // share], PLACES[support[k] % share]
+            curve[count], at[count] = j, there
+            angle[count] = cubics.centre[number[j], there] + cubics.half[number[j], there] * place
+            count += 1
         rest, most = 0.0, -np.inf
         for p in range(held.size):
             farthest = _largest(values[j, p * share : (p + 1) * share], centre[j])
@@ -85,7 +95,8 @@ def outlines(cubics, number, held, group):  # type: ignore[no-untyped-def]
             most = max(most, farthest + 0.125 * BETWEEN**2 * bend + cubics.rest[number[j], held[p]])
         lower[j], upper[j] = radius[j] - rest, most
         bounds[group[j]] = max(bounds[group[j]], lower[j])
-    return Outlines(held, values, centre, radius, lower, upper, size)
+    curve, at, angle = curve[:count].copy(), at[:count].copy(), angle[:count].copy()
+    return Outlines(held, values, centre, radius, lower, upper, size, curve, at, angle)
 
 
 @inner
