@@ -125,6 +125,22 @@ def bending_moment(bearing: Real, reaction: Complex, position: Real, load: Compl
     -------
     (..., S, T) N m, or kg m^2.
     """
+    largest = (np.maximum.reduce(np.abs(force), axis=-1) for force in (reaction, load))
+    of_bearings, of_loads = _arms(bearing, position, station, *largest)
+    return of_bearings @ reaction - of_loads @ load
+
+
+def unit_bending_moment(bearing: Real, reaction: Real, position: Real, station: Real) -> Real:
+    """The same for one unit of load in every plane (..., S, L) m, of which bearings have (..., B, L)."""
+    largest = np.maximum.reduce(np.abs(reaction), axis=-1)
+    of_bearings, of_loads = _arms(bearing, position, station, largest, np.ones(np.shape(position)))
+    # what is no load adds nothing
+    return of_bearings @ reaction - of_loads
+
+
+def _arms(bearing: Real, position: Real, station: Real, reaction: Real, load: Real) -> tuple[Real, Real]:
+    """Arms (..., S, B) and (..., S, L) m of bearing loads and loads about stations, on the side of each with smaller
+    terms by magnitudes (..., B) and (..., L)."""
     station = np.asarray(station, dtype=float)
     arms, terms = [], []
     for place, force in ((bearing, reaction), (position, load)):
@@ -134,12 +150,12 @@ def bending_moment(bearing: Real, reaction: Complex, position: Real, load: Compl
         np.maximum(-distance, 0.0, out=own[0])
         np.maximum(distance, 0.0, out=own[1])
         arms.append(own)
-        terms.append(own @ np.maximum.reduce(np.abs(force), axis=-1)[..., None])
+        terms.append(own @ force[..., None])
     # both sides give the same, but one has the smaller terms, and no terms at all where the shaft ends
     low, high = terms[0] + terms[1]
     smaller = low < high
-    of_bearings, of_loads = (np.where(smaller, *own) for own in arms)
-    return of_bearings @ reaction - of_loads @ load
+    of_bearings, of_loads = (np.where(smaller, own[0], own[1]) for own in arms)
+    return of_bearings, of_loads
 
 
 class _Spans(NamedTuple):

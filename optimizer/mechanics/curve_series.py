@@ -49,14 +49,16 @@ class CurveSeries:
         """Coefficients (J, P, order + 1) over the angles of series, in units of half widths (N, P); by bounds what they
         leave out (J, P), and of both the size (J,) of what is added up. Nothing of what is not given."""
         from optimizer.mechanics.kernel.curves import NOTHING
-        from optimizer.mechanics.kernel.entry import SUMS, Reading, over_turn
+        from optimizer.mechanics.kernel.entry import NO_KINDS, SUMS, Reading, over_turn
 
-        rows, nothing = self.rows.packed, repeat((NOTHING, None))
+        series, nothing = points or bounds, repeat((NOTHING, None))
+        assert series is not None  # one of both is given
+        rows, turned = series.rows, NO_KINDS if series.kinds is None else series.kinds.places
         functions = (nothing if series is None else series.functions(self._pressed) for series in (points, bounds))
         results, order = [], -1 if bounds is None else bounds.order
         for (at, place), (over, other) in zip(*functions, strict=False):
             wide = compact(half[:, place or other])
-            reading = Reading(self._every, np.arange(len(wide)), wide, order, wide.shape[1])
+            reading = Reading(self._every, np.arange(len(wide)), wide, order, wide.shape[1], turned)
             results.append(over_turn(SUMS, rows, self.sums, reading=reading, points=at, bounds=over)[1:])
         if len(results) == 1:
             return results[0]

@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from optimizer.mechanics.gas import Chambers
 from optimizer.mechanics.indicated import Trace
@@ -50,6 +51,15 @@ class RowData:
         arrays = {name: part(value) for name, value in vars(self).items() if isinstance(value, np.ndarray)}
         traces = tuple(replace(trace, table=part(trace.table), lead=part(trace.lead)) for trace in self.traces)
         return replace(self, designs=len(range(self.designs)[some]), traces=traces, **arrays)
+
+    def of_rows(self, some: NDArray[np.intp]) -> "RowData":
+        """Data of some of the rows alone, of which none has a trace."""
+        parts: dict[str, Any] = {
+            name: value[:, some]
+            for name, value in vars(self).items()
+            if isinstance(value, np.ndarray) and name != "sense"
+        }
+        return replace(self, **parts)
 
     @cached_property
     def packed(self) -> "Rows":

@@ -13,13 +13,14 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from optimizer.mechanics.row_data import RowData, compact
+from optimizer.mechanics.row_kinds import RowKinds
 from optimizer.numerics.arrays import Real, spread
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
 from optimizer.responses.piecewise_cubics import Index
 
 if TYPE_CHECKING:
-    from optimizer.mechanics.kernel.rows import Functions
+    from optimizer.mechanics.kernel.rows import Functions, Rows
 
 #: rows times places of which it is kept what forces are made of, which bounds the memory
 AT_ONCE = 50_000
@@ -39,6 +40,7 @@ class RowSeries:
     centre, half : (N, P) rad; half None for series at points.
     within : (N, P) rad, angles that say which process counts.
     higher : the same to a higher order, of which these are the first coefficients.
+    kinds : of the rows of one machine, of which only the first of each kind has functions then.
     """
 
     data: RowData
@@ -47,6 +49,12 @@ class RowSeries:
     within: Real
     order: int
     higher: "RowSeries | None" = None
+    kinds: RowKinds | None = None
+
+    @property
+    def rows(self) -> "Rows":
+        """The rows that have functions, as what is compiled takes them."""
+        return self.data.packed if self.kinds is None else self.kinds.rows.packed
 
     def of_order(self, order: int) -> "RowSeries":
         """The same to a lower order."""
@@ -77,7 +85,7 @@ class RowSeries:
         from optimizer.mechanics.kernel.entry import FUNCTIONS, over_turn
         from optimizer.mechanics.kernel.rows import Functions, Places
 
-        rows, angles = self.data.packed, self.centre.shape[1]
+        rows, angles = self.rows, self.centre.shape[1]
         # the pressures may differ between designs that have all else in common
         once = len(rows.motion) == len(self.centre) == 1 and rows.traces.table.shape[1] == 1
         design = self.design[:1] if once else self.design

@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from optimizer.mechanics.balance_shafts import beside
-from optimizer.mechanics.bearings import bending_moment
+from optimizer.mechanics.bearings import unit_bending_moment
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.row_series import Reading
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
@@ -107,9 +107,7 @@ def bending_influence(layout: Layout, places: Real, reaction: Real, corners: Rea
     ----------
     reaction : (..., B, L) of the bearings at places (..., B) m, for the same loads.
     """
-    loaded = planes(layout)
-    unit = spread(np.eye(loaded.shape[-1], dtype=complex), (*loaded.shape, loaded.shape[-1]))
-    return bending_moment(places, reaction.astype(complex), loaded, unit, corners).real
+    return unit_bending_moment(places, reaction, planes(layout), corners)
 
 
 @remembered

@@ -18,8 +18,9 @@ from optimizer.mechanics.indicated import SLIVER, TURN, Trace, entries, turns_of
 from optimizer.mechanics.kinematics import angle_ahead, steep, steep_angles
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.row_data import RowData, compact, shared
+from optimizer.mechanics.row_kinds import RowKinds, row_kinds
 from optimizer.mechanics.row_parts import RowParts
-from optimizer.mechanics.row_series import Reading, RowSeries
+from optimizer.mechanics.row_series import AT_ONCE, Reading, RowSeries
 from optimizer.mechanics.turn import Turn, panels
 from optimizer.numerics.arrays import Complex, Real, all_true, spread
 from optimizer.numerics.memoization import cached_property
@@ -103,15 +104,17 @@ class WholeTurn:
         return WholeTurn(rows, self.centre[some], self.half[some], self.turns, means, self.squared)
 
     def of_rows(self, reading: Reading) -> "TurnCurves":
-        """A force of every row by itself."""
+        """A force of every row by itself; of the first row of each kind alone, where there are kinds."""
         if reading not in self._of_rows:
             self._of_rows[reading] = self.curves(reading, self._alone)
         return self._of_rows[reading]
 
     @cached_property
     def _alone(self) -> Real:
-        """Weights (N, R, R) of each row by itself."""
+        """Weights (N, R, R) or (1, K, R) of each row by itself."""
         count = self.rows.crank_radius.shape[-1]
+        if self.kinds is not None:
+            return np.eye(count)[self.kinds.first][None]
         return spread(np.eye(count), (len(self.centre), count, count))
 
     @cached_property
@@ -142,7 +145,14 @@ class WholeTurn:
     def points(self) -> RowSeries:
         """Series about the centres of the pieces."""
         centre, _ = self._cut
-        return RowSeries(self.rows, centre, None, centre, 3)
+        return RowSeries(self.rows, centre, None, centre, 3, kinds=self.kinds)
+
+    @cached_property
+    def kinds(self) -> RowKinds | None:
+        """Of the rows of one machine, where some do the same as others some pieces later."""
+        if len(self.centre) > 1 or self.centre.size * self.rows.crank_radius.shape[-1] > AT_ONCE:
+            return None
+        return row_kinds(self.rows, self.centre[0], self.half[0])
 
     @cached_property
     def bounds(self) -> RowSeries:
@@ -156,7 +166,7 @@ class WholeTurn:
 
     def _bounded(self, order: int) -> RowSeries:
         centre, half = self._cut
-        return RowSeries(self.rows, centre, half, centre, order)
+        return RowSeries(self.rows, centre, half, centre, order, kinds=self.kinds)
 
     @cached_property
     def _cut(self) -> tuple[Real, Real]:
@@ -292,7 +302,12 @@ class TurnCurves:
         size = np.where(self.pieces.size > 0.0, self.pieces.size, 1.0)
         out = np.maximum.reduce(self._by_design(self._left_out / size[:, None]), axis=1)
         number: Real = np.minimum(np.maximum(np.ceil((out / _LEFT_OUT) ** (1.0 / _GAUSS)), 1), _MOST_PARTS)
-        return number
+        if self.whole.kinds is None:
+            return number
+        # as many where another row does the same
+        period = math.gcd(number.size, *self.whole.kinds.later.tolist())
+        most = np.maximum.reduce(number.reshape(-1, period), axis=0)
+        return np.tile(most, number.size // period)[None]
 
     def _by_design(self, values: Real) -> Real:
         """Values (N C, P) as (N, C, P)."""
@@ -319,7 +334,11 @@ class TurnCurves:
         angle = (centre + wide * ((2.0 * number + 1.0) / parts - 1.0))[..., None] + half[..., None] * _NODES
         shares = (half[..., None] * (_SHARES / (TURN * whole.turns))).reshape(len(half), -1)
         within = np.repeat(centre, _GAUSS, axis=-1)
-        return self._values(angle.reshape(within.shape), within), shares[:, None], count * _GAUSS
+        kinds = whole.kinds
+        if kinds is not None:
+            at_once = kinds.first.size * within.size <= AT_ONCE
+            kinds = kinds.of_parts(np.searchsorted(piece[0], kinds.later) * _GAUSS) if at_once else None
+        return self._values(angle.reshape(within.shape), within, kinds), shares[:, None], count * _GAUSS
 
     def in_pieces(self, places: Real) -> Complex:
         """The curves (N C, P n) at places (n,) from -1 to 1 of every piece, at its ends the one-sided limits."""
@@ -333,9 +352,9 @@ class TurnCurves:
         places = spread(angle, (len(self.weights), len(angle)))
         return self._values(places, places).reshape(-1, len(angle))
 
-    def _values(self, angle: Real, within: Real) -> Complex:
+    def _values(self, angle: Real, within: Real, kinds: RowKinds | None = None) -> Complex:
         """The curves (N, C, n) at angles (N, n) within pieces that hold others."""
-        series = RowSeries(self.whole.rows, angle, None, within, 0)
+        series = RowSeries(self.whole.rows, angle, None, within, 0, kinds=kinds)
         return self._series.over(series, None, within)[0].reshape(*self.weights.shape[:2], -1)
 
     def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:

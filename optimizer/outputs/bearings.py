@@ -38,8 +38,9 @@ def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
     fixed = floors(curves.curves, FLOOR_TOLERANCE, None, separate_groups(count, len(planes)))
     sets = _sets(unbalance)
     peaks = shaft_peaks(scene, sets)
-    before, *fitted = _loads(scene, curves.first(count), peaks, fixed, sets)
-    after: Sequence[BearingLoad | None] = fitted[0] if fitted else [None] * count
+    loads = _loads(scene, curves.first(count), peaks, fixed, sets)
+    before = loads[0]
+    after: Sequence[BearingLoad | None] = [None] * count if unbalance is None else loads[-1]
     moments = [peak.part(slice(count, None)) for peak in peaks]
     shown = moments[-1]
     worst = shown.lower.index(max(shown.lower))
@@ -53,7 +54,7 @@ def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
         bending=BendingMoment(
             position_m=planes,
             before_Nm=moments[0].lower,
-            after_Nm=shown.lower if fitted else None,
+            after_Nm=None if unbalance is None else shown.lower,
             peak_Nm=shown.lower[worst],
             peak_bracket_Nm=(shown.lower[worst], max(shown.upper)),
             peak_position_m=planes[worst],
@@ -63,8 +64,8 @@ def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
 
 
 def _sets(unbalance: Complex | None) -> list[Complex | None]:
-    """Without counterweights, and with them where there are any to show."""
-    return [None] if unbalance is None else [None, unbalance]
+    """Without counterweights, and with them where they change anything."""
+    return [None] if unbalance is None or not np.count_nonzero(unbalance) else [None, unbalance]
 
 
 def _searches(scene: Prepared, unbalance: Complex | None) -> Iterator[Search]:

@@ -11,6 +11,7 @@ import numpy as np
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.curve_batch import CurveBatch
 from optimizer.mechanics.indicated import TURN
+from optimizer.mechanics.row_kinds import RowKinds
 from optimizer.mechanics.row_series import Reading
 from optimizer.mechanics.shaft_curves import ShaftCurves
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
@@ -95,7 +96,7 @@ def peak_list(scene: Prepared, name: Name, curves: Callable[[], Search]) -> Peak
 
 
 def rows_search(scene: Prepared, reading: Reading) -> Search:
-    """Largest and smallest values of a force of every row."""
+    """Largest and smallest values of a force of every row; of the first of each kind alone, where there are kinds."""
     whole: WholeTurn = scene.results["whole_turn"]
     curves = whole.of_rows(reading)
     return Search(_rows_name(reading), curves, *_both_ways(curves.weights.shape[0] * curves.weights.shape[1]))
@@ -129,16 +130,28 @@ def _rows_name(reading: Reading) -> Name:
 def of_rows(scene: Prepared, reading: Reading) -> Extremes:
     """Of a force of every row, (..., rows)."""
     name = _rows_name(reading)
+    whole: WholeTurn = scene.results["whole_turn"]
     if name in scene.peaks:
-        return Extremes(*_halves(scene.peaks.brackets(name)))
-    _, curves, number, offset, sign, *_ = rows_search(scene, reading)
-    peaks = curves.pieces.peaks(offset, TOLERANCE, number, None, sign)
-    return Extremes(*(_reshaped(scene, part) for part in _halves(peaks)))
+        peaks = scene.peaks.brackets(name)
+    else:
+        _, curves, number, offset, sign, *_ = rows_search(scene, reading)
+        peaks = curves.pieces.peaks(offset, TOLERANCE, number, None, sign)
+    return Extremes(*(_reshaped(scene, _of_every_row(whole.kinds, half)) for half in _halves(peaks)))
+
+
+def _of_every_row(kinds: RowKinds | None, peaks: Bracket) -> Bracket:
+    """Peaks of the first row of each kind as those of all rows."""
+    if kinds is None:
+        return peaks
+    some = kinds.kind
+    return Bracket(peaks.angle[some] - kinds.ahead, peaks.value[some], peaks.lower[some], peaks.upper[some])
 
 
 def row_peaks(scene: Prepared, reading: Reading) -> list[PeakList]:
     """Largest values of a force of every row of one machine, and its smallest values negated."""
-    return peak_list(scene, _rows_name(reading), lambda: rows_search(scene, reading)).split(2)
+    peaks = peak_list(scene, _rows_name(reading), lambda: rows_search(scene, reading)).split(2)
+    kinds = scene.results["whole_turn"].kinds
+    return peaks if kinds is None else [half.turned(kinds.kind.tolist(), kinds.ahead_deg) for half in peaks]
 
 
 def row_magnitudes(scene: Prepared, reading: Reading) -> list[tuple[float, float]]:
@@ -150,12 +163,12 @@ def row_magnitudes(scene: Prepared, reading: Reading) -> list[tuple[float, float
 def largest_of_rows(scene: Prepared, reading: Reading) -> Bracket:
     """Largest magnitude of a force of all rows, (...); 0 without rows."""
     whole: WholeTurn = scene.results["whole_turn"]
-    count = scene.layout.reciprocating.mass.shape[-1]
-    if count == 0:
+    if scene.layout.reciprocating.mass.shape[-1] == 0:
         nothing = np.zeros(scene.layout.omega.shape)
         return Bracket(nothing, nothing.astype(complex), nothing, nothing)
-    designs = np.repeat(np.arange(len(whole.centre)), count)
-    peaks = whole.of_rows(reading).pieces.peaks(np.zeros(designs.size), TOLERANCE, None, designs)
+    curves = whole.of_rows(reading)
+    designs = np.repeat(np.arange(len(whole.centre)), curves.weights.shape[1])
+    peaks = curves.pieces.peaks(np.zeros(designs.size), TOLERANCE, None, designs)
     return _single(_reshaped(scene, peaks))
 
 

@@ -11,7 +11,7 @@ and the influence of a counterweight is free of speed. Angles are shaft angles t
 """
 
 from collections.abc import Sequence
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -227,7 +227,7 @@ def floors(
     group : (numbers,) from 0, where only the largest radius of each group is asked for: of the others no more is found
         out than that they are smaller.
     """
-    from optimizer.responses.kernel.outlines import PLACES, farthest, nearer, outlines
+    from optimizer.responses.kernel.outlines import farthest, nearer, outlines
 
     pieces, every = curves.pieces, curves.pieces.cubics
     number: Index = np.arange(len(pieces.half)) if numbers is None else np.array(numbers, dtype=np.intp)
@@ -236,23 +236,20 @@ def floors(
     rounding = _ROUNDING * outline.size
     centre, radius, upper = outline.centre, outline.radius, outline.upper
     sought = upper >= (outline.lower if group is None else _largest(outline.lower, group))
+    points = _Points(outline.centre, outline.lower)
+    open_ = np.flatnonzero(sought)
     # the first points of a curve are those that hold its outline
     held = sought[outline.curve]
-    of, place = outline.curve[held], outline.place[held]
-    piece, place = outline.piece[place // PLACES.size], place % PLACES.size
-    there = (number[of], piece)
-    at = pieces.centre[there] + pieces.half[there] * PLACES[place]
-    points = _Points(outline.centre, outline.lower, of, at, pieces.source.values(*there, at))
-    open_ = np.flatnonzero(sought)
+    first: tuple[Any, ...] = outline.curve[held], outline.at[held], outline.angle[held]
     for _ in range(_MOST_POINTS):
         # all points that may hold a circle about this centre, not only the farthest
-        which, piece, near = farthest(every, number, outline, open_, centre[open_])
-        of = open_[which]
-        there = (number[of], piece)
-        middle, half = pieces.centre[there], pieces.half[there]
-        step = nearer(in_order(np.asarray(pieces.source.cubics(*there, near, half), complex)), centre[of])
-        near = np.minimum(np.maximum(near + half * step, middle - half), middle + half)
-        points.add(of, near, pieces.source.values(*there, near))
+        of, curve, piece, half, near = farthest(every, number, outline, open_, centre[open_])
+        cubic = in_order(np.asarray(pieces.source.cubics(curve, piece, near, half), complex))
+        near = nearer(every, curve, piece, near, cubic, centre[of])
+        if first:
+            of, piece, near = (np.concatenate(both) for both in zip(first, (of, piece, near), strict=True))
+            curve, first = number[of], ()
+        points.add(of, near, pieces.source.values(curve, piece, near))
         centre[open_], radius[open_] = points.surround(open_)
         peak = pieces.peaks(-centre[open_], 0.5 * tolerance, number[open_])
         upper[open_] = peak.upper
@@ -278,11 +275,12 @@ class _Points:
     """Points of curves, of each those that may hold its smallest circle, and the circles last found.
 
     centre, radius : (J,) of circles that no points hold, as long as there are none.
-    of, angle, value : (m,) which curve, rad, and the curve there.
     """
 
-    def __init__(self, centre: Complex, radius: Real, of: Index, angle: Real, value: Complex) -> None:
-        self._of, self._angle, self._value, curves = of, angle, value, len(centre)
+    def __init__(self, centre: Complex, radius: Real) -> None:
+        curves = len(centre)
+        # which curve, rad, and the curve there
+        self._of, self._angle, self._value = np.zeros(0, np.intp), np.zeros(0), np.zeros(0, complex)
         self.centre, self.radius = centre.copy(), np.maximum(radius, 0.0)
         self._support, self._weights = np.zeros((curves, 3), np.intp), np.zeros((curves, 3))
         self._count = np.zeros(curves, np.intp)

@@ -1,6 +1,6 @@
 """Peaks over the revolution of one machine by the searches that bracketed them: as arrays, and in plain numbers."""
 
-from collections.abc import Hashable, Mapping
+from collections.abc import Hashable, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -30,6 +30,11 @@ class PeakList(NamedTuple):
     def part(self, rows: slice) -> "PeakList":
         """Some of the peaks."""
         return PeakList(self.lower[rows], self.upper[rows], self.angle_deg[rows])
+
+    def turned(self, places: Sequence[int], earlier_deg: Sequence[float]) -> "PeakList":
+        """These peaks at several places, as many degrees earlier, of a curve that repeats after 360."""
+        lower, upper, angle = ([values[place] for place in places] for values in self)
+        return PeakList(lower, upper, [(at - ahead) % 360.0 for at, ahead in zip(angle, earlier_deg, strict=True)])
 
     def split(self, count: int) -> "list[PeakList]":
         """So many parts of equal size, one after the other."""

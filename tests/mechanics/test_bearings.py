@@ -15,6 +15,7 @@ from optimizer.mechanics.bearings import (
     continuous_beam_influence,
     simple_spans,
     simple_spans_influence,
+    unit_bending_moment,
 )
 from optimizer.numerics.arrays import Complex, Real
 
@@ -269,6 +270,17 @@ def test_leading_axes_equal_a_loop(model: Model) -> None:
         assert_close(found[i, j], one, 10.0)
         expected = bending_moment(bearing[i, 0], one, position[j], load[i, j], stations[i, j])
         assert_close(moment[i, j], expected, 10.0)
+
+
+@INFLUENCES
+@given(shafts())
+def test_moments_of_unit_loads_are_those_of_loads_one_by_one(influence: Any, shaft: Shaft) -> None:
+    # independent: the moment of any loads, given those of one unit of load in each plane
+    reaction = influence(shaft.bearing, shaft.position)
+    stations = np.sort(np.concatenate([shaft.bearing, shaft.position, shaft.position + 0.1]))
+    unit = np.eye(shaft.position.size)
+    expected = bending_moment(shaft.bearing, reaction + 0j, shaft.position, unit + 0j, stations).real
+    assert_close(unit_bending_moment(shaft.bearing, reaction, shaft.position, stations), expected, LEVER)
 
 
 @MODELS

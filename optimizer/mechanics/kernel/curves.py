@@ -41,7 +41,9 @@ class Sums(NamedTuple):
 
 
 @inner_with_arrays
-def sums_of_rows(rows, sums, curve, points, bounds, order, design, angles, half, forces):  # type: ignore[no-untyped-def]
+def sums_of_rows(  # type: ignore[no-untyped-def]
+    rows, sums, curve, points, bounds, order, design, angles, half, forces, turned
+):
     """Some curves (m,) over P angles of each of N designs (N,), m / N of each: coefficients (m, P, order + 1) in units
     of half widths (N, P); and beside bounds what these leave out (m, P), and the size (m,) of what is added up.
 
@@ -52,6 +54,8 @@ def sums_of_rows(rows, sums, curve, points, bounds, order, design, angles, half,
     bounds : the same bounded, to an order above it or more. Of either there may be none, :data:`NOTHING`.
     order : up to which bounds count, -1 where there are none.
     forces : whether points are forces of one reading instead, (parts, 4, N, R, P), (parts, 1, N, R, P), (N R, P).
+    turned : kinds of the rows, of which the first rows have functions alone, and how many angles later each row does
+        what that does, (2, R); (2, 0) where all rows have some.
     """
     count, terms = sums.weights.shape[1], points.middle.shape[1 if forces else 3]
     curves = curve.size
@@ -60,7 +64,8 @@ def sums_of_rows(rows, sums, curve, points, bounds, order, design, angles, half,
     rest, size = np.empty((curves, angles if order >= 0 else 0)), np.empty(curves if sized else 0)
     # coefficients and at last the bound's middle, each real and imaginary
     last = terms + 1 if order >= 0 else terms
-    room = np.empty((2, last, angles)), np.empty((count, angles)), np.empty((2, angles))
+    with_functions = count if turned.shape[1] == 0 else rows.motion.shape[1]
+    room = np.empty((2, last, angles)), np.empty((with_functions, angles)), np.empty((2, angles))
     (wanted, _), everywhere = _wanted(sums, curve), np.empty((0, 0), np.bool_)
     for reading in range(wanted.size):
         if not wanted[reading]:
@@ -69,7 +74,7 @@ def sums_of_rows(rows, sums, curve, points, bounds, order, design, angles, half,
             of_rows = points.middle, points.radius, points.way.reshape((design.size, count, angles))
         else:
             of_rows = series_and_bounds(rows, (points, bounds), design, angles, reading, order, everywhere)
-        _add_rows(sums, curve, reading, of_rows, order, half, room, (cubic, rest, size))
+        _add_rows(sums, curve, reading, of_rows, order, half, turned, room, (cubic, rest, size))
     return cubic, rest, size
 
 
@@ -83,7 +88,7 @@ def series_and_bounds(rows, functions, design, angles, reading, order, counted):
 
 
 @inner
-def _add_rows(sums, curve, reading, of_rows, order, half, room, results):  # type: ignore[no-untyped-def]
+def _add_rows(sums, curve, reading, of_rows, order, half, turned, room, results):  # type: ignore[no-untyped-def]
     """Write what the curves (m,) of one reading come to, of what the rows come to; nothing is made here, for to count
     who holds an array takes longer than to use it.
 
@@ -102,7 +107,7 @@ def _add_rows(sums, curve, reading, of_rows, order, half, room, results):  # typ
         n = j // share
         if sized and n != of_lengths:
             of_lengths = n
-            for r in range(count):
+            for r in range(length.shape[0]):
                 for p in range(angles):
                     length[r, p] = _length(series[0, 0, n, r, p], series[1, 0, n, r, p] if parts > 1 else 0.0)
         total[:], beside[:] = 0.0, 0.0
@@ -110,20 +115,22 @@ def _add_rows(sums, curve, reading, of_rows, order, half, room, results):  # typ
             weight = sums.weights[curve[j], r]
             if weight == 0.0:
                 continue
-            most = abs(weight)
+            most, kind, cut = abs(weight), r, angles
+            if turned.shape[1] > 0:
+                kind, cut = turned[0, r], angles - turned[1, r]
             if sized:
-                for p in range(angles):
-                    added[p] += most * length[r, p]
+                _add(most, length[kind], cut, added)
             if bounded:
-                for p in range(angles):
-                    off[p] += most * radius[n, r, p]
+                _add(most, radius[n, kind], cut, off)
             for k in range(last):
-                component = series[0, k, n, r] if k < terms else bound[0, 0, n, r]
+                component = series[0, k, n, kind] if k < terms else bound[0, 0, n, kind]
                 if parts > 1:
-                    other = series[1, k, n, r] if k < terms else bound[1, 0, n, r]
-                    _add_vectors(weight, component, other, total[0, k], total[1, k])
+                    other = series[1, k, n, kind] if k < terms else bound[1, 0, n, kind]
+                    _add_both(weight, component, other, cut, total[0, k], total[1, k])
                 else:
-                    _add_scalars(weight, component, total[0, k], total[1, k])
+                    _add(weight.real, component, cut, total[0, k])
+                    if weight.imag != 0.0:
+                        _add(weight.imag, component, cut, total[1, k])
         constant, largest = sums.constant[curve[j]], 0.0
         for p in range(angles):
             wide = 1.0
@@ -141,20 +148,36 @@ def _add_rows(sums, curve, reading, of_rows, order, half, room, results):  # typ
 
 
 @inner
-def _add_scalars(weight, numbers, along, across):  # type: ignore[no-untyped-def]
-    """Numbers (P,) times a weight to the parts of a sum."""
-    if weight.imag == 0.0:
-        for p in range(numbers.size):
-            along[p] += weight.real * numbers[p]
-    else:
-        for p in range(numbers.size):
-            along[p] += weight.real * numbers[p]
-            across[p] += weight.imag * numbers[p]
+def _add(weight, numbers, cut, total):  # type: ignore[no-untyped-def]
+    """Numbers (P,) times a weight to a sum; what is beyond the cut of the sum comes first in them."""
+    if cut == numbers.size:
+        _add_scalars(weight, numbers, total)
+        return
+    beyond = numbers.size - cut
+    _add_scalars(weight, numbers[beyond:], total[:cut])
+    _add_scalars(weight, numbers[:beyond], total[cut:])
+
+
+@inner
+def _add_both(weight, first, second, cut, along, across):  # type: ignore[no-untyped-def]
+    """The same of vectors of which both parts are given."""
+    if cut == first.size:
+        _add_vectors(weight, first, second, along, across)
+        return
+    beyond = first.size - cut
+    _add_vectors(weight, first[beyond:], second[beyond:], along[:cut], across[:cut])
+    _add_vectors(weight, first[:beyond], second[:beyond], along[cut:], across[cut:])
+
+
+@inner
+def _add_scalars(weight, numbers, total):  # type: ignore[no-untyped-def]
+    for p in range(numbers.size):
+        total[p] += weight * numbers[p]
 
 
 @inner
 def _add_vectors(weight, first, second, along, across):  # type: ignore[no-untyped-def]
-    """Vectors of which both parts are given, (P,) each; all at once, as to fetch the sum takes longer than to add."""
+    """All at once, as to fetch the sum takes longer than to add."""
     if weight.imag == 0.0:
         for p in range(first.size):
             along[p] += weight.real * first[p]

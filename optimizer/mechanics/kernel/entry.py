@@ -22,6 +22,9 @@ from optimizer.responses.kernel.parts import Best, Cubics, Members
 #: of many designs, and sums of such
 FUNCTIONS, SUMS, BOTH, PEAKS, CROSSINGS, FORCES, FORCE_SUMS = range(7)
 
+#: where all rows have functions of their own
+NO_KINDS = np.zeros((2, 0), np.int64)
+
 
 class Reading(NamedTuple):
     """Curves that are read of functions of the rows, as :func:`sums_of_rows` takes them.
@@ -31,6 +34,7 @@ class Reading(NamedTuple):
     half : (N, P) rad.
     order : up to which bounds count.
     angles : P of each design.
+    turned : kinds of the rows, and how many angles later they do what the first of their kind does, (2, R); or (2, 0).
     """
 
     curve: np.ndarray
@@ -38,6 +42,7 @@ class Reading(NamedTuple):
     half: Real
     order: int
     angles: int
+    turned: np.ndarray = NO_KINDS
 
 
 class Sought(NamedTuple):
@@ -91,7 +96,7 @@ def over_turn(
         *(task, order, pressed, rows.exact, reading.order, reading.angles),
         *(motion.first, motion.unit, motion.sense, motion.scalar),
         *(*rows[:5], *rows.traces, *sums, *places, *reading[:3], *points, *bounds),
-        *(*cubics, *members, *best, level, middle, motion.times, motion.size),
+        *(*cubics, *members, *best, level, middle, motion.times, motion.size, reading.turned),
     )
 
 
@@ -100,7 +105,7 @@ def _over_turn(  # type: ignore[no-untyped-def]
     task, order, pressed, exact, bound, angles, moved, unit, sense, scalar, *parts
 ):
     # 0 to 11 rows, to 14 sums, to 18 places, to 21 readings, to 24 points, to 27 bounds, to 31 cubics, to 37 members,
-    # to 42 the best, 43 levels, 44 middles, 45 and 46 of the motion
+    # to 42 the best, 43 levels, 44 middles, 45 and 46 of the motion, 47 kinds
     rows = Rows(parts[0], parts[1], parts[2], parts[3], parts[4], exact, Tables(*parts[5:12]))
     sums, places, points, bounds = Sums(*parts[12:15]), Places(*parts[15:19]), parts[22:25], parts[25:28]
     functions = Functions(np.empty((0, 0, 0, 0, 0)), np.empty((0, 0, 0, 0, 0)), np.empty((0, 0)))
@@ -111,7 +116,7 @@ def _over_turn(  # type: ignore[no-untyped-def]
         of = functions if task == BOTH else Functions(*points)
         curve, design, half = parts[19:22]
         cubic, rest, size = sums_of_rows(
-            rows, sums, curve, of, Functions(*bounds), bound, design, angles, half, task == FORCE_SUMS
+            rows, sums, curve, of, Functions(*bounds), bound, design, angles, half, task == FORCE_SUMS, parts[47]
         )
     elif task == PEAKS:
         motion = Motion(moved, unit, sense, parts[45], parts[46], scalar)

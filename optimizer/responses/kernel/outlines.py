@@ -31,8 +31,8 @@ class Outlines(NamedTuple):
     centre, radius : (J,) of the smallest circles around them.
     lower, upper : (J,) what the radius of the smallest circle around the curve is not below, and what none of its
         points is farther than from the centre.
-    curve, place : (m,) which places hold which circle.
     size : (J,) largest distance of a place from the origin.
+    curve, at, angle : (m,) which pieces and angles [rad] hold which circle.
     """
 
     piece: np.ndarray
@@ -41,9 +41,10 @@ class Outlines(NamedTuple):
     radius: Real
     lower: Real
     upper: Real
-    curve: np.ndarray
-    place: np.ndarray
     size: Real
+    curve: np.ndarray
+    at: np.ndarray
+    angle: Real
 
 
 @kernel
@@ -58,8 +59,8 @@ def outlines(cubics, number, held, group):  # type: ignore[no-untyped-def]
     values = np.empty((curves, held.size * share), np.complex128)
     centre, radius = np.empty(curves, np.complex128), np.empty(curves)
     lower, upper = np.empty(curves), np.empty(curves)
-    curve, place, count = np.empty(3 * curves, np.int64), np.empty(3 * curves, np.int64), 0
-    size = np.zeros(curves)
+    size, count = np.zeros(curves), 0
+    curve, at, angle = np.empty(3 * curves, np.int64), np.empty(3 * curves, np.int64), np.empty(3 * curves)
     largest_of, bounds = np.full(curves, -1), np.full(curves, -np.inf)
     for j in range(curves):
         centre[j], radius[j] = _box(cubics, number[j], held)
@@ -81,7 +82,9 @@ def outlines(cubics, number, held, group):  # type: ignore[no-untyped-def]
         size[j] = np.sqrt(largest)
         centre[j], radius[j], support, _ = smallest(values[j])
         for k in range(support.size):
-            curve[count], place[count] = j, support[k]
+            there, place = held[support[k] // share], PLACES[support[k] % share]
+            curve[count], at[count] = j, there
+            angle[count] = cubics.centre[number[j], there] + cubics.half[number[j], there] * place
             count += 1
         rest, most = 0.0, -np.inf
         for p in range(held.size):
@@ -92,7 +95,8 @@ def outlines(cubics, number, held, group):  # type: ignore[no-untyped-def]
             most = max(most, farthest + 0.125 * BETWEEN**2 * bend + cubics.rest[number[j], held[p]])
         lower[j], upper[j] = radius[j] - rest, most
         bounds[group[j]] = max(bounds[group[j]], lower[j])
-    return Outlines(held, values, centre, radius, lower, upper, curve[:count].copy(), place[:count].copy(), size)
+    curve, at, angle = curve[:count].copy(), at[:count].copy(), angle[:count].copy()
+    return Outlines(held, values, centre, radius, lower, upper, size, curve, at, angle)
 
 
 @inner
@@ -137,11 +141,12 @@ def _box(cubics, curve, held):  # type: ignore[no-untyped-def]
 
 @kernel
 def farthest(cubics, number, outline, chosen, centre):  # type: ignore[no-untyped-def]
-    """Where some outlines (n,) are about as far from centres (n,) as anywhere: of which, pieces, angles (m,) rad."""
+    """Where some outlines (n,) are about as far from centres (n,) as anywhere: of which of all outlines, their curves,
+    pieces and half widths of these, angles (m,) rad."""
     share, pieces = PLACES.size, outline.piece
     most = outline.values.shape[1]
     distance, which = np.empty(most), np.empty(chosen.size * most, np.int64)
-    piece, angle, count = np.empty(chosen.size * most, np.int64), np.empty(chosen.size * most), 0
+    piece, angle, count = np.empty(chosen.size * most, np.int64), np.empty((2, chosen.size * most)), 0
     for n in range(chosen.size):
         largest = 0.0
         for k in range(most):
@@ -153,10 +158,11 @@ def farthest(cubics, number, outline, chosen, centre):  # type: ignore[no-untype
                 continue
             curve, there = number[chosen[n]], pieces[k // share]
             at = _farthest(cubics.cubic[curve, there], centre[n], PLACES[k % share])
-            which[count], piece[count] = n, there
-            angle[count] = cubics.centre[curve, there] + cubics.half[curve, there] * at
+            which[count], piece[count], angle[1, count] = chosen[n], there, cubics.half[curve, there]
+            angle[0, count] = cubics.centre[curve, there] + cubics.half[curve, there] * at
             count += 1
-    return which[:count].copy(), piece[:count].copy(), angle[:count].copy()
+    which = which[:count].copy()
+    return which, number[which], piece[:count].copy(), angle[1, :count].copy(), angle[0, :count].copy()
 
 
 @kernel
@@ -181,12 +187,15 @@ def circles(of, points, chosen):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def nearer(cubic, centre):  # type: ignore[no-untyped-def]
-    """Places (m,) near 0 at which cubics (m, 4) are farthest from centres (m,)."""
-    places = np.empty(centre.size)
-    for n in range(centre.size):
-        places[n] = _farthest(cubic[n], centre[n], 0.0)
-    return places
+def nearer(cubics, curve, piece, angle, cubic, centre):  # type: ignore[no-untyped-def]
+    """Angles (m,) rad near others (m,) at which curves (m,) are farthest from centres (m,) within their pieces (m,), by
+    cubics (m, 4) about the others."""
+    angles = np.empty(angle.size)
+    for n in range(angle.size):
+        middle, half = cubics.centre[curve[n], piece[n]], cubics.half[curve[n], piece[n]]
+        at = angle[n] + half * _farthest(cubic[n], centre[n], 0.0)
+        angles[n] = min(max(at, middle - half), middle + half)
+    return angles
 
 
 @inner
