@@ -2,6 +2,7 @@
 
 Numba optimises every function for itself, makes machine code of it, and optimises it again in all that it is linked
 into. Of most of ours nobody asks for machine code, so both wait until somebody does: a sixth of the time to compile.
+Before they are linked functions take the first level alone: what a higher one finds is found once linked.
 Another sixth is saved as loops are put into lanes, but not written out several times: webs, rows and coefficients are
 few.
 """
@@ -19,6 +20,14 @@ class _Linked(Library):
     """A function and all that it calls, optimised when its machine code is first asked for."""
 
     _made = False
+
+    def _optimize_functions(self, module: Any) -> None:
+        # by passes that are put together once, and not those that are only named here
+        module.data_layout = self._codegen._data_layout  # noqa: SLF001
+        passes, builder = self._codegen._function_pass_manager()  # noqa: SLF001
+        for function in module.functions:
+            if not function.is_declaration:
+                passes.run(function, builder)
 
     def _optimize_final_module(self) -> None:
         """Later, or never."""
@@ -58,8 +67,16 @@ def link_first() -> None:
         options.loop_unrolling = options.loop_interleaving = False
         return create_pass_builder(codegen._tm, options)  # noqa: SLF001
 
+    def first_passes() -> tuple[Any, PassBuilder]:
+        # all is optimised once more where it is linked
+        builder = short_loops(opt=1)
+        passes = builder.getFunctionPassManager()
+        passes.add_refprune_pass()
+        return passes, builder
+
     # numba has no options for these
     codegen._library_class, codegen._pass_builder = _Linked, short_loops  # noqa: SLF001
+    codegen._function_pass_manager = first_passes  # noqa: SLF001
     set_env = codegen.set_env
 
     def set_where_made(name: str, env: Any) -> None:

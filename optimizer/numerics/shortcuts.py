@@ -13,7 +13,7 @@ from types import ModuleType
 from typing import Any
 
 from llvmlite.binding import ffi
-from numba.core import event, ir
+from numba.core import errors, event, ir
 from numba.core.base import BaseContext
 from numba.core.cpu import CPUContext
 from numba.core.postproc import PostProcessor, VariableLifetime
@@ -22,14 +22,17 @@ from numba.core.transforms import canonicalize_cfg
 from numba.core.types import Function
 from numba.core.typing.context import BaseContext as TypingContext
 from numba.core.typing.context import Context
+from numba.core.typing.templates import _OverloadFunctionTemplate
 
 
 def take_shortcuts() -> None:
     """From now on, in this process."""
     _keep_operators()
+    _share_implementations()
     _keep_sizes()
     _name_modules()
     _silence_events()
+    _leave_out_colours()
     _postpone_lifetimes()
     _list_variables_by_type()
     _load_registries_once()
@@ -42,10 +45,7 @@ def _keep_operators() -> None:
     def get_call_type(self: Any, context: Any, args: tuple[Any, ...], kws: Any) -> Any:
         if kws:
             return resolve(self, context, args, kws)
-        flags = ConfigStack.top_or_none()
-        # what it calls is compiled as the caller is
-        options = flags and frozenset((name, str(value)) for name, value in flags._values.items())  # noqa: SLF001
-        if (key := (self, args, options)) not in memory:
+        if (key := (self, args, _options())) not in memory:
             signature = resolve(self, context, args, kws)
             memory[key] = signature, self._impl_keys[signature.args]
         # of the same types with other options, it was another function since
@@ -53,6 +53,25 @@ def _keep_operators() -> None:
         return signature
 
     function.get_call_type = get_call_type
+
+
+def _options() -> tuple[str, ...]:
+    """How what a function calls is compiled: what numba hands on of the caller's own options."""
+    flags = ConfigStack.top_or_none()
+    return (
+        () if flags is None else (str(flags.nrt), str(flags.fastmath), str(flags.error_model), str(flags.forceinline))
+    )
+
+
+def _share_implementations() -> None:
+    # numba compiles what makes an array or finds the larger number anew for entries and for inner functions
+    build = _OverloadFunctionTemplate._build_impl  # noqa: SLF001
+
+    def get_impl(self: Any, args: Any, kws: dict[str, Any]) -> Any:
+        key = self.context, tuple(args), tuple(kws.items()), _options()
+        return self._impl_cache[key] if key in self._impl_cache else build(self, key, args, kws)
+
+    _OverloadFunctionTemplate._get_impl = get_impl  # noqa: SLF001
 
 
 def _keep_sizes() -> None:
@@ -76,6 +95,18 @@ def _silence_events() -> None:
     event.start_event = event.end_event = lambda *_, **__: None
     event.trigger_event = event.install_timer = lambda *_, **__: empty
     ffi.lib._lock._cblist.clear()  # noqa: SLF001
+
+
+class _Plain:
+    """No colours, whatever is to be shown."""
+
+    def __getattr__(self, name: str) -> Callable[..., str]:
+        return lambda message="": message
+
+
+def _leave_out_colours() -> None:
+    # of every operator that an operand is not, it writes in colours why, where colorama is installed, as tests have it
+    vars(errors)["_termcolor_inst"] = _Plain()
 
 
 def _postpone_lifetimes() -> None:

@@ -50,8 +50,12 @@ def crossings(cubics, level, rows, sums, middle):  # type: ignore[no-untyped-def
         count[curve[k]] += 1
     for k in range(jumped.size):
         count[jumped[k]] += 1
+    most = 0
+    for n in range(count.size):
+        # numba's own maximum takes a fifth of a second to compile
+        most = max(most, count[n])
     # never a single angle, for which numpy would add the rows in another order
-    angles = np.zeros((level.size, count.max() + 2))
+    angles = np.zeros((level.size, most + 2))
     count[:] = 0
     for k in range(curve.size):
         angles[curve[k], count[curve[k]]] = centre[k] + half[k] * place[k]

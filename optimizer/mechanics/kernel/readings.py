@@ -32,8 +32,8 @@ _OWN = 5
 _RATIO, _TURNS, _ZERO, _MASS, _RUBBED, _FRICTION = np.arange(6)
 _AREA = 6
 _NUMBER, _ANGLE, _DESIGN = np.arange(3)
-#: numbers of a row among those of its motion and of its scale
-_LAM, _SENSE, _INERTIA, _RUBBING = 1, 3, 0, 1
+#: numbers of a row among those of its motion and of its scale, as numpy's integers like all that is handed on
+_LAM, _SENSE, _INERTIA, _RUBBING = np.array((1, 3, 0, 1))
 
 
 @inner_with_arrays

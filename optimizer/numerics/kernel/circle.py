@@ -7,6 +7,8 @@ from optimizer.numerics.compiling import inner, kernel
 
 #: a point this share of the extent outside a circle is on it
 _ON = 1e-14
+#: as numpy's integer, like all that is handed on
+_SINGLE = np.int64(1)
 
 
 @kernel
@@ -22,7 +24,7 @@ def smallest(points):  # type: ignore[no-untyped-def]
     per_extent = 1.0 / max(high.real - low.real, high.imag - low.imag, SMALLEST)
     first = _farthest(points, middle, 0j, per_extent)
     slack = _ON * abs(points[first] - middle)
-    support, weights, count = np.zeros(3, np.int64), np.ones(3), 1
+    support, weights, count = np.zeros(3, np.int64), np.ones(3), _SINGLE
     support[0] = first
     centre, radius = points[first] - middle, 0.0
     trial, held, of_held, few = np.zeros(4, np.int64), np.zeros(3, np.int64), np.ones(3), np.zeros(4, np.complex128)

@@ -1,6 +1,8 @@
 """Of the points where both stages ended the ones to take, with their proofs, compiled:
 :mod:`optimizer.program.methods.compiled`."""
 
+from typing import Any
+
 import numpy as np
 
 from optimizer.program.kernel.bounds import bound
@@ -13,6 +15,8 @@ from optimizer.program.kernel.values import programs_of, value
 _SHARP = 1e-4
 #: of a mass that is told from dust whatever the rounding
 _ABOVE = 1.0 + 1e-9
+#: of the proofs, as numpy's integer like all that is handed on
+_FIRST: Any = np.int64(0)
 
 
 @folded
@@ -73,7 +77,7 @@ def proof_of(programs, n, sizes, solver, share, objective, rest, term, row, ceil
     share : how far above the smallest objective an optimum may be.
     objective, rest : of a point, and of rest.
     """
-    best, highest, first = 0, -np.inf, 0.0
+    best, highest, first = _FIRST, -np.inf, 0.0
     for which in range(3):
         candidate(which, programs, n, sizes, solver, term, row, ceiling)
         lower = bound(0.0, 0.0, term, row, ceiling, programs, n, programs.cap)
