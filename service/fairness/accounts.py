@@ -43,10 +43,9 @@ class Accounts:
 
     def least(self) -> float:
         """The least that anybody who is here has had, and never less than before [s]."""
-        at = self._clock()
-        self._least_s = max(
-            self._least_s, min((account.now(at) for account in self._here.values()), default=self._least_s)
-        )
+        if self._here:
+            at = self._clock()
+            self._least_s = max(self._least_s, min([account.now(at) for account in self._here.values()]))
         return self._least_s
 
     def come(self, owner: str) -> None:

@@ -2,8 +2,8 @@
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 from itertools import islice
-from typing import NamedTuple
 
 #: what was so long ago counts for a third of what is now [s]
 LATELY_S = 5.0
@@ -13,7 +13,8 @@ _NEW_S = 1.0
 _NOTHING = 0.001
 
 
-class _Load(NamedTuple):
+@dataclass(slots=True)
+class _Load:
     """An average that began with nothing, and since when [s]."""
 
     since: float
@@ -23,10 +24,6 @@ class _Load(NamedTuple):
 
     def now(self, at: float) -> float:
         return self.turns + (self.average - self.turns) * math.exp((self.at - at) / LATELY_S)
-
-    def corrected(self, at: float) -> float:
-        """The average without the nothing that it began with."""
-        return self.now(at) / -math.expm1(min(self.since - at, -_NEW_S) / LATELY_S)
 
 
 class Loads:
@@ -47,9 +44,12 @@ class Loads:
         self._loads: dict[str, _Load] = {}
 
     def of(self, owner: str) -> float:
-        """The average of an owner, whoever it is."""
+        """The average of an owner, whoever it is, without the nothing that it began with."""
         load = self._loads.get(owner)
-        return 0.0 if load is None else load.corrected(self._clock())
+        if load is None:
+            return 0.0
+        at = self._clock()
+        return load.now(at) / -math.expm1(min(load.since - at, -_NEW_S) / LATELY_S)
 
     def take(self, owner: str) -> None:
         """Begin a turn of an owner."""
@@ -63,8 +63,12 @@ class Loads:
 
     def _change(self, owner: str, turns: int, average: float) -> None:
         at = self._clock()
-        load = self._loads.pop(owner, None) or _Load(at, 0.0, 0, at)
-        self._loads[owner] = _Load(load.since, load.now(at) + average, load.turns + turns, at)
+        load = self._loads.pop(owner, None)
+        if load is None:
+            load = _Load(at, average, turns, at)
+        else:
+            load.average, load.turns, load.at = load.now(at) + average, load.turns + turns, at
+        self._loads[owner] = load
         # one comes at most, so they do not become many; one turn may be nothing where many are much
         for name, other in tuple(islice(self._loads.items(), 2)):
             if not other.turns and at - other.at >= _NEW_S and other.now(at) < _NOTHING:

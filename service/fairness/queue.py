@@ -2,9 +2,9 @@
 
 import asyncio
 import time
-from collections import Counter, OrderedDict, deque
+from collections import OrderedDict, deque
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from service.fairness.accounts import Accounts
 from service.fairness.loads import Loads
@@ -28,11 +28,12 @@ class Turn:
     computed_s : what a core has computed in it [s]; if not known, as long as it lasted.
     above : it is one above the size.
     seldom : its owner had little when it began: whoever asks without end gives way to it.
+    refused : its place was given to another owner.
+    waits : done once it has begun or is refused; None where nobody waits.
     """
 
     turns: "FairQueue"
     owner: str
-    decided: asyncio.Event = field(default_factory=asyncio.Event)
     wanted: bool = False
     begun: bool = False
     begun_at: float = 0.0
@@ -40,6 +41,8 @@ class Turn:
     ended: bool = False
     above: bool = False
     seldom: bool = False
+    refused: bool = False
+    waits: asyncio.Future[None] | None = None
 
     async def granted(self) -> None:
         """Wait until it begins; who has stopped waiting may wait again.
@@ -50,13 +53,23 @@ class Turn:
             at once, or when the place is given to another owner.
         """
         self.turns.ask(self)
-        await self.decided.wait()
+        if not (self.begun or self.refused):
+            self.waits = asyncio.get_running_loop().create_future()
+            await self.waits
         if not self.begun:
             raise Full
 
+    def decide(self) -> None:
+        """Go on with whoever waits for it, as it has begun or is refused."""
+        # who waited may be gone
+        if self.waits is not None and not self.waits.done():
+            self.waits.set_result(None)
+
     def end(self) -> None:
         """It was had, or is not wanted any more."""
-        self.turns.end(self)
+        # else nobody knows of it
+        if self.wanted and not self.ended:
+            self.turns.end(self)
 
     async def __aenter__(self) -> "Turn":
         try:
@@ -100,7 +113,7 @@ class FairQueue:
         # is no pressure, else who waits once would wait ever longer
         self._pressure = Loads(clock)
         self._pressing: set[str] = set()
-        self._running: Counter[str] = Counter()
+        self._running: dict[str, int] = {}
         self._begun: set[Turn] = set()
         self._above = 0
         #: set while anybody waits
@@ -117,7 +130,7 @@ class FairQueue:
 
     def more(self, owner: str) -> bool:
         """Whether an owner has more than one turn, or waits for one."""
-        return self._running[owner] > 1 or owner in self._waiting
+        return self._running.get(owner, 0) > 1 or owner in self._waiting
 
     def gives_way(self, turn: Turn) -> bool:
         """Whether the owner of a turn asks without end while somebody has one who asks now and then."""
@@ -128,25 +141,20 @@ class FairQueue:
         return Turn(self, owner)
 
     def end(self, turn: Turn) -> None:
-        """It was had, or is not wanted any more."""
-        if turn.ended:
-            return
+        """A turn that was asked for was had, or is not wanted any more."""
         turn.ended = True
-        if not turn.wanted:
-            # nobody knows of it
-            return
         if turn.begun:
             self._begun.remove(turn)
-            self._running[turn.owner] -= 1
-            if not self._running[turn.owner]:
-                del self._running[turn.owner]
+            left = self._running.pop(turn.owner) - 1
+            if left:
+                self._running[turn.owner] = left
             self._above -= turn.above
             self._accounts.take(turn.owner, -1)
             lasted_s = self._clock() - turn.begun_at
             self._loads.end(turn.owner, lasted_s, lasted_s if turn.computed_s is None else turn.computed_s)
         else:
             self._leave(turn)
-        if turn.owner in self._accounts and not self._running[turn.owner] and turn.owner not in self._waiting:
+        if turn.owner in self._accounts and turn.owner not in self._running and turn.owner not in self._waiting:
             self._accounts.go(turn.owner)
         self._weigh(turn.owner)
         if self._waiting:
@@ -172,7 +180,8 @@ class FairQueue:
                 raise Full
             victim = longest[-1]
             self._leave(victim)
-            victim.decided.set()
+            victim.refused = True
+            victim.decide()
         if not own:
             self._waiting[turn.owner] = deque()
             self._since[turn.owner] = self._clock()
@@ -192,21 +201,21 @@ class FairQueue:
         return now_and_then and self._loads.of(owner) <= 0.5 * self.size / len(owners)
 
     def _is_free(self) -> bool:
-        return self._running.total() - self._above < self.size
+        return len(self._begun) - self._above < self.size
 
     def _begin(self, turn: Turn) -> None:
         turn.begun, turn.begun_at, turn.above = True, self._clock(), not self._is_free()
         turn.seldom = self._had_little(turn.owner)
         self._above += turn.above
         self._begun.add(turn)
-        self._running[turn.owner] += 1
+        self._running[turn.owner] = self._running.get(turn.owner, 0) + 1
         self._accounts.take(turn.owner, 1)
         self._loads.take(turn.owner)
         self._weigh(turn.owner)
-        turn.decided.set()
+        turn.decide()
 
     def _weigh(self, owner: str) -> None:
-        presses = self._running[owner] > 0 or len(self._waiting.get(owner, ())) > 1
+        presses = owner in self._running or len(self._waiting.get(owner, ())) > 1
         if presses and owner not in self._pressing:
             self._pressing.add(owner)
             self._pressure.take(owner)

@@ -1,6 +1,5 @@
 """What one client may hold at a time of what all share, so that its legal traffic harms nobody else."""
 
-from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -15,7 +14,7 @@ class Quota:
 
     def __init__(self, share: Share) -> None:
         self.share = share
-        self._held: Counter[str] = Counter()
+        self._held: dict[str, int] = {}
         self._total = 0
 
     def take(self, client: str, amount: int = 1, many: bool = False) -> bool:
@@ -25,7 +24,7 @@ class Quota:
         ----------
         many : it stands for many clients, who have more than what is there for each.
         """
-        share, then = self.share, self._held[client] + amount
+        share, then = self.share, self.held(client) + amount
         reserve = share.reserve if then <= share.assured else 0
         if self._total + amount > share.altogether + reserve or not (
             many or then <= max(share.per_client, share.assured)
@@ -38,13 +37,13 @@ class Quota:
     def give(self, client: str, amount: int = 1) -> None:
         """Have a client hold less."""
         self._total -= amount
-        self._held[client] -= amount
-        if not self._held[client]:
-            del self._held[client]
+        left = self._held.pop(client, 0) - amount
+        if left:
+            self._held[client] = left
 
     def held(self, client: str) -> int:
         """What a client holds."""
-        return self._held[client]
+        return self._held.get(client, 0)
 
 
 def quotas(shares: Mapping[Resource, Share]) -> Mapping[Resource, Quota]:
@@ -58,7 +57,7 @@ class Holding:
 
     quotas: Mapping[Resource, Quota]
     who: str
-    _held: Counter[Resource] = field(default_factory=Counter)
+    _held: dict[Resource, int] = field(default_factory=dict)
 
     def take(self, resource: Resource, amount: int = 1) -> None:
         """Hold more.
@@ -71,7 +70,7 @@ class Holding:
         if not quota.take(self.who, amount):
             units = quota.share.unit
             raise OverShare(f"Too many {units} are open for this client; try again when some of them have ended.")
-        self._held[resource] += amount
+        self._held[resource] = self._held.get(resource, 0) + amount
 
     def give(self, resource: Resource, amount: int) -> None:
         """Hold less."""
@@ -87,5 +86,5 @@ class Holding:
 
 def holding(request: Request) -> Holding:
     """What a request holds; :class:`~service.guard.access.Access` has made it, and ends it."""
-    result: Holding = request.state.holding
+    result: Holding = request.scope["state"]["holding"]
     return result

@@ -1,6 +1,6 @@
 """Who asks, before a path is even looked at; and, at each route, whether they may."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Awaitable, Callable, Mapping
 from typing import Any
 
 from fastapi import Depends
@@ -114,10 +114,10 @@ def _saying(rate: Rate, send: Send) -> Send:
     """State with an answer what is left of the rate of its key."""
     headers = [(name.lower().encode(), value.encode()) for name, value in rate.headers.items()]
 
-    async def say(message: Message) -> None:
+    def say(message: Message) -> Awaitable[None]:
         if message["type"] == "http.response.start":
             message["headers"] = [*message.get("headers", ()), *headers]
-        await send(message)
+        return send(message)
 
     return say
 

@@ -102,7 +102,8 @@ NOBODY = Caller(None, None, frozenset())
 
 def caller_of(request: Request) -> Caller:
     """Whose request it is; :class:`~service.guard.access.Access` has found out."""
-    caller: Caller = request.state.caller
+    # its state makes an object for each look
+    caller: Caller = request.scope["state"]["caller"]
     return caller
 
 

@@ -4,6 +4,7 @@ import asyncio
 import logging
 from collections.abc import AsyncIterator
 from contextlib import ExitStack
+from dataclasses import dataclass
 from typing import Annotated, BinaryIO, TypeVar
 
 from anyio import CapacityLimiter, to_thread
@@ -12,6 +13,7 @@ from starlette.requests import Request
 from starlette.responses import Response, StreamingResponse
 
 from schemas.base.model import Model
+from service.common.coding import Coding
 from service.common.validation import read_request
 from service.computations import XLSX, Computation, Form
 from service.fairness.quotas import holding
@@ -30,9 +32,13 @@ from service.workers.pool import Pool
 from service.workers.task import Task
 from service.workers.worker import Answer, Crashed, Outcome, Refused
 
+Header = tuple[bytes, bytes]
 Question = TypeVar("Question", bound=Model)
 
 _LOG = logging.getLogger(__name__)
+#: headers of a request that its answer depends on; what they say is kept, of so many bytes and so often
+_OF_ANSWERS = frozenset({b"accept", b"accept-encoding", b"content-encoding", b"content-type", b"prefer"})
+_SHORT, _CACHE_SIZE = 512, 256
 #: of a large answer that is in a file, read at a time [bytes], by so many threads
 _PIECE_BYTES = 65_536
 _READERS = 4
@@ -56,6 +62,7 @@ class Computing:
         self._metrics = metrics
         self._tracing = tracing
         self._readers = CapacityLimiter(_READERS)
+        self._cache: dict[tuple[str, tuple[Header, ...]], _Wishes] = {}
         self.limits = SizeLimits.of(settings)
 
     async def body(self, request: Request) -> bytes:
@@ -95,11 +102,11 @@ class Computing:
         OverShare, MissingInput, OutOfRange, OutOfMemory, Busy, TooSlow, WorkerDied, WorkersFailed, ClientGone
             all of which have a row in the tables that :mod:`service.app` joins, as those of jobs have.
         """
-        form = _form(request, computation)
+        self._readiness.require()
         # a key that is none is refused whether it counts here or not
         key = idempotency_key(request) if computation.later else None
-        self._readiness.require()
-        workbook = announced(request, XLSX if computation.workbook else None) == XLSX
+        wishes = self._wishes(request, computation)
+        form, workbook = wishes.form, wishes.workbook
         body = await self._body(request)
 
         def accept() -> Response:
@@ -107,33 +114,49 @@ class Computing:
             return accepted(request, *desk_of(request).later(computation.name, question, key, body))
 
         # a job is asked for and answered in JSON; other forms are answered at once, as RFC 7240 allows
-        if computation.later and prefers_later(request) and not workbook and form is computation.forms[0]:
+        if computation.later and wishes.later and not workbook and form is computation.forms[0]:
             return await threads_of(request).run(holding(request).who, accept)
 
         long = computation.long_by_kind(form, workbook)
-        task = Task(computation, form, body, self.limits, coding_of(request), workbook, long)
+        task = Task(computation, form, body, self.limits, wishes.coding, workbook, long)
         with self._tracing.span(computation.name), Waited(request):
             outcome = await self._pool.run(task, holding(request).who)
         if self._pool.queued:
             # whose turn it is now is handed to the worker before this answer is written: it would wait for that
             await asyncio.sleep(0)
         reply = self._judged(outcome, computation.name)
-        varies = "Accept, Accept-Encoding" if len(computation.forms) > 1 else "Accept-Encoding"
-        headers = {"Cache-Control": "no-store", **dict(form.headers), "Vary": varies}
+        headers = [*wishes.headers, (b"content-length", b"%d" % reply.size)]
         if reply.stem is not None:
-            headers["Content-Disposition"] = f"inline; {file_name(reply.stem, form.suffix)}"
+            disposition = f"inline; {file_name(reply.stem, form.suffix)}"
+            headers.append((b"content-disposition", disposition.encode("latin-1")))
         if reply.coding is not None:
-            headers["Content-Encoding"] = reply.coding
+            headers.append((b"content-encoding", reply.coding.encode()))
         if reply.file is None:
-            return Response(reply.content, media_type=form.media_type, headers=headers)
+            return _Written(reply.content, headers)
         with ExitStack() as refused:
             refused.enter_context(reply.file)
             holding(request).take("files", reply.size)
             refused.pop_all()
-        content = self._read(reply.file)
-        return StreamingResponse(
-            content, media_type=form.media_type, headers={**headers, "Content-Length": str(reply.size)}
-        )
+        stream = StreamingResponse(self._read(reply.file))
+        stream.raw_headers = headers
+        return stream
+
+    def _wishes(self, request: Request, computation: Computation) -> "_Wishes":
+        """What the headers of a request say of its answer; they are few, and to read them takes as long as all else.
+
+        Raises
+        ------
+        NotAcceptable, UnsupportedMedia
+        """
+        headers = tuple([header for header in request.scope["headers"] if header[0] in _OF_ANSWERS])
+        wishes = self._cache.get((computation.name, headers))
+        if wishes is None:
+            wishes = _Wishes.of(request, computation)
+            if sum(len(value) for _, value in headers) <= _SHORT:
+                if len(self._cache) >= _CACHE_SIZE:
+                    self._cache.clear()
+                self._cache[computation.name, headers] = wishes
+        return wishes
 
     async def _read(self, file: BinaryIO) -> AsyncIterator[bytes]:
         """What is in a file, as far as the client has read what was before."""
@@ -152,6 +175,39 @@ class Computing:
             _LOG.error("%s: %s", name, fault)
         self._metrics.computed(name, outcome)
         return outcome
+
+
+@dataclass(frozen=True)
+class _Wishes:
+    """What the headers of a request say of its answer, and what those of an answer say in any case.
+
+    workbook : whether the body is one.
+    later : whether it may be a job.
+    """
+
+    form: Form
+    workbook: bool
+    later: bool
+    coding: Coding | None
+    headers: tuple[Header, ...]
+
+    @classmethod
+    def of(cls, request: Request, computation: Computation) -> "_Wishes":
+        form = _form(request, computation)
+        workbook = announced(request, XLSX if computation.workbook else None) == XLSX
+        varies = "Accept, Accept-Encoding" if len(computation.forms) > 1 else "Accept-Encoding"
+        fields = {"Cache-Control": "no-store", **dict(form.headers), "Vary": varies}
+        headers = Response(media_type=form.media_type, headers=fields).raw_headers
+        always = tuple(header for header in headers if header[0] != b"content-length")
+        return cls(form, workbook, prefers_later(request), coding_of(request), always)
+
+
+class _Written(Response):
+    """Bytes and headers as they go out."""
+
+    def __init__(self, content: bytes, headers: list[Header]) -> None:
+        self.status_code, self.background = 200, None
+        self.body, self.raw_headers = content, headers
 
 
 def _form(request: Request, computation: Computation) -> Form:

@@ -2,7 +2,6 @@
 
 import asyncio
 import re
-from contextlib import nullcontext
 
 from starlette.requests import ClientDisconnect, Request
 
@@ -45,27 +44,36 @@ async def read_body(request: Request, max_bytes: int, timeout_s: float, holding:
     """
     # counted here and not by the framework, which answers an oversized Content-Length in plain text
     announced = header(request.scope, b"content-length") or ""
-    too_large = BodyTooLarge(f"The body is larger than {max_bytes} bytes.")
     if announced.isdecimal() and (len(announced) > 18 or int(announced) > max_bytes):
-        raise too_large
-    body = bytearray()
+        raise _too_large(max_bytes)
     client = client_of(request)
-    try:
+    if client is not None and client.sent_all:
         # what has come needs no timer
-        async with nullcontext() if client is not None and client.sent_all else asyncio.timeout(timeout_s):
-            more = True
-            while more:
-                message = await request.receive()
-                if message["type"] == "http.disconnect":
-                    raise ClientDisconnect
-                chunk, more = message.get("body", b""), message.get("more_body", False)
-                if len(body) + len(chunk) > max_bytes:
-                    raise too_large
-                holding.take("bodies", len(chunk))
-                body += chunk
+        return await _received(request, max_bytes, holding)
+    try:
+        async with asyncio.timeout(timeout_s):
+            return await _received(request, max_bytes, holding)
     except TimeoutError:
         raise BodyTooSlow(f"The body did not arrive within {timeout_s:g} s.") from None
-    return bytes(body)
+
+
+async def _received(request: Request, max_bytes: int, holding: Holding) -> bytes:
+    pieces, size, more = [], 0, True
+    while more:
+        message = await request.receive()
+        if message["type"] == "http.disconnect":
+            raise ClientDisconnect
+        piece, more = message.get("body", b""), message.get("more_body", False)
+        size += len(piece)
+        if size > max_bytes:
+            raise _too_large(max_bytes)
+        holding.take("bodies", len(piece))
+        pieces.append(piece)
+    return b"".join(pieces)
+
+
+def _too_large(max_bytes: int) -> BodyTooLarge:
+    return BodyTooLarge(f"The body is larger than {max_bytes} bytes.")
 
 
 def announced(request: Request, other: str | None = None) -> str:

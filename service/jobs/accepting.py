@@ -5,7 +5,7 @@ import re
 from starlette.requests import Request
 from starlette.responses import Response
 
-from service.common.headers import joined
+from service.common.headers import header, joined
 from service.guard.keys import caller_of
 from service.guard.refusals import BadHeader
 from service.jobs.job import Job
@@ -34,7 +34,7 @@ def idempotency_key(request: Request) -> str | None:
     ------
     BadHeader
     """
-    key = request.headers.get("idempotency-key")
+    key = header(request.scope, b"idempotency-key")
     if key is not None and _KEY.fullmatch(key) is None:
         raise BadHeader("Idempotency-Key must be 1 to 255 visible ASCII characters.")
     return key

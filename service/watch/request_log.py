@@ -1,13 +1,12 @@
 """One line of the log, one count of the metrics and one span for every request."""
 
 import logging
+import os
 import re
-import secrets
 import time
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from typing import Any
 
-from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from service.common.addresses import address_of
@@ -54,7 +53,7 @@ class RequestLog:
         begun = time.perf_counter()
         client_id = header(scope, b"x-request-id") or ""
         # two at once: each costs a call of the system
-        fresh = secrets.token_hex(32)
+        fresh = os.urandom(32).hex()
         request_id = client_id if _ID.fullmatch(client_id) else fresh[:32]
         traced = _TRACEPARENT.fullmatch(header(scope, b"traceparent") or "")
         method = "HEAD" if scope.get("head") else scope["method"]
@@ -62,7 +61,7 @@ class RequestLog:
         REQUEST.set(ids)
         status, refused, kind = 0, False, ""
 
-        async def note(message: Message) -> None:
+        def note(message: Message) -> Awaitable[None]:
             nonlocal status, refused, kind
             if message["type"] == "http.response.start":
                 status = message["status"]
@@ -71,9 +70,9 @@ class RequestLog:
             elif refused and not kind:
                 match = _KIND.search(message.get("body", b"")[:_LONGEST_PATH])
                 kind = match[1].decode() if match else "other"
-            await send(message)
+            return send(message)
 
-        with self._tracing.request(method, Headers(scope=scope)) as span:
+        with self._tracing.request(method, scope) as span:
             try:
                 await self._app(scope, receive, note)
             except BaseException:

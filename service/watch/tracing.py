@@ -1,11 +1,16 @@
 """Traces for OpenTelemetry, if asked for: a span for every request, and one inside for its computation."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from typing import Protocol
 
+from starlette.datastructures import Headers
+from starlette.types import Scope
+
 from schemas.base.version import package_version
 from service.settings import Settings
+
+_NOTHING: AbstractContextManager[None] = nullcontext()
 
 
 class NoTelemetry(ValueError):
@@ -24,15 +29,15 @@ class Span(Protocol):
 class Tracing:
     """Traces nothing."""
 
-    def request(self, name: str, headers: Mapping[str, str]) -> AbstractContextManager[Span | None]:
+    def request(self, name: str, scope: Scope) -> AbstractContextManager[Span | None]:
         """A span of a request, below that of the client if ``traceparent`` names one."""
-        del name, headers
-        return nullcontext()
+        del name, scope
+        return _NOTHING
 
     def span(self, name: str) -> AbstractContextManager[None]:
         """A span of a part of the request that is being answered."""
         del name
-        return nullcontext()
+        return _NOTHING
 
     def close(self) -> None:
         """Send what was not sent yet."""
@@ -55,11 +60,11 @@ class _OpenTelemetry(Tracing):
         self._tracer = self._provider.get_tracer("counterweight")
 
     @contextmanager
-    def request(self, name: str, headers: Mapping[str, str]) -> Iterator[Span | None]:
+    def request(self, name: str, scope: Scope) -> Iterator[Span | None]:
         from opentelemetry.trace import SpanKind
         from opentelemetry.trace.propagation.tracecontext import TraceContextTextMapPropagator
 
-        parent = TraceContextTextMapPropagator().extract(dict(headers))
+        parent = TraceContextTextMapPropagator().extract(dict(Headers(scope=scope)))
         with self._tracer.start_as_current_span(
             name, context=parent, kind=SpanKind.SERVER, record_exception=False
         ) as span:

@@ -60,6 +60,8 @@ class Connection(H11Protocol):
         self._next = b""
         self._asks: Client | None = None
         self._heads = Heads()
+        # h11 has read something: what it makes of that is asked of it from then on
+        self._by_h11 = False
         self._idle = Idleness(self.loop, self.timeout_keep_alive, self.timeout_keep_alive_handler)
         #: called when it has ended
         self.left: Callable[[], None] = _nothing
@@ -101,6 +103,7 @@ class Connection(H11Protocol):
         self._unset_keepalive_if_required()
         self._waits = True
         if not self.rounds.ask(client_network(self._address), lambda: self._look_at(data)):
+            # also that its client has left is seen later: what it asked is told in the log
             self.transport.hold_back()  # type: ignore[attr-defined]
 
     def _look_at(self, data: bytes) -> None:
@@ -118,17 +121,21 @@ class Connection(H11Protocol):
             self._begin(head)
             self._read_on(data[end:])
         else:
+            self._by_h11 = True
             super().data_received(data)
-        self._watch_headers()
+        if self._headers_timer is not None or self._missing or not self._plain:
+            # else it owes none, and no timer runs
+            self._watch_headers()
 
     def _plain_head(self, data: bytes) -> tuple[Head, int] | None:
         # h11 goes on with what it has begun to read
-        between = self.conn.our_state is h11.IDLE and self.conn.their_state is h11.IDLE
-        return self._heads.plain(data) if between and not self.conn.trailing_data[0] else None
+        if self._by_h11:
+            between = self.conn.our_state is h11.IDLE and self.conn.their_state is h11.IDLE
+            if not between or self.conn.trailing_data[0]:
+                return None
+        return self._heads.plain(data)
 
     def _begin(self, head: Head) -> None:
-        # it may have come together with the one before it
-        self._unset_keepalive_if_required()
         path, _, query = head.target.partition(b"?")
         self.headers = head.headers
         self._asks = Client(self.flow)
@@ -196,7 +203,8 @@ class Connection(H11Protocol):
         self._plain = False
         data, self._next = self._next, b""
         if data and not self.transport.is_closing():
-            # before what has come since, which may wait to be looked at
+            # it came together with the one before it, and before what has come since, which may wait to be looked at
+            self._unset_keepalive_if_required()
             self._read(data)
 
     def _watch_headers(self) -> None:
@@ -265,7 +273,8 @@ class Connection(H11Protocol):
 
     def _unset_keepalive_if_required(self) -> None:
         self._idle.end()
-        super()._unset_keepalive_if_required()
+        if self.timeout_keep_alive_task is not None:
+            super()._unset_keepalive_if_required()
 
     def _watch_writing(self) -> None:
         if self._write_timer is None:

@@ -1,30 +1,32 @@
 """Pages of other origins: what they may ask, and problem details where they may not."""
 
+from collections.abc import Awaitable
+
 from starlette.datastructures import Headers
 from starlette.middleware.cors import CORSMiddleware
 from starlette.responses import Response
 from starlette.types import Message, Receive, Scope, Send
 
+from service.common.headers import header
 from service.common.problems import PROBLEM_JSON, Fault, problem
 
 
 class Cors(CORSMiddleware):
     """Refuses as everything else here is refused; the framework does so in plain text."""
 
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if scope["type"] != "http" or any(name == b"origin" for name, _ in scope["headers"]):
-            await super().__call__(scope, receive, send)
-            return
+    def __call__(self, scope: Scope, receive: Receive, send: Send) -> Awaitable[None]:  # type: ignore[override]
+        if scope["type"] != "http" or header(scope, b"origin") is not None:
+            return super().__call__(scope, receive, send)
 
         # there is nothing to decide, but it would be answered otherwise with the header
-        async def vary(message: Message) -> None:
+        def vary(message: Message) -> Awaitable[None]:
             if message["type"] == "http.response.start":
                 headers = message.get("headers", ())
                 varies = b", ".join([*[value for name, value in headers if name == b"vary"], b"Origin"])
                 message["headers"] = [*[header for header in headers if header[0] != b"vary"], (b"vary", varies)]
-            await send(message)
+            return send(message)
 
-        await self.app(scope, receive, vary)
+        return self.app(scope, receive, vary)
 
     def preflight_response(self, request_headers: Headers) -> Response:
         response = super().preflight_response(request_headers)

@@ -67,8 +67,9 @@ class Joined:
 
     def go_on(self) -> None:
         """What has been read was looked at."""
-        self._held_back = False
-        self._read_on()
+        if self._held_back:
+            self._held_back = False
+            self._read_on()
 
     def _read_on(self) -> None:
         if not (self._full or self._held_back):

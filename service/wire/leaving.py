@@ -42,8 +42,9 @@ class Client:
 
     def tell(self, leave: Leave | None) -> None:
         """Have something called when it goes, or nothing any more."""
-        # what is not read does not end
-        self._flow.resume_reading()
+        if leave is not None:
+            # what is not read does not end
+            self._flow.resume_reading()
         self._on_leave = leave
 
 
@@ -64,25 +65,27 @@ class Waited:
     def __init__(self, request: Request) -> None:
         self._request = request
         self._gone = False
-        self._stop: Leave = _nothing
+        self._client = client_of(request)
+        self._watches: asyncio.Task[None] | None = None
 
     def __enter__(self) -> None:
         task = asyncio.current_task()
         assert task is not None
         self._task, self._cancelling = task, task.cancelling()
-        client = client_of(self._request)
-        if client is None:
-            self._stop = asyncio.create_task(self._watch()).cancel
-        elif client.gone:
+        if self._client is None:
+            self._watches = asyncio.create_task(self._watch())
+        elif self._client.gone:
             raise ClientGone
         else:
-            client.tell(self._leave)
-            self._stop = lambda: client.tell(None)
+            self._client.tell(self._leave)
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._stop()
+        if self._client is not None:
+            self._client.tell(None)
+        elif self._watches is not None:
+            self._watches.cancel()
         # as asyncio.timeout does it: others may have cancelled it too, and it ends for them then
         if self._gone and self._task.uncancel() <= self._cancelling and kind is asyncio.CancelledError:
             raise ClientGone from None
@@ -95,7 +98,3 @@ class Waited:
         while (await self._request.receive())["type"] != "http.disconnect":
             pass
         self._leave()
-
-
-def _nothing() -> None:
-    pass

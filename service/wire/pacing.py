@@ -1,6 +1,6 @@
 """Answers at the pace at which their clients read, client by client."""
 
-from collections.abc import Iterator
+from collections.abc import Awaitable, Iterator
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
@@ -24,10 +24,9 @@ class Pacing:
         self._app = app
         self._rounds = rounds
 
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+    def __call__(self, scope: Scope, receive: Receive, send: Send) -> Awaitable[None]:
         if scope["type"] != "http":
-            await self._app(scope, receive, send)
-            return
+            return self._app(scope, receive, send)
         start: Message | None = None
         refused = False
 
@@ -40,6 +39,13 @@ class Pacing:
                 start = message
                 return
             body = message.get("body", b"")
+            if len(body) <= PIECE_BYTES and not message.get("more_body"):
+                # small and whole
+                begin, start = start, None
+                if begin is not None:
+                    await send(begin)
+                await send(message)
+                return
             holding: Holding | None = scope.get("state", {}).get("holding")
             counted = len(body) if holding is not None and len(body) > PIECE_BYTES else 0
             if holding is not None and counted:
@@ -57,15 +63,10 @@ class Pacing:
             if holding is not None and counted:
                 holding.give("answers", counted)
 
-        await self._app(scope, receive, paced)
+        return self._app(scope, receive, paced)
 
     async def _hand_over(self, begin: Message | None, message: Message, who: str, send: Send) -> None:
-        """Part of an answer, the first one with its head: what is small and whole at once, all else piece by piece."""
-        if len(message.get("body", b"")) <= PIECE_BYTES and not message.get("more_body"):
-            if begin is not None:
-                await send(begin)
-            await send(message)
-            return
+        """Part of an answer, the first one with its head, piece by piece."""
         for piece in _pieces(message):
             await self._rounds.turn(who)
             if begin is not None:

@@ -1,5 +1,6 @@
 """What browsers are told about every answer."""
 
+from collections.abc import Awaitable
 from functools import lru_cache
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
@@ -31,12 +32,12 @@ class SecurityHeaders:
         self._app = app
         self._hsts_s = hsts_s
 
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+    # not a coroutine around others, nor is what it sends by: each costs as much as to look for a header
+    def __call__(self, scope: Scope, receive: Receive, send: Send) -> Awaitable[None]:
         if scope["type"] != "http":
-            await self._app(scope, receive, send)
-            return
+            return self._app(scope, receive, send)
 
-        async def add(message: Message) -> None:
+        def add(message: Message) -> Awaitable[None]:
             if message["type"] == "http.response.start":
                 # names are in small letters (ASGI)
                 headers = message.get("headers", ())
@@ -44,9 +45,9 @@ class SecurityHeaders:
                 page = fields.get(b"content-type", b"").startswith((b"text/html", b"image/svg"))
                 wanted = _wanted(page, fields.get(_POLICY), self._hsts_s if scope.get("scheme") == "https" else 0)
                 message["headers"] = [*headers, *[field for field in wanted if field[0] not in fields]]
-            await send(message)
+            return send(message)
 
-        await self._app(scope, receive, add)
+        return self._app(scope, receive, add)
 
 
 # policies are those of the service, which are few

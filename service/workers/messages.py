@@ -46,7 +46,7 @@ class Listener:
         self._from = from_
         self._loop: asyncio.AbstractEventLoop | None = None
         self._waits: asyncio.Future[None] | None = None
-        self._content = bytearray()
+        self._content = b""
         self._file: BinaryIO | None = None
         self._gone = False
 
@@ -67,7 +67,7 @@ class Listener:
                 raise EOFError
             self._waits = loop.create_future()
             await self._waits
-        content, self._content = self._content, bytearray()
+        content, self._content = self._content, b""
         file, self._file = self._file, None
         return pickle.loads(memoryview(content)[_LENGTH.size :]), file
 
@@ -109,6 +109,7 @@ class Listener:
             piece, beside = b"", []
         for _, _, files in beside:
             self._file = os.fdopen(_FILE.unpack(files)[0], "rb")
+        # most often that is all of it, and is not copied; what is large comes in a file
         self._content += piece
         if not piece:
             self._close()

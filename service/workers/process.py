@@ -8,7 +8,7 @@ import pickle
 import signal
 import socket
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, nullcontext, suppress
+from contextlib import ExitStack, contextmanager, nullcontext, suppress
 from dataclasses import replace
 from multiprocessing import forkserver
 from multiprocessing.process import BaseProcess
@@ -16,9 +16,10 @@ from pathlib import Path
 from threading import Lock, Timer
 
 from service.fairness.length import QUICK_S
+from service.workers import lanes
 from service.workers.messages import Listener
 from service.workers.task import Priority, Task
-from service.workers.worker import Answer, Long, Outcome, Reply, niceness, serve
+from service.workers.worker import Answer, Long, Outcome, Reply, serve
 
 _LOG = logging.getLogger(__name__)
 #: what the process has loaded that workers are forked from; every worker runs ``__main__`` anew, which is the last one
@@ -54,17 +55,22 @@ class Worker:
         #: for how long cores have computed the last task [s], once its outcome was heard
         self.computed_s: float | None = None
         self._before_s = 0.0
-        self._priority = Priority.FIRST
+        self._priority, self._lane = Priority.FIRST, lanes.FIRST
         context = multiprocessing.get_context("forkserver")
-        self._connection, theirs = socket.socketpair()
-        self._says = Listener(self._connection)
+        answers, theirs = socket.socketpair()
+        self._says = Listener(answers)
+        pairs = {lane: socket.socketpair() for lane in lanes.LANES}
+        self._lanes = {lane: ours for lane, (ours, _) in pairs.items()}
+        passed = theirs, *(other for _, other in pairs.values())
         self._process: BaseProcess = context.Process(
-            target=serve, args=(theirs, memory_bytes, folder), name="solver", daemon=True
+            target=serve, args=(*passed, memory_bytes, folder), name="solver", daemon=True
         )
         try:
-            with theirs:
+            with ExitStack() as ends:
+                for other in passed:
+                    ends.enter_context(other)
                 self._process.start()
-            with self._connection.makefile("rb") as stream:
+            with answers.makefile("rb") as stream:
                 failure = pickle.load(stream)
         except (Dead, OSError, EOFError):
             self.end()
@@ -82,9 +88,9 @@ class Worker:
 
     def send(self, task: Task, priority: Priority) -> None:
         """Have a task computed."""
-        self.computed_s, self._priority = None, priority
+        self.computed_s, self._priority, self._lane = None, priority, lanes.lane_of(priority)
         try:
-            self._connection.sendall(task.serialize(priority))
+            self._lanes[self._lane].sendall(task.serialize(priority))
         except OSError as error:
             raise Dead from error
 
@@ -114,11 +120,8 @@ class Worker:
         if priority <= self._priority:
             return
         self._priority = priority
-        # priorities are those of threads, and the first thread starts those of other tasks
         with suppress(OSError):
-            for thread in os.listdir(f"/proc/{self.pid}/task"):
-                if int(thread) != self.pid:
-                    os.setpriority(os.PRIO_PROCESS, int(thread), niceness(priority, self.pid))
+            lanes.lower(self._lane, priority, self.pid)
 
     def kill(self) -> None:
         """Kill it; who waits for its answer is told that it is dead."""
@@ -130,6 +133,8 @@ class Worker:
         self.kill()
         with suppress(OSError, ValueError, AssertionError):
             self._process.join(_END_S)
+        for connection in self._lanes.values():
+            connection.close()
         self._says.end()
 
 

@@ -46,7 +46,7 @@ class Task:
 
     def serialize(self, priority: Priority) -> bytes:
         """The task as it goes to a worker."""
-        order = _serialize(self.computation, self.form, self.limits, self.coding, self.workbook, self.long)
+        order = _ORDERS.bytes_of((self.computation, self.form, self.limits, self.coding, self.workbook, self.long))
         return b"".join((_HEAD.pack(priority, len(order), len(self.body)), order, self.body))
 
     @classmethod
@@ -63,10 +63,25 @@ class Task:
         return cls(computation, form, _read(stream, body), limits, coding, workbook, long), Priority(priority)
 
 
-# pickled and read once: dozens of names cost more than to check a request
-@lru_cache(_CACHE_SIZE)
-def _serialize(*order: object) -> bytes:
-    return pickle.dumps(order)
+class _Orders:
+    """Orders as bytes, pickled once: dozens of names cost more than to check a request, and so does their hash."""
+
+    def __init__(self) -> None:
+        # an order is held as long as it is known by the identities of its parts
+        self._entries: dict[tuple[int, ...], tuple[tuple[object, ...], bytes]] = {}
+
+    def bytes_of(self, order: tuple[object, ...]) -> bytes:
+        """An order as bytes; equal ones need not be the same."""
+        identity = tuple(map(id, order))
+        entry = self._entries.get(identity)
+        if entry is None:
+            if len(self._entries) >= _CACHE_SIZE:
+                self._entries.clear()
+            entry = self._entries[identity] = order, pickle.dumps(order)
+        return entry[1]
+
+
+_ORDERS = _Orders()
 
 
 @lru_cache(_CACHE_SIZE)

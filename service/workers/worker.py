@@ -11,13 +11,13 @@ import socket
 import sys
 import time
 import traceback
-from collections.abc import Iterator, Mapping
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass, replace
 from functools import cache, partial
 from pathlib import Path
 from tempfile import TemporaryFile
+from threading import Thread
 from typing import Any, BinaryIO
 
 from optimizer.errors import NotComputable
@@ -29,13 +29,12 @@ from service.common.private import make_folder
 from service.common.time_slices import SHORT_S, set_slice
 from service.common.validation import InvalidRequest, UnreadableBody, check, read_request
 from service.fairness.length import long_by_size
+from service.workers import lanes
 from service.workers.messages import say
-from service.workers.task import Priority, Task
+from service.workers.task import Task
 
-#: below the event loop, above the workers of sweeps; and so much more for further ones of a client, and long ones
+#: below the event loop, above the workers of sweeps; tasks that are behind others are nicer
 _NICENESS = 2
-_BEHIND = {Priority.FIRST: 0, Priority.FURTHER: 8, Priority.LONG: 11}
-_NICEST = 19
 #: an answer that is larger goes to the service in a file
 LARGE_BYTES = 262_144
 #: memory is looked at once in so long [s]: to look takes as long as to read a small request
@@ -154,8 +153,13 @@ class Reply:
 Parts = tuple[dict[str, Any], tuple[Any, ...] | None, float, float]
 
 
-def serve(connection: socket.socket, memory_bytes: int, folder: Path | None) -> None:
+def serve(
+    answers: socket.socket, first: socket.socket, further: socket.socket, memory_bytes: int, folder: Path | None
+) -> None:
     """Answer tasks until the service ends; large answers go into files of a folder.
+
+    First tasks come on one connection, others on another one. Answers go out on a third, which nobody reads here: who
+    waits to read a connection is woken whenever something was taken from its other end.
 
     What went wrong at the start, if anything did, is said before the first answer.
     """
@@ -173,59 +177,36 @@ def serve(connection: socket.socket, memory_bytes: int, folder: Path | None) -> 
     # what an answer holds goes with it: to look through it meanwhile for what does not takes 5 % of a large one
     gc.set_threshold(_COLLECT_AFTER)
     preload = sys.modules.get("service.workers.preload")
+    answer = partial(_answer, answers, folder)
     try:
-        connection.sendall(pickle.dumps(getattr(preload, "failure", None)))
-        with connection.makefile("rb") as stream:
-            task, priority = Task.receive(stream)
-            while True:
-                # it begins as nice as this one is, which only waits for it
-                with ThreadPoolExecutor(1) as thread:
-                    answer = partial(_answer, stream, connection, folder)
-                    while (following := thread.submit(answer, task, priority).result()) is None:
-                        task, priority = Task.receive(stream)
-                    task, priority = following
-    except (EOFError, BrokenPipeError, ConnectionResetError):
+        answers.sendall(pickle.dumps(getattr(preload, "failure", None)))
+        Thread(target=_compute_further, args=(first, further, answer), daemon=True).start()
+        lanes.compute(lanes.FIRST, first, answer)
+    except (BrokenPipeError, ConnectionResetError):
         return
+    finally:
+        _leave(further)
 
 
-def niceness(priority: Priority, pid: int) -> int:
-    """How nice a thread of a worker is that computes something of a priority."""
-    return min(_NICEST, os.getpriority(os.PRIO_PROCESS, pid) + _BEHIND[priority])
+def _compute_further(first: socket.socket, further: socket.socket, answer: Callable[[Task], None]) -> None:
+    try:
+        lanes.compute(lanes.FURTHER, further, answer)
+    finally:
+        # whatever ended it, the process ends with it
+        _leave(first)
 
 
-def _answer(
-    stream: BinaryIO, connection: socket.socket, folder: Path | None, task: Task, priority: Priority
-) -> tuple[Task, Priority] | None:
-    """Answer tasks, one that was read before and those that come; until one comes for which this thread is too nice.
-
-    Returns
-    -------
-    that one: a thread that was nice once may not go back. Or None once this thread is behind others: for a task that is
-    not, it would wake late.
-    """
-    while _takes(priority):
-        before_s = time.process_time()
-        outcome = perform(task)
-        now_s = time.process_time()
-        _send(connection, Reply(outcome, now_s - before_s, now_s), folder)
-        del task, outcome
-        if os.getpriority(os.PRIO_PROCESS, 0) > niceness(Priority.FIRST, os.getpid()):
-            return None
-        task, priority = Task.receive(stream)
-    return task, priority
+def _leave(connection: socket.socket) -> None:
+    """Have whoever reads a connection here read its end."""
+    with suppress(OSError):
+        connection.shutdown(socket.SHUT_RDWR)
 
 
-def _takes(priority: Priority) -> bool:
-    """Whether this thread may have a priority; it has it then."""
-    wanted, own = niceness(priority, os.getpid()), os.getpriority(os.PRIO_PROCESS, 0)
-    if own > wanted:
-        return False
-    if own < wanted:
-        os.setpriority(os.PRIO_PROCESS, 0, wanted)
-    if priority is not Priority.FIRST:
-        with suppress(OSError):
-            set_slice(None)
-    return True
+def _answer(answers: socket.socket, folder: Path | None, task: Task) -> None:
+    before_s = time.process_time()
+    outcome = perform(task)
+    now_s = time.process_time()
+    _send(answers, Reply(outcome, now_s - before_s, now_s), folder)
 
 
 def _send(connection: socket.socket, reply: Reply, folder: Path | None) -> None:

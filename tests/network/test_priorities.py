@@ -3,16 +3,19 @@
 import json
 import os
 import socket
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from typing import BinaryIO
 
 import anyio
 import pytest
 
 from schemas.answer.problem import Problem
+from service.workers import lanes
 from service.workers.pool import Pool
 from service.workers.task import Priority, Task
-from service.workers.worker import Answer, _answer
+from service.workers.worker import Answer
 from tests.network import tasks
 from tests.network.pools import run
 from tests.network.tasks import task
@@ -70,16 +73,41 @@ def test_who_asks_without_end_gives_way_to_who_asks_now_and_then(pool: Pool, mon
     assert titles["beside"] == [behind, first]
 
 
-def test_a_thread_that_is_behind_others_reads_no_task() -> None:
+@pytest.mark.parametrize(
+    ("lane", "behind"), [(lanes.FIRST, Priority.FURTHER), (lanes.FIRST, Priority.LONG), (lanes.FURTHER, Priority.LONG)]
+)
+def test_a_thread_that_is_behind_others_reads_no_task(lane: lanes.Lane, behind: Priority) -> None:
     """It would wake late for one that is not, as everything else comes before it."""
     if os.getpriority(os.PRIO_PROCESS, 0) == 19:
         pytest.skip("the tests run behind all others, and no thread can be behind them")
-    ours, theirs = socket.socketpair()
-    with ours, theirs, theirs.makefile("rb") as stream, ThreadPoolExecutor(1) as thread:
-        ours.sendall(task(tasks.quick).serialize(Priority.FIRST))
-        order = _answer, stream, theirs, None, task(tasks.quick), Priority.FURTHER
+    with following(lane.foremost) as stream, ThreadPoolExecutor(1) as thread:
+        order = lanes.answer_all, lane, stream, _nothing, task(tasks.quick), behind
         assert thread.submit(*order).result(60) is None
-        assert Task.receive(stream)[1] is Priority.FIRST
+        assert Task.receive(stream)[1] is lane.foremost
+
+
+@pytest.mark.parametrize("lane", lanes.LANES)
+def test_a_thread_reads_the_foremost_tasks_of_its_lane_one_after_the_other(lane: lanes.Lane) -> None:
+    answered: list[Task] = []
+    with following(lane.foremost) as stream, ThreadPoolExecutor(1) as thread:
+        order = lanes.answer_all, lane, stream, answered.append, task(tasks.quick), lane.foremost
+        with pytest.raises(EOFError):
+            thread.submit(*order).result(60)
+    assert len(answered) == 2
+
+
+@contextmanager
+def following(priority: Priority) -> Iterator[BinaryIO]:
+    """A task that comes, and nothing after it."""
+    ours, theirs = socket.socketpair()
+    with theirs, theirs.makefile("rb") as stream:
+        with ours:
+            ours.sendall(task(tasks.quick).serialize(priority))
+        yield stream
+
+
+def _nothing(_: Task) -> None:
+    pass
 
 
 def test_long_tasks_are_computed_behind_all_others(pool: Pool) -> None:

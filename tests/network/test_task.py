@@ -11,7 +11,8 @@ from service.settings import Settings
 from service.workers.task import Priority, Task
 
 _ONE = COMPUTATIONS["optimize"]
-PLAIN = Task(_ONE, _ONE.forms[0], b'{"machine": {}}', SizeLimits.of(Settings()))
+SETTINGS = Settings()
+PLAIN = Task(_ONE, _ONE.forms[0], b'{"machine": {}}', SizeLimits.of(SETTINGS))
 OTHERS = (
     replace(PLAIN, body=b""),
     replace(PLAIN, form=_ONE.forms[1], coding="zstd", workbook=True),
@@ -32,3 +33,11 @@ def test_what_ends_early_is_an_end(left: int) -> None:
     assert len(whole) > 2000
     with pytest.raises(EOFError):
         Task.receive(io.BytesIO(whole[:left]))
+
+
+def test_tasks_that_do_not_last_are_not_taken_for_those_that_come_after_them() -> None:
+    """What is known by its identity may be gone, and another one have its place in memory."""
+    for rows in range(1, 2_000):
+        limits = SizeLimits.of(SETTINGS.model_copy(update={"max_rows": rows}))
+        task, _ = Task.receive(io.BytesIO(replace(PLAIN, limits=limits).serialize(Priority.FIRST)))
+        assert task.limits.rows == rows

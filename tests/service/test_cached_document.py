@@ -15,7 +15,7 @@ _LONG = b"a document " * 1000
 
 def _request() -> Any:
     app = SimpleNamespace(state=SimpleNamespace(threads=Threads()))
-    return SimpleNamespace(app=app, state=SimpleNamespace(holding=SimpleNamespace(who="a client")))
+    return SimpleNamespace(app=app, scope={"state": {"holding": SimpleNamespace(who="a client")}})
 
 
 def test_it_is_made_once_however_many_ask_and_the_loop_goes_on() -> None:
