@@ -67,6 +67,10 @@ class Counted:
         return Counted(float(np.sqrt(self.value)))
 
 
+#: arrays of programs, before the other arguments
+_FIELDS = len(disc_starts.Discs._fields)
+
+
 def operations_per_program(calls: Sequence[tuple[Any, ...]]) -> tuple[float, float]:
     """Operations of both stages, and iterations, for each program.
 
@@ -90,8 +94,9 @@ def operations_per_program(calls: Sequence[tuple[Any, ...]]) -> tuple[float, flo
     space["eliminate"] = one_more
     Counted.done = programs = 0
     with np.errstate(all="ignore"):
-        for data, *rest in calls:
-            space["solve"](data._make(map(_counted, data)), *rest)
+        for arguments in calls:
+            data, rest = disc_starts.Discs(*arguments[:_FIELDS]), arguments[_FIELDS:]
+            space["solve"](*map(_counted, data), *rest)
             programs += len(data.constant)
     return Counted.done / programs, iterations / programs
 

@@ -71,8 +71,8 @@ def first_stage_share(request: SweepRequest) -> float:
     seconds = {False: np.inf, True: np.inf}
     for least_mass in (False, True) * 5:
         began = time.thread_time()
-        for programs, _, *rest in calls:
-            solve(programs, least_mass, *rest)
+        for *programs, budgeted, _, share, tolerance, mass_tolerance in calls:
+            solve(*programs, budgeted, least_mass, share, tolerance, mass_tolerance)
         seconds[least_mass] = min(seconds[least_mass], time.thread_time() - began)
     return seconds[False] / seconds[True]
 
