@@ -55,12 +55,12 @@ def within_reach(statement: Statement) -> Statement:
         return _within_reach(statement)
     most = statement.limits.max_mass.copy()
     nothing = np.zeros(statement.limits.radius.shape[-1:], complex)
-    kept = far & np.all(statement.ceilings.excess(nothing) <= 0, axis=-1)
-    if statement.limits.alike is None and np.any(kept):
+    reached = far & np.all(statement.ceilings.excess(nothing) <= 0, axis=-1)
+    if statement.limits.alike is None and np.any(reached):
         # all those together that nothing need be found out about
-        some = statement.chosen(kept)
-        most[kept] = _finite(some, level_above(some, nothing))
-        far = far & ~kept
+        some = statement.chosen(reached)
+        most[reached] = _finite(some, level_above(some, nothing))
+        far = far & ~reached
     for place in np.argwhere(far).tolist():
         most[tuple(place)] = _within_reach(statement.chosen(tuple(place))).limits.max_mass
     return replace(statement, limits=replace(statement.limits, max_mass=most))
@@ -257,17 +257,17 @@ def _masses_by_inverse(influence: Real | Complex, most: Real) -> Real:
     least = np.min(np.where(most > 0, most, np.inf), axis=-1)
     matrix = influence / np.where(most > 0, most, np.where(np.isfinite(least), least, 1.0)[:, None])[..., None]
     size = np.max(np.abs(matrix), axis=-2)
-    told = np.isfinite(least) & np.all((size > SMALLEST) & np.isfinite(size), axis=-1)
-    matrix, size = np.where(told[:, None, None], matrix, 0.0), np.where(told[:, None], size, 1.0)
+    independent = np.isfinite(least) & np.all((size > SMALLEST) & np.isfinite(size), axis=-1)
+    matrix, size = np.where(independent[:, None, None], matrix, 0.0), np.where(independent[:, None], size, 1.0)
     matrix = matrix / size[:, None, :]
     inverse = np.linalg.pinv(matrix)
     error = np.abs(np.eye(webs) - inverse @ matrix) + (4 + rows) * _EPS * (np.abs(inverse) @ np.abs(matrix))
     carried, lost = np.add.reduce(np.abs(inverse), axis=-1), np.add.reduce(error, axis=-1)
     most_lost, most_carried = np.max(lost, axis=-1), np.max(carried, axis=-1)
-    told &= most_lost < 0.5
-    rest = np.where(told, 1.0 - most_lost, 1.0)
+    independent &= most_lost < 0.5
+    rest = np.where(independent, 1.0 - most_lost, 1.0)
     masses = (carried + lost * (most_carried / rest)[:, None]) / size
-    return np.where(told[:, None], masses, np.inf)
+    return np.where(independent[:, None], masses, np.inf)
 
 
 def _in_planes(influence: Real, most: Real) -> Real:
