@@ -216,7 +216,8 @@ class Part:
         """What both lengths of a response of the first order grow by at most."""
         first = (gear if abs(gear.ratio) == 1 else None for gear in self.geared)
         on_shafts = [ZERO if gear is None else self._arm(name, gear) for gear in first]
-        return off.of([*self._factors(name, ONE), *on_shafts], sizes)
+        own = [self.machine.arm(name, web.position) * self.machine.square for web in self.machine.webs]
+        return off.of([*own, *on_shafts], sizes)
 
     def _group(self, kind: str) -> Group:
         goal = goal_of(kind, self.named)

@@ -274,8 +274,8 @@ def _by_columns(claims: Claims, row: Place, fields: Any, chosen: bool) -> Claims
     untold = chosen and not {*row.value} >= OF_STATUS
     try:
         for claim, place, room, size in claims:
-            if claim in ("active_limits", "balance_shafts"):
-                # which limits are touched, and how shafts are geared, is in no column
+            if claim == "active_limits":
+                # which limits are touched is in no column
                 continue
             room = None if claim == "status" and untold else room
             path = _column(place.path, len(row.path), fields)

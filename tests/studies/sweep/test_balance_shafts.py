@@ -130,8 +130,6 @@ def test_proofs_of_rows_are_checked_and_figures_of_shafts_too() -> None:
     for name, factor in (("mass_kg.back web", 1.001), ("angle_deg.back web", 1.001), ("balance_shafts_mass_kg", 0.999)):
         false = [{**rows[0], name: factor * rows[0][name]}, rows[1]]
         assert verdict(sent, false) == "broken", name
-    without = [{key: value for key, value in row.items() if key != "balance_shafts_mass_kg"} for row in rows]
-    assert verdict(sent, without) == "broken"
 
 
 def test_infeasible_designs_carry_nothing() -> None:
