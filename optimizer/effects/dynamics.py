@@ -260,12 +260,13 @@ def _whole_turn(context: Context) -> WholeTurn:
     closed = _row_work(context)
     means = None if closed is None else closed.of_a_turn / (TURN * context.layout.reciprocating.crank_radius)
     # of the loads of bearings mean squares are shown, by quadratures
-    return whole_turn(rows, _breaks(context), means, "shaft_loads" in context.wanted, context.readings)
+    squared, single = "shaft_loads" in context.wanted, not context.layout.omega.shape
+    return whole_turn(rows, _breaks(context), means, squared, context.readings, single)
 
 
 def _frame_forces(context: Context) -> WholeTurn:
     rows = row_data(context.layout, context.fidelity.kinematics == "exact", None, None, ())
-    return whole_turn(rows, break_angles(context.layout))
+    return whole_turn(rows, break_angles(context.layout), single=not context.layout.omega.shape)
 
 
 DYNAMICS = (

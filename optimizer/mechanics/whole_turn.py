@@ -81,6 +81,7 @@ class WholeTurn:
     means : (N, R) N, of the tangential forces, where there is a closed form.
     squared : whether mean squares are asked for: what bounds their quadratures bounds the pieces too.
     readings : of the forces of many designs, that columns will need.
+    single : whether it is of a machine by itself. Designs of a sweep are worked out as beside others, however many.
     """
 
     rows: RowData
@@ -90,6 +91,7 @@ class WholeTurn:
     means: Real | None = None
     squared: bool = False
     readings: tuple[Reading, ...] = ()
+    single: bool = False
 
     def curves(self, reading: Reading, weights: Complex | Real, constant: Complex | Real | float = 0.0) -> "TurnCurves":
         """Sums of a force of the rows over weights (N, C, R), with constants (N, C): N C curves."""
@@ -149,8 +151,8 @@ class WholeTurn:
 
     @cached_property
     def kinds(self) -> RowKinds | None:
-        """Of the rows of one machine, where some do the same as others some pieces later."""
-        if len(self.centre) > 1 or self.centre.size * self.rows.crank_radius.shape[-1] > AT_ONCE:
+        """Of the rows of a single machine, where some do the same as others some pieces later."""
+        if not self.single or self.centre.size * self.rows.crank_radius.shape[-1] > AT_ONCE:
             return None
         return row_kinds(self.rows, self.centre[0], self.half[0])
 
@@ -181,13 +183,14 @@ def whole_turn(
     means: Real | None = None,
     squared: bool = False,
     readings: tuple[Reading, ...] = (),
+    single: bool = False,
 ) -> WholeTurn:
     """The turn cut at breaks (..., B) rad and at regular angles; the leading axes become one.
 
     Parameters
     ----------
     means : (..., R) N, of the tangential forces, where there is a closed form.
-    squared, readings : as of :class:`WholeTurn`.
+    squared, readings, single : as of :class:`WholeTurn`.
     """
     turns = turns_of(rows.traces)
     turn = panels(breaks, _WIDEST, turns=turns)
@@ -202,7 +205,7 @@ def whole_turn(
     if means is not None:
         count = means.shape[-1]
         means = spread(means.reshape(math.prod(means.shape[:-1]), count), (rows.designs, count))
-    return WholeTurn(rows, spread(centre, shape), spread(half, shape), turns, means, squared, readings)
+    return WholeTurn(rows, spread(centre, shape), spread(half, shape), turns, means, squared, readings, single)
 
 
 @record(frozen=True)

@@ -34,7 +34,7 @@ def _turn(body: dict[str, Any], kinds: bool = True) -> WholeTurn:
     plan, data = arrays(body)
     friction = np.full(plan.reciprocating.mass.shape, 2e3)
     breaks = break_angles(plan, switching_angles(data, plan))
-    turn = whole_turn(row_data(plan, True, friction, data), breaks, squared=True)
+    turn = whole_turn(row_data(plan, True, friction, data), breaks, squared=True, single=True)
     if not kinds:
         vars(turn)["kinds"] = None
     return turn

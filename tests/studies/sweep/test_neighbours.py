@@ -45,6 +45,19 @@ def assert_alike(request: SweepRequest, monkeypatch: pytest.MonkeyPatch) -> None
     assert table(request).equals(together)
 
 
+def test_rows_that_do_the_same_later_are_worked_out_as_beside_other_designs(monkeypatch: pytest.MonkeyPatch) -> None:
+    # a machine by itself expands equal rows once: a sweep of one design may not, for others stand beside it elsewhere
+    row = {"axis_deg": 90, "reciprocating_mass_kg": 20, "connecting_rod": {"length_m": 0.5}}
+    throws = [
+        {"position_m": 0.3 * k, "crank_radius_m": 0.1, "crank_angle_deg": 90.0 * k, "rows": [row]} for k in range(4)
+    ]
+    machine = {"kind": "reciprocating", "speed_rpm": 500, "throws": throws}
+    outputs = ["piston_force", "rod_loads", "torque", "overturning", "roll", "loads"]
+    base = {"machine": machine, "outputs": outputs, "angles": {"step_deg": 30}}
+    speeds = {"path": "/machine/speed_rpm", "values": [400, 500, 600]}
+    assert_alike(sweep(base, speeds, task="analyze", details=True), monkeypatch)
+
+
 def test_designs_without_largest_masses_are_proven_together(monkeypatch: pytest.MonkeyPatch) -> None:
     def never(_one: object) -> None:
         raise AssertionError("no design needs to be looked at by itself")
