@@ -246,14 +246,6 @@ class Application(Documented):
         super().__init__(**settings_of)
         self._outer = outer
 
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if scope["type"] == "lifespan" or self.middleware_stack is None:
-            await super().__call__(scope, receive, send)
-            return
-        # as both frameworks do it, which have nothing to add here
-        scope["app"] = self
-        await self.middleware_stack(scope, receive, send)
-
     def build_middleware_stack(self) -> ASGIApp:
         stack = super().build_middleware_stack()
         for around in reversed(self._outer):
