@@ -5,6 +5,7 @@ import logging
 from collections.abc import AsyncIterator
 from contextlib import ExitStack
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Annotated, BinaryIO, TypeVar
 
 from anyio import CapacityLimiter, to_thread
@@ -36,9 +37,9 @@ Header = tuple[bytes, bytes]
 Question = TypeVar("Question", bound=Model)
 
 _LOG = logging.getLogger(__name__)
-#: headers of a request that its answer depends on; what they say is kept, of so many bytes and so often
+#: headers of a request that its answer depends on; what they say is kept up to so many bytes
 _OF_ANSWERS = frozenset({b"accept", b"accept-encoding", b"content-encoding", b"content-type", b"prefer"})
-_SHORT, _CACHE_SIZE = 512, 256
+_SHORT = 512
 #: of a large answer that is in a file, read at a time [bytes], by so many threads
 _PIECE_BYTES = 65_536
 _READERS = 4
@@ -62,7 +63,6 @@ class Computing:
         self._metrics = metrics
         self._tracing = tracing
         self._readers = CapacityLimiter(_READERS)
-        self._cache: dict[tuple[str, tuple[Header, ...]], _Wishes] = {}
         self.limits = SizeLimits.of(settings)
 
     async def body(self, request: Request) -> bytes:
@@ -105,7 +105,7 @@ class Computing:
         self._readiness.require()
         # a key that is none is refused whether it counts here or not
         key = idempotency_key(request) if computation.later else None
-        wishes = self._wishes(request, computation)
+        wishes = _wishes(request, computation)
         form, workbook = wishes.form, wishes.workbook
         body = await self._body(request)
 
@@ -140,23 +140,6 @@ class Computing:
         stream = StreamingResponse(self._read(reply.file))
         stream.raw_headers = headers
         return stream
-
-    def _wishes(self, request: Request, computation: Computation) -> "_Wishes":
-        """What the headers of a request say of its answer; they are few, and to read them takes as long as all else.
-
-        Raises
-        ------
-        NotAcceptable, UnsupportedMedia
-        """
-        headers = tuple([header for header in request.scope["headers"] if header[0] in _OF_ANSWERS])
-        wishes = self._cache.get((computation.name, headers))
-        if wishes is None:
-            wishes = _Wishes.of(request, computation)
-            if sum(len(value) for _, value in headers) <= _SHORT:
-                if len(self._cache) >= _CACHE_SIZE:
-                    self._cache.clear()
-                self._cache[computation.name, headers] = wishes
-        return wishes
 
     async def _read(self, file: BinaryIO) -> AsyncIterator[bytes]:
         """What is in a file, as far as the client has read what was before."""
@@ -200,6 +183,23 @@ class _Wishes:
         headers = Response(media_type=form.media_type, headers=fields).raw_headers
         always = tuple(header for header in headers if header[0] != b"content-length")
         return cls(form, workbook, prefers_later(request), coding_of(request), always)
+
+
+def _wishes(request: Request, computation: Computation) -> _Wishes:
+    """What the headers of a request say of its answer; they are few, and to read them takes as long as all else.
+
+    Raises
+    ------
+    NotAcceptable, UnsupportedMedia
+    """
+    headers = tuple([header for header in request.scope["headers"] if header[0] in _OF_ANSWERS])
+    read = _wishes_of if sum([len(value) for _, value in headers]) <= _SHORT else _wishes_of.__wrapped__
+    return read(headers, computation)
+
+
+@lru_cache(maxsize=256)
+def _wishes_of(headers: tuple[Header, ...], computation: Computation) -> _Wishes:
+    return _Wishes.of(Request({"type": "http", "headers": headers}), computation)
 
 
 class _Written(Response):
