@@ -44,11 +44,12 @@ bytecode: .venv/runtime
 
 # compiled once, in half a minute, not by every process that needs them; while one core compiles what all of them need,
 # the other one makes bytecode of the packages that a service loads;
-# numba looks for changes in the file of a kernel only, not in the files of those that it calls
+# numba looks for changes in the file of a kernel only, not in the files of those that it calls; where tests have brought
+# colorama, it colours what it says to itself of each operator that a pair of types has not
 $(kernels): optimizer/numerics/compiling.py $(wildcard optimizer/*/kernel/*.py optimizer/*/*/kernel/*.py) .venv/runtime
 	rm -f optimizer/*/kernel/__pycache__/*.nb[ic] optimizer/*/*/kernel/__pycache__/*.nb[ic]
 	$(MAKE) --no-print-directory bytecode && PYTHONDONTWRITEBYTECODE= $(bin)/python -c "import $(loaded)" & loads=$$!; \
-	$(bin)/python -m optimizer.compile_kernels && wait $$loads
+	NUMBA_DISABLE_ERROR_MESSAGE_HIGHLIGHTING=1 $(bin)/python -m optimizer.compile_kernels && wait $$loads
 	mkdir -p $(@D) && touch $@
 
 # the tests of the page need a browser: Debian's package, where it may be installed; else it says what is not tested

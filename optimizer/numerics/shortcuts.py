@@ -13,7 +13,7 @@ from types import ModuleType
 from typing import Any
 
 from llvmlite.binding import ffi
-from numba.core import errors, event, ir
+from numba.core import event, ir
 from numba.core.base import BaseContext
 from numba.core.cpu import CPUContext
 from numba.core.postproc import PostProcessor, VariableLifetime
@@ -32,7 +32,6 @@ def take_shortcuts() -> None:
     _keep_sizes()
     _name_modules()
     _silence_events()
-    _leave_out_colours()
     _postpone_lifetimes()
     _list_variables_by_type()
     _load_registries_once()
@@ -95,18 +94,6 @@ def _silence_events() -> None:
     event.start_event = event.end_event = lambda *_, **__: None
     event.trigger_event = event.install_timer = lambda *_, **__: empty
     ffi.lib._lock._cblist.clear()  # noqa: SLF001
-
-
-class _Plain:
-    """No colours, whatever is to be shown."""
-
-    def __getattr__(self, name: str) -> Callable[..., str]:
-        return lambda message="": message
-
-
-def _leave_out_colours() -> None:
-    # of every operator that an operand is not, it writes in colours why, where colorama is installed, as tests have it
-    vars(errors)["_termcolor_inst"] = _Plain()
 
 
 def _postpone_lifetimes() -> None:
