@@ -1,140 +1,6 @@
-"""What the service computes: all that routes, jobs, documents, OpenAPI, the command line and metrics say of it.
+"""What the service computes: all that routes, jobs, documents, OpenAPI, the command line and metrics say of it."""
 
-An entry is data and refers to models and functions by name: the table loads neither schemas nor optimiser, and an entry
-goes to a worker as it is, which looks up there what it refers to.
-"""
-
-from collections.abc import Callable
-from dataclasses import dataclass
-from functools import cache
-from importlib import import_module
-from types import ModuleType
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from schemas.base.model import Model
-    from service.guard.keys import Scope
-
-#: ``module:name``
-Reference = str
-
-
-# to find the module takes as long as to read a small request
-@cache
-def _place(reference: Reference) -> tuple[ModuleType, str]:
-    module, _, name = reference.partition(":")
-    return import_module(module), name
-
-
-def _object(reference: Reference) -> Any:
-    return getattr(*_place(reference))
-
-
-@dataclass(frozen=True)
-class Form:
-    """A form in which an answer goes out.
-
-    write : the function that makes bytes of the answer.
-    suffix : of a file that holds it.
-    headers : what a client is told about it beyond its media type.
-    compressed : in itself, so that no coding makes it smaller.
-    needs_request : whether the function takes the request too, before the answer.
-    """
-
-    media_type: str
-    write: Reference
-    suffix: str
-    headers: tuple[tuple[str, str], ...] = ()
-    compressed: bool = False
-    needs_request: bool = False
-
-    def content(self, request: Any, answer: Any) -> bytes:
-        """The answer to a request in this form."""
-        write = _object(self.write)
-        made: bytes = write(request, answer) if self.needs_request else write(answer)
-        return made
-
-
-JSON = Form("application/json", "service.common.answer_bytes:json_bytes", ".json")
-#: media type of workbooks (.xlsx)
-XLSX = "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet"
-
-
-def request_bytes(request: "Model") -> bytes:
-    """A request as JSON: what was given, without defaults."""
-    return request.model_dump_json(exclude_unset=True).encode()
-
-
-def echo_request(request: "Model") -> "Model":
-    """The request, where nothing is asked but that it is read and checked."""
-    return request
-
-
-@dataclass(frozen=True)
-class Computation:
-    """A computation.
-
-    name : of operation, job and metric; with hyphens, of command and documents.
-    request, answer : models; an answer that is a document, or the request itself, has none.
-    compute : request -> answer.
-    summary, remark : one line and some sentences for OpenAPI.
-    help : one line for the command line.
-    chapters : request, answer -> what a terminal shows; None where the command has a file of its own.
-    tag : the group of operations in OpenAPI.
-    forms : in which the answer is there; of several the header `Accept` chooses, the first for those who take all.
-    options : fields of the request that the command line may give in place of the file.
-    picture : title, answer -> SVG, for the command line.
-    workbook : request, answer -> xlsx, for the command line; then requests may be workbooks too.
-    examples : folder of example bodies.
-    long : takes seconds: such computations have turns of their own, behind all others.
-    later : may be asked for as a job, by `Prefer: respond-async`.
-    scope : what a key must allow.
-    """
-
-    name: str
-    path: str
-    request: Reference
-    answer: Reference | None
-    compute: Reference
-    summary: str
-    remark: str
-    help: str = ""
-    chapters: Reference | None = None
-    options: tuple[str, ...] = ()
-    picture: Reference | None = None
-    workbook: Reference | None = None
-    tag: str = "counterweights"
-    forms: tuple[Form, ...] = (JSON,)
-    examples: str = ""
-    long: bool = False
-    later: bool = False
-    scope: "Scope" = "compute"
-
-    @property
-    def title(self) -> str:
-        """The name in addresses and on the command line."""
-        return self.name.replace("_", "-")
-
-    def long_by_kind(self, form: Form, workbook: bool) -> bool:
-        """Whether it is long whatever it is about; reading and writing workbooks is."""
-        return self.long or workbook or form.media_type == XLSX
-
-    @property
-    def asks(self) -> "type[Model]":
-        """Model of the request."""
-        model: type[Model] = _object(self.request)
-        return model
-
-    @property
-    def answers(self) -> "type[Model] | None":
-        """Model of the answer."""
-        return None if self.answer is None else _object(self.answer)
-
-    @property
-    def function(self) -> Callable[[Any], Any]:
-        """What makes the answer."""
-        operation: Callable[[Any], Any] = _object(self.compute)
-        return operation
+from service.computation import JSON, XLSX, Computation, Form, Reference
 
 
 def _document(suffix: str, media_type: str, write: Reference, styles: str = "", compressed: bool = False) -> Form:
@@ -312,14 +178,14 @@ COMPUTATIONS: dict[str, Computation] = {
             path="/v1/convert",
             request="schemas.request.requests:OptimizeRequest",
             answer=None,
-            compute="service.computations:echo_request",
+            compute="service.computation:echo_request",
             summary="A request itself, checked: a workbook as JSON, or JSON as a workbook",
             remark="The header `Accept` chooses. Quantities come in the units of their fields, what was not given stays"
             " away, nothing is solved. What is wrong with a workbook is said with its cell.",
             tag="examples",
             workbook="service.workbook.answers:requested",
             forms=(
-                Form("application/json", "service.computations:request_bytes", ".json"),
+                Form("application/json", "service.computation:request_bytes", ".json"),
                 _workbook("service.workbook.answers:requested", "machine.xlsx"),
             ),
         ),

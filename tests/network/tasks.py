@@ -11,7 +11,8 @@ from pathlib import Path
 from schemas.answer.problem import Problem
 from schemas.request.requests import OptimizeRequest
 from service.common.time_slices import slice_s
-from service.computations import COMPUTATIONS, JSON
+from service.computation import JSON
+from service.computations import COMPUTATIONS
 from service.documents.examples import load
 from service.guard.sizes import SizeLimits
 from service.settings import Settings

@@ -12,7 +12,8 @@ import pytest
 from starlette.testclient import TestClient
 
 from service.app import create_app
-from service.computations import COMPUTATIONS, Computation
+from service.computation import Computation
+from service.computations import COMPUTATIONS
 from service.documents.examples import bodies
 from service.guard import keys
 from service.guard.keys import Scope
