@@ -120,13 +120,13 @@ class Computation:
         return self.long or workbook or form.media_type == XLSX
 
     @property
-    def asks(self) -> "type[Model]":
+    def request_model(self) -> "type[Model]":
         """Model of the request."""
         model: type[Model] = _object(self.request)
         return model
 
     @property
-    def answers(self) -> "type[Model] | None":
+    def answer_model(self) -> "type[Model] | None":
         """Model of the answer."""
         return None if self.answer is None else _object(self.answer)
 

@@ -49,7 +49,7 @@ def command(computation: Computation) -> Callable[..., None]:
         if to is not None and to.suffix.lower() != WORKBOOK:
             fail(f"the name of the workbook must end in {WORKBOOK}")
         request, where = read_input(
-            computation.asks, file, {name: _read(value) for name, value in fields.items() if value}
+            computation.request_model, file, {name: _read(value) for name, value in fields.items() if value}
         )
         outcome = answer(computation.function, request, where)
         name = getattr(getattr(request, "machine", request), "name", None) or computation.title

@@ -22,7 +22,7 @@ def draw(file: File, to: Target, of: AnswerOption = None) -> None:
     """Draw the counterweights of a machine for a workshop and for other CAD: DXF, SVG, STEP, bill of material."""
     computation = COMPUTATIONS["drawings"]
     fields = {} if of is None else {"counterweights": _fitted(of)}
-    drawn = answer(computation.function, question(computation.asks, file, fields))
+    drawn = answer(computation.function, question(computation.request_model, file, fields))
     written = resolve_name(computation.forms[0].write)(drawn)
     try:
         to.write_bytes(written)

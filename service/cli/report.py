@@ -22,7 +22,8 @@ def report(file: File, to: Target, output: OutputOptions = None) -> None:
     form = next((form for form in computation.forms if form.suffix == to.suffix.lower()), None)
     if form is None:
         fail(f"the name of the document must end in {' or '.join(form.suffix for form in computation.forms)}")
-    made = answer(computation.function, question(computation.asks, file, {"outputs": output} if output else {}))
+    request = question(computation.request_model, file, {"outputs": output} if output else {})
+    made = answer(computation.function, request)
     try:
         to.write_bytes(resolve_name(form.write)(made))
     except OSError as error:

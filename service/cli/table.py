@@ -23,7 +23,7 @@ def table(name: NameOfTable, file: File, to: Target = None) -> None:
     if name not in NAMES:
         fail(f"there is no table {name}; these are {', '.join(NAMES)}")
     computation = COMPUTATIONS[_PREFIX + name]
-    request, where = read_input(computation.asks, file)
+    request, where = read_input(computation.request_model, file)
     written = resolve_name(computation.forms[0].write)(answer(computation.function, request, where))
     if to is None:
         put(written.decode().replace("\r\n", "\n").rstrip("\n"))

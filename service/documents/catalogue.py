@@ -41,9 +41,9 @@ def documents() -> Mapping[str, Document]:
 def _of_computations() -> Iterator[tuple[str, Document]]:
     for computation in COMPUTATIONS.values():
         # a computation that answers with a document takes the request of another
-        if computation.answers is not None:
-            yield computation.title, Document(computation.asks, "validation", f"request of {computation.path}")
+        if computation.answer_model is not None:
+            yield computation.title, Document(computation.request_model, "validation", f"request of {computation.path}")
             yield (
                 f"{computation.title}-answer",
-                Document(computation.answers, "serialization", f"answer of {computation.path}"),
+                Document(computation.answer_model, "serialization", f"answer of {computation.path}"),
             )

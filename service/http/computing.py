@@ -110,7 +110,7 @@ class Computing:
         body = await self._body(request)
 
         def accept() -> Response:
-            question = self.checked(computation.asks, body).model_dump_json().encode()
+            question = self.checked(computation.request_model, body).model_dump_json().encode()
             return accepted(request, *desk_of(request).later(computation.name, question, key, body))
 
         # a job is asked for and answered in JSON; other forms are answered at once, as RFC 7240 allows

@@ -60,7 +60,7 @@ class Documented(FastAPI):
         # the framework keeps the document and makes a new one when routes are added
         if Problem.__name__ not in schemas:
             models: list[type[Model]] = [
-                *(computation.asks for computation in COMPUTATIONS.values()),
+                *(computation.request_model for computation in COMPUTATIONS.values()),
                 SweepRequest,
                 Problem,
             ]

@@ -168,14 +168,14 @@ def request_body(model: type[Model], folder: str = "", workbook: bool = False) -
 def of_computation(computation: Computation) -> tuple[Responses, Described]:
     """What a computing route answers, and what else it says of itself."""
     media_types = [form.media_type for form in computation.forms]
-    about = request_body(computation.asks, computation.examples, computation.workbook is not None)
+    about = request_body(computation.request_model, computation.examples, computation.workbook is not None)
     about["parameters"] = [accept(*media_types)] if len(media_types) > 1 else []
     answers: Responses = {200: {"description": "the answer", "content": {}}}
     if computation.answer is not None:
         answers[200]["content"] = {media_type: content_of(media_type) for media_type in media_types[1:]}
     else:
         # no answer but JSON: the request itself
-        own = {"application/json": {"schema": ref(computation.asks)}}
+        own = {"application/json": {"schema": ref(computation.request_model)}}
         answers[200]["content"] = {
             media_type: own.get(media_type, content_of(media_type)) for media_type in media_types
         }

@@ -43,7 +43,7 @@ def _read_again(kind: str, request: bytes) -> object:
     from service.common.validation import InvalidRequest, check
     from service.computations import COMPUTATIONS
 
-    model = SweepRequest if kind == "sweep" else COMPUTATIONS[kind].asks
+    model = SweepRequest if kind == "sweep" else COMPUTATIONS[kind].request_model
     try:
         return json.loads(check(model, json.loads(request)).model_dump_json())
     except InvalidRequest:

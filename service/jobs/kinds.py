@@ -140,7 +140,7 @@ def _answer(computation: Computation) -> Callable[[bytes, int, int, Proceed], Ch
         from service.common.validation import pointer, read_request
 
         try:
-            result = computation.function(read_request(computation.asks, request))
+            result = computation.function(read_request(computation.request_model, request))
         except NotComputable as error:
             raise Unanswerable("; ".join(f"{pointer(path)}: {message}" for path, message in error.problems)) from None
         return ChunkResult(json_bytes(result), 0)
@@ -148,11 +148,12 @@ def _answer(computation: Computation) -> Callable[[bytes, int, int, Proceed], Ch
     return answer
 
 
+def _answered_later(computation: Computation) -> Kind:
+    """A job that answers one request."""
+    return Kind(_answer(computation), later=_later(lambda: computation.request_model))
+
+
 KINDS: Mapping[str, Kind] = {
     "sweep": Kind(_sweep, _failed_rows, _later(_sweep_request)),
-    **{
-        computation.name: Kind(_answer(computation), later=_later(lambda computation=computation: computation.asks))  # type: ignore[misc]
-        for computation in COMPUTATIONS.values()
-        if computation.later
-    },
+    **{computation.name: _answered_later(computation) for computation in COMPUTATIONS.values() if computation.later},
 }

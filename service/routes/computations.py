@@ -31,8 +31,8 @@ def router() -> APIRouter:
             summary=computation.summary,
             description=computation.remark,
             tags=[computation.tag],
-            response_model=computation.answers,
-            response_class=Response if computation.answers is None else JSONResponse,
+            response_model=computation.answer_model,
+            response_class=Response if computation.answer_model is None else JSONResponse,
             responses=answers,
             openapi_extra=about,
         )

@@ -261,13 +261,13 @@ def perform(task: Task) -> Outcome | Long:
 def _request(task: Task, places: ExitStack) -> Model:
     """What is asked; until the stack ends problems of a workbook are said to be in its cells."""
     if not task.workbook:
-        return read_request(task.computation.asks, task.body)
+        return read_request(task.computation.request_model, task.body)
     # only who sends workbooks pays for the library
     from service.workbook.body import cells_named, read_workbook
 
     cells = read_workbook(task.body)
     places.enter_context(cells_named(cells))
-    return check(task.computation.asks, cells.body)
+    return check(task.computation.request_model, cells.body)
 
 
 def _frames(error: BaseException) -> Iterator[str]:

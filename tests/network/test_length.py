@@ -60,4 +60,4 @@ def report(throws: int, versions: int = 0) -> dict[str, Any]:
 )
 def test_large_ones_are_long(name: str, body: dict[str, Any], long: bool) -> None:
     computation = COMPUTATIONS[name]
-    assert long_by_size(check(computation.asks, body), computation.answer is None) is long
+    assert long_by_size(check(computation.request_model, body), computation.answer is None) is long

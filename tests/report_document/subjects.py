@@ -169,7 +169,7 @@ def _answered(name: str, body: Any) -> Subject:
     """The answer to a request, with the chapters that a terminal shows."""
     computation = COMPUTATIONS[name]
     assert computation.chapters is not None
-    request, chapters = computation.asks.model_validate(body), resolve_name(computation.chapters)
+    request, chapters = computation.request_model.model_validate(body), resolve_name(computation.chapters)
     return Subject(computation.function(request), lambda found: chapters(request, found), ("effects.", "timing."))
 
 

@@ -18,7 +18,7 @@ from schemas.sweep.request import SweepRequest
 from service.computations import COMPUTATIONS
 from tests.schemas.test_json_schema import MODELS, Mode, each_model, schemas_of_all
 
-REQUESTS = [*dict.fromkeys(one.asks for one in COMPUTATIONS.values()), SweepRequest]
+REQUESTS = [*dict.fromkeys(one.request_model for one in COMPUTATIONS.values()), SweepRequest]
 #: more fields than a form shows without headings
 MANY = 8
 

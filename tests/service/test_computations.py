@@ -80,9 +80,9 @@ def test_it_is_a_command() -> None:
 
 @pytest.mark.parametrize("one", COMPUTATIONS.values(), ids=lambda one: one.name)
 def test_everything_an_entry_names_is_there(one: Computation) -> None:
-    assert one.asks.model_json_schema()
+    assert one.request_model.model_json_schema()
     assert callable(one.function)
-    assert set(one.options) <= set(one.asks.model_fields)
+    assert set(one.options) <= set(one.request_model.model_fields)
     for reference in (one.chapters, one.picture, *(form.write for form in one.forms)):
         assert reference is None or callable(resolve_name(reference))
 
@@ -91,7 +91,7 @@ def test_every_answer_and_the_state_of_a_sweep_say_which_version_answered() -> N
     """Independent: the version of the project's file."""
     project = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text())["project"]
     assert package_version() == project["version"]
-    computed = [one.answers for one in COMPUTATIONS.values() if one.answer is not None and one is not TOY]
+    computed = [entry.answer_model for entry in COMPUTATIONS.values() if entry.answer is not None and entry is not TOY]
     for model in (*computed, SweepState, SweepEstimate):
         assert issubclass(model, Answer), model
         assert model.model_construct().version == package_version()
