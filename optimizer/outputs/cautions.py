@@ -1,9 +1,8 @@
 """Warnings of an answer: what is right as it stands and may still be taken for something else."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import cache
 from operator import mul
-from typing import Any, get_args
+from typing import Any
 
 import numpy as np
 
@@ -14,6 +13,7 @@ from optimizer.numerics.arrays import Complex
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
 from optimizer.outputs.balance_rate import cranks
+from optimizer.outputs.brackets import brackets, has_brackets, numbers
 from optimizer.outputs.peaks import customary_peaks
 from schemas.answer.answers import BalanceRate, Certificate
 from schemas.answer.caution import Caution, CautionCode
@@ -21,7 +21,6 @@ from schemas.answer.dynamics import MainBearings
 from schemas.answer.first_order import Residual
 from schemas.answer.loads import Loads
 from schemas.answer.robust import Sensitivity
-from schemas.base.curves import Curve
 from schemas.base.model import Model
 from schemas.base.target import pointer
 from schemas.machine.reciprocating import ReciprocatingMachine
@@ -248,14 +247,14 @@ def _not_closed(evidence: Evidence) -> Iterator[Caution]:
         return
     force, moment = evidence.sizes
     for output, field in evidence.fields.items():
-        if not isinstance(field, Model) or not any(_bracketed(field.__class__)):
+        if not isinstance(field, Model) or not has_brackets(field.__class__):
             continue
-        brackets = [(name, bracket) for name, bracket in _brackets(field) if _is_wide(*bracket)]
+        open_brackets = [(name, bracket) for name, bracket in brackets(field) if _is_wide(*bracket)]
         for unit, size in (("N", force), ("Nm", moment)):
-            wide = [bracket for name, bracket in brackets if _of(name, unit)]
+            wide = [bracket for name, bracket in open_brackets if _of(name, unit)]
             if not wide:
                 continue
-            values = _values(field)
+            values = numbers(field)
             # of the same unit: what cancels between rows or bearings is as large in each of them
             most = max(float(np.max(np.abs(bracket), initial=size)) for name, bracket in values if _of(name, unit))
             open_ = [bracket for bracket in wide if _width(bracket) > _CANCELLED * most]
@@ -280,56 +279,8 @@ def _is_wide(low: float, high: float) -> bool:
     return high - low > _ALIKE * max(abs(low), abs(high))
 
 
-def _brackets(field: Any) -> list[tuple[str, tuple[float, float]]]:
-    """Names and contents of all brackets in the models of an answer."""
-    if isinstance(field, tuple):
-        return [bracket for item in field for bracket in _brackets(item)]
-    if not isinstance(field, Model):
-        return []
-    own, others = _bracketed(field.__class__)
-    every = [(name, getattr(field, name)) for name in own]
-    brackets = [(name, content) for name, content in every if content is not None]
-    for name in others:
-        brackets += _brackets(getattr(field, name))
-    return brackets
-
-
-@cache
-def _bracketed(model: type[Model]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Fields of a model that are brackets, and those that hold some; most answers have none of both."""
-    fields = model.model_fields
-    own = tuple(name for name in fields if "_bracket_" in name)
-    others = (name for name in fields if any(any(_bracketed(model)) for model in _models(fields[name].annotation)))
-    return own, tuple(others)
-
-
-def _models(annotation: Any) -> Iterator[type[Model]]:
-    """Models that a type names, within others too."""
-    parts = get_args(annotation)
-    if not parts and isinstance(annotation, type) and issubclass(annotation, Model):
-        yield annotation
-    for part in parts:
-        yield from _models(part)
-
-
 def _of(name: str, unit: str) -> bool:
     return name.endswith(f"_{unit}")
-
-
-def _values(field: Any) -> Iterator[tuple[str, Any]]:
-    """Names and contents of all fields of numbers in the models of an answer."""
-    if isinstance(field, Model):
-        for name in type(field).model_fields:
-            content = getattr(field, name)
-            if isinstance(content, float | Curve) or (
-                isinstance(content, tuple) and content and isinstance(content[0], float)
-            ):
-                yield name, content
-            else:
-                yield from _values(content)
-    elif isinstance(field, tuple):
-        for item in field:
-            yield from _values(item)
 
 
 def _fragile(evidence: Evidence) -> Iterator[Caution]:
