@@ -28,7 +28,12 @@ def superposed(turning: PlainWrench, first: PlainWrench, fitted: PlainWrench) ->
     moment, of_couple = _split(turning.moment, first.moment, fitted.moment)
     return (
         PlainWrench(force, turning.counter_force, moment, turning.counter_moment),
-        PlainWrench(of_first, first.counter_force, of_couple, first.counter_moment),
+        PlainWrench(
+            of_first,
+            first.counter_force + fitted.counter_force,
+            of_couple,
+            first.counter_moment + fitted.counter_moment,
+        ),
     )
 
 

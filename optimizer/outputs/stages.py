@@ -3,13 +3,14 @@
 What turns with the shaft can be balanced on the shaft, nothing else can. In every stage ``value`` is what the
 machine has without counterweights and ``remaining`` is what the counterweights leave of it.
 
-Superposition (stage VII of the slides) splits the phasor c of the counterweights, force and moment each for itself:
+Superposition (stage VII of the slides) splits the phasor c of what turns with the crankshaft, counterweights and
+balance shafts of its speed, force and moment each for itself:
 - the rotating masses R come first: they take the part of c that is opposed to R, at most -R;
 - the rest serves the first-order reciprocating masses (A1, B1).
 With c = -q R/|R| + c', where q is Re(-c conj(R))/|R| held within [0, |R|], stages I and II keep (|R| - q) R/|R|,
-stages III and IV keep (A1 + c', B1). Their sum is the first-order residual, whatever the split; without
-counterweights every ``remaining`` equals its ``value``. Where there are webs in two planes, iron shared out in
-this way exists.
+stages III and IV keep (A1 + c', B1 + b), b of the balance shafts that turn backwards. Their sum is the first-order
+residual, whatever the split; without counterweights every ``remaining`` equals its ``value``. Where there are webs in
+two planes, iron shared out in this way exists. Balance shafts at twice the speed leave (A2 + c2, B2 + b2).
 """
 
 from collections.abc import Sequence
@@ -18,6 +19,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.balance_shafts import of_balance_shafts
 from optimizer.mechanics.inertia import Wrench, counterweights
 from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Complex, Real
@@ -111,7 +113,12 @@ _NAMES = ("first-order force", "first-order moment", "second-order force", "seco
 
 
 def stages(
-    layout: Layout, turning: Wrench, first: Wrench, second: Wrench, unbalance: Complex | None
+    layout: Layout,
+    turning: Wrench,
+    first: Wrench,
+    second: Wrench,
+    unbalance: Complex | None,
+    shafts: Complex | None = None,
 ) -> tuple[Stage, ...]:
     """Stages I to VIII of one machine.
 
@@ -122,6 +129,7 @@ def stages(
         its reciprocating masses, over omega^2.
     unbalance : (webs,) mass-radius products m R e^{ja} of the counterweights, kg m; None where there are
         none to show (infeasible), which leaves ``remaining`` null.
+    shafts : (S,) the same of its balance shafts, kg m; None where there are none.
     """
     speed, planes, centre = float(layout.omega), layout.webs.position.tolist(), float(layout.centre_plane)
     square, (low, high) = speed * speed, (min(planes), max(planes)) if planes else (centre, centre)
@@ -133,17 +141,20 @@ def stages(
     both = in_units[0].plus(in_units[1])
     shown = [PlainWrench.of(first), both, *in_units]
     if unbalance is not None:
-        fitted = PlainWrench.of(counterweights(layout, unbalance), square)
+        fitted = PlainWrench.of(_fitted(layout, unbalance, shafts), square)
         shown += [both.plus(fitted), *superposed(in_units[0], in_units[1], fitted)]
-        whole = whole.plus(PlainWrench.of(counterweights(centred, unbalance)))
+        whole = whole.plus(PlainWrench.of(_fitted(centred, unbalance, shafts)))
+        if shafts is not None:
+            shown.append(in_units[2].plus(PlainWrench.of(_of_shafts(layout, shafts, 2), square)))
     of_force, of_moment, *pairs = [pair.ellipse for wrench in polar_wrenches(shown) for pair in wrench]
-    # with counterweights the second order is the same
     of_all, was, with_fitted = [*pairs[:2], *pairs[6:8]], pairs[2:8], pairs[8:]
     value = [*(pair.peak for pair in was), lacking, of_all[0].peak + of_all[2].peak]
     now, all_left = was, of_all
     remaining: Sequence[float | None] = [None] * len(_HEADINGS)
     if unbalance is not None:
-        now, all_left = [*with_fitted[2:], *was[4:]], [*with_fitted[:2], *was[4:]]
+        # counterweights on the crankshaft leave the second order as it is
+        twice = with_fitted[6:] or was[4:]
+        now, all_left = [*with_fitted[2:6], *twice], [*with_fitted[:2], *twice]
         lacking = missing(planes, centre, whole.force, whole.moment)
         remaining = [*(pair.peak for pair in now), lacking, all_left[0].peak + all_left[2].peak]
     scale = _scale(layout)
@@ -174,20 +185,42 @@ def stages(
     )
 
 
-def amounts(layout: Layout, turning: Wrench, first: Wrench, second: Wrench, unbalance: Complex | None) -> Real:
+def _fitted(layout: Layout, unbalance: Complex, shafts: Complex | None) -> Wrench:
+    """First order of counterweights (..., webs) kg m and of balance shafts (..., S) kg m, over omega^2."""
+    own = counterweights(layout, unbalance)
+    return own if shafts is None else own.plus(_of_shafts(layout, shafts, 1))
+
+
+def _of_shafts(layout: Layout, shafts: Complex, order: int) -> Wrench:
+    if layout.balance is None:
+        raise ValueError("unbalances of balance shafts, and the machine has none")
+    return of_balance_shafts(layout, layout.balance, shafts, order)
+
+
+def amounts(
+    layout: Layout,
+    turning: Wrench,
+    first: Wrench,
+    second: Wrench,
+    unbalance: Complex | None,
+    shafts: Complex | None = None,
+) -> Real:
     """What the eight stages come to with counterweights (..., webs) kg m, or without: (..., 8) in their units.
 
     Parameters
     ----------
     layout : of one machine, or of many with leading axes (...).
     turning, first, second : as for :func:`stages`.
+    shafts : (..., S) kg m, as for :func:`stages`.
     """
     square = layout.omega**2
-    missing = _Missing(*about_centre(layout, turning, first)).of(unbalance)
+    missing = _Missing(*about_centre(layout, turning, first)).of(unbalance, shafts)
+    if unbalance is not None and shafts is not None:
+        second = second.plus(_of_shafts(layout, shafts, 2))
     turning, first, second = (part.times(square) for part in (turning, first, second))
     both = turning.plus(first)
     if unbalance is not None:
-        fitted = counterweights(layout, unbalance).times(square)
+        fitted = _fitted(layout, unbalance, shafts).times(square)
         both = both.plus(fitted)
         turning, first = _superpose(turning, first, fitted)
     sizes = [pair.peak for part in (turning, first, second) for pair in part]
@@ -209,7 +242,7 @@ def _split(turning: Phasors, first: Phasors, fitted: Phasors) -> tuple[Phasors, 
     opposed = np.minimum(np.maximum(-(fitted.co * np.conj(outward)).real, 0.0), size)
     return (
         Phasors((size - opposed) * outward, turning.counter),
-        Phasors(first.co + fitted.co + opposed * outward, first.counter),
+        Phasors(first.co + fitted.co + opposed * outward, first.counter + fitted.counter),
     )
 
 
@@ -219,11 +252,11 @@ class _Missing:
     def __init__(self, centred: Layout, turning: Wrench, first: Wrench) -> None:
         self._centred, self._wrench = centred, turning.plus(first)
 
-    def of(self, unbalance: Complex | None) -> Real:
-        """With counterweights (..., webs) kg m, or without."""
+    def of(self, unbalance: Complex | None, shafts: Complex | None) -> Real:
+        """With counterweights (..., webs) kg m and balance shafts (..., S) kg m, or without."""
         centred, wrench = self._centred, self._wrench
         if unbalance is not None:
-            wrench = wrench.plus(counterweights(centred, unbalance))
+            wrench = wrench.plus(_fitted(centred, unbalance, shafts))
         force, couple = wrench.force.co, wrench.moment.co
         planes, centre = centred.webs.position, centred.centre_plane
         if planes.shape[-1] == 0:
@@ -312,14 +345,14 @@ _PARTS = ("rotating_inertia", "reciprocating_inertia", "second_order")
 
 def _figure(scene: Prepared, unbalance: Complex | None) -> tuple[Stage, ...]:
     turning, first, second = (scene.results[name] for name in _PARTS)
-    return stages(scene.layout, turning, first, second, unbalance)
+    return stages(scene.layout, turning, first, second, unbalance, scene.shafts)
 
 
 def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
     turning, first, second = (scene.results[name] for name in _PARTS)
     results: dict[str, Real] = {}
     for name, fitted in (("value", None), ("remaining", unbalance)):
-        sizes = amounts(scene.layout, turning, first, second, fitted)
+        sizes = amounts(scene.layout, turning, first, second, fitted, scene.shafts)
         results |= {f"stage_{name}.{stage}": sizes[..., k] for k, stage in enumerate(STAGE_UNITS)}
     return results
 

@@ -136,13 +136,15 @@ class Stage(Model):
     balanceable: Literal["fully", "partly", "no"] = Field(
         description="whether counterweights on the shaft can balance it", examples=["partly"]
     )
-    remaining: float | None = Field(description="what the counterweights leave; null if infeasible", examples=[4997.4])
+    remaining: float | None = Field(
+        description="what counterweights and balance shafts leave; null if infeasible", examples=[4997.4]
+    )
     acting: tuple[Acting, ...] = Field(
         (), description="what the stage is about, without counterweights, as data", examples=[[{"order": 1}]]
     )
     left: tuple[Acting, ...] | None = Field(
         None,
-        description="what the counterweights leave of it, in stage VIII of all; null if infeasible",
+        description="what they leave of it, in stage VIII of all; null if infeasible",
         examples=[[{"order": 1}]],
     )
     iron: tuple[StageIron, ...] = Field(

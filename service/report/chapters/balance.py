@@ -9,6 +9,7 @@ from schemas.answer.first_order import FirstOrder, Floor
 from schemas.answer.outputs import Hodographs, Stage
 from schemas.base.model import FieldProblem
 from schemas.machine.machine import Machine
+from schemas.machine.reciprocating import balance_shafts
 from schemas.request.requests import OptimizeRequest
 from service.common.validation import pointer
 from service.report.blocks import (
@@ -106,8 +107,9 @@ def stages(machine: Machine, results: Sequence[Stage] | None, missing: Sequence[
     if results is None:
         fields = "; ".join(f"{pointer(path)}: {message}" for path, message in missing[:5])
         return Chapter(title, (Paragraph(f"Not computed, because the machine does not give what they need. {fields}"),))
+    left_by = "counterweights and balance shafts" if balance_shafts(machine) else "the counterweights"
     values = table(
-        "Values without counterweights, and what the counterweights leave",
+        f"Values without counterweights, and what {left_by} leave",
         ["stage", "<subject", "#value", "#remaining", "unit", "can be balanced"],
         [
             (
