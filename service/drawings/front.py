@@ -3,48 +3,28 @@
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
-from typing import NamedTuple, TypeVar
+from typing import TypeVar
 
 from service.common.figures import digits
 from service.drawings.labels import Label, Shape, labels
 from service.drawings.layout import CrankMachine, Fitted, Layout, OrbitMachine, Outline, Pins, Place, Ring
 from service.drawings.outline import bounded, points, turned
+from service.drawings.projection import SIZE, FrontProjection, disc
 from service.drawings.svg import AFTER, FAINT, INK, MUTED, SERIES, Drawing, Point, shortened
 
 Entry = TypeVar("Entry", bound=tuple[float, str, object])
 
-#: width and height, and how far the machine and the axes of its rows reach, px
-SIZE, _MACHINE, _AXES = 400.0, 144.0, 164.0
+#: how far the machine and the axes of its rows reach, px
+_MACHINE, _AXES = 144.0, 164.0
 #: as it stands on a page of the report
 _SCALE = 0.8
 #: more names than this cannot be read
 _MAX_NAMES = 16
 _PIN, _THIN_PIN = 7.0, 4.0
-#: radius of the disc for the heaviest weight of unknown shape, as a share of the radius of its centre of mass
-_DISC = 0.34
 #: of a px: what a polygon is away from its arc
 _FINE = 0.1
 _ALLOWED = SERIES[2]
 BUILT = SERIES[3]
-
-
-class _View(NamedTuple):
-    """From metres to px."""
-
-    scale: float
-    centre: Point = (SIZE / 2, SIZE / 2)
-
-    def __call__(self, radius: float, angle_deg: float) -> Point:
-        return self.at(self.scale * radius, angle_deg)
-
-    def at(self, distance: float, angle_deg: float) -> Point:
-        """A place so many px from the shaft."""
-        angle, (x, y) = math.radians(angle_deg), self.centre
-        return x + distance * math.cos(angle), y - distance * math.sin(angle)
-
-    def arc(self, distance: float, start_deg: float, end_deg: float) -> list[Point]:
-        steps = max(2, math.ceil(abs(end_deg - start_deg) / 4))
-        return [self.at(distance, start_deg + (end_deg - start_deg) * step / steps) for step in range(steps + 1)]
 
 
 def front(layout: Layout) -> Drawing:
@@ -57,7 +37,7 @@ def front(layout: Layout) -> Drawing:
     names = ", ".join(f"{fitted.web.name} {_weight(fitted)}" for fitted in best)
     words = f"From the front, at shaft angle 0. Counterweights: {names or 'none'}."
     drawing = Drawing(SIZE, SIZE, words, _SCALE)
-    view = _View(_MACHINE / _reach(layout))
+    view = FrontProjection(_MACHINE / _reach(layout))
     _frame(drawing)
     wanted: list[Label] = []
     if isinstance(machine, CrankMachine):
@@ -67,11 +47,11 @@ def front(layout: Layout) -> Drawing:
     shapes = [_fitted(drawing, view, fitted, best) for fitted in sorted(best, key=lambda fitted: -fitted.mass_kg)]
     for fitted in built:
         with drawing.group("counterweight built", f"{fitted.web.name} as built: {_weight(fitted)}"):
-            drawing.area(_disc(view, fitted, (*best, *built)), "none", stroke=BUILT, width=1.6, dash="6 3")
+            drawing.area(disc(view, fitted, (*best, *built)), "none", stroke=BUILT, width=1.6, dash="6 3")
     cranks = _cranks(drawing, view, machine) if isinstance(machine, CrankMachine) else _scroll(drawing, view, machine)
     drawing.circle(view.centre, 4, fill=INK)
     _sense(drawing, machine.rotation)
-    pins = [_View(1.0, place).arc(_PIN, 0, 360) for place, _, _ in cranks]
+    pins = [FrontProjection(1.0, place).arc(_PIN, 0, 360) for place, _, _ in cranks]
     labels(drawing, [*_crank_names(view, cranks), *_web_names(view, best, shapes), *wanted], [*shapes, *pins])
     return drawing
 
@@ -104,19 +84,19 @@ def _frame(drawing: Drawing) -> None:
 
 def _sense(drawing: Drawing, rotation: str) -> None:
     """An arrow in the sense of rotation, apart from the machine."""
-    view = _View(1.0, (32.0, 32.0))
+    view = FrontProjection(1.0, (32.0, 32.0))
     ends = (200.0, 500.0) if rotation == "ccw" else (340.0, 40.0)
     with drawing.group("sense", "turns counter-clockwise" if rotation == "ccw" else "turns clockwise"):
         arc = view.arc(18, *ends)
         drawing.line(arc, MUTED, 1.2)
         ahead = ends[1] + (90 if rotation == "ccw" else -90)
         tip = arc[-1]
-        left, right = (_View(1.0, tip).at(7, ahead + 180 + turn) for turn in (28, -28))
+        left, right = (FrontProjection(1.0, tip).at(7, ahead + 180 + turn) for turn in (28, -28))
         drawing.area([tip, left, right], MUTED)
         drawing.text((view.centre[0], view.centre[1] + 4), rotation, "middle", 11, MUTED)
 
 
-def _rows(drawing: Drawing, view: _View, machine: CrankMachine) -> Iterator[Label]:
+def _rows(drawing: Drawing, view: FrontProjection, machine: CrankMachine) -> Iterator[Label]:
     cranks = machine.cranks
     axes = [
         (row.axis_deg % 360.0, row.name or "", throw)
@@ -139,7 +119,7 @@ def _rows(drawing: Drawing, view: _View, machine: CrankMachine) -> Iterator[Labe
         yield Label(place, f"{names}, {digits(axis)}°", MUTED, 12.0)
 
 
-def _allowed(drawing: Drawing, view: _View, web: Place) -> None:
+def _allowed(drawing: Drawing, view: FrontProjection, web: Place) -> None:
     """Where a weight may sit, if not anywhere."""
     if web.sector is None or web.reach_m is None or web.max_mass_kg == 0:
         return
@@ -149,9 +129,9 @@ def _allowed(drawing: Drawing, view: _View, web: Place) -> None:
         drawing.area(wedge, _ALLOWED, 0.08, _ALLOWED, 1.0, "4 4")
 
 
-def _fitted(drawing: Drawing, view: _View, fitted: Fitted, weights: Sequence[Fitted]) -> Shape:
+def _fitted(drawing: Drawing, view: FrontProjection, fitted: Fitted, weights: Sequence[Fitted]) -> Shape:
     """Draws a counterweight, and gives its outline."""
-    shape = _disc(view, fitted, weights) if fitted.shape is None else _cut(view, fitted, fitted.shape)
+    shape = disc(view, fitted, weights) if fitted.shape is None else _cut(view, fitted, fitted.shape)
     kind = f"counterweight{' fixed' if fitted.fixed else ''}{' unknown' if fitted.shape is None else ''}"
     with drawing.group(kind, f"{fitted.web.name}: {_weight(fitted)}, radius {digits(fitted.radius_m)} m"):
         ground, edge = (MUTED, INK) if fitted.fixed else (AFTER, AFTER)
@@ -160,7 +140,7 @@ def _fitted(drawing: Drawing, view: _View, fitted: Fitted, weights: Sequence[Fit
     return shape
 
 
-def _cut(view: _View, fitted: Fitted, shape: Outline) -> Shape:
+def _cut(view: FrontProjection, fitted: Fitted, shape: Outline) -> Shape:
     """True to shape."""
     hub = fitted.web.envelope.inner_radius_m if fitted.web.envelope else 0.0
     half_angle, chord = math.radians(shape.half_angle_deg), shape.chord_height_m is not None
@@ -170,18 +150,11 @@ def _cut(view: _View, fitted: Fitted, shape: Outline) -> Shape:
     return [(x0 + view.scale * x, y0 - view.scale * y) for x, y in corners]
 
 
-def _disc(view: _View, fitted: Fitted, weights: Sequence[Fitted]) -> Shape:
-    """What stands for a weight of which only mass and centre are known: its area is as its mass."""
-    heaviest = max(weights, key=lambda weight: weight.mass_kg)
-    radius = _DISC * heaviest.radius_m * math.sqrt(fitted.mass_kg / heaviest.mass_kg)
-    return _View(1.0, view(fitted.radius_m, fitted.angle_deg)).arc(max(3.0, view.scale * radius), 0, 360)
-
-
 #: place of the pin, names of what is there, their common name
 Crank = tuple[Point, list[str], str]
 
 
-def _cranks(drawing: Drawing, view: _View, machine: CrankMachine) -> list[Crank]:
+def _cranks(drawing: Drawing, view: FrontProjection, machine: CrankMachine) -> list[Crank]:
     for radius in sorted({crank.crank_radius_m for _, crank in machine.cranks}):
         drawing.circle(view.centre, view.scale * radius, FAINT, dash="3 3")
     cranks = [(crank.crank_angle_deg % 360.0, name, crank.crank_radius_m) for name, crank in machine.cranks]
@@ -197,7 +170,7 @@ def _cranks(drawing: Drawing, view: _View, machine: CrankMachine) -> list[Crank]
     return drawn
 
 
-def _scroll(drawing: Drawing, view: _View, machine: OrbitMachine) -> list[Crank]:
+def _scroll(drawing: Drawing, view: FrontProjection, machine: OrbitMachine) -> list[Crank]:
     orbit, guide = machine.orbit_radius_m, machine.anti_rotation
     if isinstance(guide, Ring):
         ends = [view.at(_AXES, guide.axis_deg + turn) for turn in (180.0, 0.0)]
@@ -216,7 +189,7 @@ def _scroll(drawing: Drawing, view: _View, machine: OrbitMachine) -> list[Crank]
     return [(view(orbit, 0), ["orbiting scroll"], "")]
 
 
-def _crank_names(view: _View, cranks: Sequence[Crank]) -> Iterator[Label]:
+def _crank_names(view: FrontProjection, cranks: Sequence[Crank]) -> Iterator[Label]:
     if len(cranks) > _MAX_NAMES:
         return
     for (x, y), names, common in cranks:
@@ -225,7 +198,7 @@ def _crank_names(view: _View, cranks: Sequence[Crank]) -> Iterator[Label]:
         yield Label((x, y + 17 if y > view.centre[1] + 1 else y - 17), text, INK)
 
 
-def _web_names(view: _View, weights: Sequence[Fitted], shapes: Sequence[Shape]) -> Iterator[Label]:
+def _web_names(view: FrontProjection, weights: Sequence[Fitted], shapes: Sequence[Shape]) -> Iterator[Label]:
     """Of those in the same place one name: beyond the shape, or above it where the axes of rows run beside it."""
     places: dict[tuple[int, str], list[int]] = {}
     order = sorted(weights, key=lambda weight: -weight.mass_kg)

@@ -8,12 +8,11 @@ from typing import NamedTuple
 from service.common.figures import digits, typeset
 from service.drawings.front import BUILT
 from service.drawings.layout import CrankMachine, Fitted, Layout, OrbitMachine, Ring
+from service.drawings.projection import LEFT, MIDDLE, RIGHT, WIDTH, SideProjection
 from service.drawings.sheet import millimetres
 from service.drawings.svg import AFTER, FAINT, INK, MUTED, SERIES, Drawing, Point, shortened
 
-WIDTH = 560.0
-_LEFT, _RIGHT = 50.0, WIDTH - 50.0
-_MIDDLE, _ROOM, _BOTTOM = 142.0, 100.0, 260.0
+_ROOM, _BOTTOM = 100.0, 260.0
 #: what stands towards the reader is drawn down and to the left, shortened
 OBLIQUE = (-0.32, 0.26)
 _STRAIGHT = (0.0, 0.0)
@@ -23,24 +22,6 @@ _INNER, _OUTER = 0.82, 1.18
 _GAP, _LINE = 34.0, 15.0
 _MAX_NAMES = 24
 _DIMENSIONS = 56.0
-
-
-class _View(NamedTuple):
-    """From places along the shaft and radii about it, m, to px."""
-
-    low: float
-    per_m: float
-    across_per_m: float
-    facing_deg: float
-    depth: Point
-
-    def z(self, position: float) -> float:
-        return _LEFT + (position - self.low) * self.per_m
-
-    def __call__(self, position: float, radius: float, angle_deg: float) -> Point:
-        angle = math.radians(angle_deg - self.facing_deg)
-        height, depth = (self.across_per_m * radius * part for part in (math.cos(angle), -math.sin(angle)))
-        return self.z(position) + self.depth[0] * depth, _MIDDLE - height + self.depth[1] * depth
 
 
 class _Plane(NamedTuple):
@@ -72,7 +53,7 @@ def side(layout: Layout, dimensions: bool = False) -> Drawing:
         place = (view.z(reference) + (-4 if late else 4), 20.0)
         drawing.text(place, "reference plane", "end" if late else "start", 12.0, MUTED)
     _weights(drawing, view, layout)
-    drawing.line([(_LEFT - 26, _MIDDLE), (_RIGHT + 26, _MIDDLE)], INK, 4.0)
+    drawing.line([(LEFT - 26, MIDDLE), (RIGHT + 26, MIDDLE)], INK, 4.0)
     if isinstance(machine, CrankMachine):
         _throws(drawing, view, machine)
         _bearings(drawing, view, machine)
@@ -86,14 +67,14 @@ def side(layout: Layout, dimensions: bool = False) -> Drawing:
     return drawing
 
 
-def _view(layout: Layout, planes: Sequence[_Plane], depth: Point) -> _View:
+def _view(layout: Layout, planes: Sequence[_Plane], depth: Point) -> SideProjection:
     machine = layout.machine
     places = [*(plane.position_m for plane in planes), layout.reference_plane_m]
     thick = [(web.position_m, 0.5 * (web.envelope.thickness_m or 0.0)) for web in machine.places if web.envelope]
     places += [place + end * half for place, half in thick for end in (-1, 1)]
     low, high = min(places), max(places)
     room = 0.04 * (high - low) or 0.5
-    per_m = (_RIGHT - _LEFT) / (high - low + 2 * room)
+    per_m = (RIGHT - LEFT) / (high - low + 2 * room)
     weights = (*layout.best, *layout.built)
     radii = [web.reach_m for web in machine.places if web.reach_m]
     radii += [weight.shape.outer_radius_m if weight.shape else _OUTER * weight.radius_m for weight in weights]
@@ -102,7 +83,7 @@ def _view(layout: Layout, planes: Sequence[_Plane], depth: Point) -> _View:
         facing = machine.cranks[0][1].crank_angle_deg if machine.cranks else 0.0
     else:
         radii, facing = [*radii, 2.0 * machine.orbit_radius_m], 0.0
-    return _View(low - room, per_m, _ROOM / max(radii, default=1.0), facing, depth)
+    return SideProjection(low - room, per_m, _ROOM / max(radii, default=1.0), facing, depth)
 
 
 def _planes(layout: Layout) -> Iterator[_Plane]:
@@ -122,7 +103,7 @@ def _planes(layout: Layout) -> Iterator[_Plane]:
         yield _Plane(web.position_m, web.name, AFTER)
 
 
-def _throws(drawing: Drawing, view: _View, machine: CrankMachine) -> None:
+def _throws(drawing: Drawing, view: SideProjection, machine: CrankMachine) -> None:
     places = sorted({view.z(crank.position_m) for _, crank in machine.cranks})
     half = min([7.0, *(0.3 * (right - left) for left, right in pairwise(places))])
     width = min(1.0, half / 7.0)
@@ -131,8 +112,8 @@ def _throws(drawing: Drawing, view: _View, machine: CrankMachine) -> None:
         middle = view.z(crank.position_m)
         with drawing.group("throw", f"throw {name}, plane {digits(crank.position_m)} m"):
             for aside in (-half, half):
-                drawing.line([(middle + aside, _MIDDLE), (x + aside, y)], INK, 2.0 * width)
-            if abs(y - _MIDDLE) < 6 and abs(x - middle) < 6:
+                drawing.line([(middle + aside, MIDDLE), (x + aside, y)], INK, 2.0 * width)
+            if abs(y - MIDDLE) < 6 and abs(x - middle) < 6:
                 # it stands towards the reader, or away
                 drawing.circle((x, y), 5.0 * width, fill="white", width=1.6)
             else:
@@ -143,27 +124,27 @@ def _throws(drawing: Drawing, view: _View, machine: CrankMachine) -> None:
                     drawing.circle(view(place, crank.crank_radius_m, crank.crank_angle_deg), 2.5, "none", MUTED)
 
 
-def _scroll(drawing: Drawing, view: _View, machine: OrbitMachine) -> None:
+def _scroll(drawing: Drawing, view: SideProjection, machine: OrbitMachine) -> None:
     x, y = view(machine.orbiting_position_m, machine.orbit_radius_m, 0.0)
     with drawing.group("throw", "orbiting scroll"):
         drawing.line([(x, y - 55), (x, y + 55)], INK, 2.5)
         drawing.circle((x, y), 4, fill="white", width=1.6)
 
 
-def _bearings(drawing: Drawing, view: _View, machine: CrankMachine) -> None:
+def _bearings(drawing: Drawing, view: SideProjection, machine: CrankMachine) -> None:
     for name, bearing in machine.supports:
         x = view.z(bearing.position_m)
         with drawing.group("bearing", f"bearing {name}"):
-            drawing.area([(x, _MIDDLE + 3), (x - 8, _MIDDLE + 17), (x + 8, _MIDDLE + 17)], "white", stroke=INK)
+            drawing.area([(x, MIDDLE + 3), (x - 8, MIDDLE + 17), (x + 8, MIDDLE + 17)], "white", stroke=INK)
 
 
-def _weights(drawing: Drawing, view: _View, layout: Layout) -> None:
+def _weights(drawing: Drawing, view: SideProjection, layout: Layout) -> None:
     best, built = layout.best, layout.built
     carrying = {weight.web.name for weight in best}
     for web in layout.machine.places:
         if web.name not in carrying:
             with drawing.group("free", f"{web.name}: nothing"):
-                drawing.line([(view.z(web.position_m), _MIDDLE + aside) for aside in (-7, 7)], AFTER, 1.2)
+                drawing.line([(view.z(web.position_m), MIDDLE + aside) for aside in (-7, 7)], AFTER, 1.2)
     heaviest = max((weight.mass_kg for weight in (*best, *built)), default=0.0)
     for weight in best:
         words = f"{digits(round(weight.mass_kg, 4))} kg at {digits(round(weight.angle_deg, 2))}°"
@@ -182,7 +163,7 @@ def _weights(drawing: Drawing, view: _View, layout: Layout) -> None:
             )
 
 
-def _plate(view: _View, fitted: Fitted, heaviest: float) -> list[Point]:
+def _plate(view: SideProjection, fitted: Fitted, heaviest: float) -> list[Point]:
     """From the inner to the outer radius and as thick as it is; of unknown shape as wide as its mass asks for."""
     plate, place = fitted.web.envelope, fitted.web.position_m
     if fitted.shape is None:
@@ -202,34 +183,34 @@ def _mean(ends: Sequence[Point]) -> Point:
 # ---- dimensions
 
 
-def _axis(drawing: Drawing, view: _View, planes: Iterable[_Plane]) -> None:
+def _axis(drawing: Drawing, view: SideProjection, planes: Iterable[_Plane]) -> None:
     """The planes in mm, as far as they do not run into each other."""
-    drawing.line([(_LEFT - 14, _BOTTOM), (_RIGHT + 14, _BOTTOM)], MUTED, 0.8)
-    drawing.text((_LEFT - 46, _BOTTOM + 15), "z, mm", size=9.5, fill=MUTED)
+    drawing.line([(LEFT - 14, _BOTTOM), (RIGHT + 14, _BOTTOM)], MUTED, 0.8)
+    drawing.text((LEFT - 46, _BOTTOM + 15), "z, mm", size=9.5, fill=MUTED)
     last = -math.inf
     for position in sorted({plane.position_m for plane in planes}):
         x = view.z(position)
         drawing.line([(x, _BOTTOM - 3), (x, _BOTTOM + 3)], MUTED, 0.8)
-        drawing.line([(x, _MIDDLE + 6), (x, _BOTTOM - 4)], FAINT, 0.6)
+        drawing.line([(x, MIDDLE + 6), (x, _BOTTOM - 4)], FAINT, 0.6)
         if x - last >= _GAP:
             drawing.text((x, _BOTTOM + 15), typeset(millimetres(position)), "middle", 9.5)
             last = x
 
 
-def _radii(drawing: Drawing, view: _View, weights: Sequence[Fitted]) -> None:
+def _radii(drawing: Drawing, view: SideProjection, weights: Sequence[Fitted]) -> None:
     """The radius of the centre of mass beyond the end of each weight, mm, where there is room."""
     ends = {-1: -math.inf, 1: -math.inf}
     for fitted in sorted(weights, key=lambda weight: weight.web.position_m):
         reach = fitted.shape.outer_radius_m if fitted.shape else _OUTER * fitted.radius_m
         x, y = view(fitted.web.position_m, reach, fitted.angle_deg)
-        where = -1 if y < _MIDDLE else 1
+        where = -1 if y < MIDDLE else 1
         if x - ends[where] >= _GAP:
             text = f"R {typeset(millimetres(fitted.radius_m))}"
             drawing.text((x, y + (-6 if where < 0 else 14)), text, "middle", 9.5, AFTER, halo=True)
             ends[where] = x
 
 
-def _distances(drawing: Drawing, view: _View, planes: Sequence[float]) -> None:
+def _distances(drawing: Drawing, view: SideProjection, planes: Sequence[float]) -> None:
     """From web to web, and over all of them, mm."""
     for row, pairs in enumerate((list(pairwise(planes)), [(planes[0], planes[-1])] if len(planes) > 2 else [])):
         height = _BOTTOM + 34 + 20 * row
@@ -249,7 +230,7 @@ def _distances(drawing: Drawing, view: _View, planes: Sequence[float]) -> None:
 # ---- names
 
 
-def _lines(view: _View, planes: Sequence[_Plane]) -> Iterator[tuple[_Plane, float, int]]:
+def _lines(view: SideProjection, planes: Sequence[_Plane]) -> Iterator[tuple[_Plane, float, int]]:
     """Where each name stands, and on which line below the drawing: on the first where there is room."""
     ends: list[float] = []
     for plane in sorted(planes):
@@ -260,7 +241,7 @@ def _lines(view: _View, planes: Sequence[_Plane]) -> Iterator[tuple[_Plane, floa
         yield plane, x, row
 
 
-def _names(drawing: Drawing, view: _View, lines: Sequence[tuple[_Plane, float, int]], below: float) -> None:
+def _names(drawing: Drawing, view: SideProjection, lines: Sequence[tuple[_Plane, float, int]], below: float) -> None:
     with drawing.group("names"):
         for plane, x, row in lines:
             at = view.z(plane.position_m)
