@@ -2,12 +2,12 @@
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import groupby
+from itertools import chain, groupby
 from typing import TypeVar
 
 from service.common.figures import digits
 from service.drawings.labels import Label, Shape, labels
-from service.drawings.layout import CrankMachine, Fitted, Layout, OrbitMachine, Outline, Pins, Place, Ring
+from service.drawings.layout import Balance, CrankMachine, Fitted, Layout, OrbitMachine, Outline, Pins, Place, Ring
 from service.drawings.outline import bounded, points, turned
 from service.drawings.projection import SIZE, FrontProjection, disc
 from service.drawings.svg import AFTER, FAINT, INK, MUTED, SERIES, Drawing, Point, shortened
@@ -31,7 +31,7 @@ def front(layout: Layout) -> Drawing:
     """Cranks, axes of rows and counterweights, x to the right and y upwards.
 
     Counterweights are true to shape where their shape is known; a dashed disc stands for the others. What is built in
-    place of them has no ground.
+    place of them has no ground. Balance shafts are in their places.
     """
     machine, best, built = layout.machine, layout.best, layout.built
     names = ", ".join(f"{fitted.web.name} {_weight(fitted)}" for fitted in best)
@@ -44,16 +44,54 @@ def front(layout: Layout) -> Drawing:
         wanted += _rows(drawing, view, machine)
     for web in machine.places:
         _allowed(drawing, view, web)
-    shapes = [_fitted(drawing, view, fitted, best) for fitted in sorted(best, key=lambda fitted: -fitted.mass_kg)]
-    for fitted in built:
-        with drawing.group("counterweight built", f"{fitted.web.name} as built: {_weight(fitted)}"):
-            drawing.area(disc(view, fitted, (*best, *built)), "none", stroke=BUILT, width=1.6, dash="6 3")
+    optimum = (*best, *chain.from_iterable(shaft.best for shaft in layout.balance))
+    every = (*optimum, *built, *chain.from_iterable(shaft.built for shaft in layout.balance))
+    shapes = [_fitted(drawing, view, fitted, optimum) for fitted in sorted(best, key=lambda fitted: -fitted.mass_kg)]
+    _as_built(drawing, view, built, every)
+    beside: list[Shape] = []
+    for shaft in layout.balance:
+        name, on_it = _balance(drawing, view, shaft, optimum, every)
+        wanted.append(name)
+        beside += on_it
     cranks = _cranks(drawing, view, machine) if isinstance(machine, CrankMachine) else _scroll(drawing, view, machine)
     drawing.circle(view.centre, 4, fill=INK)
     _sense(drawing, machine.rotation)
     pins = [FrontProjection(1.0, place).arc(_PIN, 0, 360) for place, _, _ in cranks]
-    labels(drawing, [*_crank_names(view, cranks), *_web_names(view, best, shapes), *wanted], [*shapes, *pins])
+    labels(drawing, [*_crank_names(view, cranks), *_web_names(view, best, shapes), *wanted], [*shapes, *pins, *beside])
     return drawing
+
+
+def _balance(
+    drawing: Drawing, view: FrontProjection, balance: Balance, optimum: Sequence[Fitted], every: Sequence[Fitted]
+) -> tuple[Label, list[Shape]]:
+    """Draws a balance shaft in its place, and gives its name and the outlines of what is on it.
+
+    Parameters
+    ----------
+    optimum, every : weights of all shafts, and with them what is built.
+    """
+    shaft = balance.shaft
+    around = view._replace(centre=view(*shaft.axis))
+    way = f"{'with' if shaft.speed_ratio > 0 else 'against'}, {'n' if abs(shaft.speed_ratio) == 1 else '2n'}"
+    on_it = ", ".join(f"{fitted.web.name} {_weight(fitted)}" for fitted in balance.best)
+    with drawing.group("balancer", f"{shaft.name}, {way}: {on_it or 'nothing'}"):
+        # the first circle is the axis, about which a page turns what is on it
+        drawing.circle(around.centre, 3, MUTED, "white")
+        for radius in sorted({web.radius_m for web in shaft.places if web.radius_m}):
+            drawing.circle(around.centre, view.scale * radius, FAINT, dash="3 3")
+        for web in shaft.places:
+            _allowed(drawing, around, web)
+        shapes = [_fitted(drawing, around, fitted, optimum) for fitted in balance.best]
+        _as_built(drawing, around, balance.built, every)
+    x, y = around.centre
+    lowest = max((corner for shape in shapes for _, corner in shape), default=y)
+    return Label((x, max(y, lowest) + 14.0), f"{shortened(shaft.name, 18)}: {way}", MUTED, 12.0), shapes
+
+
+def _as_built(drawing: Drawing, view: FrontProjection, built: Sequence[Fitted], weights: Sequence[Fitted]) -> None:
+    for fitted in built:
+        with drawing.group("counterweight built", f"{fitted.web.name} as built: {_weight(fitted)}"):
+            drawing.area(disc(view, fitted, weights), "none", stroke=BUILT, width=1.6, dash="6 3")
 
 
 def _weight(fitted: Fitted) -> str:
@@ -67,6 +105,10 @@ def _reach(layout: Layout) -> float:
     radii += [
         1.22 * counterweight.radius_m for counterweight in (*layout.best, *layout.built) if counterweight.shape is None
     ]
+    for shaft, *weights in layout.balance:
+        far, _ = shaft.axis
+        radii += [far + 1.22 * web.reach_m for web in shaft.places if web.reach_m]
+        radii += [far + 1.22 * fitted.radius_m for fitted in chain(*weights) if fitted.shape is None]
     if isinstance(machine, CrankMachine):
         return max([*radii, *(1.25 * crank.crank_radius_m for _, crank in machine.cranks)], default=1.0)
     guide = machine.anti_rotation

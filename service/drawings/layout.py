@@ -3,6 +3,7 @@
 Lengths are m, angles deg.
 """
 
+import math
 from collections.abc import Iterator, Sequence
 from itertools import islice
 from typing import Annotated, Any, Literal, NamedTuple
@@ -17,7 +18,7 @@ from schemas.base.rules import REQUIRED, Path
 from schemas.base.units import Unit, non_negative
 from schemas.machine.drive import MAX_BEARINGS
 from schemas.machine.machine import Machine
-from schemas.machine.reciprocating import MAX_ROWS_TOGETHER
+from schemas.machine.reciprocating import MAX_BALANCE_SHAFTS, MAX_ROWS_TOGETHER
 from schemas.machine.rotor import MAX_WEBS
 from schemas.machine.throws import MAX_ROWS, MAX_THROWS
 from service.common.validation import MAX_ERRORS, locate, message_of
@@ -151,6 +152,34 @@ class Pins(_Part):
     position_m: Position
 
 
+class Balancer(_Part):
+    """A balance shaft; its webs stand as they do at its shaft angle 0."""
+
+    name: Name
+    speed_ratio: Literal[-2, -1, 1, 2]
+    x_m: Position = 0.0
+    y_m: Position = 0.0
+    webs: tuple[Place | None, ...] = Field((), max_length=MAX_WEBS)
+
+    @property
+    def places(self) -> tuple[Place, ...]:
+        """Webs that are known."""
+        return tuple(filter(None, self.webs))
+
+    @property
+    def axis(self) -> tuple[float, float]:
+        """Distance from the crankshaft, m, and direction, deg."""
+        return math.hypot(self.x_m, self.y_m), math.degrees(math.atan2(self.y_m, self.x_m))
+
+
+class Balance(NamedTuple):
+    """A balance shaft with what can be seen on it."""
+
+    shaft: Balancer
+    best: tuple[Fitted, ...]
+    built: tuple[Fitted, ...]
+
+
 class _Shaft(_Part):
     rotation: Literal["ccw", "cw"] = "ccw"
     reference_plane_m: Annotated[Position | None, Unit("m")] = None
@@ -168,6 +197,7 @@ class CrankMachine(_Shaft):
     kind: Literal["reciprocating"]
     throws: tuple[Crank | None, ...] = Field((), max_length=MAX_THROWS)
     bearings: tuple[Support | None, ...] = Field((), max_length=MAX_BEARINGS)
+    balance_shafts: tuple[Balancer | None, ...] = Field((), max_length=MAX_BALANCE_SHAFTS)
 
     @field_validator("throws")
     @classmethod
@@ -205,21 +235,34 @@ class Layout(_Part):
 
     @property
     def best(self) -> tuple[Fitted, ...]:
-        """The counterweights that can be seen."""
-        return tuple(self._seen(self.counterweights))
+        """The counterweights on the crankshaft that can be seen."""
+        return tuple(self._seen(self.counterweights, self.machine.places))
 
     @property
     def built(self) -> tuple[Fitted, ...]:
         """What is fitted in place of them and can be seen."""
-        return tuple(self._seen(self.fitted))
+        return tuple(self._seen(self.fitted, self.machine.places))
 
-    def _seen(self, weights: Sequence[Weight | None]) -> Iterator[Fitted]:
-        """Weights with the radius of their own, of the web, or of the counterweight that they stand for."""
-        webs = {web.name: web for web in self.machine.places}
+    @property
+    def balance(self) -> tuple[Balance, ...]:
+        """The balance shafts that are known."""
+        machine = self.machine
+        shafts = filter(None, machine.balance_shafts) if isinstance(machine, CrankMachine) else ()
+        return tuple(
+            Balance(
+                shaft,
+                tuple(self._seen(self.counterweights, shaft.places)),
+                tuple(self._seen(self.fitted, shaft.places)),
+            )
+            for shaft in shafts
+        )
+
+    def _seen(self, weights: Sequence[Weight | None], places: Sequence[Place]) -> Iterator[Fitted]:
+        """Weights of a shaft with the radius of their own, of the web, or of the counterweight that they stand for."""
+        webs = {web.name: web for web in places}
         radii = {counterweight.web: counterweight.radius_m for counterweight in self.counterweights if counterweight}
         heaviest = max((weight.mass_kg for weight in weights if weight), default=0.0)
         for weight in weights:
-            # weights of balance shafts are on none of these webs
             if weight is None or weight.web not in webs or not weight.mass_kg > _DUST * heaviest:
                 continue
             web = webs[weight.web]
@@ -240,7 +283,7 @@ class Layout(_Part):
 
 
 def layout_of(machine: Machine, best: Sequence[Counterweight], built: Sequence[Counterweight] = ()) -> Layout:
-    """A whole machine with its counterweights."""
+    """A whole machine with its counterweights, those on balance shafts among them."""
     return Layout.model_validate({"machine": machine, "counterweights": best, "fitted": built})
 
 

@@ -44,13 +44,19 @@ def disc(view: FrontProjection, fitted: Fitted, weights: Sequence[Fitted]) -> Sh
 
 
 class SideProjection(NamedTuple):
-    """From places along the shaft and radii about it, m, to px."""
+    """From places along a shaft and radii about it, m, to px.
+
+    facing_deg : the direction that is upwards.
+    depth : of what stands towards the reader, as shares of its distance.
+    aside : from the crankshaft to the shaft, px.
+    """
 
     low: float
     per_m: float
     across_per_m: float
     facing_deg: float
     depth: Point
+    aside: Point = (0.0, 0.0)
 
     def z(self, position: float) -> float:
         return LEFT + (position - self.low) * self.per_m
@@ -58,4 +64,10 @@ class SideProjection(NamedTuple):
     def __call__(self, position: float, radius: float, angle_deg: float) -> Point:
         angle = math.radians(angle_deg - self.facing_deg)
         height, depth = (self.across_per_m * radius * part for part in (math.cos(angle), -math.sin(angle)))
-        return self.z(position) + self.depth[0] * depth, MIDDLE - height + self.depth[1] * depth
+        along, down = self.aside
+        return self.z(position) + along + self.depth[0] * depth, MIDDLE + down - height + self.depth[1] * depth
+
+    def about(self, distance: float, angle_deg: float) -> "SideProjection":
+        """The same about a shaft beside the crankshaft, m and deg."""
+        x, y = self(self.low, distance, angle_deg)
+        return self._replace(aside=(x - self.z(self.low), y - MIDDLE))

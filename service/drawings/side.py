@@ -2,12 +2,12 @@
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import pairwise
+from itertools import chain, pairwise
 from typing import NamedTuple
 
 from service.common.figures import digits, typeset
 from service.drawings.front import BUILT
-from service.drawings.layout import CrankMachine, Fitted, Layout, OrbitMachine, Ring
+from service.drawings.layout import Balancer, CrankMachine, Fitted, Layout, OrbitMachine, Place, Ring
 from service.drawings.projection import LEFT, MIDDLE, RIGHT, WIDTH, SideProjection
 from service.drawings.sheet import millimetres
 from service.drawings.svg import AFTER, FAINT, INK, MUTED, SERIES, Drawing, Point, shortened
@@ -52,7 +52,13 @@ def side(layout: Layout, dimensions: bool = False) -> Drawing:
         late = view.z(reference) > WIDTH - 130
         place = (view.z(reference) + (-4 if late else 4), 20.0)
         drawing.text(place, "reference plane", "end" if late else "start", 12.0, MUTED)
-    _weights(drawing, view, layout)
+    heaviest = max((weight.mass_kg for weight in _every_weight(layout)), default=0.0)
+    _weights(drawing, view, machine.places, layout.best, layout.built, heaviest)
+    shafts = [(view.about(*balance.shaft.axis), balance) for balance in layout.balance]
+    for around, (shaft, best, built) in shafts:
+        with drawing.group("balancer", shaft.name):
+            _axis_of(drawing, around, shaft)
+            _weights(drawing, around, shaft.places, best, built, heaviest)
     drawing.line([(LEFT - 26, MIDDLE), (RIGHT + 26, MIDDLE)], INK, 4.0)
     if isinstance(machine, CrankMachine):
         _throws(drawing, view, machine)
@@ -61,7 +67,8 @@ def side(layout: Layout, dimensions: bool = False) -> Drawing:
         _scroll(drawing, view, machine)
     if dimensions:
         _axis(drawing, view, planes)
-        _radii(drawing, view, layout.best)
+        for around, fitted in ((view, layout.best), *((around, balance.best) for around, balance in shafts)):
+            _radii(drawing, around, fitted)
         _distances(drawing, view, sorted({web.position_m for web in machine.places}))
     _names(drawing, view, lines, below)
     return drawing
@@ -78,6 +85,10 @@ def _view(layout: Layout, planes: Sequence[_Plane], depth: Point) -> SideProject
     weights = (*layout.best, *layout.built)
     radii = [web.reach_m for web in machine.places if web.reach_m]
     radii += [weight.shape.outer_radius_m if weight.shape else _OUTER * weight.radius_m for weight in weights]
+    for shaft, *fitted in layout.balance:
+        far, _ = shaft.axis
+        radii += [far, *(far + web.reach_m for web in shaft.places if web.reach_m)]
+        radii += [far + _OUTER * weight.radius_m for weight in chain(*fitted)]
     if isinstance(machine, CrankMachine):
         radii += [crank.crank_radius_m for _, crank in machine.cranks]
         facing = machine.cranks[0][1].crank_angle_deg if machine.cranks else 0.0
@@ -99,8 +110,22 @@ def _planes(layout: Layout) -> Iterator[_Plane]:
         guide = machine.anti_rotation
         if guide is not None:
             yield _Plane(guide.position_m, "ring" if isinstance(guide, Ring) else "pins", MUTED)
-    for web in machine.places:
+    for web in chain(machine.places, *(balance.shaft.places for balance in layout.balance)):
         yield _Plane(web.position_m, web.name, AFTER)
+
+
+def _every_weight(layout: Layout) -> Iterator[Fitted]:
+    yield from (*layout.best, *layout.built)
+    for _, best, built in layout.balance:
+        yield from (*best, *built)
+
+
+def _axis_of(drawing: Drawing, view: SideProjection, shaft: Balancer) -> None:
+    """The axis of a balance shaft beside the crankshaft, along its webs."""
+    planes = [web.position_m for web in shaft.places]
+    if planes and shaft.axis[0] > 0.0:
+        (left, y), (right, _) = (view(place, 0.0, 0.0) for place in (min(planes), max(planes)))
+        drawing.line([(left - 20, y), (right + 20, y)], INK, 2.0)
 
 
 def _throws(drawing: Drawing, view: SideProjection, machine: CrankMachine) -> None:
@@ -138,14 +163,26 @@ def _bearings(drawing: Drawing, view: SideProjection, machine: CrankMachine) -> 
             drawing.area([(x, MIDDLE + 3), (x - 8, MIDDLE + 17), (x + 8, MIDDLE + 17)], "white", stroke=INK)
 
 
-def _weights(drawing: Drawing, view: SideProjection, layout: Layout) -> None:
-    best, built = layout.best, layout.built
+def _weights(
+    drawing: Drawing,
+    view: SideProjection,
+    places: Sequence[Place],
+    best: Sequence[Fitted],
+    built: Sequence[Fitted],
+    heaviest: float,
+) -> None:
+    """What a shaft carries.
+
+    Parameters
+    ----------
+    heaviest : of all shafts, kg.
+    """
     carrying = {weight.web.name for weight in best}
-    for web in layout.machine.places:
+    for web in places:
         if web.name not in carrying:
+            x, y = view(web.position_m, 0.0, 0.0)
             with drawing.group("free", f"{web.name}: nothing"):
-                drawing.line([(view.z(web.position_m), MIDDLE + aside) for aside in (-7, 7)], AFTER, 1.2)
-    heaviest = max((weight.mass_kg for weight in (*best, *built)), default=0.0)
+                drawing.line([(x, y + aside) for aside in (-7, 7)], AFTER, 1.2)
     for weight in best:
         words = f"{digits(round(weight.mass_kg, 4))} kg at {digits(round(weight.angle_deg, 2))}°"
         kind = f"counterweight{' fixed' if weight.fixed else ''}{' unknown' if weight.shape is None else ''}"
@@ -203,7 +240,7 @@ def _radii(drawing: Drawing, view: SideProjection, weights: Sequence[Fitted]) ->
     for fitted in sorted(weights, key=lambda weight: weight.web.position_m):
         reach = fitted.shape.outer_radius_m if fitted.shape else _OUTER * fitted.radius_m
         x, y = view(fitted.web.position_m, reach, fitted.angle_deg)
-        where = -1 if y < MIDDLE else 1
+        where = -1 if y < view(fitted.web.position_m, 0.0, 0.0)[1] else 1
         if x - ends[where] >= _GAP:
             text = f"R {typeset(millimetres(fitted.radius_m))}"
             drawing.text((x, y + (-6 if where < 0 else 14)), text, "middle", 9.5, AFTER, halo=True)

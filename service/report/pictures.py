@@ -16,7 +16,7 @@ from service.drawings.front import front as drawn_front
 from service.drawings.layout import Layout, layout_of
 from service.drawings.side import side as drawn_side
 from service.drawings.svg import Drawing, beside, shortened
-from service.report.chapters.balance import shown, which
+from service.report.chapters.balance import carried, shown, which
 from service.report.chapters.bearing_loci import loci
 from service.report.chapters.orders import order_hodographs
 from service.report.chapters.pins import pin_figure
@@ -73,7 +73,7 @@ def styled(drawing: Drawing, style: PictureStyle) -> Drawing:
 
 def _layout(request: OptimizeRequest, answer: OptimizeAnswer) -> Layout:
     built = as_built(request, answer)
-    return layout_of(request.machine, shown(answer)[0], () if built is None else built.counterweights)
+    return layout_of(request.machine, carried(answer), () if built is None else built.counterweights)
 
 
 def _hodograph(number: int, request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:

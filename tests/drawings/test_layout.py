@@ -58,6 +58,21 @@ def test_a_part_that_lacks_something_is_left_out_and_named() -> None:
     }
 
 
+def test_a_balance_shaft_that_is_half_typed_is_left_out_and_named() -> None:
+    web = {"name": "w", "position_m": 0.1, "counterweight_radius_m": 0.05}
+    whole = {"name": "a", "speed_ratio": -1, "x_m": "-120 mm", "webs": [web, {"name": "v"}]}
+    typed = machine(THROW, balance_shafts=[whole, {"name": "b"}, {"name": "c", "speed_ratio": 3}])
+    layout, _ = partial_layout(typed)
+    assert layout is not None
+    ((shaft, best, built),) = layout.balance
+    assert (shaft.axis, [place.name for place in shaft.places], best, built) == ((0.12, 180.0), ["w"], (), ())
+    assert reasons(typed) == {
+        "balance_shafts/0/webs/1/position_m": MISSING,
+        "balance_shafts/1/speed_ratio": MISSING,
+        "balance_shafts/2/speed_ratio": "must be -2, -1, 1 or 2",
+    }
+
+
 def test_what_may_be_missing_goes_alone() -> None:
     web = {"name": "a", "position_m": 0, "counterweight_radius_m": "?", "sector": {"centre_deg": 90}}
     typed = machine({**THROW, "rows": [{"axis_deg": "up"}, {"axis_deg": 90}]}, webs=[web], rotation="left")

@@ -14,17 +14,23 @@ from service.drawings.front import front
 from service.drawings.layout import layout_of
 from service.drawings.side import OBLIQUE, side
 from service.drawings.svg import Drawing
+from service.report.chapters.balance import carried
+from tests.optimize.machines import throw
+from tests.optimize.shafts import shaft, single
 
 MACHINES = bodies()
 SVG = "{http://www.w3.org/2000/svg}"
-EXAMPLES = ("2d12", "plate-single", "inline-six", "m-type-four", "v8-cross-plane", "scroll-three-pins")
+EXAMPLES = (
+    "2d12", "plate-single", "inline-six", "m-type-four", "v8-cross-plane", "scroll-three-pins", "lanchester-four",
+    "single-balance-shaft",
+)  # fmt: skip
 Box = tuple[float, float, float, float]
 
 
 def drawn(name: str, dimensions: bool | None = None) -> Drawing:
     """The front view, or the side view with or without dimensions."""
     request = OptimizeRequest.model_validate(MACHINES[name])
-    layout = layout_of(request.machine, optimize(request).counterweights)
+    layout = layout_of(request.machine, carried(optimize(request)))
     return front(layout) if dimensions is None else side(layout, dimensions)
 
 
@@ -129,3 +135,48 @@ def test_pieces_of_a_drawing_say_what_they_are() -> None:
     titles = [one.text for one in ElementTree.fromstring(drawn("2d12").svg()).iter(f"{SVG}title")]
     assert "throw 1 at 0°" in titles
     assert any((title or "").startswith("1a: ") for title in titles)
+
+
+def _circles(group: ElementTree.Element) -> list[tuple[float, float]]:
+    return [(float(one.attrib["cx"]), float(one.attrib["cy"])) for one in group.iter(f"{SVG}circle")]
+
+
+def test_balance_shafts_stand_in_their_places_analytic() -> None:
+    """Front view: the first circle is the axis, the last one the centre of mass of what it carries."""
+    body = single([shaft("one", -1, 0.2, radius=0.05, x_m=-0.12, y_m=0.07)])
+    machine = OptimizeRequest.model_validate({"machine": body}).machine
+    given: Any = [{"web": "one web", "mass_kg": 3.0, "angle_deg": 30.0, "radius_m": 0.05}]
+    layout = layout_of(machine, given)
+    root = ElementTree.fromstring(front(layout).svg())
+    (pin,) = root.iterfind(f"{SVG}g[@class='throw']/{SVG}circle")
+    per_m = (200.0 - float(pin.attrib["cy"])) / 0.1
+    (group,) = root.iterfind(f"{SVG}g[@class='balancer']")
+    places = [((x - 200.0) / per_m, (200.0 - y) / per_m) for x, y in _circles(group)]
+    assert places[0] == pytest.approx((-0.12, 0.07), abs=1e-4)
+    centre = (-0.12 + 0.05 * math.cos(math.radians(30.0)), 0.07 + 0.05 * 0.5)
+    assert places[-1] == pytest.approx(centre, abs=1e-4)
+    title = group.find(f"{SVG}title")
+    assert title is not None
+    assert title.text == "one, against, n: one web 3 kg at 30°"
+    assert "one: against, n" in [text for text, _ in texts(front(layout))]
+
+
+@pytest.mark.parametrize("place", [(-0.12, 0.07), (0.0, 0.0)])
+def test_balance_shafts_stand_beside_the_crankshaft_from_the_side_analytic(place: tuple[float, float]) -> None:
+    """The first crank points upwards, along y here; an axis in that of the crankshaft is not drawn twice."""
+    body = single([shaft("one", 2, 0.2, radius=0.05, x_m=place[0], y_m=place[1])])
+    body["throws"].append(throw(0.4, 90.0, []))
+    machine = OptimizeRequest.model_validate({"machine": body}).machine
+    given: Any = [{"web": "one web", "mass_kg": 3.0, "angle_deg": 90.0, "radius_m": 0.05}]
+    root = ElementTree.fromstring(side(layout_of(machine, given), dimensions=True).svg())
+    group, _ = root.iterfind(f"{SVG}g[@class='throw']")
+    cheek = next(group.iter(f"{SVG}path")).attrib["d"][1:].split("L")
+    (_, shaft_y), (_, pin_y) = (map(float, end.split()) for end in cheek)
+    per_m = (shaft_y - pin_y) / 0.1
+    (on_shaft,) = root.iterfind(f"{SVG}g[@class='balancer']")
+    ((_, y),) = _circles(on_shaft)
+    assert (shaft_y - y) / per_m == pytest.approx(place[1] + 0.05, abs=1e-4)
+    axes = on_shaft.findall(f"{SVG}path")
+    assert len(axes) == (1 if any(place) else 0)
+    for axis in axes:
+        assert (shaft_y - float(axis.attrib["d"].split()[-1])) / per_m == pytest.approx(0.07, abs=1e-4)

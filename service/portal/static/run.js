@@ -5,6 +5,7 @@ import { post, Problem } from "./api.js";
 import { beginning } from "./beginning.js";
 import { showChecked } from "./checked.js";
 import { byId, h } from "./dom.js";
+import { carried } from "./drawing/views.js";
 import { complaint } from "./naming.js";
 
 const STEP = { step_deg: 2 };
@@ -87,7 +88,7 @@ export class Run {
     if (current) work.unsaved = false;
     work.keep();
     embedding.say("answer", { request, answer });
-    return current ? drawings.ask(request, found(answer).counterweights, request.fitted) : drawings.ask(work.request);
+    return current ? drawings.ask(request, carried(found(answer)), request.fitted) : drawings.ask(work.request);
   }
 
   async complain(error) {

@@ -70,6 +70,12 @@ def shown(answer: OptimizeAnswer) -> tuple[Sequence[Counterweight], FirstOrder |
     return answer.counterweights, answer.residual.after
 
 
+def carried(answer: OptimizeAnswer) -> tuple[Counterweight, ...]:
+    """All that is to be drawn: those on balance shafts behind the counterweights to show."""
+    shafts = answer.balance_shafts if answer.infeasibility is None else answer.infeasibility.closest.balance_shafts
+    return (*shown(answer)[0], *(weight for shaft in shafts for weight in shaft.counterweights))
+
+
 def added(answer: OptimizeAnswer, gaps: Mapping[str, float]) -> Iterator[tuple[str, float, Cell, str]]:
     """Peaks of the responses that count beside force and moment: without counterweights, with those that are shown.
 

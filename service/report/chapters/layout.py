@@ -1,19 +1,21 @@
 """The machine with its counterweights, drawn: no terminal loads what draws."""
 
+from itertools import chain
+
 from schemas.answer.answers import OptimizeAnswer
 from schemas.request.requests import OptimizeRequest
 from service.drawings.front import front
 from service.drawings.layout import Layout, layout_of
 from service.drawings.side import side
 from service.report.blocks import Chapter, Figure
-from service.report.chapters.balance import as_made, shown
+from service.report.chapters.balance import as_made, carried, shown
 from service.tables.as_built import AsBuilt
 
 
 def layout(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | None) -> Chapter:
     """The machine with its counterweights, drawn."""
     fitted, _ = shown(answer)
-    plan = layout_of(request.machine, fitted, () if built is None else built.counterweights)
+    plan = layout_of(request.machine, carried(answer), () if built is None else built.counterweights)
     return Chapter(
         "Layout",
         (
@@ -21,7 +23,7 @@ def layout(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | No
             Figure(
                 (front(plan),),
                 "Front view from +z at shaft angle 0, to scale: cranks black, axes of rows dash-dotted, "
-                f"{_drawn(answer, plan)}, angles that a web allows as green wedges." + _as_built(plan),
+                f"{_drawn(answer, plan)}, angles that a web allows as green wedges." + _shafts(plan) + _as_built(plan),
             ),
             Figure(
                 (side(plan, dimensions=True),),
@@ -36,7 +38,7 @@ def layout(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | No
 def _drawn(answer: OptimizeAnswer, plan: Layout) -> str:
     """How counterweights are drawn."""
     what = "counterweights of the best compromise" if answer.infeasibility is not None else "counterweights"
-    if all(weight.shape is not None for weight in plan.best):
+    if all(weight.shape is not None for weight in chain(plan.best, *(shaft.best for shaft in plan.balance))):
         return f"{what} blue and true to shape, with their centres of mass as dots"
     return (
         f"{what} blue with their centres of mass as dots; a dashed disc stands for one of unknown shape, and its area "
@@ -44,5 +46,13 @@ def _drawn(answer: OptimizeAnswer, plan: Layout) -> str:
     )
 
 
+def _shafts(plan: Layout) -> str:
+    words = (
+        " Balance shafts stand in their places, as they are at their shaft angle 0; n is the speed of the crankshaft."
+    )
+    return words if plan.balance else ""
+
+
 def _as_built(plan: Layout) -> str:
-    return " As built: dashed, without a ground." if plan.built else ""
+    built = plan.built or any(shaft.built for shaft in plan.balance)
+    return " As built: dashed, without a ground." if built else ""

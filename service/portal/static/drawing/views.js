@@ -8,10 +8,13 @@ import { complaint } from "../naming.js";
 const DRAWN = ["machine", "counterweights", "fitted", "kind", "rotation", "reference_plane_m", "name", "position_m", "throws", "crank_radius_m", "crank_angle_deg",
   "rows", "axis_deg", "offset_m", "webs", "counterweight_radius_m", "max_mass_kg", "sector", "centre_deg", "half_angle_deg", "envelope", "inner_radius_m",
   "outer_radius_m", "thickness_m", "fixed", "bearings", "orbit_radius_m", "orbiting_position_m", "anti_rotation", "type", "count", "pin_circle_radius_m",
-  "web", "mass_kg", "angle_deg", "radius_m", "shape", "chord_height_m"];
+  "balance_shafts", "speed_ratio", "x_m", "y_m", "web", "mass_kg", "angle_deg", "radius_m", "shape", "chord_height_m"];
 const FEW = 3;
 
 const objects = (list) => [list ?? []].flat().filter((one) => one !== null && typeof one === "object");
+
+// all weights of an answer: those on balance shafts behind those of the crankshaft
+export const carried = ({ counterweights, balance_shafts: shafts }) => [...counterweights, ...(shafts ?? []).flatMap((shaft) => shaft.counterweights)];
 
 // the question for the views of a machine
 export const question = (machine, counterweights, fitted = []) => JSON.parse(

@@ -2,7 +2,7 @@
 
 import { h, s } from "../dom.js";
 import { circle, degrees, line, metres, points, polar, WIDTH } from "../drawing/view.js";
-import { question, view } from "../drawing/views.js";
+import { carried, question, view } from "../drawing/views.js";
 import { figure } from "../format.js";
 import { turner } from "./turner.js";
 
@@ -17,17 +17,19 @@ export const turning = {
   id: "turning", title: "The turning crank, with force and moment",
   about: "First order: dashed without counterweights, solid with them. Arrows and curves of one picture have one scale.",
   async draw(body, { answer, request, ask }) {
-    const { hodograph, counterweights } = answer;
+    const { hodograph } = answer;
     const sense = request.machine.rotation === "cw" ? -1 : 1;
-    const machine = view((await ask("v1/layout", question(request.machine, counterweights))).front, "front");
+    const machine = view((await ask("v1/layout", question(request.machine, carried(answer)))).front, "front");
     machine.setAttribute("aria-label", "The machine from the front, as it turns.");
-    const moving = machine.querySelectorAll(".counterweight, .throw");
+    const moving = machine.querySelectorAll(".counterweight:not(.balancer *), .throw");
+    const balancers = [...machine.querySelectorAll(".balancer")].map((element, k) => balancer(element, request.machine.balance_shafts[k]));
     const sliders = rows(request.machine, sense);
     machine.append(...sliders.map(({ element }) => element));
     const vectors = PARTS.map((part) => new Vectors(part, hodograph));
     const show = (step) => {
       const angle = hodograph.angle_deg[step];
       for (const one of moving) one.setAttribute("transform", `rotate(${-sense * angle} ${MIDDLE[0]} ${MIDDLE[1]})`);
+      for (const one of balancers) one.at(sense * angle);
       for (const one of sliders) one.at(angle);
       for (const one of vectors) one.at(step);
     };
@@ -37,6 +39,13 @@ export const turning = {
       turner("turning-angle", hodograph.angle_deg, show, seen));
   },
 };
+
+// what is on a balance shaft turns about its axis, which is the first circle of its group
+function balancer(element, { speed_ratio: ratio }) {
+  const axis = element.querySelector("circle");
+  const [x, y] = ["cx", "cy"].map((name) => axis.getAttribute(name));
+  return { at: (angle) => element.setAttribute("transform", `rotate(${-ratio * angle} ${x} ${y})`) };
+}
 
 // the crosshead of every row whose rod is known, on its axis as the crank drives it
 function rows(machine, sense) {

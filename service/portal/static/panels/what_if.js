@@ -2,6 +2,7 @@
 
 import { post } from "../api.js";
 import { h, table } from "../dom.js";
+import { carried } from "../drawing/views.js";
 import { figure, number, share } from "../format.js";
 import { quantity, read } from "../quantity.js";
 
@@ -26,13 +27,16 @@ function newest() {
   };
 }
 
+// of all shafts
+const totalMass = (answer) => answer.total_mass_kg + (answer.balance_shafts_mass_kg ?? 0);
+
 export const whatIf = {
   id: "what-if", title: "What if: weights as fitted, limits, speed",
   about: "Type the weights as they will be made. The residual is computed at every key stroke.",
   draw(body, context) {
     const { answer } = context;
-    if (!answer.counterweights.length || !answer.residual.after || (answer.balance_shafts ?? []).length) {
-      body.replaceChildren(h("p", {}, "There are no counterweights of one shaft to change here."));
+    if (!carried(answer).length || !answer.residual.after) {
+      body.replaceChildren(h("p", {}, "There are no counterweights to change here."));
       return;
     }
     body.replaceChildren(...fitted(context), ...limits(context));
@@ -42,7 +46,7 @@ export const whatIf = {
 function fitted({ request, answer, told }) {
   const { machine } = request;
   const shaped = (one) => (one.shape ? { radius_m: one.radius_m } : {});
-  const weights = answer.counterweights.map(({ web, mass_kg: mass, angle_deg: angle, ...more }) => ({ web, mass_kg: mass, angle_deg: angle, ...shaped(more) }));
+  const weights = carried(answer).map(({ web, mass_kg: mass, angle_deg: angle, ...more }) => ({ web, mass_kg: mass, angle_deg: angle, ...shaped(more) }));
   const result = h("div", { class: "residual", role: "status" });
   const inputs = [];
   const call = newest();
@@ -54,7 +58,7 @@ function fitted({ request, answer, told }) {
     result.replaceChildren(table("What remains", ["", "without", "optimum", "as fitted", "against the optimum"], [
       ["peak force, N", number(bareForce), number(leastForce), number(force), change(force, leastForce)],
       ["peak moment, N m", number(bareMoment), number(leastMoment), number(moment), change(moment, leastMoment)],
-      ["total mass, kg", number(null), number(answer.total_mass_kg), number(found.total_mass_kg), change(found.total_mass_kg, answer.total_mass_kg)]]));
+      ["total mass, kg", number(null), number(totalMass(answer)), number(totalMass(found)), change(totalMass(found), totalMass(answer))]]));
     result.dataset.of = JSON.stringify(weights.map((one) => [one.mass_kg, one.angle_deg]));
   };
   const compute = async () => {
@@ -79,7 +83,7 @@ function fitted({ request, answer, told }) {
     inputs.push({ input, unit, index, name });
     return h("td", { class: "cell is-number" }, input);
   };
-  const rows = answer.counterweights.map((one, index) => h("tr", {}, h("th", { scope: "row" }, one.web),
+  const rows = carried(answer).map((one, index) => h("tr", {}, h("th", { scope: "row" }, one.web),
     h("td", { class: "number" }, figure(one.mass_kg)), h("td", { class: "number" }, one.mass_kg > 0 ? figure(one.angle_deg) : "–"),
     cell(index, "mass_kg", "kg"), cell(index, "angle_deg", "deg")));
   const put = (masses) => {
@@ -101,7 +105,7 @@ function fitted({ request, answer, told }) {
         said.textContent = found.status_reason;
         return;
       }
-      put(found.counterweights.map((one) => ({ mass_kg: one.mass_kg, angle_deg: one.angle_deg })));
+      put(carried(found).map((one) => ({ mass_kg: one.mass_kg, angle_deg: one.angle_deg })));
       const { relative_rise: rise, masses_alone_rise: masses, angles_alone_rise: angles } = found.rounding;
       const cost = rise === null ? "" : ` The objective rises by ${share(Math.max(rise, 0))}.`;
       const finer = masses > angles ? "masses" : "angles";
@@ -112,7 +116,7 @@ function fitted({ request, answer, told }) {
     }
   };
   const back = () => {
-    put(answer.counterweights.map((one) => ({ mass_kg: one.mass_kg, angle_deg: one.angle_deg })));
+    put(carried(answer).map((one) => ({ mass_kg: one.mass_kg, angle_deg: one.angle_deg })));
     said.textContent = "";
     compute();
   };
@@ -167,5 +171,5 @@ function summary(found, answer) {
   const row = (title, now, was) => [title, number(was), number(now), change(now, was)];
   const [was, now] = [answer, found].map(({ residual }) => peaks(residual.after));
   return table("The optimum then", ["", "now", "then", "change"], [row("peak force, N", now[0], was[0]), row("peak moment, N m", now[1], was[1]),
-    row("total mass, kg", found.total_mass_kg, answer.total_mass_kg)]);
+    row("total mass, kg", totalMass(found), totalMass(answer))]);
 }
