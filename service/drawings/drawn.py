@@ -1,7 +1,6 @@
 """From a request to its drawings: what is drawn, and where it sits."""
 
 from dataclasses import dataclass
-from itertools import chain
 
 from optimizer.analyze import analyze
 from optimizer.errors import OutOfRange
@@ -13,6 +12,7 @@ from schemas.request.drawings import DrawingsRequest
 from schemas.request.requests import AnalyzeRequest
 from service.drawings.parts import Part, parts
 from service.tables.as_built import AsBuilt, as_built
+from service.tables.fitted import every_counterweight
 
 
 @dataclass(frozen=True)
@@ -44,8 +44,7 @@ def drawings(request: DrawingsRequest) -> DrawingSet:
     """
     answer = _answer(request)
     built = as_built(request, answer) if isinstance(answer, OptimizeAnswer) else None
-    optimum = chain(answer.counterweights, *(shaft.counterweights for shaft in answer.balance_shafts))
-    every = optimum if built is None else built.counterweights
+    every = every_counterweight(answer) if built is None else built.counterweights
     fitted = tuple(counterweight for counterweight in every if counterweight.mass_kg > 0)
     plates = parts(request.machine, fitted)
     if not plates:

@@ -5,17 +5,17 @@ Figures are recomputed by the mechanics from the masses and angles that are fitt
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import chain
 from typing import NamedTuple
 
 from optimizer.analyze import analyze
 from optimizer.errors import OutOfRange
-from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer
+from schemas.answer.answers import OptimizeAnswer
 from schemas.answer.counterweights import Counterweight
 from schemas.answer.first_order import FirstOrder
 from schemas.base.model import FieldProblem
 from schemas.machine.fitted import GivenCounterweight
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
+from service.tables.fitted import every_counterweight, whole_mass
 from service.tables.lines import Cell, Lines
 
 #: share of the objective without counterweights that what is off may cost
@@ -80,13 +80,10 @@ def as_built(request: OptimizeRequest, answer: OptimizeAnswer) -> AsBuilt | None
     analysis = analyze(AnalyzeRequest(machine=request.machine, counterweights=counterweights, outputs=("residual",)))
     assert analysis.residual is not None  # it is asked for
     assert analysis.residual.after is not None
-    built, optimum = _every(analysis), _every(answer)
+    built, optimum, mass = every_counterweight(analysis), every_counterweight(answer), whole_mass(analysis)
+    assert mass is not None  # of what is given
     pairs = tuple(_pairs(optimum, built))
-    return AsBuilt(built, analysis.residual.after, analysis.total_mass_kg, pairs, tolerance(answer))
-
-
-def _every(answer: OptimizeAnswer | AnalyzeAnswer) -> tuple[Counterweight, ...]:
-    return (*answer.counterweights, *chain.from_iterable(shaft.counterweights for shaft in answer.balance_shafts))
+    return AsBuilt(built, analysis.residual.after, mass, pairs, tolerance(answer))
 
 
 def _pairs(optimum: Sequence[Counterweight], built: Sequence[Counterweight]) -> Iterator[Pair]:
@@ -136,7 +133,7 @@ def residual(answer: OptimizeAnswer, comparison: AsBuilt) -> Lines:
     for name, values in (
         ("force, N", [peaks.force.peak_N if peaks else None for peaks in (was, best, now)]),
         ("moment, N m", [peaks.moment.peak_Nm if peaks else None for peaks in (was, best, now)]),
-        ("total mass, kg", [0.0, answer.total_mass_kg, comparison.total_mass_kg]),
+        ("total mass, kg", [0.0, whole_mass(answer), comparison.total_mass_kg]),
     ):
         before, optimum, built = values
         rows.append([name, before, optimum, built, None if optimum is None or built is None else built - optimum])

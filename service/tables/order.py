@@ -7,6 +7,7 @@ from schemas.answer.answers import OptimizeAnswer
 from schemas.answer.counterweights import Counterweight
 from schemas.base.model import FieldProblem
 from service.tables.as_built import tolerance
+from service.tables.fitted import every_counterweight
 from service.tables.lines import Cell, Lines
 
 HEADS = (
@@ -19,7 +20,7 @@ _SAME = 1e-9
 
 def order(answer: OptimizeAnswer) -> list[list[Cell]]:
     """A line for each casting that is to be made, the heaviest first; equal ones stand together."""
-    every = [piece for piece in answer.counterweights if piece.mass_kg > 0 and not piece.fixed]
+    every = [piece for piece in every_counterweight(answer) if piece.mass_kg > 0 and not piece.fixed]
     sizes = _Sizes()
     every.sort(key=lambda piece: (-piece.mass_kg, piece.radius_m))
     rows: list[list[Cell]] = []

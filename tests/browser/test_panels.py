@@ -322,6 +322,18 @@ def test_the_crank_turns_with_its_force_and_moment(portal: Portal, url: str) -> 
     panel.get_by_role("button", name="Turn").wait_for()
 
 
+def test_a_balance_shaft_turns_about_its_own_axis(portal: Portal) -> None:
+    portal.open("single-balance-shaft", ("turning",))
+    panel = portal.panel("turning")
+    panel.locator("#turning-angle").fill("45")
+    shaft = panel.locator("svg .balancer")
+    x, y = (float(shaft.locator("circle").first.get_attribute(name) or "") for name in ("cx", "cy"))
+    # analytic: against the crankshaft, which has turned by a right angle counter-clockwise
+    assert (panel.locator("svg .throw").first.get_attribute("transform") or "").startswith("rotate(-90 ")
+    assert shaft.get_attribute("transform") == f"rotate(90 {x:g} {y:g})"
+    assert shaft.locator(".counterweight").get_attribute("transform") is None
+
+
 def test_who_asks_for_less_motion_turns_by_hand(visit: Portal) -> None:
     portal = visit
     portal.page.emulate_media(reduced_motion="reduce")

@@ -1,5 +1,6 @@
 """What if: weights as fitted, limits and speed; versions side by side. Every figure is that of the API."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -24,6 +25,22 @@ def test_what_remains_of_weights_as_fitted(portal: Portal, url: str) -> None:
     assert number(rows[1][3]) == pytest.approx(after["moment"]["peak_Nm"], rel=1e-4)
     # analytic: the sum of the masses
     assert number(rows[2][3]) == 230.5
+
+
+def test_weights_of_balance_shafts_are_changed_as_well(portal: Portal, url: str) -> None:
+    portal.open("single-balance-shaft", ("what-if",))
+    panel = portal.panel("what-if")
+    panel.get_by_label("mass, kg, balancer, as fitted").fill("0.5")
+    expect(panel.locator(".residual")).to_have_attribute("data-of", re.compile(r"\[0\.5,270\]\]$"))
+    request = ask(url, "/v1/examples/single-balance-shaft")
+    masses = {"a": 0.72, "b": 0.72, "balancer": 0.5}
+    given = [{"web": web, "mass_kg": mass, "angle_deg": 270} for web, mass in masses.items()]
+    after = ask(url, "/v1/analyze", {"machine": request["machine"], "counterweights": given})["residual"]["after"]
+    rows = cells(panel.locator(".residual"))
+    assert number(rows[0][3]) == pytest.approx(after["force"]["peak_N"], rel=1e-3)
+    # analytic: the sum of the masses, on whichever shaft
+    assert number(rows[2][3]) == 1.94
+    assert portal.page.locator("#answer h2").first.inner_text().startswith("2.34 kg of counterweights")
 
 
 def test_a_rounding_is_suggested(portal: Portal) -> None:

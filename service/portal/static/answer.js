@@ -2,6 +2,7 @@
 
 import { beside as tables } from "./beside.js";
 import { h, table } from "./dom.js";
+import { wholeMass } from "./fitted.js";
 import { beside, figure, number, share } from "./format.js";
 import { COSTS, ofTheShaft, refusal, weighed } from "./objective.js";
 import { order } from "./order.js";
@@ -30,14 +31,15 @@ export const found = (answer) => (answer.counterweights.length ? answer : answer
 
 // what got worse is said as what got better is
 function headline(request, answer) {
-  const { status, total_mass_kg: mass } = answer;
+  const { status } = answer;
   if (status === "infeasible") return "No counterweights meet these ceilings";
   const changes = responses(request, answer, { grown: true }).map(change).filter(Boolean).join(", ");
-  return `${figure(mass)} kg of counterweights: ${changes || "nothing changes"}`;
+  return `${figure(wholeMass(answer))} kg of counterweights: ${changes || "nothing changes"}`;
 }
 
 // An engineer's sentences, from the certificate.
-function proof(request, { status, certificate, infeasibility, floor, timing, residual, total_mass_kg: mass }) {
+function proof(request, answer) {
+  const { status, certificate, infeasibility, floor, timing, residual } = answer;
   if (infeasibility) return refusal(request, infeasibility);
   const { objective, lower_bound: bound, relative_gap: gap, objective_without_counterweights: bare } = certificate;
   const how = weighed(request.objective, residual.responses);
@@ -55,7 +57,7 @@ function proof(request, { status, certificate, infeasibility, floor, timing, res
   if (status === "inaccurate" && costs.length) sentences.push("One of the goals is not proven as closely as was asked.");
   else if (status === "inaccurate") sentences.push("That gap is wider than was asked for: take the figure as it stands, not as the optimum.");
   if (certificate.mass_lower_bound_kg > 0) {
-    sentences.push(`Of all that are as good, none weighs less than ${figure(certificate.mass_lower_bound_kg, 7)} kg; these weigh ${figure(mass, 7)} kg.`);
+    sentences.push(`Of all that are as good, none weighs less than ${figure(certificate.mass_lower_bound_kg, 7)} kg; these weigh ${figure(wholeMass(answer), 7)} kg.`);
   }
   const { force, moment } = residual.before;
   const rest = [floor.force_N > 1e-9 * force.peak_N ? `${figure(floor.force_N)} N of force` : null,

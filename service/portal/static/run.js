@@ -5,7 +5,7 @@ import { post, Problem } from "./api.js";
 import { beginning } from "./beginning.js";
 import { showChecked } from "./checked.js";
 import { byId, h } from "./dom.js";
-import { carried } from "./drawing/views.js";
+import { carried } from "./fitted.js";
 import { complaint } from "./naming.js";
 
 const STEP = { step_deg: 2 };

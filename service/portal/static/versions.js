@@ -1,5 +1,6 @@
 // Versions of machines under names, kept in this browser: what was asked and what came of it.
 
+import { carried, wholeMass } from "./fitted.js";
 import { responses } from "./responses.js";
 
 const PLACE = "counterweight-versions";
@@ -25,9 +26,9 @@ export function keepVersions(list) {
 }
 
 export const resultOf = (request, answer) => ({
-  status: answer.status, total_mass_kg: answer.total_mass_kg,
+  status: answer.status, total_mass_kg: wholeMass(answer),
   responses: responses(request, answer).map(({ name, unit, after }) => ({ name, unit, value: after })),
-  counterweights: answer.counterweights.map(({ web, mass_kg, angle_deg }) => ({ web, mass_kg, angle_deg })),
+  counterweights: carried(answer).map(({ web, mass_kg, angle_deg }) => ({ web, mass_kg, angle_deg })),
 });
 
 // what came of a version; those that were kept before there were responses have two peaks

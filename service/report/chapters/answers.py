@@ -22,6 +22,7 @@ from service.report.chapters.roll import roll
 from service.report.chapters.worst_case import worst_case
 from service.report.chapters.worth_knowing import worth_knowing
 from service.tables.as_built import as_built
+from service.tables.fitted import whole_mass
 
 #: chapters of the outputs, in the order in which they stand
 CHAPTERS: Mapping[str, Callable[[Machine, Any], Chapter]] = {
@@ -67,10 +68,11 @@ def optimized(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Chap
 
 def analyzed(request: AnalyzeRequest, answer: AnalyzeAnswer) -> Iterator[Chapter]:
     """What the machine does without and with the counterweights that it was given."""
-    if answer.total_mass_kg > 0:
+    if whole_mass(answer):
         total = facts("", [("total mass of the counterweights, kg", answer.total_mass_kg)])
-        fitted = answer.counterweights
-        yield Chapter("Counterweights", (*balance.as_made(request.machine, fitted), total))
+        own = (*balance.as_made(request.machine, answer.counterweights), total) if answer.counterweights else ()
+        shafts = balance.on_balance_shafts(answer.balance_shafts, answer.balance_shafts_mass_kg)
+        yield Chapter("Counterweights", (*own, *shafts))
     yield from worth_knowing(answer)
     yield from balance_quality(request.machine, answer)
     if answer.residual is not None and answer.floor is not None:

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 
 from schemas.answer.answers import OptimizeAnswer
-from schemas.answer.counterweights import Counterweight
+from schemas.answer.counterweights import Counterweight, FittedShaft
 from schemas.answer.first_order import FirstOrder, Floor
 from schemas.answer.outputs import Hodographs, Stage
 from schemas.base.model import FieldProblem
@@ -170,7 +170,8 @@ def counterweights(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBu
     blocks: list[Block] = []
     if answer.infeasibility is not None:
         blocks.append(Paragraph("These are the counterweights of the best compromise, not an answer.", "warning"))
-    shafts = list(_balance_shafts(answer))
+    holder = answer if answer.infeasibility is None else answer.infeasibility.closest
+    shafts = list(on_balance_shafts(holder.balance_shafts, answer.balance_shafts_mass_kg))
     if not fitted:
         blocks.append(Paragraph("There are none on the crankshaft." if shafts else "There are none."))
     if fitted or shafts:
@@ -184,14 +185,18 @@ def counterweights(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBu
     return Chapter("Counterweights", (*blocks, *shafts))
 
 
-def _balance_shafts(answer: OptimizeAnswer) -> Iterator[Block]:
-    """What each balance shaft carries, and which way gearing turns it."""
-    why = answer.infeasibility
-    for shaft in answer.balance_shafts if why is None else why.closest.balance_shafts:
+def on_balance_shafts(shafts: Sequence[FittedShaft], mass_kg: float | None) -> Iterator[Block]:
+    """What each balance shaft carries, and which way gearing turns it.
+
+    Parameters
+    ----------
+    mass_kg : of all of it; None where nothing is to be fitted.
+    """
+    for shaft in shafts:
         yield Paragraph(f"Balance shaft {shaft.name}: {shaft.gearing}")
         yield places(shaft.counterweights)
-    if answer.balance_shafts_mass_kg is not None:
-        yield facts("", [("total mass on the balance shafts, kg", answer.balance_shafts_mass_kg)])
+    if mass_kg is not None:
+        yield facts("", [("total mass on the balance shafts, kg", mass_kg)])
 
 
 def as_made(machine: Machine, fitted: Sequence[Counterweight]) -> Iterator[Block]:

@@ -16,6 +16,7 @@ from service.common.figures import digits, typeset
 from service.common.validation import pointer
 from service.report.blocks import Block, Chapter, Paragraph, Table, table
 from service.report.chapters.balance import shown
+from service.tables.fitted import every_counterweight, whole_mass
 
 #: differences of a version that are listed; of more it is said how many there are
 _MOST = 30
@@ -44,7 +45,7 @@ def compared(request: ReportRequest, answer: OptimizeAnswer) -> Iterator[Chapter
     if not request.versions:
         return
     columns = [
-        Column(_THIS, answer.status, shown(answer)[1], answer.total_mass_kg, answer.counterweights),
+        Column(_THIS, answer.status, shown(answer)[1], whole_mass(answer), every_counterweight(answer)),
         *(_computed(request, place) for place in range(len(request.versions))),
     ]
     yield Chapter("Versions compared", (_figures(columns), _weights(columns), *_differences(request)))
@@ -57,13 +58,13 @@ def _computed(request: ReportRequest, place: int) -> Column:
             machine = version.machine or request.machine
             analysis = analyze(AnalyzeRequest(machine=machine, counterweights=version.counterweights))
             left = analysis.residual.after if analysis.residual is not None else None
-            return Column(version.name, "given", left, analysis.total_mass_kg, analysis.counterweights)
+            return Column(version.name, "given", left, whole_mass(analysis), every_counterweight(analysis))
         result = optimize(request.request_for(version))
     except MissingInput as error:
         raise MissingInput(
             FieldProblem(("versions", place, *path), message) for path, message in error.problems
         ) from None
-    return Column(version.name, result.status, shown(result)[1], result.total_mass_kg, result.counterweights)
+    return Column(version.name, result.status, shown(result)[1], whole_mass(result), every_counterweight(result))
 
 
 def _figures(columns: Sequence[Column]) -> Table:

@@ -13,9 +13,6 @@ const FEW = 3;
 
 const objects = (list) => [list ?? []].flat().filter((one) => one !== null && typeof one === "object");
 
-// all weights of an answer: those on balance shafts behind those of the crankshaft
-export const carried = ({ counterweights, balance_shafts: shafts }) => [...counterweights, ...(shafts ?? []).flatMap((shaft) => shaft.counterweights)];
-
 // the question for the views of a machine
 export const question = (machine, counterweights, fitted = []) => JSON.parse(
   JSON.stringify({ machine: Object(machine), counterweights, fitted: objects(fitted) }, DRAWN));

@@ -2,7 +2,8 @@
 
 import { h, s } from "../dom.js";
 import { circle, degrees, line, metres, points, polar, WIDTH } from "../drawing/view.js";
-import { carried, question, view } from "../drawing/views.js";
+import { question, view } from "../drawing/views.js";
+import { carried } from "../fitted.js";
 import { figure } from "../format.js";
 import { turner } from "./turner.js";
 

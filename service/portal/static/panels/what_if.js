@@ -2,7 +2,7 @@
 
 import { post } from "../api.js";
 import { h, table } from "../dom.js";
-import { carried } from "../drawing/views.js";
+import { carried, wholeMass } from "../fitted.js";
 import { figure, number, share } from "../format.js";
 import { quantity, read } from "../quantity.js";
 
@@ -26,9 +26,6 @@ function newest() {
     }
   };
 }
-
-// of all shafts
-const totalMass = (answer) => answer.total_mass_kg + (answer.balance_shafts_mass_kg ?? 0);
 
 export const whatIf = {
   id: "what-if", title: "What if: weights as fitted, limits, speed",
@@ -58,7 +55,7 @@ function fitted({ request, answer, told }) {
     result.replaceChildren(table("What remains", ["", "without", "optimum", "as fitted", "against the optimum"], [
       ["peak force, N", number(bareForce), number(leastForce), number(force), change(force, leastForce)],
       ["peak moment, N m", number(bareMoment), number(leastMoment), number(moment), change(moment, leastMoment)],
-      ["total mass, kg", number(null), number(totalMass(answer)), number(totalMass(found)), change(totalMass(found), totalMass(answer))]]));
+      ["total mass, kg", number(null), number(wholeMass(answer)), number(wholeMass(found)), change(wholeMass(found), wholeMass(answer))]]));
     result.dataset.of = JSON.stringify(weights.map((one) => [one.mass_kg, one.angle_deg]));
   };
   const compute = async () => {
@@ -171,5 +168,5 @@ function summary(found, answer) {
   const row = (title, now, was) => [title, number(was), number(now), change(now, was)];
   const [was, now] = [answer, found].map(({ residual }) => peaks(residual.after));
   return table("The optimum then", ["", "now", "then", "change"], [row("peak force, N", now[0], was[0]), row("peak moment, N m", now[1], was[1]),
-    row("total mass, kg", totalMass(found), totalMass(answer))]);
+    row("total mass, kg", wholeMass(found), wholeMass(answer))]);
 }
