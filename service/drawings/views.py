@@ -4,8 +4,8 @@ from schemas.answer.problem import FieldError
 from schemas.request.layout import LayoutAnswer, LayoutRequest
 from service.common.validation import pointer
 from service.drawings.front import front
-from service.drawings.layout import partial_layout
 from service.drawings.side import side
+from service.drawings.typed import partial_layout
 
 
 def views(request: LayoutRequest) -> LayoutAnswer:

@@ -12,7 +12,8 @@ from schemas.request.layout import LayoutRequest
 from schemas.request.requests import OptimizeRequest
 from service.common.validation import check
 from service.documents.examples import bodies
-from service.drawings.layout import CrankMachine, layout_of, partial_layout
+from service.drawings.layout import CrankMachine, layout_of
+from service.drawings.typed import partial_layout
 from service.drawings.views import views
 
 EXAMPLES = {name: body["machine"] for name, body in bodies().items()}
