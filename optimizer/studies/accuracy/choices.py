@@ -8,7 +8,7 @@ import logging
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -19,7 +19,7 @@ from optimizer.formulation.goals import cone_program
 from optimizer.formulation.groups import alike_webs
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
-from optimizer.mechanics.fixed_weights import fixed_masses
+from optimizer.mechanics.fixed_weights import fixed_mass
 from optimizer.mechanics.layout import stacked
 from optimizer.mechanics.shapes import closed, plates
 from optimizer.numerics.arrays import Complex, Real
@@ -30,9 +30,11 @@ from optimizer.program.statement import Statement
 from optimizer.solve.solution import Infeasible
 from optimizer.solve.solve import solve
 from optimizer.studies.accuracy.ladder import LADDER_S, ROUNDS_S, frontier, median_ms
+from schemas.base.rules import Path
 from schemas.base.variation import with_fields
 from schemas.machine.choices import KINDS as CHOICES
 from schemas.machine.machine import Machine
+from schemas.machine.reciprocating import balance_shafts
 from schemas.request.accuracy import AccuracyRequest, ChoiceRow, Reference
 from schemas.request.requests import Accuracy
 
@@ -56,7 +58,7 @@ _ROUNDING = 1e-12
 class Made(NamedTuple):
     """Counterweights that one way comes to."""
 
-    mass: Real  # (K,) kg, fixed weights apart
+    mass: Real  # (K + S,) kg, those on balance shafts behind those of the crankshaft, fixed weights apart
     objective: float  # as it is answered
     bound: float | None
     feasible: bool
@@ -97,8 +99,8 @@ class Ladder(NamedTuple):
 
 def at_rest(request: AccuracyRequest, scene: Prepared) -> Statement:
     """The program of any masses; plates are not opened yet, and reach as far as they can."""
-    square = np.array([scene.omega_squared])
-    return cone_program(closed(request.machine), request.objective, scene.responses, square).chosen(0)
+    (machine, objective), square = Task.of(request).space, np.array([scene.omega_squared])
+    return cone_program(closed(machine), objective, scene.responses, square).chosen(0)
 
 
 def choices_ladder(request: AccuracyRequest, scene: Prepared) -> Ladder:
@@ -165,8 +167,12 @@ class _Ways:
     def free(self) -> Task:
         """Any mass at any angle on every web; plates stay plates."""
         machine, usual = self.request.machine, Accuracy()
-        webs = [("webs", k, field) for k in range(len(machine.webs)) for field in (*CHOICES, "min_fitted_mass_kg")]
-        nothing = dict.fromkeys([*webs, ("catalogue",), ("max_counterweights",)]) | {("web_groups",): ()}
+        webs: list[Path] = [("webs", k) for k in range(len(machine.webs))]
+        for n, shaft in enumerate(balance_shafts(machine)):
+            webs += [("balance_shafts", n, "webs", k) for k in range(len(shaft.webs))]
+        own = [(*web, field) for web in webs for field in (*CHOICES, "min_fitted_mass_kg")]
+        nothing: dict[Path, Any] = dict.fromkeys([*own, ("catalogue",), ("max_counterweights",)])
+        nothing |= {("web_groups",): ()}
         free = with_fields(machine, nothing)
         return replace(self.task, machine=free, relative_gap=usual.relative_gap, time_limit_s=usual.time_limit_s)
 
@@ -201,7 +207,7 @@ class _Ways:
 
     def _rounded(self) -> Made | Nothing:
         """The optimum of any masses, of a group the mean, each on what is nearest of its web."""
-        machine, free = self.request.machine, solve(self.free, self.scene, in_full=False)
+        machine, free = self.task.space.machine, solve(self.free, self.scene, in_full=False)
         if isinstance(free, Infeasible):
             return Nothing(free.reason)
         mass, angle = _nearest(machine, free.unbalance)
@@ -210,9 +216,9 @@ class _Ways:
         return Made(mass, value, None, self._keeps_limits(mass, u), None)
 
     def _keeps_limits(self, mass: Real, u: Complex) -> bool:
-        """Whether masses (K,) kg of unbalances (K,) kg m keep ceilings, budget and numbers, however they came about."""
+        """Whether masses (K + S,) kg of unbalances (K + S,) kg m keep ceilings, budget and numbers."""
         excess = np.max(self.program.ceilings.excess(u), initial=-np.inf)
-        return bool(excess <= CEILING_TOLERANCE) and _counts(self.request.machine, mass)
+        return bool(excess <= CEILING_TOLERANCE) and _counts(self.task.space.machine, mass)
 
     def judged(self, rungs: Sequence[Rung]) -> Ladder:
         """What is known of all rows together, and each against it."""
@@ -224,7 +230,7 @@ class _Ways:
             _LOG.error("a lower bound is above the value of an answer: %.17g above %.17g", bound, objective)
             return Ladder(None, (), False)
         bound, any_mass = min(bound, objective), self._optimum(self.free)
-        fixed = float(np.sum(fixed_masses(self.request.machine)))
+        fixed = float(fixed_mass(self.request.machine))
         figures = [_figures(rung, bound, rest, fixed) for rung in rungs]
         reference = Reference(
             objective=objective,
@@ -248,7 +254,7 @@ def _radius(machine: Machine) -> Real:
 
 
 def _nearest(machine: Machine, u: Complex) -> tuple[Real, Real]:
-    """Masses [kg] and angles [deg] (K,) nearest to unbalances (K,)."""
+    """Masses [kg] and angles [deg] (K,) nearest to unbalances (K,) kg m of a machine with those of all its shafts."""
     alike = alike_webs(machine)
     if machine.discrete:
         held = stock(machine)
@@ -264,7 +270,7 @@ def _counts(machine: Machine, mass: Real) -> bool:
     """Whether masses (K,) keep the budget, and the numbers of castings and of sizes."""
     budget, most = machine.max_total_mass_kg, machine.max_counterweights
     sizes = machine.catalogue.max_part_numbers if machine.catalogue is not None else None
-    total = float(np.sum(mass) + np.sum(fixed_masses(machine)))
+    total = float(np.sum(mass) + fixed_mass(machine))
     return (
         (budget is None or total <= budget * (1.0 + _ROUNDING))
         and (most is None or int(np.sum(mass > 0)) <= most)
