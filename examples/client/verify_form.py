@@ -127,6 +127,8 @@ def form(answer: Place, kind: Tuple[str, ...] = ()) -> Iterator[Claim]:
             if missing:
                 yield "form", Place(value, *answer.path, *path, missing[0]), -ONE, ONE
             also = () if path or kind else tuple(name for name in OUTPUTS if name in value)
+            # points of fronts hold it where there are such shafts
+            also += ("balance_shafts",) if "balance_shafts" in value and "balance_shafts" not in fields else ()
             left.extend((value[name], (*path, name)) for name in (*fields, *also) if name in value)
 
 
