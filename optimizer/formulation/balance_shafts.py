@@ -63,6 +63,11 @@ class Fitted(NamedTuple):
         return self.on_crank if self.on_shafts is None else np.concatenate([self.on_crank, self.on_shafts])
 
     @property
+    def mass_kg(self) -> float:
+        """Of all of them."""
+        return self.total_mass_kg + sum(shaft.total_mass_kg for shaft in self.balance_shafts)
+
+    @property
     def all_of_them(self) -> tuple[Counterweight, ...]:
         """Those on the balance shafts behind those of the crankshaft."""
         return (
