@@ -21,7 +21,7 @@ def feasible_set(task: Task, limits: Limits) -> FeasibleSet:
     OutOfRange
         where the options of a web cannot be told, or webs of a group are unlike.
     """
-    machine = task.machine
+    machine = task.space.machine
     if task.choice == "discrete":
         return Catalogue(stock(machine), limits.radius)
     least = stacked([web.min_fitted_mass_kg or 0.0 for web in machine.webs])

@@ -6,7 +6,7 @@ stands for that; over all orders nothing is mirrored (:class:`optimizer.response
 """
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex, Real
 from schemas.answer.counterweights import Counterweight, FittedShaft
 from schemas.answer.limits import MachineLimit, WebLimit
+from schemas.base.rules import Path
 from schemas.base.variation import with_fields
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import BalanceShaft, balance_shafts
@@ -45,7 +46,25 @@ def design_space(machine: Machine, objective: Objective) -> DesignSpace:
 
 
 def _mirrored(web: Web) -> Web:
-    return web if web.sector is None else with_fields(web, {("sector", "centre_deg"): -web.sector.centre_deg})
+    values: dict[Path, Any] = {}
+    if web.sector is not None:
+        values["sector", "centre_deg"] = -web.sector.centre_deg
+    if web.hole_angles_deg is not None:
+        values["hole_angles_deg",] = tuple(-angle for angle in web.hole_angles_deg)
+    return with_fields(web, values) if values else web
+
+
+def as_drawn(machine: Machine) -> Machine:
+    """A machine with the webs of its balance shafts behind its own, none of them mirrored."""
+    return with_fields(machine, {("webs",): places(machine)}) if balance_shafts(machine) else machine
+
+
+def web_paths(machine: Machine) -> list[Path]:
+    """Where all webs stand in a machine, those of its balance shafts behind those of the crankshaft."""
+    paths: list[Path] = [("webs", k) for k in range(len(machine.webs))]
+    for n, shaft in enumerate(balance_shafts(machine)):
+        paths += [("balance_shafts", n, "webs", k) for k in range(len(shaft.webs))]
+    return paths
 
 
 class Fitted(NamedTuple):
@@ -116,15 +135,19 @@ def drawn(machine: Machine, objective: Objective, mass_kg: Real, angle_deg: Real
     mass_kg, angle_deg : (..., K + S) as a program has chosen them, of the webs of :func:`design_space`.
     """
     mass_kg, angle_deg = beside(machine, mass_kg, angle_deg)
-    shafts = balance_shafts(machine)
-    if not shafts:
+    if not balance_shafts(machine):
         return mass_kg, angle_deg
+    return mass_kg, np.mod(mirror_images(machine, objective, angle_deg), 360.0)
+
+
+def mirror_images(machine: Machine, objective: Objective, angle_deg: Real) -> Real:
+    """Angles of all webs (..., K + S) deg, of those that stand for their mirror images in a program that of these."""
+    shafts, own = balance_shafts(machine), len(machine.webs)
     ratio = np.array([shaft.speed_ratio for shaft in shafts for _ in shaft.webs])
     mirrored = (ratio == -1) & (objective.orders == "first")
-    own = len(machine.webs)
     angle = angle_deg.copy()
     angle[..., own:] = np.where(mirrored, np.mod(-angle[..., own:], 360.0), angle[..., own:])
-    return mass_kg, np.mod(angle, 360.0)
+    return angle
 
 
 def fitted(machine: Machine, mass_kg: Real, angle_deg: Real, vectors: Complex | None = None) -> Fitted:

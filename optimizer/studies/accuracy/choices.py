@@ -14,6 +14,7 @@ import numpy as np
 
 from optimizer.choices.catalogue_options import part_numbers, stock
 from optimizer.choices.discrete.options import EQUAL
+from optimizer.formulation.balance_shafts import web_paths
 from optimizer.formulation.counterweights import unbalance
 from optimizer.formulation.goals import cone_program
 from optimizer.formulation.groups import alike_webs
@@ -34,7 +35,6 @@ from schemas.base.rules import Path
 from schemas.base.variation import with_fields
 from schemas.machine.choices import KINDS as CHOICES
 from schemas.machine.machine import Machine
-from schemas.machine.reciprocating import balance_shafts
 from schemas.request.accuracy import AccuracyRequest, ChoiceRow, Reference
 from schemas.request.requests import Accuracy
 
@@ -167,10 +167,7 @@ class _Ways:
     def free(self) -> Task:
         """Any mass at any angle on every web; plates stay plates."""
         machine, usual = self.request.machine, Accuracy()
-        webs: list[Path] = [("webs", k) for k in range(len(machine.webs))]
-        for n, shaft in enumerate(balance_shafts(machine)):
-            webs += [("balance_shafts", n, "webs", k) for k in range(len(shaft.webs))]
-        own = [(*web, field) for web in webs for field in (*CHOICES, "min_fitted_mass_kg")]
+        own = [(*web, field) for web in web_paths(machine) for field in (*CHOICES, "min_fitted_mass_kg")]
         nothing: dict[Path, Any] = dict.fromkeys([*own, ("catalogue",), ("max_counterweights",)])
         nothing |= {("web_groups",): ()}
         free = with_fields(machine, nothing)
