@@ -6,7 +6,7 @@ import { figure, number, share } from "../format.js";
 import { complaint } from "../naming.js";
 import { colours, plot } from "../plots.js";
 import { chosenFrom, counted } from "./counts.js";
-import { counterweightTable } from "./counterweights.js";
+import { counterweightTable, everyWeight, wholeMass } from "./counterweights.js";
 import { missing } from "./panels.js";
 
 const POINTS = 21;
@@ -65,7 +65,7 @@ export const pareto = {
       chosen = index;
       slider.value = index;
       show(picked, drawing, found, index);
-      return Promise.all([draw(), views.ask(request, every(found.points[index]))]);
+      return Promise.all([draw(), views.ask(request, everyWeight(found.points[index]))]);
     };
     const pick = (index) => {
       keep("point", index + 1);
@@ -131,10 +131,6 @@ async function frontOf(traded, request, ask) {
   return { ...found, titles: found.responses.map((one) => `${WORDS[one.response] ?? one.response}, ${one.unit}`), bare: found.responses.map((one) => one.without_counterweights) };
 }
 
-// all counterweights of a point, those on balance shafts too, and their mass
-const every = (point) => [...point.counterweights, ...(point.balance_shafts ?? []).flatMap((shaft) => shaft.counterweights)];
-const mass = (point) => point.total_mass_kg + (point.balance_shafts_mass_kg ?? 0);
-
 function picture({ points, titles, bare, whole }, chosen, click) {
   const { before, after, mark } = colours();
   const third = titles[2];
@@ -145,7 +141,7 @@ function picture({ points, titles, bare, whole }, chosen, click) {
     traces: [
       { x: of(0), y: of(1), mode: third ? "markers" : "lines+markers", name: "front", meta: "front", line: { color: after },
         marker: third ? { size: 12, color: of(2), colorscale: "Viridis", colorbar: { title: { text: third, side: "right" } } } : { size: 9, color: after },
-        customdata: third ? of(2) : points.map(mass),
+        customdata: third ? of(2) : points.map(wholeMass),
         hovertemplate: `%{x:.5~s}, %{y:.5~s}, %{customdata:.5~s} ${third ? third.split(", ").at(-1) : "kg"}<extra></extra>` },
       { x: [here[0]], y: [here[1]], mode: "markers", name: "chosen", hoverinfo: "skip",
         marker: { size: 17, symbol: "circle-open", color: mark, line: { width: 3 } } },
@@ -163,7 +159,7 @@ function show(place, drawing, { points, titles }, index) {
   place.replaceChildren(
     h("h3", {}, `Point ${index + 1} of ${points.length}`),
     table("The chosen point", [...titles, ...(weighed ? [] : ["all counterweights, kg"]), "gap"],
-      [[figure(point.values[0]), ...point.values.slice(1).map((value) => number(value)), ...(weighed ? [] : [number(mass(point))]),
+      [[figure(point.values[0]), ...point.values.slice(1).map((value) => number(value)), ...(weighed ? [] : [number(wholeMass(point))]),
         { number: true, text: point.certificate.relative_gap === null ? "none" : share(Math.max(0, point.certificate.relative_gap)) }]]),
     h("div", { class: "beside" }, drawing, fitted(point)));
 }
