@@ -51,7 +51,9 @@ class CountPoint(Model):
         " likewise",
         examples=[2e-4],
     )
-    weights: int | None = Field(description="webs that have a counterweight; null if infeasible", examples=[2])
+    weights: int | None = Field(
+        description="webs of the crankshaft that have a counterweight; null if infeasible", examples=[2]
+    )
     part_numbers: int | None = Field(description="different masses; null if infeasible", examples=[1])
     total_mass_kg: Kilograms | None = Field(
         description="total mass on the crankshaft; null if infeasible", examples=[50.0]

@@ -15,7 +15,7 @@ import numpy as np
 from optimizer.choices.catalogue_options import part_numbers, stock
 from optimizer.choices.discrete.options import EQUAL
 from optimizer.formulation.balance_shafts import web_paths
-from optimizer.formulation.counterweights import unbalance
+from optimizer.formulation.counterweights import places, unbalance
 from optimizer.formulation.goals import cone_program
 from optimizer.formulation.groups import alike_webs
 from optimizer.formulation.simulation import Prepared
@@ -204,7 +204,7 @@ class _Ways:
 
     def _rounded(self) -> Made | Nothing:
         """The optimum of any masses, of a group the mean, each on what is nearest of its web."""
-        machine, free = self.task.space.machine, solve(self.free, self.scene, in_full=False)
+        machine, free = self.request.machine, solve(self.free, self.scene, in_full=False)
         if isinstance(free, Infeasible):
             return Nothing(free.reason)
         mass, angle = _nearest(machine, free.unbalance)
@@ -215,7 +215,7 @@ class _Ways:
     def _keeps_limits(self, mass: Real, u: Complex) -> bool:
         """Whether masses (K + S,) kg of unbalances (K + S,) kg m keep ceilings, budget and numbers."""
         excess = np.max(self.program.ceilings.excess(u), initial=-np.inf)
-        return bool(excess <= CEILING_TOLERANCE) and _counts(self.task.space.machine, mass)
+        return bool(excess <= CEILING_TOLERANCE) and _counts(self.request.machine, mass)
 
     def judged(self, rungs: Sequence[Rung]) -> Ladder:
         """What is known of all rows together, and each against it."""
@@ -227,8 +227,7 @@ class _Ways:
             _LOG.error("a lower bound is above the value of an answer: %.17g above %.17g", bound, objective)
             return Ladder(None, (), False)
         bound, any_mass = min(bound, objective), self._optimum(self.free)
-        fixed = float(fixed_mass(self.request.machine))
-        figures = [_figures(rung, bound, rest, fixed) for rung in rungs]
+        figures = [_figures(rung, bound, rest, self.request.machine) for rung in rungs]
         reference = Reference(
             objective=objective,
             lower_bound=bound,
@@ -246,25 +245,29 @@ class _Ways:
 
 
 def _radius(machine: Machine) -> Real:
-    radius: Real = stacked([web.radius_m for web in machine.webs])
+    """Of all webs (K + S,) m."""
+    radius: Real = stacked([web.radius_m for web in places(machine)])
     return radius
 
 
 def _nearest(machine: Machine, u: Complex) -> tuple[Real, Real]:
-    """Masses [kg] and angles [deg] (K,) nearest to unbalances (K,) kg m of a machine with those of all its shafts."""
-    alike = alike_webs(machine)
+    """Masses [kg] and angles [deg] (K + S,) nearest to unbalances (K + S,) kg m; beside castings of any mass."""
+    alike, own = alike_webs(machine), len(machine.webs)
+    if alike is not None and not machine.discrete:
+        u = np.append(alike.nearest(u[:own]), u[own:])
+    mass, angle = np.abs(u) / _radius(machine), np.rad2deg(np.angle(u))
+    least = stacked([web.min_fitted_mass_kg or 0.0 for web in places(machine)])
+    mass = np.where(mass < 0.5 * least, 0.0, np.maximum(mass, least))
     if machine.discrete:
         held = stock(machine)
-        return held.fitted(held.options.nearest(u if alike is None else alike.means(u)))
-    u = u if alike is None else alike.nearest(u)
-    mass = np.abs(u) / _radius(machine)
-    least = stacked([web.min_fitted_mass_kg or 0.0 for web in machine.webs])
-    mass = np.where(mass < 0.5 * least, 0.0, np.maximum(mass, least))
-    return mass, np.where(mass > 0.0, np.mod(np.rad2deg(np.angle(u)), 360.0), 0.0)
+        castings = u[:own] if alike is None else alike.means(u[:own])
+        mass[:own], angle[:own] = held.fitted(held.options.nearest(castings))
+    return mass, np.where(mass > 0.0, np.mod(angle, 360.0), 0.0)
 
 
 def _counts(machine: Machine, mass: Real) -> bool:
-    """Whether masses (K,) keep the budget, and the numbers of castings and of sizes."""
+    """Whether masses (K + S,) keep the budget, and those on the crankshaft the numbers of castings and of sizes."""
+    mass = mass[: len(machine.webs)]
     budget, most = machine.max_total_mass_kg, machine.max_counterweights
     sizes = machine.catalogue.max_part_numbers if machine.catalogue is not None else None
     total = float(np.sum(mass) + fixed_mass(machine))
@@ -291,19 +294,20 @@ class _ChoiceFigures(NamedTuple):
 _NOTHING: Mapping[str, None] = dict.fromkeys(_ChoiceFigures._fields)
 
 
-def _figures(rung: Rung, bound: float, rest: float, fixed_kg: float) -> _ChoiceFigures | None:
+def _figures(rung: Rung, bound: float, rest: float, machine: Machine) -> _ChoiceFigures | None:
     made, time_ms = rung.made, median_ms(rung.times_s)
     if made is None or time_ms is None:
         return None
+    castings = made.mass[: len(machine.webs)]
     return _ChoiceFigures(
         time_ms,
         made.objective,
         made.bound,
         (made.objective - bound) / rest,
         None if made.bound is None else (made.objective - made.bound) / rest,
-        float(np.sum(made.mass)) + fixed_kg,
-        int(np.sum(made.mass > 0.0)),
-        part_numbers(made.mass),
+        float(np.sum(made.mass)) + float(fixed_mass(machine)),
+        int(np.sum(castings > 0.0)),
+        part_numbers(castings),
     )
 
 

@@ -8,7 +8,6 @@ import numpy as np
 from optimizer.choices.catalogue_options import part_numbers, stock
 from optimizer.errors import MissingInput
 from optimizer.formulation.balance_shafts import fitted
-from optimizer.formulation.counterweights import places
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
 from optimizer.outputs.requirements import missing
@@ -75,12 +74,13 @@ def _point(task: Task, scene: Prepared, trade: CountTrade, number: int | None) -
     machine = task.machine
     shown = fitted(machine, best.mass_kg, best.angle_deg)
     after = scene.beside(shown.on_shafts).first_order(shown.on_crank)
-    weights = int(np.sum(best.mass_kg[_chosen(machine)] > 0)) if result else None
-    sizes = part_numbers(best.mass_kg[_chosen(machine)]) if result else None
+    castings = best.mass_kg[: len(machine.webs)][_chosen(machine)]
+    weights = int(np.sum(castings > 0)) if result else None
+    sizes = part_numbers(castings) if result else None
     if number is None:
         # where no number limits it, so many as it takes
         used = weights if trade.of in PIECES else sizes
-        number = _most(task.space.machine, trade.of) if used is None else used
+        number = _most(machine, trade.of) if used is None else used
     return CountPoint(
         at_most=number,
         status=best.status,
@@ -99,8 +99,8 @@ def _point(task: Task, scene: Prepared, trade: CountTrade, number: int | None) -
 
 
 def _chosen(machine: Machine) -> np.ndarray:
-    """Webs of all shafts whose weights are not fixed (K + S,)."""
-    return np.array([web.fixed is None for web in places(machine)], dtype=bool)
+    """Webs of the crankshaft whose weights are not fixed (K,)."""
+    return np.array([web.fixed is None for web in machine.webs], dtype=bool)
 
 
 def _smallest(task: Task, scene: Prepared) -> BestSet:
