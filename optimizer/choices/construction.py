@@ -4,8 +4,8 @@ from optimizer.choices.catalogue import Catalogue
 from optimizer.choices.catalogue_options import stock
 from optimizer.choices.feasible_set import FeasibleSet
 from optimizer.choices.minimum_masses import MinimumMasses
+from optimizer.formulation.limits import least_fitted
 from optimizer.formulation.task import Task
-from optimizer.mechanics.layout import stacked
 from optimizer.program.limits import Limits
 
 
@@ -21,8 +21,7 @@ def feasible_set(task: Task, limits: Limits) -> FeasibleSet:
     OutOfRange
         where the options of a web cannot be told, or webs of a group are unlike.
     """
-    machine = task.machine
+    machine = task.space.machine
     if task.choice == "discrete":
         return Catalogue(stock(machine), limits.radius)
-    least = stacked([web.min_fitted_mass_kg or 0.0 for web in machine.webs])
-    return MinimumMasses(machine, least, limits, task.objective.least_mass)
+    return MinimumMasses(machine, least_fitted(machine), limits, task.objective.least_mass)

@@ -16,10 +16,10 @@ from optimizer.choices.discrete.options import EQUAL
 from optimizer.choices.feasible_set import Choice, FeasibleSet, SearchResult
 from optimizer.formulation.balance_shafts import chosen
 from optimizer.formulation.goals import Goals
+from optimizer.formulation.limits import least_fitted
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import fixed_masses
-from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.cuts.optimum import CertifiedOptimum, Conflict, GoalLevel, next_goal, semicontinuous_limits
 from optimizer.program.cuts.semi_infinite import Problem
@@ -248,7 +248,7 @@ def _limits(
     else:
         rest = program.at_rest
         value = float(rest.goals[-1]) if rest.excess <= 0.0 else np.inf
-    least = stacked([web.min_fitted_mass_kg or 0.0 for web in task.machine.webs])
+    least = least_fitted(task.space.machine)
     most = np.array([*(goal.most for goal in before), value])
     return semicontinuous_limits(program, least, most)
 
@@ -264,7 +264,7 @@ def _nodes(stages: list[_GoalChoice]) -> int:
 
 
 def _heavy_enough(task: Task, mass: Real) -> bool:
-    least = stacked([web.min_fitted_mass_kg or 0.0 for web in task.machine.webs])
+    least = least_fitted(task.space.machine)
     return bool(np.all((mass == 0) | (mass >= least)))
 
 
