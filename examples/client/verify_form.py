@@ -16,6 +16,7 @@ _TABLE = """
   sensitivity residual floor certificate infeasibility balance_rate
   balance_quality warnings reference_plane_m effects timing
 alternatives: minimised allowance objective total_mass_kg pieces sizes lower_bound counterweights
+  balance_shafts
 counterweights nominal_counterweights: web mass_kg angle_deg position_m radius_m throw angle_from_crank_deg
   mass_radius_kg_m x_kg_m y_kg_m centrifugal_force_N active_limits fixed shape
 shape: half_angle_deg chord_height_m outer_radius_m inertia_kg_m2

@@ -1,5 +1,6 @@
 """The set that counterweights are chosen from."""
 
+from optimizer.choices.castings_beside import CastingsBeside
 from optimizer.choices.catalogue import Catalogue
 from optimizer.choices.catalogue_options import stock
 from optimizer.choices.feasible_set import FeasibleSet
@@ -12,6 +13,8 @@ from optimizer.program.limits import Limits
 def feasible_set(task: Task, limits: Limits) -> FeasibleSet:
     """What counterweights are chosen from: a catalogue, or any mass at any angle that is 0 or no less than a least one.
 
+    Beside castings on the crankshaft what is on balance shafts has any mass.
+
     Parameters
     ----------
     limits : of the webs (K,).
@@ -22,6 +25,8 @@ def feasible_set(task: Task, limits: Limits) -> FeasibleSet:
         where the options of a web cannot be told, or webs of a group are unlike.
     """
     machine = task.space.machine
+    if task.choice == "discrete" and machine is not task.machine:
+        return CastingsBeside(machine, stock(task.machine), least_fitted(machine), limits, task.objective.least_mass)
     if task.choice == "discrete":
         return Catalogue(stock(machine), limits.radius)
     return MinimumMasses(machine, least_fitted(machine), limits, task.objective.least_mass)

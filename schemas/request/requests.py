@@ -21,7 +21,7 @@ from schemas.base.rules import Rule, Ruled
 from schemas.base.units import Unit
 from schemas.machine.catalogue import DISCRETE_GAP
 from schemas.machine.fitted import FittedCounterweight, GivenCounterweight, fitted_rules
-from schemas.machine.reciprocating import balance_shafts, no_balance_shafts
+from schemas.machine.reciprocating import balance_shafts
 from schemas.machine.rotor import MAX_WEBS, Choice
 from schemas.request.cases import Case, case_rules, cases, stated
 from schemas.request.objective import Objective
@@ -173,7 +173,6 @@ class OptimizeRequest(Scene, Ruled):
         """What does not go with discrete choices."""
         machine = self.machine
         yield from self._choice_rules("a catalogue")
-        yield from no_balance_shafts(machine, ("machine",), "a choice from a catalogue")
         for broken, path, message in machine.no_envelopes(
             "what is chosen from a catalogue has a radius: give that of the plate"
         ):
