@@ -15,7 +15,7 @@ from schemas.request.requests import OptimizeRequest
 from service.common.validation import InvalidRequest, check
 from tests.night import part
 from tests.optimize.machines import row, throw, web
-from tests.optimize.shafts import OMEGA, WHOLE, at, in_line_four, shaft, single
+from tests.optimize.shafts import OMEGA, WHOLE, at, every_place, first_order, in_line_four, shaft, single
 from tests.verification.checking import sound_answer
 
 FORCE = {"moment_weight": 0}
@@ -25,13 +25,9 @@ SHARP = {"relative_gap": 1e-6, "time_limit_s": 30}
 def answer(machine: dict[str, Any], goal: dict[str, Any], **more: Any) -> OptimizeAnswer:
     """The answer, no claim of which the independent checker breaks."""
     found = sound_answer({"machine": machine, "objective": goal, **more})
-    for place, one in zip(every_web(machine), every_weight(found), strict=True):
+    for place, one in zip(every_place(machine), every_weight(found), strict=True):
         assert one.mass_kg == 0 or one.mass_kg >= place.get("min_fitted_mass_kg", 0.0)
     return found
-
-
-def every_web(machine: dict[str, Any]) -> list[dict[str, Any]]:
-    return [*machine["webs"], *(place for one in machine["balance_shafts"] for place in one["webs"])]
 
 
 def every_weight(found: OptimizeAnswer) -> list[Any]:
@@ -70,27 +66,10 @@ def bracket(machine: dict[str, Any], pieces: int) -> tuple[float, float]:
 
     A least mass is that of a chord or of a tangent of each of so many pieces of its circle, or nothing is fitted.
     """
-    places, turns = every_web(machine), [1] * len(machine["webs"])
-    turns += [one["speed_ratio"] for one in machine["balance_shafts"] for _ in one["webs"]]
-    one, two = (np.zeros(2, complex) for _ in range(2))
-    planes = [each["position_m"] for each in machine["throws"]]
-    middle, span = 0.5 * (min(planes) + max(planes)), max(planes) - min(planes)
-    for each in machine["throws"]:
-        lever = np.array([1.0, each["position_m"] - middle])
-        crank, (of_row,) = np.exp(1j * np.deg2rad(each["crank_angle_deg"])), each["rows"]
-        half = 0.5 * of_row["reciprocating_mass_kg"] * each["crank_radius_m"]
-        one += lever * (each["rotating_mass_kg"] * each["crank_radius_m"] + half) * crank
-        two += lever * half * np.exp(2j * np.deg2rad(of_row["axis_deg"])) * np.conj(crank)
-    mass, free = cp.Variable(len(places), complex=True), []
-    radius = np.array([place["counterweight_radius_m"] for place in places])
-    lever = np.array([[1.0] * len(places), [place["position_m"] - middle for place in places]])
-    moved = [
-        [fixed[n] + (lever[n] * radius * (np.array(turns) == sign)) @ mass for sign, fixed in ((1, one), (-1, two))]
-        for n in range(2)
-    ]
-    goal = sum(
-        weight * sum(cp.abs(each) for each in both) for weight, both in zip((1.0, 1.0 / span), moved, strict=True)
-    )
+    places, order = every_place(machine), first_order(machine)
+    mass = cp.Variable(len(places), complex=True)
+    sums = [sum(cp.abs(each) for each in both) for both in order.terms(mass)]
+    goal = sums[0] + sums[1] / order.span
     edge = [cp.Parameter(complex=True) for _ in places]
     floor = [cp.Parameter() for _ in places]
     most = [cp.Parameter(nonneg=True) for _ in places]
