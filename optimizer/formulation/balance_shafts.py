@@ -114,12 +114,23 @@ def drawn(machine: Machine, objective: Objective, mass_kg: Real, angle_deg: Real
     shafts = balance_shafts(machine)
     if not shafts:
         return mass_kg, angle_deg
-    ratio = np.array([shaft.speed_ratio for shaft in shafts for _ in shaft.webs])
-    mirrored = (ratio == -1) & (objective.orders == "first")
-    own = len(machine.webs)
-    angle = angle_deg.copy()
-    angle[..., own:] = np.where(mirrored, np.mod(-angle[..., own:], 360.0), angle[..., own:])
+    angle = np.where(_mirror_images(machine, objective), np.mod(-angle_deg, 360.0), angle_deg)
     return mass_kg, np.mod(angle, 360.0)
+
+
+def posed(machine: Machine, objective: Objective, unbalance: Complex) -> Complex:
+    """What a program has for unbalances of all webs (..., K + S) kg m as they are drawn."""
+    if not balance_shafts(machine):
+        return unbalance
+    return np.where(_mirror_images(machine, objective), np.conj(unbalance), unbalance)
+
+
+def _mirror_images(machine: Machine, objective: Objective) -> np.ndarray:
+    """Whether a web stands for the mirror image of what is drawn (K + S,) bool."""
+    ratio = [shaft.speed_ratio for shaft in balance_shafts(machine) for _ in shaft.webs]
+    # over all orders nothing is mirrored
+    mirrored = -1 if objective.orders == "first" else 0
+    return np.array([1] * len(machine.webs) + ratio) == mirrored
 
 
 def fitted(machine: Machine, mass_kg: Real, angle_deg: Real, vectors: Complex | None = None) -> Fitted:
