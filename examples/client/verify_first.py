@@ -94,7 +94,7 @@ def optimum(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> 
     after = machine.responses(fitted.turning)
     value, rest = (largest(ZERO, *statement.values(responses).values()) for responses in (after, machine.laden))
     objective, lowest, implied = proof / "objective", proof / "lower_bound", proof / "implied_max_mass_kg"
-    chosen = yield from searched(design, answer / "counterweights", proof)
+    chosen = yield from searched(design, answer, proof)
     lowest = proof / "continuous_lower_bound" if chosen else lowest
     yield near("objective", objective, value)
     yield near("before", proof / "objective_without_counterweights", rest)
@@ -115,14 +115,16 @@ def optimum(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> 
     yield from prices(statement, request, answer, fitted, chosen)
 
 
-def searched(design: Place, place: Place, proof: Place) -> Claims:
+def searched(design: Place, answer: Place, proof: Place) -> Claims:
     """Returns whether counterweights are chosen by a search; the tree or the comparison behind it is not repeated."""
-    yield from heavy_enough(design, place)
+    shafts = [(design, answer), *zip(design / "balance_shafts", answer / "balance_shafts")]
+    for shaft, there in shafts:
+        yield from heavy_enough(shaft, there / "counterweights")
     stock = (design / "catalogue") or (design / "max_counterweights") or any(map(stocked, design / "webs"))
     if stock:
-        yield from catalogue(design, place)
+        yield from catalogue(design, answer / "counterweights")
     # of rows of a sweep the method alone tells it, where it is a column
-    least = any((web / "min_fitted_mass_kg").value for web in design / "webs")
+    least = any((web / "min_fitted_mass_kg").value for shaft, _ in shafts for web in shaft / "webs")
     by_method = (proof / "method").value in SEARCHES or (least and not proof / "method")
     chosen = bool(stock or proof / "continuous_lower_bound" or by_method)
     if chosen:

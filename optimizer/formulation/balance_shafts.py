@@ -61,10 +61,7 @@ def as_drawn(machine: Machine) -> Machine:
 
 def web_paths(machine: Machine) -> list[Path]:
     """Where all webs stand in a machine, those of its balance shafts behind those of the crankshaft."""
-    paths: list[Path] = [("webs", k) for k in range(len(machine.webs))]
-    for n, shaft in enumerate(balance_shafts(machine)):
-        paths += [("balance_shafts", n, "webs", k) for k in range(len(shaft.webs))]
-    return paths
+    return [(*path, k) for path, webs in machine.web_lists() for k in range(len(webs))]
 
 
 class Fitted(NamedTuple):
@@ -137,17 +134,23 @@ def drawn(machine: Machine, objective: Objective, mass_kg: Real, angle_deg: Real
     mass_kg, angle_deg = beside(machine, mass_kg, angle_deg)
     if not balance_shafts(machine):
         return mass_kg, angle_deg
-    return mass_kg, np.mod(mirror_images(machine, objective, angle_deg), 360.0)
+    angle = np.where(_mirror_images(machine, objective), np.mod(-angle_deg, 360.0), angle_deg)
+    return mass_kg, np.mod(angle, 360.0)
 
 
-def mirror_images(machine: Machine, objective: Objective, angle_deg: Real) -> Real:
-    """Angles of all webs (..., K + S) deg, of those that stand for their mirror images in a program that of these."""
-    shafts, own = balance_shafts(machine), len(machine.webs)
-    ratio = np.array([shaft.speed_ratio for shaft in shafts for _ in shaft.webs])
-    mirrored = (ratio == -1) & (objective.orders == "first")
-    angle = angle_deg.copy()
-    angle[..., own:] = np.where(mirrored, np.mod(-angle[..., own:], 360.0), angle[..., own:])
-    return angle
+def posed(machine: Machine, objective: Objective, unbalance: Complex) -> Complex:
+    """What a program has for unbalances of all webs (..., K + S) kg m as they are drawn."""
+    if not balance_shafts(machine):
+        return unbalance
+    return np.where(_mirror_images(machine, objective), np.conj(unbalance), unbalance)
+
+
+def _mirror_images(machine: Machine, objective: Objective) -> np.ndarray:
+    """Whether a web stands for the mirror image of what is drawn (K + S,) bool."""
+    ratio = [shaft.speed_ratio for shaft in balance_shafts(machine) for _ in shaft.webs]
+    # over all orders nothing is mirrored
+    mirrored = -1 if objective.orders == "first" else 0
+    return np.array([1] * len(machine.webs) + ratio) == mirrored
 
 
 def fitted(machine: Machine, mass_kg: Real, angle_deg: Real, vectors: Complex | None = None) -> Fitted:

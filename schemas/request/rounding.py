@@ -12,7 +12,6 @@ from schemas.base.quantities import Kilograms, Name
 from schemas.base.rules import Rule, Ruled
 from schemas.base.units import Unit, positive
 from schemas.machine.catalogue import angle_step_rules
-from schemas.machine.reciprocating import balance_shafts
 from schemas.request.requests import OptimizeRequest
 
 _BY_ITSELF = "what is fitted has a radius: optimise first, then give radius and mass of the plate"
@@ -34,9 +33,7 @@ class RoundRequest(Ruled):
     def rules(self) -> Iterator[Rule]:
         yield from angle_step_rules(("angle_step_deg",), self.angle_step_deg)
         request, machine = self.request, self.request.machine
-        on_shafts = (web for shaft in balance_shafts(machine) for web in shaft.webs)
-        webs = (web for web in (*machine.webs, *on_shafts) if web.fixed is None and web.envelope is None)
-        limits = [web.max_mass_kg for web in webs]
+        limits = [web.max_mass_kg for web in machine.every_web if web.fixed is None and web.envelope is None]
         finite = [limit for limit in limits if limit is not None]
         if finite and len(finite) == len(limits):
             most = max(finite)

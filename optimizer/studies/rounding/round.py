@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from optimizer.errors import NotComputable
-from optimizer.formulation.balance_shafts import fitted, mirror_images, web_paths
+from optimizer.formulation.balance_shafts import fitted, posed, web_paths
 from optimizer.formulation.counterweights import places, unbalance
 from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import beside
@@ -28,7 +28,6 @@ from schemas.base.rules import Path
 from schemas.base.variation import with_fields
 from schemas.machine.catalogue import Catalogue
 from schemas.machine.machine import Machine
-from schemas.machine.reciprocating import balance_shafts
 from schemas.request.objective import Objective
 from schemas.request.requests import OptimizeRequest
 from schemas.request.rounding import RoundAnswer, Rounding, RoundRequest, StepRise, Weights
@@ -98,10 +97,7 @@ class _Judge:
     def values(self, weights: _Set) -> tuple[float, float]:
         """Objective, and the largest excess over a ceiling."""
         radius = stacked([web.radius_m for web in places(self.machine)])
-        angle = weights.angle
-        if balance_shafts(self.machine):
-            angle = mirror_images(self.machine, self.goal, angle)
-        values = self.program.values(unbalance(weights.mass, angle, radius), _CLOSE)
+        values = self.program.values(posed(self.machine, self.goal, unbalance(*weights, radius)), _CLOSE)
         return float(values.goals[-1]) * self.omega_squared, values.excess
 
     def objective(self, weights: _Set) -> float:
