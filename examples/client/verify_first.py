@@ -24,6 +24,7 @@ from verify_numbers import (
 )
 from verify_prices import prices, sensitivity
 from verify_program import CEILINGS, Statement, phasors, weighed
+from verify_shafts import Geared
 from verify_weights import catalogue, heavy_enough, stocked
 
 CEILING = 1e-9  # of the larger of a ceiling and what is there without counterweights, likewise
@@ -93,7 +94,7 @@ def optimum(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> 
     after = machine.responses(fitted.turning)
     value, rest = (largest(ZERO, *statement.values(responses).values()) for responses in (after, machine.laden))
     objective, lowest, implied = proof / "objective", proof / "lower_bound", proof / "implied_max_mass_kg"
-    chosen = yield from searched(design, answer / "counterweights", proof)
+    chosen = yield from searched(design, answer, proof)
     lowest = proof / "continuous_lower_bound" if chosen else lowest
     yield near("objective", objective, value)
     yield near("before", proof / "objective_without_counterweights", rest)
@@ -114,14 +115,16 @@ def optimum(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> 
     yield from prices(statement, request, answer, fitted, chosen)
 
 
-def searched(design: Place, place: Place, proof: Place) -> Claims:
+def searched(design: Place, answer: Place, proof: Place) -> Claims:
     """Returns whether counterweights are chosen by a search; the tree or the comparison behind it is not repeated."""
-    yield from heavy_enough(design, place)
+    shafts = [(design, answer), *zip(design / "balance_shafts", answer / "balance_shafts")]
+    for shaft, there in shafts:
+        yield from heavy_enough(shaft, there / "counterweights")
     stock = (design / "catalogue") or (design / "max_counterweights") or any(map(stocked, design / "webs"))
     if stock:
-        yield from catalogue(design, place)
+        yield from catalogue(design, answer / "counterweights")
     # of rows of a sweep the method alone tells it, where it is a column
-    least = any((web / "min_fitted_mass_kg").value for web in design / "webs")
+    least = any((web / "min_fitted_mass_kg").value for shaft, _ in shafts for web in shaft / "webs")
     by_method = (proof / "method").value in SEARCHES or (least and not proof / "method")
     chosen = bool(stock or proof / "continuous_lower_bound" or by_method)
     if chosen:
@@ -153,7 +156,8 @@ def light(statement: Statement, proof: Place, sizes: dict[str, Number], mass: Nu
     least, place = proof / "mass_lower_bound_kg", proof / "mass_yardstick_kg"
     size = place.number(0.0)
     if least and place:
-        limited = Statement(statement.machine, Place({}), {name: {name: ONE} for name in statement.caps}, capped=False)
+        rows = {name: {name: ONE} for name in statement.caps}
+        limited = Statement(statement.machine, Place({}), rows, False, statement.geared)
 
         def most(implied: Place) -> Number:
             cancelling = statement.lightest(sizes, implied), limited.lightest(statement.sizes, implied)
@@ -255,10 +259,13 @@ def implied_alone(verdict: Place, response: str, together: Place) -> Place:
     return own if own else together
 
 
-def smallest(machine: Machine, goal: Place, verdict: Place, proofs: Place, implied: Place) -> Claims:
-    """Bounds on either peak alone, under the ceilings of a goal."""
+def smallest(
+    machine: Machine, goal: Place, verdict: Place, proofs: Place, implied: Place, geared: Sequence[Geared] = ()
+) -> Claims:
+    """Bounds on either peak alone, under the ceilings of a goal. ``geared``: places on balance shafts."""
     for name, unit in NAMES.items():
         lowest = verdict / f"smallest_{name}_lower_bound_{unit}"
-        alone, priced = Statement(machine, goal, {name: {name: ONE}}), partial(priced_at, {name: lowest.number(0.0)})
+        priced = partial(priced_at, {name: lowest.number(0.0)})
+        alone = Statement(machine, goal, {name: {name: ONE}}, geared=geared)
         limits = implied_alone(verdict, name, implied)
         yield from proven(f"smallest_{name}", lowest, alone, proofs / f"smallest_{name}", limits, {}, priced)

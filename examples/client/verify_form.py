@@ -16,6 +16,7 @@ _TABLE = """
   sensitivity residual floor certificate infeasibility balance_rate
   balance_quality warnings reference_plane_m effects timing
 alternatives: minimised allowance objective total_mass_kg pieces sizes lower_bound counterweights
+  balance_shafts
 counterweights nominal_counterweights: web mass_kg angle_deg position_m radius_m throw angle_from_crank_deg
   mass_radius_kg_m x_kg_m y_kg_m centrifugal_force_N active_limits fixed shape
 shape: half_angle_deg chord_height_m outer_radius_m inertia_kg_m2
@@ -67,13 +68,14 @@ timing: total_ms solve_ms mechanics_ms certificate_ms report_ms
 pareto: version status fronts trades counts without_counterweights floor reference_plane_m effects timing
 fronts: max_total_mass_kg status points reason knee ends scale implied_max_mass_kg infeasibility
 points: status status_reason force_peak_N moment_peak_Nm weighted_force_peak_N weighted_moment_peak_Nm total_mass_kg
-  counterweights active_limits certificate multipliers
+  counterweights balance_shafts balance_shafts_mass_kg active_limits certificate multipliers
 points/certificate: force_N moment_Nm relative_gap yardstick mass_lower_bound_kg mass_relative_gap mass_yardstick_kg
   mass_force_limit_N mass_moment_limit_Nm implied_max_mass_kg method
 ends: smallest_force_N smallest_force_lower_bound_N moment_at_smallest_force_Nm smallest_moment_Nm
   smallest_moment_lower_bound_Nm force_at_smallest_moment_N multipliers
 ends/multipliers: smallest_force smallest_moment
-match: version status status_reason assignments spares rows counterweights total_mass_kg residual certificate timing
+match: version status status_reason assignments spares rows counterweights total_mass_kg balance_shafts
+  balance_shafts_mass_kg residual certificate timing
 match/assignments: class part mass_kg throw row
 match/spares: class part mass_kg
 match/rows: throw row name reciprocating_mass_kg

@@ -11,13 +11,14 @@ from itertools import combinations, permutations, product
 from math import factorial, perm
 from typing import Any, Dict, Iterator, List, Mapping, NamedTuple, Sequence, Tuple
 
+from verify_answer import Fitted
 from verify_claims import Claims, near, same
 from verify_form import form
 from verify_machine import NAMES, Machine, Responses
 from verify_numbers import ABOUT_ONE, ONE, SPECK, ZERO, Number, Place, Unreadable, largest, real
 from verify_orders import first_order
 from verify_program import Statement
-from verify_weights import counterweights
+from verify_weights import counterweights, shafts
 
 __all__ = ["matching"]
 
@@ -119,11 +120,12 @@ def _evaluated(
     goal, proof, none = request / "objective", answer / "certificate", Place(None)
     before, after = (Machine(design, goal, none, none) for design in machines)
     chosen = (request / "choose_counterweights").value is True
-    turning, mass = yield from counterweights(after, answer / "counterweights", machines[1])
-    yield near("total_mass", answer / "total_mass_kg", mass, largest(mass, ONE))
+    fitted = yield from _fitted(after, answer, machines[1])
+    turning = fitted.first
     if not chosen:
         there = {(entry / "web").text(): entry for entry in request / "counterweights"}
-        for entry in answer / "counterweights":
+        every = [entry for shaft in [answer, *(answer / "balance_shafts")] for entry in shaft / "counterweights"]
+        for entry in every:
             place = there.get((entry / "web").text(), Place({"mass_kg": 0.0, "angle_deg": 0.0}))
             yield near("counterweights", entry / "mass_kg", (place / "mass_kg").number())
     weights = {"force": (goal / "force_weight").number(1.0, least=0), "moment": ONE / after.span}
@@ -155,6 +157,16 @@ def _evaluated(
         off = ROUNDING * (float(abs(size)) + float(objective))
         room = least + off - (proof / "lower_bound").double(0.0)
         yield "lower_bound", proof / "lower_bound", real(room), real(max(abs(least), off))
+
+
+def _fitted(machine: Machine, answer: Place, design: Place) -> Claims:
+    """What is on crankshaft and balance shafts, which is returned."""
+    turning, mass = yield from counterweights(machine, answer / "counterweights", design)
+    there, on_shafts = yield from shafts(machine, design, answer / "balance_shafts")
+    yield near("total_mass", answer / "total_mass_kg", mass, largest(mass, ONE))
+    if answer / "balance_shafts_mass_kg":
+        yield near("total_mass", answer / "balance_shafts_mass_kg", on_shafts)
+    return Fitted(turning, there, mass, on_shafts)
 
 
 def _gap(request: Place, answer: Place, proof: Place) -> Claims:

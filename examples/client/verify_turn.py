@@ -45,7 +45,7 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
     design, proof = request / "machine", answer / "certificate"
     program = Program(request, machine, answer)
     objective, lowest, implied = proof / "objective", proof / "lower_bound", proof / "implied_max_mass_kg"
-    chosen = yield from searched(design, answer / "counterweights", proof)
+    chosen = yield from searched(design, answer, proof)
     of_any_mass = proof / "continuous_lower_bound" if chosen else lowest
     multipliers, value = proof / "multipliers", objective.number(0.0)
     noise = SPECK * (abs(value) + abs(lowest.number(0.0)))

@@ -220,7 +220,8 @@ def stocked(web: Place) -> bool:
 
 def usual_gap(design: Place) -> float:
     """The gap that a machine is asked for where none is said: wide where counterweights are chosen, or a least is."""
-    places = (design, *(web for web in design / "webs"))
+    on_shafts = (web for shaft in design / "balance_shafts" for web in shaft / "webs")
+    places = (design, *(design / "webs"), *on_shafts)
     names = ("catalogue", "max_counterweights", "min_fitted_mass_kg", *CHOICES)
     return 1e-3 if any(place / name for place in places for name in names) else 1e-6
 

@@ -40,6 +40,7 @@ class Choice(NamedTuple):
     angle: Real  # (K,) degrees
     unbalance: Complex  # (K,) kg m
     result: SearchResult
+    castings: int | None = None  # webs that take options, before those of any mass; None: all, or none of them does
 
 
 class FeasibleSet(Protocol):

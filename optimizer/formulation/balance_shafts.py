@@ -6,7 +6,7 @@ stands for that; over all orders nothing is mirrored (:class:`optimizer.response
 """
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex, Real
 from schemas.answer.counterweights import Counterweight, FittedShaft
 from schemas.answer.limits import MachineLimit, WebLimit
+from schemas.base.rules import Path
 from schemas.base.variation import with_fields
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import BalanceShaft, balance_shafts
@@ -45,7 +46,22 @@ def design_space(machine: Machine, objective: Objective) -> DesignSpace:
 
 
 def _mirrored(web: Web) -> Web:
-    return web if web.sector is None else with_fields(web, {("sector", "centre_deg"): -web.sector.centre_deg})
+    values: dict[Path, Any] = {}
+    if web.sector is not None:
+        values["sector", "centre_deg"] = -web.sector.centre_deg
+    if web.hole_angles_deg is not None:
+        values["hole_angles_deg",] = tuple(-angle for angle in web.hole_angles_deg)
+    return with_fields(web, values) if values else web
+
+
+def as_drawn(machine: Machine) -> Machine:
+    """A machine with the webs of its balance shafts behind its own, none of them mirrored."""
+    return with_fields(machine, {("webs",): places(machine)}) if balance_shafts(machine) else machine
+
+
+def web_paths(machine: Machine) -> list[Path]:
+    """Where all webs stand in a machine, those of its balance shafts behind those of the crankshaft."""
+    return [(*path, k) for path, webs in machine.web_lists() for k in range(len(webs))]
 
 
 class Fitted(NamedTuple):
@@ -61,6 +77,11 @@ class Fitted(NamedTuple):
     def unbalance(self) -> Complex:
         """Of all of them (K + S,) kg m."""
         return self.on_crank if self.on_shafts is None else np.concatenate([self.on_crank, self.on_shafts])
+
+    @property
+    def mass_kg(self) -> float:
+        """Of all of them."""
+        return self.total_mass_kg + sum(shaft.total_mass_kg for shaft in self.balance_shafts)
 
     @property
     def all_of_them(self) -> tuple[Counterweight, ...]:
@@ -111,15 +132,25 @@ def drawn(machine: Machine, objective: Objective, mass_kg: Real, angle_deg: Real
     mass_kg, angle_deg : (..., K + S) as a program has chosen them, of the webs of :func:`design_space`.
     """
     mass_kg, angle_deg = beside(machine, mass_kg, angle_deg)
-    shafts = balance_shafts(machine)
-    if not shafts:
+    if not balance_shafts(machine):
         return mass_kg, angle_deg
-    ratio = np.array([shaft.speed_ratio for shaft in shafts for _ in shaft.webs])
-    mirrored = (ratio == -1) & (objective.orders == "first")
-    own = len(machine.webs)
-    angle = angle_deg.copy()
-    angle[..., own:] = np.where(mirrored, np.mod(-angle[..., own:], 360.0), angle[..., own:])
+    angle = np.where(_mirror_images(machine, objective), np.mod(-angle_deg, 360.0), angle_deg)
     return mass_kg, np.mod(angle, 360.0)
+
+
+def posed(machine: Machine, objective: Objective, unbalance: Complex) -> Complex:
+    """What a program has for unbalances of all webs (..., K + S) kg m as they are drawn."""
+    if not balance_shafts(machine):
+        return unbalance
+    return np.where(_mirror_images(machine, objective), np.conj(unbalance), unbalance)
+
+
+def _mirror_images(machine: Machine, objective: Objective) -> np.ndarray:
+    """Whether a web stands for the mirror image of what is drawn (K + S,) bool."""
+    ratio = [shaft.speed_ratio for shaft in balance_shafts(machine) for _ in shaft.webs]
+    # over all orders nothing is mirrored
+    mirrored = -1 if objective.orders == "first" else 0
+    return np.array([1] * len(machine.webs) + ratio) == mirrored
 
 
 def fitted(machine: Machine, mass_kg: Real, angle_deg: Real, vectors: Complex | None = None) -> Fitted:

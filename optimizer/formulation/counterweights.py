@@ -18,7 +18,7 @@ from schemas.base.model import FieldProblem
 from schemas.base.variation import with_fields
 from schemas.machine.fitted import FittedCounterweight, GivenCounterweight
 from schemas.machine.machine import Machine
-from schemas.machine.reciprocating import BalanceShaft, ReciprocatingMachine
+from schemas.machine.reciprocating import BalanceShaft
 from schemas.machine.webs import Web
 
 #: of a mass, relative to it, and of an angle, relative to a turn
@@ -104,9 +104,7 @@ def too_heavy(
 
 def places(machine: Machine) -> tuple[Web, ...]:
     """All webs of a machine, those of its balance shafts behind those of the crankshaft."""
-    if not isinstance(machine, ReciprocatingMachine):
-        return machine.webs
-    return (*machine.webs, *(web for shaft in machine.balance_shafts for web in shaft.webs))
+    return machine.every_web
 
 
 def counterweights(

@@ -206,6 +206,11 @@ def largest_mass(machine: Machine) -> Real:
     return np.where(many, np.inf, mass) if any_true(many) else mass
 
 
+def least_fitted(machine: Machine) -> Real:
+    """Least mass of what is fitted on every web (..., K), kg; 0 where there is none."""
+    return stacked([web.min_fitted_mass_kg or 0.0 for web in machine.webs])
+
+
 def limits(machine: Machine, leading: tuple[int, ...] = ()) -> Limits:
     """Limits of the counterweights on the webs of a machine, or of many (*leading, K)."""
     webs = machine.webs

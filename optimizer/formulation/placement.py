@@ -5,8 +5,6 @@ from typing import Any
 
 from schemas.base.rules import Path
 from schemas.base.variation import with_fields
-from schemas.machine.machine import Machine
-from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.machine.webs import Web
 from schemas.request.requests import AnalyzeRequest
 
@@ -31,7 +29,7 @@ def on_webs(request: AnalyzeRequest) -> AnalyzeRequest:
     machine = request.machine
 
     values: dict[Path, Any] = {}
-    for place, webs in _webs(machine):
+    for place, webs in machine.web_lists():
         for k, web in enumerate(webs):
             if web.name in radii:
                 # what is at a radius of its own is not cut from the plate of its web
@@ -57,17 +55,9 @@ def on_webs(request: AnalyzeRequest) -> AnalyzeRequest:
     return with_fields(request, {("machine", "webs"): webs})
 
 
-def _webs(machine: Machine) -> Iterator[tuple[Path, tuple[Web, ...]]]:
-    """Webs of the crankshaft and of every balance shaft, with paths from the machine."""
-    yield ("webs",), machine.webs
-    if isinstance(machine, ReciprocatingMachine):
-        for i, shaft in enumerate(machine.balance_shafts):
-            yield ("balance_shafts", i, "webs"), shaft.webs
-
-
 def _names(request: AnalyzeRequest) -> Iterator[str]:
     """Names of planes, none of them that of a web."""
-    taken = {web.name for _, webs in _webs(request.machine) for web in webs}
+    taken = {web.name for web in request.machine.every_web}
     for number, counterweight in enumerate(request.counterweights, 1):
         if counterweight.web is None:
             name = f"counterweight {number}"

@@ -7,6 +7,7 @@ searches; what one of them comes upon serves all.
 
 import logging
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from typing import NamedTuple, get_args
 
 import numpy as np
@@ -14,22 +15,24 @@ import numpy as np
 from optimizer.choices.construction import feasible_set
 from optimizer.choices.discrete.options import EQUAL
 from optimizer.choices.feasible_set import Choice, FeasibleSet
-from optimizer.formulation.counterweights import counterweights, masses_and_angles
+from optimizer.formulation.balance_shafts import chosen
+from optimizer.formulation.counterweights import masses_and_angles
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
-from optimizer.mechanics.fixed_weights import beside
 from optimizer.numerics.arrays import Complex
 from optimizer.program.cuts.optimum import over_turn
 from optimizer.program.limits import Limits
 from optimizer.solve.caps import cost
+from optimizer.solve.choice import beside_castings
 from optimizer.solve.costs import COMPARED, Costs
 from optimizer.solve.uncertain_program import MOST_ROUNDS, Robust
 from schemas.answer.alternatives import Alternative, Cheaper
-from schemas.machine.machine import Machine
 
 _LOG = logging.getLogger(__name__)
 #: share of the time limit that the best choice may take; of the rest the shares of the costs
 BEST, _SHARES = 0.6, {"mass": 0.4, "pieces": 0.3, "sizes": 0.3}
+#: width of the brackets by which the best choice is judged, as a share of goals
+_CLOSE = 1e-10
 #: what is left open at the end of every search, which looks at the time now and then
 _SPARE = 0.9
 
@@ -60,7 +63,7 @@ def alternatives(
         if not any(worse):
             break
         points += [candidate.choice.unbalance for candidate in candidates]
-    return tuple(_described(task.machine, scene, candidate) for candidate in candidates)
+    return tuple(_described(task, scene, candidate) for candidate in candidates)
 
 
 class _Cheap(NamedTuple):
@@ -90,9 +93,18 @@ def _cheaper(
     # the best choice keeps the ceilings
     first = over_turn(program, robust.wanted.relative_gap, False, robust.left_s).certain()
     size = float(program.units[-1])
-    costs, seconds = Costs(program, first, (), choices, size=size), robust.left_s
+    task, seconds = robust.task, robust.left_s
+    whole = task.all_discrete
+    if not whole:
+        worst = float(program.values(incumbents[0], _CLOSE).goals[-1]) * (1.0 + max(every))
+        first = replace(first, limits=beside_castings(task, program, np.array([worst])))
+    costs = Costs(program, first, (), choices, size=size, whole=whole)
     # to the last digit, as it is answered
-    offered = [Choice(*masses_and_angles(robust.task.machine, u, program.limits), u, COMPARED) for u in incumbents]
+    machine, castings = task.space.machine, len(task.machine.webs)
+    offered = [
+        Choice(*masses_and_angles(machine, u, program.limits), u, COMPARED, None if whole else castings)
+        for u in incumbents
+    ]
     for start in offered:
         costs.offer(start)
     best = costs.value(offered[0])
@@ -107,11 +119,12 @@ def _cheaper(
                 cheapest = choice
 
 
-def _described(machine: Machine, scene: Prepared, cheap: _Cheap) -> Alternative:
+def _described(task: Task, scene: Prepared, cheap: _Cheap) -> Alternative:
     """As it is answered."""
     minimised, allowance, choice, value, bound = cheap
-    mass, angle = beside(machine, choice.mass, choice.angle)
-    total, own = float(np.sum(mass)), cost(choice, minimised)
+    shown = chosen(task.machine, task.objective, choice.mass, choice.angle)
+    total = float(np.sum([weight.mass_kg for weight in shown.all_of_them]))
+    own = cost(choice, minimised)
     fixed = total - cost(choice, "mass") if minimised == "mass" else 0.0
     proven = None
     if bound > own * (1.0 + EQUAL):
@@ -127,5 +140,6 @@ def _described(machine: Machine, scene: Prepared, cheap: _Cheap) -> Alternative:
         pieces=int(cost(choice, "pieces")),
         sizes=int(cost(choice, "sizes")),
         lower_bound=None if proven is None else proven + fixed,
-        counterweights=counterweights(machine, mass, angle),
+        counterweights=shown.counterweights,
+        balance_shafts=shown.balance_shafts,
     )

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from optimizer.choices.castings_beside import CastingsBeside
 from optimizer.choices.catalogue import Catalogue
 from optimizer.choices.catalogue_options import part_numbers
 from optimizer.choices.feasible_set import Choice, FeasibleSet
@@ -30,14 +31,19 @@ class Caps(NamedTuple):
         """The choices that are so few and of so few sizes."""
         if self.pieces == self.sizes == np.inf and self.mass > 0.0:
             return choices
-        assert isinstance(choices, Catalogue)  # nothing else is counted
+        assert isinstance(choices, Catalogue | CastingsBeside)  # nothing else is counted
         options = choices.stock.options
         fitted, parts = _least(options.most_fitted, self.pieces), _least(options.most_parts, self.sizes)
         if parts == 0 or self.mass == 0.0:
             # no size, or no mass, is nothing at all
             fitted, parts = 0, options.most_parts
         capped = replace(options, most_fitted=fitted, most_parts=parts)
-        return replace(choices, stock=choices.stock._replace(options=capped))
+        stock = choices.stock._replace(options=capped)
+        if isinstance(choices, CastingsBeside) and self.mass == 0.0:
+            # nor on other webs
+            nothing = replace(choices.limits, max_mass=np.zeros(choices.limits.max_mass.shape))
+            return replace(choices, stock=stock, limits=nothing)
+        return replace(choices, stock=stock)
 
     def within(self, limits: Limits) -> Limits:
         """The same of the total mass."""
@@ -54,7 +60,8 @@ def _least(most: int | None, cap: float) -> int | None:
 
 
 def cost(choice: Choice, kind: Cost) -> float:
-    """What a choice costs: kg, or a number."""
+    """What a choice costs: kg, or a number of castings."""
     if kind == "mass":
         return float(np.sum(choice.mass))
-    return float(np.sum(choice.mass > 0) if kind == "pieces" else part_numbers(choice.mass))
+    mass = choice.mass[: choice.castings]
+    return float(np.sum(mass > 0) if kind == "pieces" else part_numbers(mass))

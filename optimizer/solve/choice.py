@@ -11,15 +11,17 @@ from typing import NamedTuple
 
 import numpy as np
 
+from optimizer.choices.castings_beside import with_castings
+from optimizer.choices.catalogue_options import stock
 from optimizer.choices.construction import feasible_set
 from optimizer.choices.discrete.options import EQUAL
 from optimizer.choices.feasible_set import Choice, FeasibleSet, SearchResult
 from optimizer.formulation.balance_shafts import chosen
 from optimizer.formulation.goals import Goals
+from optimizer.formulation.limits import least_fitted
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import fixed_masses
-from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.cuts.optimum import CertifiedOptimum, Conflict, GoalLevel, next_goal, semicontinuous_limits
 from optimizer.program.cuts.semi_infinite import Problem
@@ -199,7 +201,11 @@ class _GoalOrder:
         """Make a cost small."""
         n = max(len(self.stages) - 1, 0)
         best, size = self.stages[n].best if self.stages else self.first, float(self.program.units[n])
-        costs = Costs(self._so_far(n + 1), best, self._reached[:-1], self._choices, self.caps, size)
+        program, whole = self._so_far(n + 1), self.task.all_discrete
+        if self.task.choice == "discrete" and not whole:
+            levels = np.array([goal.most for goal in self._reached] or [np.inf])
+            best = replace(best, limits=beside_castings(self.task, program, levels))
+        costs = Costs(program, best, self._reached[:-1], self._choices, self.caps, size, whole)
         if self.incumbent is not None:
             costs.offer(self.incumbent)
         level = self._reached[-1].most if self._reached else np.inf
@@ -240,7 +246,8 @@ def _limits(
     before : the goals before it.
     incumbent : a choice that keeps these and the ceilings, if there is one.
     """
-    if task.choice == "discrete":
+    discrete = task.choice == "discrete"
+    if discrete and task.all_discrete:
         # what is chosen from a catalogue is what it holds
         return best.limits
     if incumbent is not None:
@@ -248,8 +255,22 @@ def _limits(
     else:
         rest = program.at_rest
         value = float(rest.goals[-1]) if rest.excess <= 0.0 else np.inf
-    least = stacked([web.min_fitted_mass_kg or 0.0 for web in task.machine.webs])
     most = np.array([*(goal.most for goal in before), value])
+    if discrete:
+        return beside_castings(task, program, most)
+    return semicontinuous_limits(program, least_fitted(task.space.machine), most)
+
+
+def beside_castings(task: Task, program: Problem, most: Real) -> Limits:
+    """The same of castings on the crankshaft and any masses on balance shafts.
+
+    Parameters
+    ----------
+    most : (goals,) what the goals of some choice that keeps the ceilings come to; inf where none is known.
+    """
+    castings, least = len(task.machine.webs), least_fitted(task.space.machine)
+    least[:castings] = 0.0
+    program = program.changed(limits=with_castings(program.limits, stock(task.machine)))
     return semicontinuous_limits(program, least, most)
 
 
@@ -264,7 +285,7 @@ def _nodes(stages: list[_GoalChoice]) -> int:
 
 
 def _heavy_enough(task: Task, mass: Real) -> bool:
-    least = stacked([web.min_fitted_mass_kg or 0.0 for web in task.machine.webs])
+    least = least_fitted(task.space.machine)
     return bool(np.all((mass == 0) | (mass >= least)))
 
 

@@ -80,6 +80,7 @@ class Costs:
     choices: Callable[[Limits], FeasibleSet]  # within limits that hold the best of them
     caps: Caps = NO_CAPS
     size: float = 1.0  # what gaps of the last goal are relative to
+    whole: bool = True  # every web takes options, none any mass beside them
     offers: list[tuple[float, Choice]] = field(default_factory=list)  # with what they come to of the last goal
     few: dict[int, FewWebs] = field(default_factory=dict)  # by the number of webs
     proven: dict[tuple[Cost, int], float] = field(default_factory=dict)  # of no more than a number, of the last goal
@@ -212,7 +213,7 @@ class Costs:
         """What any masses on so few webs come to at least, of one goal of the first order, and their optima."""
         if number not in self.few:
             limits = self.caps.within(self.best.limits)
-            self.few[number] = few_webs(self.program, limits, number)
+            self.few[number] = few_webs(self.program, limits, number) if self.whole else UNKNOWN
         return self.few[number]
 
     def _on_few_webs(self, few: FewWebs, statement: Statement, choices: Catalogue, level: float, clock: Clock) -> float:
@@ -257,6 +258,8 @@ class Costs:
             _LOG.error("no masses are proven to keep ceilings that a choice of %g kg keeps", cost(incumbent, "mass"))
             return 0.0
         bound = max(any_mass.proof.bound, 0.0)
+        if not self.whole:
+            any_mass = replace(any_mass, limits=self._no_heavier(incumbent))
         choices = self.caps.of(self.choices(any_mass.limits))
         if self.program.finite is not None and incumbent is not None and isinstance(choices, Catalogue):
             statement = replace(self.program.finite, limits=self.caps.within(self.best.limits))
@@ -276,6 +279,13 @@ class Costs:
         # what is weighed may be off as well
         off = self.program.scatter.of(1.0 / self.program.limits.radius, np.zeros(1, complex))
         return max((max(result.lower_bound, bound) - off) / (1.0 + self.program.scatter.share), 0.0)
+
+    def _no_heavier(self, incumbent: Choice | None) -> Limits:
+        """Limits of all that is lighter than a choice, if there is one, whatever takes no options."""
+        limits = self.caps.within(self.best.limits)
+        if incumbent is None:
+            return limits
+        return replace(limits, max_mass=np.minimum(limits.max_mass, cost(incumbent, "mass") * (1.0 + EQUAL)))
 
     def _compared(
         self,

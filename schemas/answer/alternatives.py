@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from schemas.answer.counterweights import Counterweight
+from schemas.answer.counterweights import Counterweight, FittedShaft
 from schemas.base.model import Model
 from schemas.base.quantities import Fraction, Kilograms
 
@@ -22,7 +22,9 @@ class Alternative(Model):
         description="what the objective may be above that of the answer, as a share of it", examples=[0.02]
     )
     objective: float = Field(description="objective of this choice, recomputed", examples=[41365.2])
-    total_mass_kg: Kilograms = Field(description="total mass, fixed counterweights included", examples=[85.5])
+    total_mass_kg: Kilograms = Field(
+        description="total mass of all shafts, fixed counterweights included", examples=[85.5]
+    )
     pieces: int = Field(description="number of counterweights that are chosen", examples=[2])
     sizes: int = Field(description="number of different masses among these", examples=[2])
     lower_bound: float | None = Field(
@@ -32,4 +34,7 @@ class Alternative(Model):
     )
     counterweights: tuple[Counterweight, ...] = Field(
         description="one for each web, in the machine's order", examples=[[]]
+    )
+    balance_shafts: tuple[FittedShaft, ...] = Field(
+        (), description="what the balance shafts carry beside them", examples=[[]]
     )

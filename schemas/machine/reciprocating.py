@@ -41,7 +41,7 @@ class BalanceShaft(Model):
 
 #: fields of webs that those of balance shafts do not have
 _OF_THE_CRANKSHAFT = (
-    *CHOICES, "fixed", "max_centrifugal_force_N", "min_fitted_mass_kg",
+    *CHOICES, "fixed", "max_centrifugal_force_N",
 )  # fmt: skip
 
 
@@ -91,6 +91,16 @@ class ReciprocatingMachine(Rotor):
         description="shafts geared to the crankshaft, whose unbalances are chosen together with the counterweights",
         examples=[[]],
     )
+
+    def web_lists(self) -> Iterator[tuple[Path, tuple[Web, ...]]]:
+        yield from super().web_lists()
+        for i, shaft in enumerate(self.balance_shafts):
+            yield ("balance_shafts", i, "webs"), shaft.webs
+
+    @property
+    def every_web(self) -> tuple[Web, ...]:
+        shafts = self.balance_shafts
+        return (*self.webs, *(web for shaft in shafts for web in shaft.webs)) if shafts else self.webs
 
     def rules(self) -> Iterator[Rule]:
         yield from super().rules()
@@ -146,12 +156,6 @@ class ReciprocatingMachine(Rotor):
 def balance_shafts(machine: Rotor) -> tuple[BalanceShaft, ...]:
     """Those of a machine, of whichever kind."""
     return machine.balance_shafts if isinstance(machine, ReciprocatingMachine) else ()
-
-
-def no_balance_shafts(machine: Rotor, path: Path, what: str) -> Iterator[Rule]:
-    """Refuses balance shafts, where something is of the crankshaft alone."""
-    message = f"{what} has no balance shafts: it is of the crankshaft alone"
-    yield Rule(bool(balance_shafts(machine)), (*path, "balance_shafts"), message)
 
 
 def _throw_rules(path: Path, throw: Throw, sense: float) -> Iterator[Rule]:

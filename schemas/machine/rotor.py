@@ -88,6 +88,15 @@ class Rotor(Ruled):
         examples=[{"grade_mm_s": 6.3, "mass_kg": 420, "centre_of_mass_m": 0.0, "plane_a_m": -0.4, "plane_b_m": 0.4}],
     )
 
+    def web_lists(self) -> Iterator[tuple[Path, tuple[Web, ...]]]:
+        """Webs of the crankshaft, and of every balance shaft behind them, with paths from the machine."""
+        yield ("webs",), self.webs
+
+    @property
+    def every_web(self) -> tuple[Web, ...]:
+        """All webs, those of balance shafts behind those of the crankshaft."""
+        return self.webs
+
     def no_envelopes(self, message: str) -> Iterator[Rule]:
         """Rules that no web has an envelope, with paths from the machine."""
         for k, web in enumerate(self.webs):
@@ -125,7 +134,7 @@ class Rotor(Ruled):
         if self.catalogue is not None or self.max_counterweights is not None:
             return "discrete"
         least = False
-        for web in self.webs:
+        for web in self.every_web:
             if not CHOSEN.isdisjoint(web.__pydantic_fields_set__):
                 if stated(web):
                     return "discrete"
@@ -180,8 +189,12 @@ def _repetitions(path: Path, names: Sequence[str | None]) -> Iterator[Rule]:
 
 def no_catalogue(machine: Rotor, path: Path, what: str) -> Iterator[Rule]:
     """Refuses discrete choices where counterweights of any mass and angle are chosen."""
-    heavy = (k for k, web in enumerate(machine.webs) if web.min_fitted_mass_kg is not None)
-    least = (("webs", k, "min_fitted_mass_kg") for k in heavy)
+    least = (
+        (*place, k, "min_fitted_mass_kg")
+        for place, webs in machine.web_lists()
+        for k, web in enumerate(webs)
+        if web.min_fitted_mass_kg is not None
+    )
     for field in (*machine.choice_fields(), *least):
         yield Rule(True, (*path, *field), f"serves only to optimize one machine as it is given, not {what}")
 

@@ -5,7 +5,7 @@ from typing import Literal
 from pydantic import ConfigDict, Field
 
 from schemas.answer.answers import Timing
-from schemas.answer.counterweights import Counterweight
+from schemas.answer.counterweights import Counterweight, FittedShaft
 from schemas.answer.dynamics import RowSeries
 from schemas.answer.first_order import FirstOrder
 from schemas.base.model import Answer, Model
@@ -92,6 +92,12 @@ class MatchAnswer(Answer):
         description="counterweights as given or as chosen, one for each web", examples=[[]]
     )
     total_mass_kg: Kilograms = Field(description="total mass of the counterweights", examples=[41.2])
+    balance_shafts: tuple[FittedShaft, ...] = Field(
+        (), description="what the balance shafts carry, in their order", examples=[[]]
+    )
+    balance_shafts_mass_kg: Kilograms | None = Field(
+        None, description="total mass of that; null where there are none", examples=[None]
+    )
     residual: Matched = Field(description="first order before and after", examples=[{"before": {}, "after": {}}])
     certificate: MatchCertificate = Field(description="the proof", examples=[{"objective": 30.7}])
     timing: Timing = Field(description="where the time went", examples=[{"total_ms": 4.1}])

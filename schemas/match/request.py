@@ -12,7 +12,7 @@ from schemas.base.responses import ceilings
 from schemas.base.rules import Path, Rule, Ruled
 from schemas.base.units import Unit
 from schemas.machine.fitted import FittedCounterweight, fitted_rules
-from schemas.machine.reciprocating import MAX_ROWS_TOGETHER, ReciprocatingMachine, no_balance_shafts
+from schemas.machine.reciprocating import MAX_ROWS_TOGETHER, ReciprocatingMachine
 from schemas.machine.rotor import MAX_WEBS
 from schemas.request.objective import Objective
 from schemas.request.requests import OptimizeRequest
@@ -141,7 +141,6 @@ class MatchRequest(Ruled):
         return tuple(RowPlace(throw=t, row=i) for t, throw in enumerate(throws) for i in range(len(throw.rows)))
 
     def rules(self) -> Iterator[Rule]:
-        yield from no_balance_shafts(self.machine, ("machine",), "a match")
         if self.choose_counterweights:
             # they are those of an optimum
             yield from OptimizeRequest.model_construct(machine=self.machine, objective=self.objective).rules()
@@ -155,15 +154,15 @@ class MatchRequest(Ruled):
         yield from fitted_rules(self.machine, self.counterweights)
         both = self.choose_counterweights and bool(self.counterweights)
         yield Rule(both, ("counterweights",), "give either `counterweights` or `choose_counterweights`")
-        for k, web in enumerate(self.machine.webs):
-            endless = (
-                self.choose_counterweights
-                and web.fixed is None
-                and web.envelope is None
-                and (web.max_mass_kg is None or web.max_mass_kg > _LARGEST)
-            )
-            message = f"a match that chooses counterweights needs a limit of at most {_LARGEST:g} kg here"
-            yield Rule(endless, ("machine", "webs", k, "max_mass_kg"), message)
+        message = f"a match that chooses counterweights needs a limit of at most {_LARGEST:g} kg here"
+        for place, webs in self.machine.web_lists() if self.choose_counterweights else ():
+            for k, web in enumerate(webs):
+                endless = (
+                    web.fixed is None
+                    and web.envelope is None
+                    and (web.max_mass_kg is None or web.max_mass_kg > _LARGEST)
+                )
+                yield Rule(endless, ("machine", *place, k, "max_mass_kg"), message)
         for name in self.objective.over_the_turn:
             yield Rule(True, ("objective", name), "remove it: parts are matched for first-order force and moment")
         for ceiling in ceilings():

@@ -21,7 +21,7 @@ from schemas.base.rules import Rule, Ruled
 from schemas.base.units import Unit
 from schemas.machine.catalogue import DISCRETE_GAP
 from schemas.machine.fitted import FittedCounterweight, GivenCounterweight, fitted_rules
-from schemas.machine.reciprocating import balance_shafts, no_balance_shafts
+from schemas.machine.reciprocating import balance_shafts
 from schemas.machine.rotor import MAX_WEBS, Choice
 from schemas.request.cases import Case, case_rules, cases, stated
 from schemas.request.objective import Objective
@@ -173,7 +173,6 @@ class OptimizeRequest(Scene, Ruled):
         """What does not go with discrete choices."""
         machine = self.machine
         yield from self._choice_rules("a catalogue")
-        yield from no_balance_shafts(machine, ("machine",), "a choice from a catalogue")
         for broken, path, message in machine.no_envelopes(
             "what is chosen from a catalogue has a radius: give that of the plate"
         ):
@@ -208,15 +207,15 @@ class OptimizeRequest(Scene, Ruled):
         """What does not go with a least mass of what is fitted."""
         machine = self.machine
         yield from self._choice_rules("min_fitted_mass_kg")
-        yield from no_balance_shafts(machine, ("machine",), "a machine with min_fitted_mass_kg")
         for broken, path, message in machine.no_envelopes(
             "not beside min_fitted_mass_kg: optimise without, then give the radius that is found"
         ):
             yield Rule(broken, ("machine", *path), message)
-        for k, web in enumerate(machine.webs if machine.web_groups else ()):
-            message = "with min_fitted_mass_kg and web_groups the masses of all webs have a limit"
-            endless = web.max_mass_kg is None and web.fixed is None and web.envelope is None
-            yield Rule(endless, ("machine", "webs", k, "max_mass_kg"), message)
+        message = "with min_fitted_mass_kg and web_groups the masses of all webs have a limit"
+        for path, webs in machine.web_lists() if machine.web_groups else ():
+            for k, web in enumerate(webs):
+                endless = web.max_mass_kg is None and web.fixed is None and web.envelope is None
+                yield Rule(endless, ("machine", *path, k, "max_mass_kg"), message)
 
     @property
     def _usual_accuracy(self) -> Accuracy:

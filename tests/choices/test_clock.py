@@ -69,13 +69,13 @@ def test_a_tree_of_options_bounds_as_many_nodes_as_it_has_time_for(
     limit_s: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     problem, options = problem_of(12)
-    seconds, bounded = Seconds(), branch._Work.bounded
+    seconds, bounded = Seconds(), branch.Work.bounded
 
     def slowly(work: Any, nodes: Any, *rest: Any) -> Any:
         seconds.now += len(nodes)
         return bounded(work, nodes, *rest)
 
-    monkeypatch.setattr(branch._Work, "bounded", slowly)
+    monkeypatch.setattr(branch.Work, "bounded", slowly)
     found = branch.branch(
         options, begun(problem, options), -np.inf, -1.0, lambda bound: False, Clock(limit_s, seconds), np.inf
     )

@@ -46,6 +46,11 @@ def cut(machine: Machine) -> None:
     web["envelope"] = {"shape": "sector", "inner_radius_m": 0.06, "outer_radius_m": 0.15, "thickness_m": 0.03}
 
 
+def geared(machine: Machine) -> None:
+    place = {"name": "s", "position_m": 0, "counterweight_radius_m": 0.1, "max_mass_kg": 9}
+    machine["balance_shafts"] = [{"name": "back", "speed_ratio": -1, "webs": [place]}]
+
+
 def fixed(machine: Machine) -> None:
     machine["webs"][1]["fixed"] = {"mass_kg": 10, "angle_deg": 270}
 
@@ -57,6 +62,8 @@ FIELDS: dict[str, Callable[[Machine], None]] = {
     "`envelope`": cut,
     "`fixed`": fixed,
 }
+#: what stands in rows alone
+MORE: dict[str, Callable[[Machine], None]] = {"`balance_shafts`": geared}
 PARTS = {"class": "piston", "names": ["p"], "masses_kg": [5], "rows": [{"throw": 0, "row": 0}]}
 ASKED: dict[str, tuple[type[BaseModel], dict[str, Any]]] = {
     "ceilings, or a budget": (OptimizeRequest, {"objective": {"force_ceiling_N": 6e4}}),
@@ -95,8 +102,8 @@ def taken(model: type[BaseModel], body: dict[str, Any]) -> bool:
 def test_a_cell(row: str, column: str, cell: str) -> None:
     machine = plain()
     FIELDS[column](machine)
-    if row in FIELDS:
-        FIELDS[row](machine)
+    if row in FIELDS or row in MORE:
+        (FIELDS | MORE)[row](machine)
         went = taken(OptimizeRequest, {"machine": machine})
     elif row.startswith("sweeps"):
         orders = {"design": "crank_orders", "angles_deg": [90, 180]}

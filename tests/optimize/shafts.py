@@ -2,7 +2,9 @@
 
 import cmath
 import math
-from typing import Any
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from tests.optimize.machines import machine, row, throw, web
 
@@ -99,3 +101,42 @@ def rolled(body: dict[str, Any], answer: dict[str, Any], theta_deg: float) -> fl
             x, y = one.get("x_m", 0.0), one.get("y_m", 0.0)
             found += size * (x * math.sin(angle) - y * math.cos(angle))
     return found
+
+
+class FirstOrder(NamedTuple):
+    """What turns with the crankshaft and against it of force [kg m] and moment [kg m^2], over omega^2."""
+
+    fixed: np.ndarray  # (2, 2) complex: of force and moment, with and against
+    lever: np.ndarray  # (2, 2, places): what a kilogram at a place adds to each, of its unit vector
+    span: float  # m
+
+    def terms(self, weights: Any) -> list[Any]:
+        """Weighted sizes as two sums of two vectors each: force and moment, with weights (places,) complex kg."""
+        return [[self.fixed[n, way] + self.lever[n, way] @ weights for way in range(2)] for n in range(2)]
+
+
+def every_place(body: dict[str, Any]) -> list[dict[str, Any]]:
+    """Webs of the crankshaft, and behind them those of balance shafts."""
+    return [*body["webs"], *(place for one in body["balance_shafts"] for place in one["webs"])]
+
+
+def first_order(body: dict[str, Any]) -> FirstOrder:
+    """From definitions: a row halves into what turns with and against the crankshaft, a shaft does what it does."""
+    places = every_place(body)
+    turns = [1] * len(body["webs"]) + [one["speed_ratio"] for one in body["balance_shafts"] for _ in one["webs"]]
+    planes = [each["position_m"] for each in body["throws"]]
+    middle = 0.5 * (min(planes) + max(planes))
+    fixed = np.zeros((2, 2), complex)
+    for each in body["throws"]:
+        arm = np.array([1.0, each["position_m"] - middle])
+        crank, radius = np.exp(1j * np.deg2rad(each["crank_angle_deg"])), each["crank_radius_m"]
+        fixed[:, 0] += arm * each["rotating_mass_kg"] * radius * crank
+        for of_row in each["rows"]:
+            half = 0.5 * of_row["reciprocating_mass_kg"] * radius
+            fixed[:, 0] += arm * half * crank
+            fixed[:, 1] += arm * half * np.exp(2j * np.deg2rad(of_row["axis_deg"])) * np.conj(crank)
+    radius = np.array([place["counterweight_radius_m"] for place in places])
+    arms = np.array([[1.0] * len(places), [place["position_m"] - middle for place in places]])
+    lever = np.stack([arms * radius * (np.array(turns) == way) for way in (1, -1)], axis=1)
+    every = planes + [place["position_m"] for place in body["webs"]]
+    return FirstOrder(fixed, lever, max(every) - min(every) or 1.0)

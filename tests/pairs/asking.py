@@ -146,8 +146,9 @@ def _wrong_infeasibility(answer: OptimizeAnswer) -> Iterator[str]:
 
 def _wrong_masses(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[str]:
     """Counterweights outside of their limits."""
-    webs = {web.name: web for web in request.machine.webs}
-    for each in answer.counterweights:
+    webs = {web.name: web for web in request.machine.every_web}
+    on_shafts = (each for shaft in answer.balance_shafts for each in shaft.counterweights)
+    for each in (*answer.counterweights, *on_shafts):
         web = webs[each.web]
         if web.fixed is not None:
             continue

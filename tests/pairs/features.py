@@ -125,8 +125,8 @@ def _group(subject: Subject, mirror: bool) -> None:
     subject.machine["web_groups"] = [{"name": "alike", "webs": names, "mirror": mirror}]
 
 
-def _balance_shafts(subject: Subject, ratio: int) -> None:
-    web = {"name": "on the shaft", "position_m": 0.0, "counterweight_radius_m": 0.05, "max_mass_kg": 5.0}
+def _balance_shafts(subject: Subject, ratio: int, **fields: object) -> None:
+    web = {"name": "on the shaft", "position_m": 0.0, "counterweight_radius_m": 0.05, "max_mass_kg": 5.0, **fields}
     shaft = {"name": "balancer", "speed_ratio": ratio, "x_m": 0.1, "y_m": 0.05, "webs": [web]}
     _shaft(subject, balance_shafts=[shaft])
 
@@ -290,6 +290,7 @@ FEATURES: Mapping[str, Feature] = {
     "balance shaft backwards": partial(_balance_shafts, ratio=-1),
     "balance shaft forwards": partial(_balance_shafts, ratio=1),
     "balance shaft of order 2": partial(_balance_shafts, ratio=2),
+    "least fitted on a shaft": partial(_balance_shafts, ratio=-1, min_fitted_mass_kg=3.0),
     "unbalances": partial(
         _rotor, unbalances=[{"name": "flywheel", "position_m": 0.2, "x_kg_m": 0.02, "y_kg_m": -0.01}]
     ),

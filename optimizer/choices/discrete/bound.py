@@ -5,9 +5,11 @@ and for the number of counterweights (docs/mathematics.md section 16). An option
 known already is worth no look: it is forced out.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
-from optimizer.choices.discrete.options import Options
+from optimizer.choices.discrete.options import Beside, Options
 from optimizer.choices.node_bounds import NodeBounds, price_of_budget
 from optimizer.choices.node_bounds import uphill as uphill_by
 from optimizer.numerics.arrays import Complex, Real
@@ -18,6 +20,9 @@ from optimizer.program.statement import Statement
 def proven(statement: Statement, options: Options, left: np.ndarray, multipliers: Multipliers) -> NodeBounds:
     """What multipliers prove of the options left (N, K, O) of N nodes (N,)."""
     constant, slope, rounding = affine_minorant(statement, multipliers)
+    beside = _Beside.of(options, slope, rounding)
+    if beside is not None:
+        slope, rounding = slope[..., : beside.first], rounding[..., : beside.first]
     size = np.abs(options.unbalance)
     value = _along(options.of_first(slope), options.unbalance) - options.together(rounding)[..., None] * size
     value = np.where(left, value, np.inf)
@@ -41,23 +46,32 @@ def proven(statement: Statement, options: Options, left: np.ndarray, multipliers
             share = np.take_along_axis(share, np.argsort(order, axis=-1, kind="stable"), axis=-1)
             minimum = np.where(can_stay, priced[..., 0] + share * gain, minimum)
             mass = np.where(can_stay, share * mass, mass)
-        return np.sum(minimum, axis=-1) - price * charged, np.sum(mass, axis=-1)
+        sums, masses = np.sum(minimum, axis=-1) - price * charged, np.sum(mass, axis=-1)
+        if beside is None:
+            return sums, masses
+        more, of_others = beside.lowest(price)
+        return sums + more, masses + of_others
 
     def high() -> Real:
         """What every option could gain, by the lightest of all."""
         lightest = np.where(left, options.mass, np.inf)
         step = np.max(np.where(left & (options.mass > 0), np.abs(value), 0.0), axis=(1, 2))
         step = step / np.maximum(np.min(np.where(lightest > 0, lightest, np.inf), axis=(1, 2)), 1e-300)
-        return np.where(np.isfinite(step), 2.0 * step, 0.0)
+        step = np.where(np.isfinite(step), 2.0 * step, 0.0)
+        return step if beside is None else np.maximum(step, beside.high)
 
     taken, best = price_of_budget(least, budget, left.shape[0], high)
     magnitude = np.abs(constant) + np.sum(np.max(np.where(left, np.abs(value), 0.0), axis=-1), axis=-1)
+    if beside is not None:
+        magnitude = magnitude + beside.magnitude
     constant = constant - 1e-14 * (magnitude + options.slots * taken * charged)
     bound = constant + best
     # of one option in place of the best of its slot, whatever number of counterweights
     priced = value + taken[:, None, None] * options.mass
     lowest = np.min(priced, axis=-1, keepdims=True)
     apart = constant + np.sum(lowest[..., 0], axis=-1) - taken * charged
+    if beside is not None:
+        apart = apart + beside.lowest(taken)[0]
     with np.errstate(invalid="ignore"):
         forced = apart[:, None, None] + (priced - lowest)
     return NodeBounds(np.where(np.isnan(bound), -np.inf, bound), np.where(np.isnan(forced), -np.inf, forced), taken)
@@ -76,14 +90,51 @@ def uphill(
     budget = options.budget(statement)
 
     def lowest(slope: Complex) -> tuple[Real, Complex]:
-        total = _along(options.of_first(slope), u) + cost
+        webs = slope.shape[-1] if options.beside is None else slope.shape[-1] - options.beside.most.size
+        total = _along(options.of_first(slope[..., :webs]), u) + cost
         taken = np.argmin(total, axis=-1)[..., None]
         there = np.take_along_axis(u, taken, axis=-1)[..., 0]
-        webs = there if options.alike is None else options.alike.carried(there)
-        return np.sum(np.take_along_axis(total, taken, axis=-1)[..., 0], axis=-1), webs
+        carried = there if options.alike is None else options.alike.carried(there)
+        sums = np.sum(np.take_along_axis(total, taken, axis=-1)[..., 0], axis=-1)
+        if options.beside is None:
+            return sums, carried
+        more, others = options.beside.lowest(slope[..., webs:], price[:, None] / options.beside.radius)
+        return sums + np.sum(more, axis=-1), np.concatenate([carried, others], axis=-1)
 
     charge = price * budget if np.isfinite(budget) else np.zeros_like(price)
     return uphill_by(statement, multipliers, charge, lowest, target)
+
+
+class _Beside(NamedTuple):
+    """What is proven of the webs that take no options, of N nodes."""
+
+    beside: Beside
+    slope: Complex  # (N, S)
+    rounding: Real  # (N, S)
+    first: int  # of them among all webs
+
+    @classmethod
+    def of(cls, options: Options, slope: Complex, rounding: Real) -> "_Beside | None":
+        beside = options.beside
+        if beside is None:
+            return None
+        first = slope.shape[-1] - beside.most.size
+        return cls(beside, slope[..., first:], rounding[..., first:], first)
+
+    def lowest(self, price: Real) -> tuple[Real, Real]:
+        """The least sums at a price of the mass (N,), and the masses there."""
+        value, u = self.beside.lowest(self.slope, price[:, None] / self.beside.radius - self.rounding)
+        return np.sum(value, axis=-1), np.sum(np.abs(u) / self.beside.radius, axis=-1)
+
+    @property
+    def high(self) -> Real:
+        """Prices at which none of them takes anything (N,)."""
+        return 2.0 * np.max(self.beside.radius * (np.abs(self.slope) + self.rounding), axis=-1, initial=0.0)
+
+    @property
+    def magnitude(self) -> Real:
+        """Of what is summed (N,)."""
+        return np.sum(np.abs(self.slope) * self.beside.most, axis=-1)
 
 
 def _along(slope: Complex, u: Complex) -> Real:

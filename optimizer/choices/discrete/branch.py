@@ -31,7 +31,7 @@ _SETS = 20_000
 _MEMORY = 200_000_000
 
 
-class _Node(NamedTuple):
+class Node(NamedTuple):
     """Options left (K, O), packed into bits; the part numbers that count as used; what its parent was bounded by."""
 
     bits: np.ndarray
@@ -39,10 +39,10 @@ class _Node(NamedTuple):
     multipliers: Multipliers | None = None
 
 
-class _Split(NamedTuple):
+class Split(NamedTuple):
     """A node that stays open, and how it is split."""
 
-    node: _Node
+    node: Node
     first: np.ndarray  # (K, O) packed: what the first child keeps
     part: int = -1  # part number that the first child goes without and that counts as used in the second one
 
@@ -68,26 +68,35 @@ def branch(
     most_nodes : after which it ends as well.
     below : a program of one group that is nowhere above the incumbent's, which bounds are of; by default that one.
     """
-    work = _Work(options, incumbent, gap, below or incumbent.statement)
+    return tree_of(Work(options, incumbent, gap, below or incumbent.statement), at_least, enough, clock, most_nodes)
+
+
+def tree_of(
+    work: "Work", at_least: float, enough: Callable[[float], bool], clock: Clock, most_nodes: float = np.inf
+) -> Tree:
+    """The same, of what is done with its nodes."""
+    options, incumbent = work.options, work.incumbent
     root = work.settled(options.exists, frozenset())
     if root is None:
         return Tree(np.inf, 0, False, True)
     size = max(1, min(_BATCH, _BATCH_OPTIONS // max(options.exists.size, 1)))
 
-    def bounded(nodes: list[_Node], bounds: list[float]) -> tuple[float, list[tuple[float, _Split]]]:
+    def bounded(nodes: list[Node], bounds: list[float]) -> tuple[float, list[tuple[float, Split]]]:
         parts = [work.bounded(nodes[n : n + size], bounds[n : n + size], clock) for n in range(0, len(nodes), size)]
         return min(closed for closed, _ in parts), [split for _, splits in parts for split in splits]
 
-    ends = Termination(lambda: incumbent.least - gap, enough, _MEMORY / (2 * root.bits.size), most_nodes)
+    ends = Termination(lambda: incumbent.least - work.gap, enough, _MEMORY / (2 * root.bits.size), most_nodes)
     return branch_and_bound(root, at_least, bounded, work.children, ends, clock, size)
 
 
 @record(frozen=True)
-class _Work:
+class Work:
+    """What is done with the nodes of a tree."""
+
     options: Options
     incumbent: Incumbent
-    gap: float
-    statement: Statement
+    gap: float  # in units of the objective
+    statement: Statement  # of which bounds are
 
     @cached_property
     def apart(self) -> tuple[Statement, Options, np.ndarray]:
@@ -101,7 +110,7 @@ class _Work:
         budget = np.isfinite(self.incumbent.statement.limits.max_total_mass)
         return bool(budget or options.limits_fitted or options.limits_parts)
 
-    def settled(self, left: np.ndarray, parts: frozenset[int]) -> _Node | None:
+    def settled(self, left: np.ndarray, parts: frozenset[int]) -> Node | None:
         """A node with all that counts and budget rule out taken away (K, O); None where nothing is left."""
         options, left = self.options, left.copy()
         budget = options.budget(self.incumbent.statement)
@@ -129,15 +138,15 @@ class _Work:
                 if len(parts) == options.most_parts:
                     left &= (options.part < 0) | np.isin(options.part, list(parts))
             if int(np.sum(left)) == before:
-                return _Node(np.packbits(left, axis=-1), parts)
+                return Node(np.packbits(left, axis=-1), parts)
 
     def left(self, bits: np.ndarray) -> np.ndarray:
         """Options (..., K, O) of bits."""
         return np.unpackbits(bits, axis=-1, count=self.options.mass.shape[1]).astype(bool)
 
     def bounded(
-        self, nodes: list[_Node], inherited: list[float], clock: Clock
-    ) -> tuple[float, list[tuple[float, _Split]]]:
+        self, nodes: list[Node], inherited: list[float], clock: Clock
+    ) -> tuple[float, list[tuple[float, Split]]]:
         """What is proven of all that nodes lose here, and those that stay open with their bounds."""
         options, statement = self.options, self.statement
         left, bound, closed = self.left(np.array([node.bits for node in nodes])), np.array(inherited), np.inf
@@ -162,23 +171,44 @@ class _Work:
             which, left = which[stays], left[stays]
         if not which.size:
             return closed, []
-        whole, parts_of, slot = self.apart
-        base, program = relaxed(whole, parts_of, left[:, slot])
-        relaxation = both_stages(program, np.full(which.size, 1e-9), np.zeros(which.size), False)
-        near = on_first(options, np.nan_to_num(base + relaxation.smallest))
+        near, multipliers, nowhere = self.relaxation(left)
+        bound[which[nowhere]] = np.inf
         self.incumbent.offer(np.argmin(np.where(left, np.abs(options.unbalance - near[..., None]), np.inf), axis=-1))
-        multipliers = self._raised(left, relaxation.multipliers)
+        multipliers = self._raised(left, multipliers)
         stays, left, forced = pruning(left, multipliers)
         which, left, near, multipliers = which[stays], left[stays], near[stays], multipliers.chosen(stays)
-        lowest, cost = costs(left, forced[stays])
-        few = at_most(cost, self.incumbent.least - self.gap - lowest) <= _SETS
+        few, lowest = self.enumeration(left, forced[stays], bound[which], clock)
+        closed = min(closed, lowest)
+        return closed, self._splits(nodes, which[~few], bound, left[~few], near[~few], multipliers.chosen(~few))
+
+    def relaxation(self, left: np.ndarray) -> tuple[Complex, Multipliers, np.ndarray]:
+        """Of nodes (N, K, O) the optima within discs, segments and sectors: unbalances of first webs (N, K) kg m, the
+        multipliers of their bounds, and whether it is proven that nothing keeps their ceilings (N,)."""
+        whole, parts_of, slot = self.apart
+        base, program = relaxed(whole, parts_of, left[:, slot])
+        count = len(left)
+        relaxation = both_stages(program, np.full(count, 1e-9), np.zeros(count), False)
+        near = on_first(self.options, np.nan_to_num(base + relaxation.smallest))
+        return near, relaxation.multipliers, np.zeros(count, bool)
+
+    def enumeration(self, left: np.ndarray, forced: Real, bound: Real, clock: Clock) -> tuple[np.ndarray, float]:
+        """Nodes (N,) of so few sets that all of these are looked at, and what all that are not offered come to.
+
+        Parameters
+        ----------
+        forced : (N, K, O) what is proven of all sets with an option.
+        bound : (N,) of all sets of a node.
+        """
+        incumbent, closed = self.incumbent, np.inf
+        lowest, cost = costs(left, forced)
+        few = at_most(cost, incumbent.least - self.gap - lowest) <= _SETS
         for n in np.flatnonzero(few):
             if clock.spent():
-                closed = min(closed, float(bound[which[n]]))
+                closed = min(closed, float(bound[n]))
                 continue
-            others = offer_few(statement, self.incumbent, cost[n], self.incumbent.least - self.gap - float(lowest[n]))
+            others = offer_few(self.statement, incumbent, cost[n], incumbent.least - self.gap - float(lowest[n]))
             closed = min(closed, float(lowest[n]) + others)
-        return closed, self._splits(nodes, which[~few], bound, left[~few], near[~few], multipliers.chosen(~few))
+        return few, closed
 
     def _raised(self, left: np.ndarray, multipliers: Multipliers) -> Multipliers:
         statement, options = self.statement, self.options
@@ -187,13 +217,13 @@ class _Work:
 
     def _splits(
         self,
-        nodes: list[_Node],
+        nodes: list[Node],
         which: np.ndarray,
         bound: Real,
         left: np.ndarray,
         near: Complex,
         multipliers: Multipliers,
-    ) -> list[tuple[float, _Split]]:
+    ) -> list[tuple[float, Split]]:
         """Open nodes with what their first children keep.
 
         Parameters
@@ -206,12 +236,12 @@ class _Work:
         first, bits = np.packbits(self._first(left, near, off), axis=-1), np.packbits(left, axis=-1)
         splits = []
         for n, node in enumerate(which.tolist()):
-            own = _Node(bits[n], nodes[node].parts, multipliers.chosen(n))
+            own = Node(bits[n], nodes[node].parts, multipliers.chosen(n))
             by_part = self._by_part(own, left[n], off[n]) if self.options.limits_parts else None
-            splits.append((float(bound[node]), by_part or _Split(own, first[n])))
+            splits.append((float(bound[node]), by_part or Split(own, first[n])))
         return splits
 
-    def _by_part(self, node: _Node, left: np.ndarray, off: Real) -> _Split | None:
+    def _by_part(self, node: Node, left: np.ndarray, off: Real) -> Split | None:
         """Split by whether a part number is used, where not all that are left may be."""
         options = self.options
         free = set(np.unique(options.part[left]).tolist()) - node.parts - {-1}
@@ -220,7 +250,7 @@ class _Work:
         # the one that most of the relaxed unbalances are nearest to
         wanted = options.of(options.part, np.argmin(off, axis=-1))
         part = max(sorted(free), key=lambda number: int(np.sum(wanted == number)))
-        return _Split(node, np.packbits(left & (options.part != part), axis=-1), part)
+        return Split(node, np.packbits(left & (options.part != part), axis=-1), part)
 
     def _first(self, left: np.ndarray, near: Complex, off: Real) -> np.ndarray:
         """What the first children keep (M, K, O): of one slot the options up to the relaxed unbalance."""
@@ -228,6 +258,8 @@ class _Work:
         norms, ceilings = statement.norms, statement.ceilings.norms
         does = np.sum(np.abs(norms.influence), axis=-2)
         does = does + np.sum(np.abs(ceilings.influence) / statement.ceilings.size[:, None], axis=-2)
+        if options.beside is not None:
+            does = does[..., : -options.beside.most.size]
         does = options.together(does)
         # where the nearest option does most harm; where none does any, the slot with most room
         several, room = np.sum(left, axis=-1) > 1, np.max(np.where(left, off, 0.0), axis=-1)
@@ -251,14 +283,14 @@ class _Work:
         remainder[node, k] = np.where(level[:, None], half, first)
         return remainder
 
-    def children(self, split: _Split) -> Iterator[_Node]:
+    def children(self, split: Split) -> Iterator[Node]:
         """The two halves of a node, as far as anything is left in them."""
         node, part = split.node, split.part
         rest = node.bits & ~split.first
         changed = np.any(rest, axis=-1, keepdims=True)
         second = node.bits if part >= 0 else np.where(changed, rest, node.bits)
         for bits, parts in ((split.first, node.parts), (second, node.parts | {part} if part >= 0 else node.parts)):
-            child = self.settled(self.left(bits), parts) if self.counted else _Node(bits, parts)
+            child = self.settled(self.left(bits), parts) if self.counted else Node(bits, parts)
             if child is not None:
                 yield child._replace(multipliers=node.multipliers)
 

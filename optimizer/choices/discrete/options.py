@@ -1,5 +1,7 @@
 """Slots and their options, and the best set of them that was come upon."""
 
+from typing import Protocol
+
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
@@ -13,6 +15,24 @@ EQUAL = 1e-9
 #: parts of the smallest mass that may be the unit of all, and what a whole multiple may be off by
 _SHARES, _WHOLE = 10, 1e-9
 _EPS = float(np.finfo(float).eps)
+
+
+class Beside(Protocol):
+    """Webs that take no options but any mass, or none, in a sector of their own; behind those of the slots."""
+
+    @property
+    def most(self) -> Real:
+        """Largest unbalance of every web (S,), kg m."""
+        ...
+
+    @property
+    def radius(self) -> Real:
+        """Of every web (S,), m."""
+        ...
+
+    def lowest(self, slope: Complex, price: Real) -> tuple[Real, Complex]:
+        """Least of Re(conj(slope_k) u_k) + price_k |u_k| of every web (N, S), or less, and where it is, kg m."""
+        ...
 
 
 @record(frozen=True)
@@ -29,6 +49,7 @@ class Options:
     most_fitted: int | None = None  # webs that may take more than nothing
     most_parts: int | None = None  # different part numbers that may be used
     alike: Alike | None = None  # whose units are the slots; None: every web is one
+    beside: Beside | None = None  # further webs of a program; None where all take options
 
     @property
     def slots(self) -> int:

@@ -1,11 +1,12 @@
 """What the batch kernel is given in place of options: discs, segments and sectors about those that are left."""
 
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
 from optimizer.choices.discrete.options import Options
-from optimizer.numerics.arrays import Complex
+from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.equal_unknowns import united
 from optimizer.program.limits import Limits
 from optimizer.program.methods.compiled import suits_kernel
@@ -53,6 +54,33 @@ def relaxed(statement: Statement, options: Options, left: np.ndarray) -> tuple[C
     left : (N, K, O) options of N nodes.
     statement, options : whose every slot is an unknown (:func:`apart`).
     """
+    hull = hulls(options, left)
+    limits = Limits(
+        radius=np.broadcast_to(statement.limits.radius, hull.reach.shape),
+        max_mass=hull.reach / statement.limits.radius,
+        free=hull.free,
+        centre=hull.centre,
+        half_angle_cos=hull.half_angle_cos,
+        half_angle_sin=hull.half_angle_sin,
+        max_total_mass=np.maximum(statement.limits.max_total_mass - hull.mass, _SPECK * (hull.mass + 1e-300)),
+    )
+    return hull.base, replace(statement.about(hull.base), limits=limits)
+
+
+class Hull(NamedTuple):
+    """Discs, segments and sectors about base points that hold what is left of the options."""
+
+    base: Complex  # (N, K) kg m
+    reach: Real  # (N, K) kg m
+    free: np.ndarray  # (N, K) bool: any direction
+    centre: Complex  # (N, K) unit vectors
+    half_angle_cos: Real  # (N, K)
+    half_angle_sin: Real  # (N, K)
+    mass: Real  # (N,) kg, of the lightest options
+
+
+def hulls(options: Options, left: np.ndarray) -> Hull:
+    """Of the options left (N, K, O) of N nodes, every slot an unknown."""
     u, size = options.unbalance, np.abs(options.unbalance)
     angle = np.angle(u)
     some = left & (size > 0)
@@ -76,14 +104,12 @@ def relaxed(statement: Statement, options: Options, left: np.ndarray) -> tuple[C
     free = np.where(from_zero, half > 0.5 * np.pi, ~ray)
     half = np.where(free, 0.5 * np.pi, np.where(ray, 0.0, half))
     held = np.sum(np.min(np.where(left, options.mass, np.inf), axis=-1), axis=-1)
-    limits = Limits(
-        radius=np.broadcast_to(statement.limits.radius, reach.shape),
-        max_mass=reach / statement.limits.radius,
-        free=free,
-        centre=np.where(free, 1.0, centre),
-        half_angle_cos=np.where(free, 0.0, np.cos(half)),
-        half_angle_sin=np.where(free, 1.0, np.sin(half)),
-        max_total_mass=np.maximum(statement.limits.max_total_mass - held, _SPECK * (held + 1e-300)),
+    return Hull(
+        base,
+        reach,
+        free,
+        np.where(free, 1.0, centre),
+        np.where(free, 0.0, np.cos(half)),
+        np.where(free, 1.0, np.sin(half)),
+        held,
     )
-
-    return base, replace(statement.about(base), limits=limits)

@@ -43,7 +43,7 @@ def single_group(
     combinations, slack, kinds = list[tuple[int, ...]](), list[float](), list[int]()
     for case in np.unique(case_of):
         groups = np.flatnonzero(case_of == case)
-        several = [np.flatnonzero(statement.group == group) for group in groups]
+        several = [_unlike(statement, np.flatnonzero(statement.group == group)) for group in groups]
         group_share = max(1, int(_TOGETHER ** (1.0 / len(several))))
         some = [
             indices[_nearest(np.max(rows[:, indices], axis=-1, keepdims=True) - rows[:, indices], group_share)]
@@ -61,6 +61,18 @@ def single_group(
     some = [place[_nearest(np.array(slack)[None, place], kind_share)] for place in places]
     chosen = [combinations[n] for n in np.concatenate(some).tolist()]
     return replace(_of_rows(statement, chosen), ceilings=_nearest_ceilings(statement.ceilings, points, most))
+
+
+def _unlike(statement: Statement, rows: np.ndarray) -> np.ndarray:
+    """Rows of a group without those that are nothing but a floor as high as that of another: of a response that neither
+    is there nor changes each cut is one, and its sums with others are the same."""
+    norms = statement.norms
+    something = (norms.constant != 0) | np.any(norms.influence != 0, axis=-1)
+    bare = rows[~np.isin(rows, statement.row[something])]
+    if bare.size <= 1:
+        return rows
+    _, first = np.unique(statement.floor[bare], return_index=True)
+    return np.setdiff1d(rows, np.delete(bare, first))
 
 
 def _nearest(slack: Real, most: int) -> np.ndarray:

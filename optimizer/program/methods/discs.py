@@ -32,12 +32,14 @@ def in_discs(statement: Statement, reach: Real, inside: bool) -> Statement:
     if not np.any(scalar):
         return statement
     lines, constant = norms.influence[scalar], norms.constant[scalar]
-    # one vector with real influences, seen along a direction
+    # mostly one vector with real influences, seen along a direction
     strongest = lines[np.arange(len(lines)), np.argmax(np.abs(lines), axis=-1)]
     size = np.abs(strongest)
     towards = np.where(size > 0, strongest / np.where(size > 0, size, 1.0), 1.0)
-    along: Real = (lines * np.conj(towards)[:, None]).real
-    assert np.allclose(along * towards[:, None], lines, rtol=0.0, atol=1e-9 * float(np.max(size, initial=0.0)))
+    along: Real | Complex = (lines * np.conj(towards)[:, None]).real
+    if not np.allclose(along * towards[:, None], lines, rtol=0.0, atol=1e-9 * float(np.max(size, initial=0.0))):
+        # webs that turn at speeds of their own are seen along a direction each
+        towards, along = np.ones(len(lines)), lines
     # a line beyond all vectors is kept by them, by its disc too where that is drawn for such as reach it
     far = np.maximum(np.abs(constant) + np.abs(along) @ reach, ceilings.cap[scalar])
     radius = _RADII * far
@@ -54,7 +56,7 @@ def in_discs(statement: Statement, reach: Real, inside: bool) -> Statement:
             names=tuple(ceilings.names[n] for n in which),
             norms=Norms(
                 np.concatenate([of_others, sides]),
-                np.concatenate([norms.influence[~scalar].real, along, along]),
+                np.concatenate([_real(norms.influence[~scalar]), along, along]),
                 norms.scatter,
             ),
             cap=np.concatenate([ceilings.cap[~scalar], wide, wide]),
@@ -63,3 +65,8 @@ def in_discs(statement: Statement, reach: Real, inside: bool) -> Statement:
             scenarios=None if scenarios is None else tuple(scenarios[n] for n in which),
         ),
     )
+
+
+def _real(influence: Real | Complex) -> Real | Complex:
+    """Influences as real numbers, where they are."""
+    return influence if np.any(influence.imag) else influence.real

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from optimizer.formulation.balance_shafts import design_space
 from optimizer.formulation.formulate import responses
 from optimizer.formulation.goals import cone_program
 from optimizer.formulation.task import Task
@@ -102,8 +103,9 @@ class Chosen:
         machine = with_masses(self._of_any_mass, row_mass)
         leading = row_mass.shape[:-1]
         plan = spread(laden(layout(machine), machine), leading)
-        base = responses(plan, rotating(plan).plus(reciprocating(plan, 1)), self.request.objective)
-        return cone_program(machine, self.request.objective, base, np.ones(leading))
+        space, objective = design_space(machine, self.request.objective)
+        base = responses(plan, rotating(plan).plus(reciprocating(plan, 1)), objective)
+        return cone_program(space, objective, base, np.ones(leading))
 
     def _searched(self, row_mass: Real, at_rest: float) -> tuple[float, float, Solution]:
         """Value, certified bound and counterweights of one assignment, over omega squared.

@@ -8,12 +8,13 @@ import numpy as np
 
 from optimizer.analyze import analyze
 from optimizer.errors import refuse
+from optimizer.formulation.balance_shafts import design_space, posed
 from optimizer.formulation.counterweights import mass_and_angle, too_heavy, unbalance
 from optimizer.formulation.formulate import responses
 from optimizer.formulation.goals import cone_program
 from optimizer.mechanics.fixed_weights import beside
 from optimizer.mechanics.inertia import reciprocating, rotating
-from optimizer.mechanics.layout import layout
+from optimizer.mechanics.layout import layout, web_radii
 from optimizer.mechanics.shapes import fitted_masses
 from optimizer.numerics.arrays import Real
 from optimizer.optimize import optimize
@@ -54,7 +55,7 @@ def match(request: MatchRequest) -> MatchAnswer:
         request = with_fields(request, {("machine",): cut})
     problem = stated(request, cut, fitted, angle)
     searching = time.perf_counter()
-    choice = request.choose_counterweights and any(web.max_mass_kg != 0 for web in request.machine.webs)
+    choice = request.choose_counterweights and any(web.max_mass_kg != 0 for web in request.machine.every_web)
     near = request.accuracy.relative_gap * float(problem.peaks.at(problem.vectors(problem.listed)))
     if choice:
         result = with_chosen(request, problem, near)
@@ -112,6 +113,8 @@ def _answer(request: MatchRequest, problem: Problem, result: WithChosen) -> dict
         ),
         "counterweights": after.answer.counterweights,
         "total_mass_kg": after.answer.total_mass_kg,
+        "balance_shafts": after.answer.balance_shafts,
+        "balance_shafts_mass_kg": after.answer.balance_shafts_mass_kg,
         "residual": Matched(before=before.first_order, after=after.first_order),
         "certificate": MatchCertificate(
             objective=value,
@@ -157,15 +160,15 @@ def _evaluated(request: MatchRequest, machine: ReciprocatingMachine, chosen: Sol
     else:
         weights = tuple(GivenCounterweight(**counterweight) for counterweight in _counterweights(request, chosen))
         answer = analyze(AnalyzeRequest(machine=machine, counterweights=weights))
-    fitted = answer.counterweights
+    fitted = (*answer.counterweights, *(weight for shaft in answer.balance_shafts for weight in shaft.counterweights))
     mass, angle = np.array([weight.mass_kg for weight in fitted]), np.array([weight.angle_deg for weight in fitted])
     cut = fitted_masses(machine, mass)
-    plan = layout(cut)
+    plan, space = layout(cut), design_space(cut, goal)
     first = responses(plan, rotating(plan).plus(reciprocating(plan, 1)), goal)
-    square = plan.omega**2
-    program = cone_program(cut, goal, first, square)
-    u = unbalance(mass, angle, plan.webs.radius)
-    alone = unbalance(*beside(machine, np.zeros(mass.shape), np.zeros(mass.shape)), plan.webs.radius)
+    square, radius = plan.omega**2, web_radii(space.machine)
+    program = cone_program(*space, first, square)
+    u = posed(cut, goal, unbalance(mass, angle, radius))
+    alone = unbalance(*beside(machine, np.zeros(mass.shape), np.zeros(mass.shape)), radius)
     residual = cast(Residual, answer.residual)
     return _Evaluated(
         answer,
@@ -181,9 +184,9 @@ def _counterweights(request: MatchRequest, chosen: Solution | None) -> Iterator[
     if chosen is None:
         yield from (counterweight.model_dump() for counterweight in request.counterweights)
         return
-    for web, mass, angle in zip(request.machine.webs, chosen.mass.tolist(), chosen.angle.tolist(), strict=True):
-        if mass > 0.0 and web.fixed is None:
-            yield {"web": web.name, "mass_kg": mass, "angle_deg": angle}
+    for weight in chosen.shown.all_of_them:
+        if weight.mass_kg > 0.0 and not weight.fixed:
+            yield {"web": weight.web, "mass_kg": weight.mass_kg, "angle_deg": weight.angle_deg}
 
 
 def _named(request: MatchRequest, problem: Problem, mass: Real) -> tuple[tuple[Assignment, ...], tuple[Spare, ...]]:

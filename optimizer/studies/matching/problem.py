@@ -9,10 +9,11 @@ from itertools import pairwise
 
 import numpy as np
 
+from optimizer.formulation.balance_shafts import design_space, posed
 from optimizer.formulation.counterweights import unbalance
 from optimizer.formulation.formulate import responses, weights
 from optimizer.mechanics.inertia import reciprocating, rotating
-from optimizer.mechanics.layout import Layout, layout, spread, stacked
+from optimizer.mechanics.layout import Layout, layout, spread, stacked, web_radii
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.records import record
 from optimizer.responses.response import Response
@@ -122,11 +123,13 @@ def stated(request: MatchRequest, machine: Machine, fitted: Real, angle_deg: Rea
     Parameters
     ----------
     machine : with the radii of what is cut from its plates.
-    fitted, angle_deg : (K,) kg and deg, counterweights that are on the machine.
+    fitted, angle_deg : (K + S,) kg and deg, counterweights that are on the machine, those of balance shafts behind the
+        others.
     """
     goal = request.objective
     plan = layout(machine)
-    u = unbalance(fitted, angle_deg, plan.webs.radius)
+    u = unbalance(fitted, angle_deg, web_radii(design_space(machine, goal).machine))
+    u = posed(machine, goal, u)
     wanted, across = weights(machine, goal), goal.direction_weights
     base = responses(plan, rotating(plan).plus(reciprocating(plan, 1)), goal)
     unit = responses(plan, reciprocating(_per_kilogram(plan), 1), goal)
@@ -140,7 +143,8 @@ def stated(request: MatchRequest, machine: Machine, fitted: Real, angle_deg: Rea
         of_row.append(weight * _vectors(f_unit, b_unit, p, q))
         start_size.append(weight * _vectors(np.abs(f), np.abs(b), p, abs(q)).real)
         size_of_row.append(weight * _vectors(np.abs(f_unit), np.abs(b_unit), p, abs(q)).real)
-        terms += [number, -1] if q == 0 else [2 * number, 2 * number + 1]
+        both = q != 0 or base[k].counter_influence is not None
+        terms += [2 * number, 2 * number + 1] if both else [number, -1]
         row += [number if goal.combine == "max" else 0] * 2
     owner = np.array(row)
     membership = (owner == np.arange(owner[-1] + 1)[:, None]).astype(float)

@@ -153,7 +153,8 @@ class _Boxes(ChoiceSearch):
 
     def _point(self, optimum: ChosenPoint, size: Real) -> ParetoPoint:
         best, proven = optimum.solution, bool(np.all(np.isfinite(optimum.corner)))
-        shown, plain = best.shown, self.scene.first_order(best.shown.on_crank)
+        shown = best.shown
+        plain = self.scene.beside(shown.on_shafts).first_order(shown.on_crank)
         # of the peak that the optimum leaves room in nothing is claimed
         gap = float(np.max((optimum.values - optimum.corner) / size))
         wide = best.status == "optimal" and gap > self.gap
@@ -164,8 +165,7 @@ class _Boxes(ChoiceSearch):
             moment_peak_Nm=float(plain.moment.peak),
             weighted_force_peak_N=float(optimum.values[0]),
             weighted_moment_peak_Nm=float(optimum.values[1]),
-            total_mass_kg=shown.total_mass_kg,
-            counterweights=shown.counterweights,
+            **shown.fields,
             # of the request: a search has ceilings of its own
             active_limits=touched_limits(
                 self.task.machine,

@@ -7,7 +7,7 @@ const GOALS = { external: "force and moment", bearings: "bearing loads", bending
 const LEAST = { mass: "least mass", pieces: "fewest counterweights", sizes: "fewest different masses" };
 
 // the best choice and the cheaper ones, each with what it gives up of the objective
-function decision({ alternatives, certificate, counterweights, total_mass_kg: mass }) {
+function decision({ alternatives, certificate, counterweights, total_mass_kg: own, balance_shafts_mass_kg: onShafts }) {
   const best = certificate.objective;
   const masses = counterweights.filter((one) => one.mass_kg > 0 && !one.fixed).map((one) => one.mass_kg);
   const counted = (value) => ({ number: true, text: String(value) });
@@ -19,7 +19,7 @@ function decision({ alternatives, certificate, counterweights, total_mass_kg: ma
       { number: true, text: best > 0 ? share(Math.max(one.objective / best - 1, 0)) : "–" }, number(one.total_mass_kg), counted(one.pieces), counted(one.sizes), proven];
   });
   return table("The best choice, and cheaper ones", ["option", "objective", "rises by", "mass, kg", "pieces", "sizes", "cost"],
-    [["best objective", number(best), { number: true, text: "–" }, number(mass), counted(masses.length), counted(new Set(masses).size), "–"], ...rows]);
+    [["best objective", number(best), { number: true, text: "–" }, number(own + (onShafts ?? 0)), counted(masses.length), counted(new Set(masses).size), "–"], ...rows]);
 }
 
 export function beside(answer) {

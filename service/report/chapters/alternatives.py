@@ -39,7 +39,10 @@ def _row(choice: Alternative, best: float) -> tuple[Cell | float | None, ...]:
         Number(bound, f"{bound:.0f}") if counted and bound is not None else bound,
         ", ".join(
             f"{weight.web}: {weight.mass_kg:g} kg at {weight.angle_deg:g}°"
-            for weight in choice.counterweights
+            for weight in (
+                *choice.counterweights,
+                *(weight for shaft in choice.balance_shafts for weight in shaft.counterweights),
+            )
             if weight.mass_kg
         ),
     )

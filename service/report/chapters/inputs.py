@@ -265,20 +265,24 @@ def _balance_shafts(machine: Machine) -> Iterator[Block]:
 
 
 def _places(title: str, webs: Sequence[Web]) -> Table:
-    return table(
-        title,
-        [
-            "web", "#plane z, m", "#radius of the centre of mass, m", "#largest mass, kg", "#sector centre, deg",
-            "#sector half angle, deg",
-        ],
-        [
-            (
-                web.name, web.position_m, *_place(web),
-                *(("any angle", "") if web.sector is None else (web.sector.centre_deg, web.sector.half_angle_deg)),
-            )
-            for web in webs
-        ],
-    )  # fmt: skip
+    heads = [
+        "web", "#plane z, m", "#radius of the centre of mass, m", "#largest mass, kg", "#sector centre, deg",
+        "#sector half angle, deg",
+    ]  # fmt: skip
+    rows: list[tuple[Cell | float | None, ...]] = [
+        (
+            web.name,
+            web.position_m,
+            *_place(web),
+            *(("any angle", "") if web.sector is None else (web.sector.centre_deg, web.sector.half_angle_deg)),
+        )
+        for web in webs
+    ]
+    least = [web.min_fitted_mass_kg for web in webs]
+    if any(least):
+        heads.append("#smallest fitted mass, kg")
+        rows = [(*row, mass) for row, mass in zip(rows, least, strict=True)]
+    return table(title, heads, rows)
 
 
 def _place(web: Web) -> tuple[Cell | float, Cell | float]:

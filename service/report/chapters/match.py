@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from schemas.match.answer import MatchAnswer, MatchedRow
 from schemas.match.request import MatchRequest
 from service.report.blocks import Chapter, Paragraph, angle, facts, table
+from service.report.chapters.balance import places
 
 _PROVEN = {
     "exhaustion": "every assignment counts, those that a bound excludes are left out",
@@ -41,6 +42,8 @@ def matched(request: MatchRequest, answer: MatchAnswer) -> Iterator[Chapter]:
         ]
         title = "Counterweights, chosen" if request.choose_counterweights else "Counterweights, as given"
         yield Chapter(title, (table("", ["web", "#mass, kg", "#angle, deg"], fitted),))
+    for shaft in answer.balance_shafts:
+        yield Chapter(f"Balance shaft {shaft.name}", (Paragraph(shaft.gearing), places(shaft.counterweights)))
     proof = facts(
         "",
         [

@@ -59,7 +59,8 @@ export function question(request, answer, lines, how) {
     ...(places ? { rows: places.map((one) => ({ throw: one.throw, row: one.row })) } : {}),
   }));
   const objective = Object.fromEntries(WEIGHED.filter((name) => request.objective?.[name] !== undefined).map((name) => [name, request.objective[name]]));
-  const fitted = how.weights === "answer" ? answer.counterweights.filter((one) => one.mass_kg > 0) : [];
+  const onShafts = (answer.balance_shafts ?? []).flatMap((shaft) => shaft.counterweights);
+  const fitted = how.weights === "answer" ? [...answer.counterweights, ...onShafts].filter((one) => one.mass_kg > 0) : [];
   if (how.weights !== "chosen") asTheyAre(machine, answer);
   const body = {
     machine, parts, balance_nuts_kg: nuts.map(mass), objective,
