@@ -132,7 +132,8 @@ def test_a_budget_of_nothing_leaves_nothing() -> None:
     """Analytic: beside programs that have one, which it does not disturb."""
     rest = single(30.0, 180.0, 50.0, 5.0)
     nothing = replace(rest, limits=replace(rest.limits, max_total_mass=np.asarray(0.0)))
-    both, alone = both_stages(stacked([nothing, rest]), *[np.full(2, 2e-5)] * 2, True), in_discs(rest.alone())
+    both = both_stages(stacked([nothing, rest]), *[share(rest).repeat(2)] * 2, True)
+    alone = in_discs(rest.alone())
     assert both.objective.tolist() == [20.0, alone.objective[0]]
     assert both.mass[0] == 0.0
 

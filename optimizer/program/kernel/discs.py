@@ -162,7 +162,7 @@ def run(least_mass, budgeted, edged, programs, first, edge, cost, most, toleranc
         for t in range(LANES):
             if program[t] < 0 and waiting < number:
                 n = waiting
-                program[t], steps[t], held[t], wanted[t] = n, 0, 0, middle[n]
+                program[t], steps[t], held[t], wanted[t] = n, 1, 0, middle[n]
                 _load(programs, first + n, cost[n], starts[n], t, web, peak, own)
                 if edged:
                     _load_edges(programs.normals[first + n], starts[n], vectors, t, edge)
@@ -176,30 +176,6 @@ def run(least_mass, budgeted, edged, programs, first, edge, cost, most, toleranc
         else:
             look_at_webs(sized, webs, web, None, own)
         look_at_peaks(least_mass, budgeted, terms, basis, peak, own)
-        for t in range(LANES):
-            n, gap = program[t], own[GAP + t]
-            if n < 0:
-                continue
-            over = 0.0
-            for j in range(terms, vectors):
-                over = max(over, abs(peak[j, OVER + t]))
-            if wanted[t] > 0.0 and gap + over <= wanted[t]:
-                wanted[t] = 0.0
-                _save(webs, t, web, peak, own, starts[n])
-                if edged:
-                    _save_edges(webs, vectors, t, edge, starts[n])
-            if least_mass:
-                gap /= max(own[MASS + t], 1e-3)
-            gap += over
-            steps[t] += 1
-            # rounding may hold up the last steps: where a norm vanishes that few webs are free to change
-            enough = tolerance[n] * (1.0 if held[t] == 0 else _NEARLY if held[t] == 1 else loosest)
-            if gap <= enough or steps[t] > _MOST_STEPS or not np.isfinite(gap):
-                reached[n] = gap if gap <= enough else np.inf
-                _save(webs, t, web, peak, own, ends[n])
-                program[t], solved = -1, solved + 1
-        if solved == number:
-            return
         if budgeted:
             if edged:
                 share_budget(webs, web, edge, own)
@@ -243,10 +219,35 @@ def run(least_mass, budgeted, edged, programs, first, edge, cost, most, toleranc
             well = min(own[PRIMAL + t], own[DUAL + t]) >= _SHORT and own[GAP + t] < 0.9 * before[t]
             own[BOTH + t], held[t] = (1.0, 0) if well else (0.0, held[t] + 1)
             before[t] = own[GAP + t]
-        move_webs(webs, web, own)
+        move_webs(sized, webs, web, own)
         if edged:
             move_edges(webs, edge, own)
-        move_peaks(terms, peak, own)
+        move_peaks(least_mass, budgeted, terms, peak, own)
+        # what has ended gives way to another before the next step, which it would take for nothing
+        for t in range(LANES):
+            n, gap = program[t], own[GAP + t]
+            if n < 0:
+                continue
+            over = 0.0
+            for j in range(terms, vectors):
+                over = max(over, abs(peak[j, OVER + t]))
+            if wanted[t] > 0.0 and gap + over <= wanted[t]:
+                wanted[t] = 0.0
+                _save(webs, t, web, peak, own, starts[n])
+                if edged:
+                    _save_edges(webs, vectors, t, edge, starts[n])
+            if least_mass:
+                gap /= max(own[MASS + t], 1e-3)
+            gap += over
+            steps[t] += 1
+            # rounding may hold up the last steps: where a norm vanishes that few webs are free to change
+            enough = tolerance[n] * (1.0 if held[t] == 0 else _NEARLY if held[t] == 1 else loosest)
+            if gap <= enough or steps[t] > _MOST_STEPS or not np.isfinite(gap):
+                reached[n] = gap if gap <= enough else np.inf
+                _save(webs, t, web, peak, own, ends[n])
+                program[t], solved = -1, solved + 1
+        if solved == number:
+            return
 
 
 @kernel
