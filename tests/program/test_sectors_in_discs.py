@@ -14,7 +14,7 @@ from optimizer.program.kernel.finer_numbers import interpreted
 from optimizer.program.limits import Limits
 from optimizer.program.methods import compiled
 from optimizer.program.methods.compiled import BothStages, both_stages
-from optimizer.program.methods.disc_programs import discs_of, suits_discs
+from optimizer.program.methods.disc_programs import disc_stages, discs_of, suits_discs
 from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import smallest_objective
 from optimizer.program.rows import combined, statement, weighted_peak
@@ -34,7 +34,7 @@ def share(problem: Statement) -> np.ndarray:
 def in_discs(problem: Statement) -> BothStages:
     """Without help: of what is not proven nothing is certified."""
     part = share(problem)
-    solved = compiled._solve(problem, part, True, compiled._DOUBLE, compiled._in_discs)
+    solved = compiled._solve(problem, part, True, compiled._DOUBLE, disc_stages)
     return compiled._judged(problem, part, part, True, solved)
 
 

@@ -14,7 +14,7 @@ from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, nothing_proven
 from optimizer.program.compiled_evaluation import Dual, Shares
 from optimizer.program.kernel.finer_numbers import Precision, solve_in
-from optimizer.program.methods.disc_programs import discs_of, suits_discs
+from optimizer.program.methods.disc_programs import disc_stages, suits_discs
 from optimizer.program.methods.rounding import HEAVIER, RUNGS
 from optimizer.program.points import points_at
 from optimizer.program.scaling import cancelling
@@ -96,7 +96,7 @@ def both_stages(
     if not discs.size:
         return _in_any_limits(statement, share, demand, least_mass, level)
     part, some = (statement.chosen(discs), discs) if discs.size < share.size else (statement, slice(None))
-    solved = _solve(part, share[some], least_mass, _DOUBLE, _in_discs, level[some])
+    solved = _solve(part, share[some], least_mass, _DOUBLE, disc_stages, level[some])
     quick = _judged(part, share[some], demand[some], least_mass, solved)
     if discs.size == share.size:
         if not all_true(quick.certified):
@@ -133,7 +133,7 @@ def ends(statement: Statement, share: Real, least_mass: bool) -> tuple[Complex, 
 def _guess(statement: Statement, share: Real, least_mass: bool) -> "_Solved":
     if not suits_discs(statement, least_mass).all():
         return _solve(statement, share, least_mass, _DOUBLE)
-    guess = _solve(statement, share, least_mass, _DOUBLE, _in_discs)
+    guess = _solve(statement, share, least_mass, _DOUBLE, disc_stages)
     # prices are above 0 where a stage has ended
     last = guess.mass_proof if least_mass else guess.proof
     left = np.flatnonzero(np.minimum(guess.proof.row, last.row)[:, 0] <= 0.0)
@@ -319,22 +319,6 @@ def _in_frame(statement: Statement, v: Real, *rest: Any) -> tuple[Any, ...]:
     return limits.centre * (v[:, :, 1] + 1j * limits.half_angle_sin * v[:, :, 2]), *rest
 
 
-def _in_discs(statement: Statement, reach: Real, unit: Real, margin: float, *stages: Any) -> tuple[Any, ...]:
-    least_mass, share, tolerance, mass_tolerance = stages
-
-    results, places = [], []
-    for which, budgeted, programs in discs_of(statement, reach, unit, margin):
-        demands = (share, tolerance) if which is None else (share[which], tolerance[which])
-        v, p, price, mass_unit = _discs().solve(*programs, budgeted, least_mass, *demands, mass_tolerance)
-        if which is None:
-            return v.view(complex)[..., 0], p, price, mass_unit
-        results.append((v.view(complex)[..., 0], p, price, mass_unit[None]))
-        places.append(which)
-    order = np.argsort(np.concatenate(places))
-    v, p, price, mass_unit = (np.concatenate(arrays, axis=1)[:, order] for arrays in zip(*results, strict=True))
-    return v, p, price, mass_unit[0]
-
-
 def _programs(statement: Statement, reach: Real, unit: Real, margin: float) -> "Programs":
     from optimizer.program.kernel.interior_point import Programs
 
@@ -371,13 +355,6 @@ def _disc_forms() -> ModuleType:
     from optimizer.program.kernel import disc_forms
 
     return disc_forms
-
-
-@cache
-def _discs() -> ModuleType:
-    from optimizer.program.kernel import discs
-
-    return discs
 
 
 @cache

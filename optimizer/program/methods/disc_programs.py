@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from functools import cache, lru_cache
 from types import ModuleType
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -93,6 +93,21 @@ def discs_of(
     return parts
 
 
+def disc_stages(statement: Statement, reach: Real, unit: Real, margin: float, *stages: Any) -> tuple[Any, ...]:
+    least_mass, share, tolerance, mass_tolerance = stages
+    results, places = [], []
+    for which, budgeted, programs in discs_of(statement, reach, unit, margin):
+        demands = (share, tolerance) if which is None else (share[which], tolerance[which])
+        v, p, price, mass_unit = _discs().solve(*programs, budgeted, least_mass, *demands, mass_tolerance)
+        if which is None:
+            return v.view(complex)[..., 0], p, price, mass_unit
+        results.append((v.view(complex)[..., 0], p, price, mass_unit[None]))
+        places.append(which)
+    order = np.argsort(np.concatenate(places))
+    v, p, price, mass_unit = (np.concatenate(arrays, axis=1)[:, order] for arrays in zip(*results, strict=True))
+    return v, p, price, mass_unit[0]
+
+
 def _basis(statement: Statement) -> np.ndarray | None:
     """Which of two responses a vector is a multiple of (J + I,), None where there are more than two."""
     vectors = statement.every_constant.shape[-1]
@@ -155,3 +170,10 @@ def _disc_starts() -> ModuleType:
     from optimizer.program.kernel import disc_starts
 
     return disc_starts
+
+
+@cache
+def _discs() -> ModuleType:
+    from optimizer.program.kernel import discs
+
+    return discs
