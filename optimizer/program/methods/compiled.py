@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -95,18 +95,40 @@ def both_stages(
     level = at_least if isinstance(at_least, np.ndarray) else np.full(share.shape, at_least)
     if not discs.size:
         return _in_any_limits(statement, share, demand, least_mass, level)
-    part, some = (statement.chosen(discs), discs) if discs.size < share.size else (statement, slice(None))
-    solved = _solve(part, share[some], least_mass, _DOUBLE, disc_stages, level[some])
-    quick = _judged(part, share[some], demand[some], least_mass, solved)
     if discs.size == share.size:
+        quick = _as_discs(statement, share, demand, least_mass, level)
         if not all_true(quick.certified):
             left = np.flatnonzero(~quick.certified)
             quick.put(left, _in_any_limits(statement.chosen(left), share[left], demand[left], least_mass, level[left]))
         return quick
+    quick = _as_discs(statement.chosen(discs), share[discs], demand[discs], least_mass, level[discs])
     done = discs[quick.certified]
     left = np.setdiff1d(np.arange(share.size), done)
     rest = _in_any_limits(statement.chosen(left), share[left], demand[left], least_mass, level[left])
     return joined([quick.chosen(quick.certified), rest], np.argsort(np.concatenate([done, left])))
+
+
+def _as_discs(statement: Statement, share: Real, demand: Real, least_mass: bool, at_least: Real) -> BothStages:
+    """Both stages of programs that all suit the interior point for discs.
+
+    Ceilings that are kept without counterweights mostly are kept by the optimum without them too, and that is what is
+    sought then: what is proven without ceilings is proven with them. It is sought again where it is above one.
+    """
+    if not statement.ceilings.names:
+        return _judged(
+            statement, share, demand, least_mass, _solve(statement, share, least_mass, _DOUBLE, disc_stages, at_least)
+        )
+    ceilings = statement.ceilings
+    below = np.logical_and.reduce(statement.constant_sizes[:, -len(ceilings.names) :] <= ceilings.cap, axis=-1)
+    method = partial(disc_stages, without_ceilings=below)
+    solved = _solve(statement, share, least_mass, _DOUBLE, method, at_least)
+    stages = _judged(statement, share, demand, least_mass, solved)
+    left = np.flatnonzero(below & ~stages.certified)
+    if left.size:
+        part = statement.chosen(left)
+        solved = _solve(part, share[left], least_mass, _DOUBLE, disc_stages, at_least[left])
+        stages.put(left, _judged(part, share[left], demand[left], least_mass, solved))
+    return stages
 
 
 def unproven(statement: Statement, share: Real, least_mass: bool) -> tuple[Complex, Complex]:
