@@ -97,7 +97,7 @@ def claim(
     point, size = points_at(statement, u) if point is None else point, yardstick(statement)[..., None]
     allowance: Reals = 0.0
     if multipliers is not None and (point.excess > 0).any():
-        allowance = ceiling_allowance(statement, multipliers, statement.ceilings.excess(u))
+        allowance = _allowance(statement, u, multipliers, point.excess)
     return Claim(
         point.objective[..., None],
         np.asarray(lower_bound - allowance)[..., None],
@@ -108,6 +108,16 @@ def claim(
         mass_resolution(statement, size),
         mass_lower_bound,
     )
+
+
+def _allowance(statement: Statement, u: Complex, multipliers: Multipliers, excess: Real) -> Real:
+    """What a bound falls by for counterweights (..., K) that exceed ceilings, mostly few of many (...)."""
+    if excess.ndim != 1 or statement.flat.leading != excess.shape:
+        return ceiling_allowance(statement, multipliers, statement.ceilings.excess(u))
+    (over,) = (excess > 0).nonzero()
+    some, allowance = statement.chosen(over), np.zeros(excess.shape)
+    allowance[over] = ceiling_allowance(some, multipliers.chosen(over), some.ceilings.excess(u[over]))
+    return allowance
 
 
 def verdict(claim: Claim, tolerance: float) -> Verdict:

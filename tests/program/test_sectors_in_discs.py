@@ -9,12 +9,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from optimizer.program.ceilings import no_ceilings
 from optimizer.program.kernel import disc_matrix, disc_peaks, disc_starts, disc_webs, discs
 from optimizer.program.kernel.finer_numbers import interpreted
 from optimizer.program.limits import Limits
 from optimizer.program.methods import compiled
 from optimizer.program.methods.compiled import BothStages, both_stages
-from optimizer.program.methods.disc_programs import discs_of, suits_discs
+from optimizer.program.methods.disc_programs import disc_stages, discs_of, suits_discs
 from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import smallest_objective
 from optimizer.program.rows import combined, statement, weighted_peak
@@ -34,7 +35,7 @@ def share(problem: Statement) -> np.ndarray:
 def in_discs(problem: Statement) -> BothStages:
     """Without help: of what is not proven nothing is certified."""
     part = share(problem)
-    solved = compiled._solve(problem, part, True, compiled._DOUBLE, compiled._in_discs)
+    solved = compiled._solve(problem, part, True, compiled._DOUBLE, disc_stages)
     return compiled._judged(problem, part, part, True, solved)
 
 
@@ -132,7 +133,8 @@ def test_a_budget_of_nothing_leaves_nothing() -> None:
     """Analytic: beside programs that have one, which it does not disturb."""
     rest = single(30.0, 180.0, 50.0, 5.0)
     nothing = replace(rest, limits=replace(rest.limits, max_total_mass=np.asarray(0.0)))
-    both, alone = both_stages(stacked([nothing, rest]), *[np.full(2, 2e-5)] * 2, True), in_discs(rest.alone())
+    both = both_stages(stacked([nothing, rest]), *[share(rest).repeat(2)] * 2, True)
+    alone = in_discs(rest.alone())
     assert both.objective.tolist() == [20.0, alone.objective[0]]
     assert both.mass[0] == 0.0
 
@@ -153,6 +155,43 @@ def test_a_ceiling_that_can_just_be_kept(room: float) -> None:
     assert found.excess[0] <= 1e-9
     # the web carries 5 - room, and at most what the ceiling leaves
     assert found.mass[0] == pytest.approx(5.0 - room, abs=1e-5)
+
+
+def test_a_ceiling_that_rest_keeps_and_the_optimum_does_not() -> None:
+    """Analytic: on the moment, 3 without a counterweight, which a kilogram against the force raises by 1."""
+    base = single(90.0, 180.0, 50.0, 5.0)
+    force, moment = (
+        Response(name, "N", Phasors(np.asarray(value + 0j), np.asarray(0j)), np.ones(1))
+        for name, value in (("force", 20.0), ("moment", -3.0))
+    )
+    peaks = combined([weighted_peak(force, 1.0), weighted_peak(moment, 0.01)], "sum")
+    for ceiling, load in ((4.0, 1.0), (7.5, 4.5), (8.5, 5.0)):
+        found = optima(statement(peaks, [(moment, ceiling)], base.limits).alone(), 1e-6, True)
+        assert found.excess[0] <= 0.0
+        assert found.mass[0] == pytest.approx(load, abs=1e-4)
+        assert found.objective[0] - found.lower_bound[0] <= 1e-6 * (20.0 + 0.03)
+        # one that is not met has no price
+        assert bool(np.any(found.multipliers.ceiling)) == (ceiling < 8.0)
+
+
+@pytest.mark.parametrize("case", SUMS)
+def test_ceilings_that_no_optimum_meets_change_nothing(case: tuple) -> None:
+    """Analytic: beside programs whose ceilings are met."""
+    problem = stacked([random_statement(seed, *case, webs=4) for seed in range(12)])
+    if not problem.ceilings.names:
+        return
+    none = replace(problem, ceilings=no_ceilings(problem.floor.shape[:-1], 4))
+    far = replace(problem, ceilings=replace(problem.ceilings, cap=problem.ceilings.cap + 1e6 * problem.ceilings.size))
+    part, without = share(none), in_discs(none)
+    cap = np.where(np.arange(12)[:, None] % 2 == 0, far.ceilings.cap, problem.ceilings.cap)
+    both = both_stages(replace(problem, ceilings=replace(problem.ceilings, cap=cap)), part, part, True)
+    alike = without.certified & (np.arange(12) % 2 == 0)
+    assert np.count_nonzero(alike) > 1
+    np.testing.assert_allclose(both.objective[alike], without.objective[alike], rtol=1e-6)
+    np.testing.assert_allclose(both.mass[alike], without.mass[alike], rtol=2e-5)
+    assert both.certified[alike].all()
+    # of those that end well without them, which are most
+    assert np.mean(np.any(both.multipliers.ceiling[alike], axis=-1)) < 0.5
 
 
 # ---- which programs it takes, and in which form

@@ -96,17 +96,19 @@ def minorant(term, row, ceiling, programs, n, cap, normal):  # type: ignore[no-u
     for i in range(terms - own):
         part = size_of[own + i] * cap[n, i]
         fixed, size = fixed - part, size + abs(part)
-    # the slopes sum_j conj(H_jk) y_j
-    off = 0.0
+    # the slopes sum_j conj(H_jk) y_j; most ceilings prove nothing, and what is 0 changes no sum
+    off, last = 0.0, terms
+    while last > own and size_of[last - 1] == 0.0:
+        last -= 1
     for k in range(webs):
         x, z, large = 0.0, 0.0, 0.0
         if turned:
-            for j in range(terms):
+            for j in range(last):
                 x += influence[n, j, k] * y[j].real + across[n, j, k] * y[j].imag
                 z += influence[n, j, k] * y[j].imag - across[n, j, k] * y[j].real
                 large += magnitude[n, j, k] * size_of[j]
         else:
-            for j in range(terms):
+            for j in range(last):
                 x, z = x + influence[n, j, k] * y[j].real, z + influence[n, j, k] * y[j].imag
                 large += abs(influence[n, j, k]) * size_of[j]
         slopes[k] = complex(x, z)

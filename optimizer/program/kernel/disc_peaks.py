@@ -181,20 +181,31 @@ def correct_peaks(least_mass, budgeted, peak, own):  # type: ignore[no-untyped-d
 
 
 @fused
-def move_peaks(terms, peak, own):  # type: ignore[no-untyped-def]
-    """Slacks by ``PRIMAL``, multipliers by ``DUAL``."""
+def move_peaks(least_mass, budgeted, terms, peak, own):  # type: ignore[no-untyped-def]
+    """Slacks by ``PRIMAL``, multipliers by ``DUAL``; and what they add to the gap then."""
+    for t in range(LANES):
+        own[t + PRICE] += own[t + DUAL] * own[t + D_PRICE]
+        own[t + BUDGET] += own[t + DUAL] * own[t + D_BUDGET]
+        own[t + LEFT] = own[t + MOST]
     for j in range(peak.shape[0]):
         vector = peak[j]
         for t in range(LANES):
             primal, dual = own[t + PRIMAL], own[t + DUAL]
-            vector[t + S] += primal * vector[t + DS]
-            vector[t + L] += dual * vector[t + DL]
-            vector[t + YX] += dual * vector[t + DYX]
-            vector[t + YY] += dual * vector[t + DYY]
-        if j >= terms:
+            s, size = vector[t + S] + primal * vector[t + DS], vector[t + L] + dual * vector[t + DL]
+            yx, yy = vector[t + YX] + dual * vector[t + DYX], vector[t + YY] + dual * vector[t + DYY]
+            ax, ay = vector[t + AX] + primal * vector[t + DAX], vector[t + AY] + primal * vector[t + DAY]
+            vector[t + S], vector[t + L], vector[t + YX], vector[t + YY] = s, size, yx, yy
+            own[t + GAP] += s * size + (ax * yx + ay * yy)
+        if j < terms:
+            for t in range(LANES):
+                own[t + LEFT] -= vector[t + S]
+        else:
             # a full step takes all of it away, to the last bit
             for t in range(LANES):
                 vector[t + OVER] *= 1.0 - own[t + PRIMAL] * own[t + KEEP]
-    for t in range(LANES):
-        own[t + PRICE] += own[t + DUAL] * own[t + D_PRICE]
-        own[t + BUDGET] += own[t + DUAL] * own[t + D_BUDGET]
+    if least_mass:
+        for t in range(LANES):
+            own[t + GAP] += own[t + LEFT] * own[t + PRICE]
+    elif budgeted:
+        for t in range(LANES):
+            own[t + GAP] += (1.0 - own[t + MASS]) * own[t + BUDGET]

@@ -21,7 +21,10 @@ _ABOVE_MASS = 0.05
 
 
 class Discs(NamedTuple):
-    """N scaled programs of one row of J terms; Q vectors are the terms, then what is below I ceilings."""
+    """Scaled programs of one row of J terms; Q vectors are the terms, then what is below I ceilings.
+
+    Those that are solved, n of N; of the vectors (N, ...) the first Q.
+    """
 
     basis: np.ndarray  # (Q,) whether a vector is a multiple of the first influence, 0, or of the second, 1
     multiple: Real  # (N, Q)
@@ -32,6 +35,7 @@ class Discs(NamedTuple):
     cap: Real  # (N, I)
     #: (N, 5, K) x and y of the normal of either edge, then 1, all 0 of a web without a sector; (N, 5, 0) if all are
     normals: Real
+    which: np.ndarray  # (n,) the programs to solve
 
 
 @inner

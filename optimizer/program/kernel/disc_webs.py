@@ -372,18 +372,22 @@ def correct_webs(sized, webs, web, edge, own):  # type: ignore[no-untyped-def]
 
 
 @fused
-def move_webs(webs, web, own):  # type: ignore[no-untyped-def]
-    """Slacks by ``PRIMAL``, multipliers by ``DUAL``."""
+def move_webs(sized, webs, web, own):  # type: ignore[no-untyped-def]
+    """Slacks by ``PRIMAL``, multipliers by ``DUAL``; and their gap and mass then."""
+    clear(own, GAP, CHANGE)
     for k in range(webs):
         for t in range(LANES):
             at, primal, dual = k * WEB + t, own[t + PRIMAL], own[t + DUAL]
-            web[at + VX] += primal * web[at + DVX]
-            web[at + VY] += primal * web[at + DVY]
-            web[at + X] += primal * web[at + DX]
-            web[at + Z] += dual * web[at + DZ]
+            vx, vy = web[at + VX] + primal * web[at + DVX], web[at + VY] + primal * web[at + DVY]
+            x, z = web[at + X] + primal * web[at + DX], web[at + Z] + dual * web[at + DZ]
             # moved with the others, not summed anew: sums of large multipliers may all but cancel
-            web[at + PX] += dual * web[at + DPX]
-            web[at + PY] += dual * web[at + DPY]
+            px, py = web[at + PX] + dual * web[at + DPX], web[at + PY] + dual * web[at + DPY]
+            web[at + VX], web[at + VY], web[at + X], web[at + Z], web[at + PX], web[at + PY] = vx, vy, x, z, px, py
+            cost = web[at + COST]
+            price = own[t + BUDGET] + dual * own[t + D_BUDGET]
+            free = (1.0 - x) * (z - price * cost) if sized else 0.0
+            own[t + GAP] += x * z + (vx * px + vy * py) + free
+            own[t + MASS] += cost * x
 
 
 @fused
@@ -392,7 +396,7 @@ def move_edges(webs, edge, own):  # type: ignore[no-untyped-def]
     for k in range(webs):
         for t in range(LANES):
             on, primal, dual = k * EDGE + t, own[t + PRIMAL], own[t + DUAL]
-            edge[on + E1] += primal * edge[on + DE1]
-            edge[on + E2] += primal * edge[on + DE2]
-            edge[on + G1] *= 1.0 + dual * edge[on + DG1]
-            edge[on + G2] *= 1.0 + dual * edge[on + DG2]
+            e1, e2 = edge[on + E1] + primal * edge[on + DE1], edge[on + E2] + primal * edge[on + DE2]
+            g1, g2 = edge[on + G1] * (1.0 + dual * edge[on + DG1]), edge[on + G2] * (1.0 + dual * edge[on + DG2])
+            edge[on + E1], edge[on + E2], edge[on + G1], edge[on + G2] = e1, e2, g1, g2
+            own[t + GAP] += edge[on + PRESENT] * (e1 * g1 + e2 * g2)

@@ -77,7 +77,7 @@ _SHORT, _CAUTIOUS = 0.1, 0.5
 @inner
 def _load(programs, n, cost, where, t, web, peak, own):  # type: ignore[no-untyped-def]
     """Program n and where it stands (:mod:`optimizer.program.kernel.disc_starts`) into lane t."""
-    vectors, webs = programs.multiple.shape[1], cost.size
+    vectors, webs = programs.basis.size, cost.size
     terms, at_prices = vectors - programs.cap.shape[1], 6 * webs + 4 * vectors
     for k in range(webs):
         at = k * WEB + t
@@ -162,44 +162,21 @@ def run(least_mass, budgeted, edged, programs, first, edge, cost, most, toleranc
         for t in range(LANES):
             if program[t] < 0 and waiting < number:
                 n = waiting
-                program[t], steps[t], held[t], wanted[t] = n, 0, 0, middle[n]
-                _load(programs, first + n, cost[n], starts[n], t, web, peak, own)
+                program[t], steps[t], held[t], wanted[t] = n, 1, 0, middle[n]
+                at = programs.which[first + n]
+                _load(programs, at, cost[n], starts[n], t, web, peak, own)
                 if edged:
-                    _load_edges(programs.normals[first + n], starts[n], vectors, t, edge)
+                    _load_edges(programs.normals[at], starts[n], vectors, t, edge)
                 own[MOST + t], own[BOTH + t], before[t] = most[n], 1.0, np.inf
                 degree[t] = 2.0 * webs + vectors + 1.0 if sized else 1.0 * (webs + vectors)
                 for k in range(programs.normals.shape[2]):
-                    degree[t] += 2.0 * programs.normals[first + n, 4, k]
+                    degree[t] += 2.0 * programs.normals[at, 4, k]
                 waiting += 1
         if edged:
             look_at_webs(sized, webs, web, edge, own)
         else:
             look_at_webs(sized, webs, web, None, own)
         look_at_peaks(least_mass, budgeted, terms, basis, peak, own)
-        for t in range(LANES):
-            n, gap = program[t], own[GAP + t]
-            if n < 0:
-                continue
-            over = 0.0
-            for j in range(terms, vectors):
-                over = max(over, abs(peak[j, OVER + t]))
-            if wanted[t] > 0.0 and gap + over <= wanted[t]:
-                wanted[t] = 0.0
-                _save(webs, t, web, peak, own, starts[n])
-                if edged:
-                    _save_edges(webs, vectors, t, edge, starts[n])
-            if least_mass:
-                gap /= max(own[MASS + t], 1e-3)
-            gap += over
-            steps[t] += 1
-            # rounding may hold up the last steps: where a norm vanishes that few webs are free to change
-            enough = tolerance[n] * (1.0 if held[t] == 0 else _NEARLY if held[t] == 1 else loosest)
-            if gap <= enough or steps[t] > _MOST_STEPS or not np.isfinite(gap):
-                reached[n] = gap if gap <= enough else np.inf
-                _save(webs, t, web, peak, own, ends[n])
-                program[t], solved = -1, solved + 1
-        if solved == number:
-            return
         if budgeted:
             if edged:
                 share_budget(webs, web, edge, own)
@@ -243,10 +220,35 @@ def run(least_mass, budgeted, edged, programs, first, edge, cost, most, toleranc
             well = min(own[PRIMAL + t], own[DUAL + t]) >= _SHORT and own[GAP + t] < 0.9 * before[t]
             own[BOTH + t], held[t] = (1.0, 0) if well else (0.0, held[t] + 1)
             before[t] = own[GAP + t]
-        move_webs(webs, web, own)
+        move_webs(sized, webs, web, own)
         if edged:
             move_edges(webs, edge, own)
-        move_peaks(terms, peak, own)
+        move_peaks(least_mass, budgeted, terms, peak, own)
+        # what has ended gives way to another before the next step, which it would take for nothing
+        for t in range(LANES):
+            n, gap = program[t], own[GAP + t]
+            if n < 0:
+                continue
+            over = 0.0
+            for j in range(terms, vectors):
+                over = max(over, abs(peak[j, OVER + t]))
+            if wanted[t] > 0.0 and gap + over <= wanted[t]:
+                wanted[t] = 0.0
+                _save(webs, t, web, peak, own, starts[n])
+                if edged:
+                    _save_edges(webs, vectors, t, edge, starts[n])
+            if least_mass:
+                gap /= max(own[MASS + t], 1e-3)
+            gap += over
+            steps[t] += 1
+            # rounding may hold up the last steps: where a norm vanishes that few webs are free to change
+            enough = tolerance[n] * (1.0 if held[t] == 0 else _NEARLY if held[t] == 1 else loosest)
+            if gap <= enough or steps[t] > _MOST_STEPS or not np.isfinite(gap):
+                reached[n] = gap if gap <= enough else np.inf
+                _save(webs, t, web, peak, own, ends[n])
+                program[t], solved = -1, solved + 1
+        if solved == number:
+            return
 
 
 @kernel
@@ -259,19 +261,22 @@ def solve(  # type: ignore[no-untyped-def]
     budget,
     cap,
     normals,
+    which,
     budgeted,
     least_mass,
     share,
     tolerance,
     mass_tolerance,
 ):
-    """Both stages of N programs, all with a budget that can bind or none, all with sectors or none.
+    """Both stages of N of some programs, all with a budget that can bind or none, all with sectors or none.
 
     Parameters
     ----------
-    basis, multiple, constant, influence, mass, budget, cap, normals : as of
+    basis, multiple, constant, influence, mass, budget, cap, normals, which : as of
         :class:`optimizer.program.kernel.disc_starts.Discs`.
     budgeted : whether they have a budget.
+
+    share, tolerance : (N,) of these N.
 
     Others are those of :func:`optimizer.program.kernel.interior_point.solve`.
 
@@ -280,8 +285,8 @@ def solve(  # type: ignore[no-untyped-def]
     v (2, N, K, 2), multipliers of the vectors (2, N, Q, 2) and of the row (2, N, 1), for the first and for the second
     stage; and the unit of mass of the second stage (N,). Of a stage that did not end well all is 0.
     """
-    programs = Discs(basis, multiple, constant, influence, mass, budget, cap, normals)
-    (number, vectors), webs = multiple.shape, mass.shape[1]
+    programs = Discs(basis, multiple, constant, influence, mass, budget, cap, normals, which)
+    number, vectors, webs = which.size, basis.size, mass.shape[1]
     v, p = np.zeros((2, number, webs, 2)), np.zeros((2, number, vectors, 2))
     prices, mass_unit = np.zeros((2, number, 1)), np.ones(number)
     edged = programs.normals.shape[2] > 0
@@ -299,11 +304,11 @@ def solve(  # type: ignore[no-untyped-def]
             for n in range(count):
                 at = begin + n
                 if stage == 0:
-                    begin_first(programs, at, budgeted, cost[n], starts[n])
+                    begin_first(programs, which[at], budgeted, cost[n], starts[n])
                     ending[n], middle[n] = tolerance[at], 0.5 * share[at] if least_mass else 0.0
                 else:
                     mass_unit[at], most[n] = begin_second(
-                        programs, at, budgeted, share[at], reached[n], ends[n], cost[n], starts[n]
+                        programs, which[at], budgeted, share[at], reached[n], ends[n], cost[n], starts[n]
                     )
                     ending[n], middle[n] = mass_tolerance, 0.0
             own = budgeted and stage == 0

@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -14,7 +14,7 @@ from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, nothing_proven
 from optimizer.program.compiled_evaluation import Dual, Shares
 from optimizer.program.kernel.finer_numbers import Precision, solve_in
-from optimizer.program.methods.disc_programs import discs_of, suits_discs
+from optimizer.program.methods.disc_programs import disc_stages, suits_discs
 from optimizer.program.methods.rounding import HEAVIER, RUNGS
 from optimizer.program.points import points_at
 from optimizer.program.scaling import cancelling
@@ -95,18 +95,40 @@ def both_stages(
     level = at_least if isinstance(at_least, np.ndarray) else np.full(share.shape, at_least)
     if not discs.size:
         return _in_any_limits(statement, share, demand, least_mass, level)
-    part, some = (statement.chosen(discs), discs) if discs.size < share.size else (statement, slice(None))
-    solved = _solve(part, share[some], least_mass, _DOUBLE, _in_discs, level[some])
-    quick = _judged(part, share[some], demand[some], least_mass, solved)
     if discs.size == share.size:
+        quick = _as_discs(statement, share, demand, least_mass, level)
         if not all_true(quick.certified):
             left = np.flatnonzero(~quick.certified)
             quick.put(left, _in_any_limits(statement.chosen(left), share[left], demand[left], least_mass, level[left]))
         return quick
+    quick = _as_discs(statement.chosen(discs), share[discs], demand[discs], least_mass, level[discs])
     done = discs[quick.certified]
     left = np.setdiff1d(np.arange(share.size), done)
     rest = _in_any_limits(statement.chosen(left), share[left], demand[left], least_mass, level[left])
     return joined([quick.chosen(quick.certified), rest], np.argsort(np.concatenate([done, left])))
+
+
+def _as_discs(statement: Statement, share: Real, demand: Real, least_mass: bool, at_least: Real) -> BothStages:
+    """Both stages of programs that all suit the interior point for discs.
+
+    Ceilings that are kept without counterweights mostly are kept by the optimum without them too, and that is what is
+    sought then: what is proven without ceilings is proven with them. It is sought again where it is above one.
+    """
+    if not statement.ceilings.names:
+        return _judged(
+            statement, share, demand, least_mass, _solve(statement, share, least_mass, _DOUBLE, disc_stages, at_least)
+        )
+    ceilings = statement.ceilings
+    below = np.logical_and.reduce(statement.constant_sizes[:, -len(ceilings.names) :] <= ceilings.cap, axis=-1)
+    method = partial(disc_stages, without_ceilings=below)
+    solved = _solve(statement, share, least_mass, _DOUBLE, method, at_least)
+    stages = _judged(statement, share, demand, least_mass, solved)
+    left = np.flatnonzero(below & ~stages.certified)
+    if left.size:
+        part = statement.chosen(left)
+        solved = _solve(part, share[left], least_mass, _DOUBLE, disc_stages, at_least[left])
+        stages.put(left, _judged(part, share[left], demand[left], least_mass, solved))
+    return stages
 
 
 def unproven(statement: Statement, share: Real, least_mass: bool) -> tuple[Complex, Complex]:
@@ -133,7 +155,7 @@ def ends(statement: Statement, share: Real, least_mass: bool) -> tuple[Complex, 
 def _guess(statement: Statement, share: Real, least_mass: bool) -> "_Solved":
     if not suits_discs(statement, least_mass).all():
         return _solve(statement, share, least_mass, _DOUBLE)
-    guess = _solve(statement, share, least_mass, _DOUBLE, _in_discs)
+    guess = _solve(statement, share, least_mass, _DOUBLE, disc_stages)
     # prices are above 0 where a stage has ended
     last = guess.mass_proof if least_mass else guess.proof
     left = np.flatnonzero(np.minimum(guess.proof.row, last.row)[:, 0] <= 0.0)
@@ -319,22 +341,6 @@ def _in_frame(statement: Statement, v: Real, *rest: Any) -> tuple[Any, ...]:
     return limits.centre * (v[:, :, 1] + 1j * limits.half_angle_sin * v[:, :, 2]), *rest
 
 
-def _in_discs(statement: Statement, reach: Real, unit: Real, margin: float, *stages: Any) -> tuple[Any, ...]:
-    least_mass, share, tolerance, mass_tolerance = stages
-
-    results, places = [], []
-    for which, budgeted, programs in discs_of(statement, reach, unit, margin):
-        demands = (share, tolerance) if which is None else (share[which], tolerance[which])
-        v, p, price, mass_unit = _discs().solve(*programs, budgeted, least_mass, *demands, mass_tolerance)
-        if which is None:
-            return v.view(complex)[..., 0], p, price, mass_unit
-        results.append((v.view(complex)[..., 0], p, price, mass_unit[None]))
-        places.append(which)
-    order = np.argsort(np.concatenate(places))
-    v, p, price, mass_unit = (np.concatenate(arrays, axis=1)[:, order] for arrays in zip(*results, strict=True))
-    return v, p, price, mass_unit[0]
-
-
 def _programs(statement: Statement, reach: Real, unit: Real, margin: float) -> "Programs":
     from optimizer.program.kernel.interior_point import Programs
 
@@ -371,13 +377,6 @@ def _disc_forms() -> ModuleType:
     from optimizer.program.kernel import disc_forms
 
     return disc_forms
-
-
-@cache
-def _discs() -> ModuleType:
-    from optimizer.program.kernel import discs
-
-    return discs
 
 
 @cache

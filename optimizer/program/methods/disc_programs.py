@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from functools import cache, lru_cache
 from types import ModuleType
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 _VECTORS = 6
 #: sine of the half-angle below which sectors need coordinates of their own, as the method for any limits has them
 _THINNEST = 1e-3
+#: forms of programs: with a budget that can bind, with sectors, without the ceilings that they have
+_BUDGET, _SECTORS, _BARE = 1, 2, 4
 
 
 def suits_discs(statement: Statement, least_mass: bool = True) -> np.ndarray:
@@ -47,12 +49,16 @@ def suits_discs(statement: Statement, least_mass: bool = True) -> np.ndarray:
 
 
 def discs_of(
-    statement: Statement, reach: Real, unit: Real, margin: float
+    statement: Statement, reach: Real, unit: Real, margin: float, without_ceilings: np.ndarray | None = None
 ) -> Sequence[tuple[np.ndarray | None, bool, "Discs"]]:
     """N programs in parts of one form each: which they are, whether they have a budget, and in units of their own.
 
     Parameters are those of a method of :mod:`optimizer.program.methods.compiled`. Of one part alone which they are is
     None: all.
+
+    Parameters
+    ----------
+    without_ceilings : (N,) bool, of which programs they are left out.
     """
     programs, pair = statement.flat.programs, _pair(statement)
     assert pair is not None
@@ -80,17 +86,60 @@ def discs_of(
         budgeted,
         *every,
     )
-    kinds = 2 * sectors + budgeted
+    kinds = _SECTORS * sectors + _BUDGET * budgeted
+    if without_ceilings is not None:
+        kinds = kinds + _BARE * without_ceilings
     if many == 1 or (kinds == kinds[0]).all():
-        return [(None, bool(budgeted[0]), _disc_starts().Discs(pair.basis, *every))]
+        return [(None, *_form(int(kinds[0]), statement, pair.basis, every, _places(many)))]
     parts = []
     for part in np.unique(kinds).tolist():
         which = np.flatnonzero(kinds == part)
-        *others, normals = (values[which] for values in every)
-        # without any sector there is no place for edges
-        own = normals if part > 1 else normals[..., :0].copy()
-        parts.append((which, part % 2 == 1, _disc_starts().Discs(pair.basis, *others, own)))
+        parts.append((which, *_form(part, statement, pair.basis, every, which)))
     return parts
+
+
+def _form(
+    kind: int, statement: Statement, basis: np.ndarray, every: tuple[Real, ...], which: np.ndarray
+) -> tuple[bool, "Discs"]:
+    """Those programs that are of one form: whether they have a budget, and without what they do not have."""
+    *others, cap, normals = every
+    if kind & _BARE:
+        basis, cap = basis[: statement.norms.constant.shape[-1]], cap[:, :0]
+    if not kind & _SECTORS:
+        # without any sector there is no place for edges
+        normals = normals[..., :0]
+    return bool(kind & _BUDGET), _disc_starts().Discs(basis, *others, cap, normals, which)
+
+
+def disc_stages(
+    statement: Statement,
+    reach: Real,
+    unit: Real,
+    margin: float,
+    *stages: Any,
+    without_ceilings: np.ndarray | None = None,
+) -> tuple[Any, ...]:
+    """A method; without_ceilings (N,) bool, of which programs they are left out."""
+    least_mass, share, tolerance, mass_tolerance = stages
+    every: tuple[np.ndarray, ...] = ()
+    vectors, webs = statement.constant_sizes.shape[-1], reach.shape[1]
+    for which, budgeted, programs in discs_of(statement, reach, unit, margin, without_ceilings):
+        demands = (share, tolerance) if which is None else (share[which], tolerance[which])
+        v, p, price, mass_unit = _discs().solve(*programs, budgeted, least_mass, *demands, mass_tolerance)
+        some = v.view(complex)[..., 0], p, price, mass_unit
+        if which is None and p.shape[2] == vectors:
+            return some
+        # nothing is proven by what was left out
+        every = every or _no_ends(share.size, webs, vectors)
+        at = slice(None) if which is None else which
+        every[0][:, at], every[1][:, at, : p.shape[2]], every[2][:, at], every[3][at] = some
+    return every
+
+
+def _no_ends(many: int, webs: int, vectors: int) -> tuple[np.ndarray, ...]:
+    """What a method finds of N programs, to be written to: points, multipliers of vectors, prices, units of mass."""
+    stages = (2, many)
+    return np.zeros((*stages, webs), complex), np.zeros((*stages, vectors, 2)), np.zeros((*stages, 1)), np.ones(many)
 
 
 def _basis(statement: Statement) -> np.ndarray | None:
@@ -131,9 +180,9 @@ def _pair(statement: Statement) -> _Pair | None:
 
 
 @lru_cache(maxsize=8)
-def _places(vectors: int) -> np.ndarray:
-    """Of the vectors in their order; nobody writes to it."""
-    return np.arange(vectors)
+def _places(many: int) -> np.ndarray:
+    """Of vectors or programs in their order; nobody writes to it."""
+    return np.arange(many)
 
 
 @lru_cache(maxsize=8)
@@ -155,3 +204,10 @@ def _disc_starts() -> ModuleType:
     from optimizer.program.kernel import disc_starts
 
     return disc_starts
+
+
+@cache
+def _discs() -> ModuleType:
+    from optimizer.program.kernel import discs
+
+    return discs

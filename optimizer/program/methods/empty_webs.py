@@ -5,6 +5,7 @@ be empty: what is found is within the limits of all webs, so that what is proven
 taken where it is an optimum by that proof; a web without which no optimum is found keeps what it has.
 """
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -43,19 +44,25 @@ class Optimum(NamedTuple):
         return Optimum(self.objective[programs], self.mass[programs], self.excess[programs], bound)
 
 
-def leave_empty(statement: Statement, solutions: Solutions, share: Real, least_mass: bool) -> None:
+def leave_empty(
+    statement: Statement, solutions: Solutions, share: Real, least_mass: bool, unreachable: np.ndarray | None = None
+) -> None:
     """Take dust away in place from answers of N programs, as far as they stay optima.
 
     Parameters
     ----------
     solutions : proven optima, or points of which less is proven, which get no worse then.
     share : (N,) how far above the smallest objective an optimum may be.
+    unreachable : (N,) bool, programs that stay as they are: without any of the webs what comes closest to the ceilings
+        is no closer. None is none.
     """
     if statement.limits.radius.shape[-1] < 2:
         return
     if all_true(solutions.clean):
         return
     dusty = has_dust(statement.limits, solutions.unbalance)
+    if unreachable is not None:
+        dusty = dusty & ~unreachable
     if not np.count_nonzero(dusty):
         return
     programs = np.flatnonzero(dusty)
@@ -70,23 +77,22 @@ def leave_empty(statement: Statement, solutions: Solutions, share: Real, least_m
         np.maximum(old.excess, CEILING_ROUNDING),
         bound if least_mass else None,
     )
-    # most can do without all their dust: so first all at once, together those that have it on as many webs
+    # most can do without all their dust: so first all at once; of alike webs some may have dust, but not all
     empty = _dusty(some, old.unbalance)
-    count = np.count_nonzero(empty, axis=-1)
-    # of alike webs some may have dust, but not all
-    for number in np.unique(count[count > 0]).tolist():
-        (own,) = (count == number).nonzero()
-        subset, wanted = some.chosen(own), optimum.chosen(own)
-        new, success = _without(subset, empty[own], wanted, part[own], least_mass)
-        done = success & ~has_dust(subset.limits, new.unbalance)
-        _put(solutions, programs[own[done]], new.chosen(done))
-        for k in (~done).nonzero()[0].tolist():
-            place, n = np.array([k]), own[[k]]
-            best = _emptied(
-                subset.chosen(place), old.chosen(n), new.chosen(place) if success[k] else None, empty[n],
-                wanted.chosen(place), part[n], least_mass,
-            )  # fmt: skip
-            _put(solutions, programs[n], best)
+    own = np.flatnonzero(np.logical_or.reduce(empty, axis=-1))
+    if not own.size:
+        return
+    subset = some if own.size == programs.size else some.chosen(own)
+    new, success = _without(subset, empty[own], optimum.chosen(own), part[own], least_mass)
+    done = success & ~has_dust(subset.limits, new.unbalance)
+    _put(solutions, programs[own[done]], new.chosen(done))
+    for k in (~done).nonzero()[0].tolist():
+        place, n = np.array([k]), own[[k]]
+        best = _emptied(
+            subset.chosen(place), old.chosen(n), new.chosen(place) if success[k] else None, empty[n],
+            optimum.chosen(n), part[n], least_mass,
+        )  # fmt: skip
+        _put(solutions, programs[n], best)
 
 
 def _put(solutions: Solutions, programs: np.ndarray, points: Points) -> None:
@@ -149,19 +155,21 @@ def _unit(program: Statement, web: int) -> np.ndarray:
 def _without(
     programs: Statement, empty: np.ndarray, optimum: Optimum, share: Real, least_mass: bool
 ) -> tuple[Points, np.ndarray]:
-    """Points of N programs without some webs (N, K) bool, of each as many, and whether they are optima (N,) bool."""
+    """Points of N programs without some webs (N, K) bool, and whether they are optima (N,) bool.
+
+    These webs stay in the programs, which have one shape then, and may carry nothing.
+    """
     best, success = points_at(programs, np.zeros(empty.shape, complex)), np.zeros(share.size, bool)
     if not suits_kernel(programs):
         return best, success
-    part, left = programs.only(~empty), _WITH_ROOM * share
+    nothing = replace(programs.limits, max_mass=np.where(empty, 0.0, programs.limits.max_mass))
+    part, left = replace(programs, limits=nothing), _WITH_ROOM * share
     some, wanted, whole, tried = part, optimum, programs, np.arange(share.size)
     for _ in range(2):
         smallest, lightest = (points_at(some, end) for end in ends(some, left, least_mass))
         room = _WITH_ROOM * (wanted.objective - smallest.objective)
         point = settled(some, lightest if least_mass else smallest, wanted.objective, wanted.mass_bound)
-        u = np.zeros((tried.size, empty.shape[-1]), complex)
-        u[~empty[tried]] = point.unbalance.reshape(-1)
-        new = points_at(whole, u)
+        new = points_at(whole, np.where(empty[tried], 0.0, point.unbalance))
         admitted = wanted.admits(new)
         best.put(tried, new)
         success[tried] = admitted

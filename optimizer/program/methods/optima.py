@@ -123,14 +123,7 @@ def _optima(statement: Statement, relative_gap: float, least_mass: bool) -> Opti
             interior_point(program, target) if stages is None else only(program, target, stages.chosen(np.array([n])))
         )
         _put(answer, n, cascade(program, target, quick))
-    if not any_true(answer.unreachable):
-        leave_empty(statement, answer, share, least_mass)
-        return answer
-    # without any of the webs what comes closest to the ceilings is no closer
-    within = (~answer.unreachable).nonzero()[0]
-    some = answer.chosen(within)
-    leave_empty(statement.chosen(within), some, share[within], least_mass)
-    answer.put(within, some)
+    leave_empty(statement, answer, share, least_mass, answer.unreachable if any_true(answer.unreachable) else None)
     return answer
 
 

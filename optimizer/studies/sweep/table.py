@@ -61,10 +61,13 @@ def _array(column: Any, kind: pa.DataType) -> pa.Array:
         finite = np.isfinite(column)
         return pa.array(column, kind) if finite.all() else pa.array(column, kind, mask=~finite)
     if kind == pa.string():
-        # few different texts: Arrow repeats them faster than Python does
-        texts = column.tolist() if isinstance(column, np.ndarray) else column
-        number = {text: k for k, text in enumerate(dict.fromkeys(texts))}
-        which = np.fromiter(map(number.__getitem__, texts), dtype=np.int32, count=len(texts))
+        # few different texts, mostly the first: Arrow repeats them faster than Python does
+        texts = column if isinstance(column, np.ndarray) else np.array(column, dtype=object)
+        (places,) = (texts != texts[:1]).nonzero()
+        others = texts[places].tolist()
+        number = {text: k for k, text in enumerate(dict.fromkeys((*texts[:1].tolist(), *others)))}
+        which = np.zeros(texts.size, np.int32)
+        which[places] = np.fromiter(map(number.__getitem__, others), dtype=np.int32, count=len(others))
         dictionary = pa.array([text or None for text in number], kind)
         return pa.DictionaryArray.from_arrays(pa.array(which), dictionary).cast(kind)
     return pa.array(column, kind)
