@@ -11,6 +11,7 @@ from optimizer.mechanics.row_series import AT_ONCE, NO_WIDTHS, Reading, RowSerie
 from optimizer.numerics.arrays import Complex, Real, in_order, spread
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
+from optimizer.responses.floors import Floors
 from optimizer.responses.piecewise_cubics import Index
 
 if TYPE_CHECKING:
@@ -90,6 +91,25 @@ class CurveSeries:
         moving = STILL if motion is None else motion
         sought = Sought(cubics, members, best, NO_LEVELS, self._within, moving)
         return over_turn(PEAKS, self.rows.packed, self.sums, sought=sought)[1][:, 0, 0]
+
+    def circles(self, cubics: "Cubics", members: "Members", motion: "Motion | None") -> Floors:
+        """The smallest circles around the curves, or around one of them in motion."""
+        from optimizer.mechanics.kernel.circles import ANGLES, COUNT, RADIUS, UPPER, WEIGHTS
+        from optimizer.mechanics.kernel.entry import CIRCLES, NO_BEST, NO_LEVELS, Sought, over_turn
+        from optimizer.responses.kernel.motion import STILL
+
+        moving = STILL if motion is None else motion
+        sought = Sought(cubics, members, NO_BEST, NO_LEVELS, self._within, moving)
+        _, vectors, numbers, _ = over_turn(CIRCLES, self.rows.packed, self.sums, sought=sought)
+        return Floors(
+            vectors[:, 0, 0],
+            numbers[:, RADIUS],
+            numbers[:, UPPER],
+            numbers[:, ANGLES:WEIGHTS],
+            vectors[:, 1:, 0],
+            numbers[:, WEIGHTS:],
+            numbers[:, COUNT].astype(np.intp),
+        )
 
     def crossings(self, cubics: "Cubics", level: Real) -> tuple[Real, Real]:
         """Angles at which the curves cross levels (J,), and what their integrals may be off by, from their pieces."""

@@ -25,6 +25,7 @@ from optimizer.mechanics.turn import Turn, panels
 from optimizer.numerics.arrays import Complex, Real, all_true, spread
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
+from optimizer.responses.floors import Floors
 from optimizer.responses.piecewise_cubics import Index, Pieces
 
 if TYPE_CHECKING:
@@ -376,6 +377,10 @@ class TurnCurves:
     def search(self, cubics: "Cubics", members: "Members", best: "Best", motion: "Motion | None" = None) -> Complex:
         """Peaks of the curves, or of one of them in motion."""
         return self._series.search(cubics, members, best, motion)
+
+    def circles(self, cubics: "Cubics", members: "Members", motion: "Motion | None" = None) -> Floors:
+        """The smallest circles around the curves, or around one of them in motion."""
+        return self._series.circles(cubics, members, motion)
 
     @cached_property
     def _series(self) -> CurveSeries:

@@ -19,7 +19,8 @@ from optimizer.outputs.peaks import (
     shaft_peaks,
     shaft_search,
 )
-from optimizer.responses.curve import Floors, floors
+from optimizer.responses.curve import floors
+from optimizer.responses.floors import Floors
 from optimizer.responses.peak_table import PeakList
 from schemas.answer.dynamics import BearingLoad, BendingMoment, MainBearing, MainBearings
 from schemas.answer.outputs import labels

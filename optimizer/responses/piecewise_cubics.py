@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from optimizer.numerics.arrays import Complex, Real, Reals, all_true, in_order
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
+from optimizer.responses.floors import Floors
 
 if TYPE_CHECKING:
     from optimizer.responses.kernel.motion import Motion
@@ -62,6 +63,15 @@ class Source(Protocol):
         Parameters
         ----------
         best : so far, which it improves.
+        """
+
+    def circles(self, cubics: "Cubics", members: "Members", motion: "Motion | None" = None) -> Floors:
+        """The smallest circles around the curves, or around one of them in motion, from their pieces.
+
+        Parameters
+        ----------
+        members : which curves, and of each group of them only the largest circle counts; what of a radius may be left
+            open (1,), and as rounding the size of what is added up in each.
         """
 
 
