@@ -22,6 +22,8 @@ from pydantic_core import CoreSchema, core_schema
 
 #: a float with its unit
 _Number = TypeVar("_Number", bound=float)
+#: of so many numbers the squares are added up in a quarter of the time of a look at each, and in one thread
+_FEW = 8192
 _DOUBLE = "<f8" if sys.byteorder == "little" else ">f8"
 
 
@@ -60,8 +62,7 @@ class Curve(Sequence[_Number]):
         Where a number is not finite they are arrays, which a model refuses by the place of the number.
         """
         rows = _storage(values).reshape(prod(values.shape[:-1]), values.shape[-1])
-        finite = not rows.size or (isfinite(rows.max()) and isfinite(rows.min()))
-        return [*map(_curve, rows)] if _is_double(rows) and finite else [*rows]
+        return [*map(_curve, rows)] if _is_double(rows) and _is_finite(rows.reshape(-1)) else [*rows]
 
     def __len__(self) -> int:
         return len(self._values)
@@ -136,6 +137,14 @@ def _is_double(values: Any) -> bool:
     return _is_array(values) and values.dtype.char == "d" and values.dtype.isnative
 
 
+def _is_finite(values: Any) -> bool:
+    """Whether all of an array (n,) are finite numbers: by the sum of their squares, which is infinite for large ones
+    too, or by the largest and smallest, which are what is no finite number, where one is."""
+    if len(values) <= _FEW and isfinite(values.dot(values)):
+        return True
+    return not len(values) or (isfinite(values.max()) and isfinite(values.min()))
+
+
 def _storage(values: Any) -> Any:
     """An array as curves hold it: nobody changes what is read-only, and JSON is written of numbers side by side."""
     flags = values.flags
@@ -144,12 +153,7 @@ def _storage(values: Any) -> Any:
 
 def _series(values: Any) -> Any:
     """An array of finite numbers (n,) as a curve holds it; None of all else."""
-    if not (_is_double(values) and values.ndim == 1):
-        return None
-    # largest and smallest are what is no finite number, where one is; in half the time of a look at each
-    if len(values) and not (isfinite(values[values.argmax()]) and isfinite(values[values.argmin()])):
-        return None
-    return _storage(values)
+    return _storage(values) if _is_double(values) and values.ndim == 1 and _is_finite(values) else None
 
 
 def _curve(series: Any) -> Curve[Any]:
