@@ -96,9 +96,7 @@ class WholeTurn:
 
     def curves(self, reading: Reading, weights: Complex | Real, constant: Complex | Real | float = 0.0) -> "TurnCurves":
         """Sums of a force of the rows over weights (N, C, R), with constants (N, C): N C curves."""
-        if not isinstance(constant, np.ndarray):
-            return TurnCurves(self, reading, weights, np.full(weights.shape[:2], constant))
-        return TurnCurves(self, reading, weights, spread(constant, weights.shape[:2]))
+        return TurnCurves(self, reading, weights, spread(np.asarray(constant), weights.shape[:2]))
 
     def of_designs(self, some: slice) -> "WholeTurn":
         """The turn of some of the designs alone."""
