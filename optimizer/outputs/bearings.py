@@ -1,6 +1,7 @@
 """Main-bearing loads without and with counterweights, and the bending moment inside the shaft."""
 
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -22,7 +23,7 @@ from optimizer.outputs.peaks import (
 from optimizer.responses.curve import floors
 from optimizer.responses.floors import Floors
 from optimizer.responses.peak_table import PeakList
-from schemas.answer.dynamics import BearingLoad, BendingMoment, MainBearing, MainBearings
+from schemas.answer.dynamics import MainBearings
 from schemas.answer.outputs import labels
 from schemas.base.curves import Curve
 from schemas.machine.drive import Bearing
@@ -41,26 +42,28 @@ def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
     peaks = shaft_peaks(scene, sets)
     loads = _loads(scene, curves.first(count), peaks, fixed, sets)
     before = loads[0]
-    after: Sequence[BearingLoad | None] = [None] * count if unbalance is None else loads[-1]
+    after: Sequence[dict[str, Any] | None] = [None] * count if unbalance is None else loads[-1]
     moments = [peak.part(slice(count, None)) for peak in peaks]
     shown = moments[-1]
     worst = shown.lower.index(max(shown.lower))
-    return MainBearings(
-        angle_deg=scene.angles,
-        shaft=scene.request.fidelity.shaft,
-        bearings=tuple(
-            MainBearing(name=bearing.name, position_m=bearing.position_m, before=bare, after=loaded)
-            for bearing, bare, loaded in zip(machine.bearings, before, after, strict=True)
-        ),
-        bending=BendingMoment(
-            position_m=planes,
-            before_Nm=moments[0].lower,
-            after_Nm=None if unbalance is None else shown.lower,
-            peak_Nm=shown.lower[worst],
-            peak_bracket_Nm=(shown.lower[worst], max(shown.upper)),
-            peak_position_m=planes[worst],
-            floor_Nm=float(np.max(fixed.radius[count:])) * scene.omega_squared,
-        ),
+    return MainBearings.of_figures(
+        {
+            "angle_deg": scene.angles,
+            "shaft": scene.request.fidelity.shaft,
+            "bearings": tuple(
+                {"name": bearing.name, "position_m": bearing.position_m, "before": bare, "after": loaded}
+                for bearing, bare, loaded in zip(machine.bearings, before, after, strict=True)
+            ),
+            "bending": {
+                "position_m": planes,
+                "before_Nm": moments[0].lower,
+                "after_Nm": None if unbalance is None else shown.lower,
+                "peak_Nm": shown.lower[worst],
+                "peak_bracket_Nm": (shown.lower[worst], max(shown.upper)),
+                "peak_position_m": planes[worst],
+                "floor_Nm": float(np.max(fixed.radius[count:])) * scene.omega_squared,
+            },
+        }
     )
 
 
@@ -91,7 +94,7 @@ def _loads(
     peaks: Sequence[PeakList],
     fixed: Floors,
     sets: Sequence[Complex | None],
-) -> list[list[BearingLoad]]:
+) -> list[list[dict[str, Any]]]:
     """Loads of the bearings of one machine, by their curves, peaks and floors, with sets of counterweights (webs,) kg m
     or without."""
     bearings, square, turn = scene.machine.bearings, scene.omega_squared, np.deg2rad(scene.angle_deg)
@@ -103,18 +106,18 @@ def _loads(
     figures = map(Curve.rows, samples.real), map(Curve.rows, samples.imag), rms.tolist(), centre.tolist()
     return [
         [
-            BearingLoad(
-                force_x_N=x,
-                force_y_N=y,
-                peak_N=peak.lower[k],
-                peak_bracket_N=peak.bracket(k),
-                peak_angle_deg=peak.angle_deg[k],
-                specific_load_Pa=_over_area(peak.lower[k], bearing),
-                rms_N=of_rms,
-                floor_N=floor,
-                circle_x_N=middle.real,
-                circle_y_N=middle.imag,
-            )
+            {
+                "force_x_N": x,
+                "force_y_N": y,
+                "peak_N": peak.lower[k],
+                "peak_bracket_N": peak.bracket(k),
+                "peak_angle_deg": peak.angle_deg[k],
+                "specific_load_Pa": _over_area(peak.lower[k], bearing),
+                "rms_N": of_rms,
+                "floor_N": floor,
+                "circle_x_N": middle.real,
+                "circle_y_N": middle.imag,
+            }
             for k, (bearing, floor, x, y, of_rms, middle) in enumerate(zip(bearings, radius, *own, strict=True))
         ]
         for peak, *own in zip(peaks, *figures, strict=True)

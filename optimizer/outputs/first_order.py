@@ -20,7 +20,7 @@ from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.phasors import PlainWrench, PolarWrench, polar_wrenches, vectors_of
 from optimizer.responses.response import Phasors
 from schemas.answer.first_order import FirstOrder, Floor, Residual, ResponseChange, ResponsePeak
-from schemas.answer.outputs import Hodograph, Hodographs, Order
+from schemas.answer.outputs import Hodographs, Order
 from schemas.answer.proof import BoundMultipliers
 from schemas.base.responses import PAIR
 
@@ -155,21 +155,23 @@ def hodographs(scene: Prepared, unbalance: Complex | None) -> Hodographs:
     # force and moment of each, all at once
     vectors = vectors_of(shown)
     before, *after = Phasors(vectors[..., 0], vectors[..., 1]).at(turned)
-    return Hodographs(
-        angle_deg=scene.first_turn_deg,
-        before=_hodograph(*before),
-        after=_hodograph(*after[0]) if after else None,
+    return Hodographs.of_figures(
+        {
+            "angle_deg": scene.angles if scene.turns == 1 else scene.first_turn_deg,
+            "before": _hodograph(*before),
+            "after": _hodograph(*after[0]) if after else None,
+        }
     )
 
 
-def _hodograph(force: Complex, moment: Complex) -> Hodograph:
+def _hodograph(force: Complex, moment: Complex) -> dict[str, Real]:
     """Force [N] and moment [N m] over the turn (n,)."""
-    return Hodograph(
-        force_x_N=force.real,
-        force_y_N=force.imag,
-        moment_x_Nm=moment.real,
-        moment_y_Nm=moment.imag,
-    )
+    return {
+        "force_x_N": force.real,
+        "force_y_N": force.imag,
+        "moment_x_Nm": moment.real,
+        "moment_y_Nm": moment.imag,
+    }
 
 
 def _ellipses(wrenches: Sequence[PolarWrench]) -> list[dict[str, dict[str, float]]]:

@@ -38,7 +38,7 @@ def foundation_loads(scene: Prepared, unbalance: Complex | None) -> tuple[OrderO
     reference = dead_centre_deg(scene.machine)
     of_sets = dict(zip(sets, _loads(scene, list(sets.values()), reference), strict=True))
     return tuple(
-        OrderOfFoundation.model_validate(
+        OrderOfFoundation.of_figures(
             {"order": order, "dead_centre_deg": reference, **{name: loads[order] for name, loads in of_sets.items()}}
         )
         for order in scene.request.foundation_orders
