@@ -22,8 +22,6 @@ from pydantic_core import CoreSchema, core_schema
 
 #: a float with its unit
 _Number = TypeVar("_Number", bound=float)
-#: of so many numbers the squares are added up in a quarter of the time of a look at each, and in one thread
-_FEW = 8192
 _DOUBLE = "<f8" if sys.byteorder == "little" else ">f8"
 
 
@@ -138,11 +136,9 @@ def _is_double(values: Any) -> bool:
 
 
 def _is_finite(values: Any) -> bool:
-    """Whether all of an array (n,) are finite numbers: by the sum of their squares, which is infinite for large ones
-    too, or by the largest and smallest, which are what is no finite number, where one is."""
-    if len(values) <= _FEW and isfinite(values.dot(values)):
-        return True
-    return not len(values) or (isfinite(values.max()) and isfinite(values.min()))
+    """Whether all of an array (n,) are finite numbers: by the largest and smallest, which are what is no finite number,
+    where one is; by their places, in half the time of a look at each."""
+    return not len(values) or (isfinite(values[values.argmax()]) and isfinite(values[values.argmin()]))
 
 
 def _storage(values: Any) -> Any:
