@@ -97,10 +97,10 @@ def _loads(
 ) -> list[list[dict[str, Any]]]:
     """Loads of the bearings of one machine, by their curves, peaks and floors, with sets of counterweights (webs,) kg m
     or without."""
-    bearings, square, turn = scene.machine.bearings, scene.omega_squared, np.deg2rad(scene.angle_deg)
+    bearings, square = scene.machine.bearings, scene.omega_squared
     count = len(bearings)
     offset = np.array([curves.offsets(unbalance) for unbalance in sets])
-    samples = _samples(scene) + (offset * square)[..., None] * turned(scene.layout.sense, turn)
+    samples = _samples(scene) + (offset * square)[..., None] * turned(scene.layout.sense, scene.angle_rad)
     centre, radius = (fixed.centre[:count] + offset) * square, (fixed.radius[:count] * square).tolist()
     rms = np.sqrt(curves.curves.variance + np.abs(curves.curves.mean + offset) ** 2) * square
     figures = map(Curve.rows, samples.real), map(Curve.rows, samples.imag), rms.tolist(), centre.tolist()

@@ -5,11 +5,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
 from typing import NamedTuple
 
-import numpy as np
-
 from optimizer.effects.inertia import FIRST_ORDER_EFFECTS
 from optimizer.formulation.formulate import RESPONSES
 from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.angles import turned
 from optimizer.mechanics.balance_shafts import shaft_arms
 from optimizer.mechanics.frame import phasors
 from optimizer.mechanics.inertia import Wrench
@@ -150,11 +149,11 @@ def _second_order(scene: Prepared, with_shafts: Sequence[bool]) -> list[PlainWre
 
 def hodographs(scene: Prepared, unbalance: Complex | None) -> Hodographs:
     """First order of one machine over the turn."""
-    turned = scene.layout.sense * np.deg2rad(scene.first_turn_deg)
+    unit = turned(scene.layout.sense, scene.angle_rad)[: scene.first_turn_deg.size]
     shown = [scene.first_order()] if unbalance is None else [scene.first_order(), scene.first_order(unbalance)]
     # force and moment of each, all at once
     vectors = vectors_of(shown)
-    before, *after = Phasors(vectors[..., 0], vectors[..., 1]).at(turned)
+    before, *after = Phasors(vectors[..., 0], vectors[..., 1]).of_turned(unit)
     return Hodographs.of_figures(
         {
             "angle_deg": scene.angles if scene.turns == 1 else scene.first_turn_deg,
