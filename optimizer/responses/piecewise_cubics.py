@@ -11,6 +11,8 @@ Shapes: J curves of P pieces each. A vector across the shaft is complex, x + jy;
 Source: R. T. Farouki, The Bernstein polynomial basis: a centennial retrospective, CAGD 29 (2012).
 """
 
+from functools import cache
+from types import ModuleType
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
@@ -105,10 +107,9 @@ class Pieces:
     @cached_property
     def cubics(self) -> "Cubics":
         """What is compiled takes them as."""
-        from optimizer.responses.kernel.parts import Cubics
-
         centre, half, rest = (in_order(np.asarray(array, float)) for array in (self.centre, self.half, self.rest))
-        return Cubics(centre, half, in_order(np.asarray(self.cubic, complex)), rest)
+        cubics: Cubics = _parts().Cubics(centre, half, in_order(np.asarray(self.cubic, complex)), rest)
+        return cubics
 
     def peaks(
         self,
@@ -151,6 +152,14 @@ class Pieces:
         return _bracketed(self, offset, of_member, sought, scale, share, signs, magnitudes).where(some)
 
 
+# it loads the compiler, and so at the first call; an import at each takes as long as a small array
+@cache
+def _parts() -> ModuleType:
+    from optimizer.responses.kernel import parts
+
+    return parts
+
+
 def _bracketed(
     pieces: Pieces,
     offset: Vector,
@@ -171,17 +180,15 @@ def _bracketed(
     scale, share, sign : (count,) size of what is added up, tolerance and sign of each peak.
     magnitudes : whether all signs are 0.
     """
-    from optimizer.responses.kernel.parts import Best, Members
-
-    count = scale.size
+    count, parts = scale.size, _parts()
     if not group.size:
         return Bracket(*(np.full(count, np.nan) for _ in range(4)))
     curve, peak = (in_order(np.asarray(part, np.int64)) for part in (of_member, group))
-    members = Members(curve, peak, in_order(np.asarray(offset, complex)), share, ROUNDING * scale, sign)
+    members = parts.Members(curve, peak, in_order(np.asarray(offset, complex)), share, ROUNDING * scale, sign)
     lower, upper, angle = np.zeros((3, count))
     lower.fill(np.nan)
     upper.fill(-np.inf)
-    best = Best(lower, upper, angle, *np.zeros((2, count), np.int64))
+    best = parts.Best(lower, upper, angle, *np.zeros((2, count), np.int64))
     value = pieces.source.search(pieces.cubics, members, best)
     there = value + members.offset[best.member]
     lower = np.abs(there) if magnitudes else np.where(sign == 0.0, np.abs(there), sign * there.real)
