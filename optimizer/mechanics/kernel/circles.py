@@ -27,7 +27,8 @@ RADIUS, UPPER, COUNT, ANGLES, WEIGHTS, _NUMBERS = 0, 1, 2, 3, 6, 9
 
 @inner_with_arrays
 def circles(cubics, members, rows, sums, middle, motion):  # type: ignore[no-untyped-def]
-    """Centres and the curves where they hold them (J, 4), and numbers (J, 9) of the circles: see above.
+    """The smallest circles around curves (J,): centres and the curves where they hold the circles (J, 4), and numbers
+    (J, 9), as named above.
 
     Parameters
     ----------
@@ -38,13 +39,13 @@ def circles(cubics, members, rows, sums, middle, motion):  # type: ignore[no-unt
     count = number.size
     outline = outlines(cubics, number, group)
     centre, radius, upper = outline.centre.copy(), outline.radius.copy(), outline.upper.copy()
-    found = Circles(
+    result = Circles(
         centre.copy(), np.empty(count), np.zeros((count, 3), np.int64), np.zeros((count, 3)), np.zeros(count, np.int64)
     )
     sought, largest = np.empty(count, np.bool_), np.empty(count)
     _largest(outline.lower, group, largest)
     for j in range(count):
-        found.radius[j] = max(outline.lower[j], 0.0)
+        result.radius[j] = max(outline.lower[j], 0.0)
         sought[j] = upper[j] >= largest[group[j]]
     chosen = _chosen(sought)
     # the first points of a curve are those that hold its outline
@@ -58,14 +59,13 @@ def circles(cubics, members, rows, sums, middle, motion):  # type: ignore[no-unt
         which, curve, piece, half, near = farthest(cubics, number, outline, chosen, centre[chosen])
         cubic = _series(rows, sums, middle, motion, curve, piece, near, half, _CUBIC)
         near = nearer(cubics, curve, piece, near, cubic, centre[which])
-        known = points.size
-        if known == 0:
+        if points.size == 0:
             which, piece, near = np.concatenate((of, which)), np.concatenate((at, piece)), np.concatenate((angle, near))
             curve, of, angle = number[which], of[:0].copy(), angle[:0].copy()
         there = _series(rows, sums, middle, motion, curve, piece, near, np.zeros(near.size), _VALUE)[:, 0]
         of, angle, points = np.concatenate((of, which)), np.concatenate((angle, near)), np.concatenate((points, there))
-        surround(of, points, chosen, found)
-        _keep(found, chosen, centre, radius)
+        surround(of, points, chosen, result)
+        _keep(result, chosen, centre, radius)
         peak, value = _peaks(cubics, number, size, tolerance, chosen, centre, rows, sums, middle, motion)
         _largest(radius, group, largest)
         beyond = np.zeros(chosen.size, np.bool_)
@@ -82,16 +82,16 @@ def circles(cubics, members, rows, sums, middle, motion):  # type: ignore[no-unt
             np.concatenate((angle, peak.angle[beyond])),
             np.concatenate((points, value[beyond])),
         )
-        surround(of, points, chosen, found)
-        _keep(found, chosen, centre, radius)
+        surround(of, points, chosen, result)
+        _keep(result, chosen, centre, radius)
     vectors, numbers = np.zeros((count, 4), np.complex128), np.zeros((count, _NUMBERS))
     for j in range(count):
-        vectors[j, 0], numbers[j, RADIUS], numbers[j, UPPER] = found.centre[j], found.radius[j], upper[j]
-        numbers[j, COUNT] = found.held[j]
-        for k in range(found.held[j]):
-            held = found.support[j, k]
+        vectors[j, 0], numbers[j, RADIUS], numbers[j, UPPER] = result.centre[j], result.radius[j], upper[j]
+        numbers[j, COUNT] = result.held[j]
+        for k in range(result.held[j]):
+            held = result.support[j, k]
             vectors[j, k + 1], numbers[j, ANGLES + k] = points[held], angle[held]
-            numbers[j, WEIGHTS + k] = found.weights[j, k]
+            numbers[j, WEIGHTS + k] = result.weights[j, k]
     return vectors, numbers
 
 
@@ -140,9 +140,9 @@ def _peaks(  # type: ignore[no-untyped-def]
 
 
 @inner
-def _keep(found, chosen, centre, radius):  # type: ignore[no-untyped-def]
+def _keep(result, chosen, centre, radius):  # type: ignore[no-untyped-def]
     for j in chosen:
-        centre[j], radius[j] = found.centre[j], found.radius[j]
+        centre[j], radius[j] = result.centre[j], result.radius[j]
 
 
 @inner
