@@ -3,7 +3,7 @@
 Whatever is asked for at an angle, the rows are expanded about it once, and each force is read from that once.
 """
 
-from itertools import accumulate, pairwise
+from itertools import accumulate, chain, pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -62,7 +62,7 @@ class CurveBatch:
     @cached_property
     def _series(self) -> CurveSeries:
         turn = self.parts[0].whole
-        readings = tuple(part.reading for part in self.parts for _ in part.weights[0])
+        readings = tuple(chain.from_iterable((part.reading,) * len(part.weights[0]) for part in self.parts))
         weights, constant = (
             np.concatenate([getattr(part, name)[0] for part in self.parts]) for name in ("weights", "constant")
         )

@@ -104,7 +104,8 @@ def motion(layout: Layout, shaft_angle: Real, exact: bool = True) -> Motion:
         *(sine.reshape(places), cosine.reshape(places), table.reshape(len(table), places[0]), omega.reshape(-1)),
         *(exact, values.reshape(kernel.VALUES, *places)),
     )
-    x, c, a, beta_sine, beta_cosine, remaining = values
+    # to iterate over an array ends with an error that takes as long as to look at all of them
+    x, c, a, beta_sine, beta_cosine, remaining = map(values.__getitem__, range(kernel.VALUES))
     return Motion(phi, x, c, a, beta_sine, beta_cosine, remaining, sine, cosine)
 
 

@@ -101,26 +101,27 @@ def _loads(
     count = len(bearings)
     offset = np.array([curves.offsets(unbalance) for unbalance in sets])
     samples = _samples(scene) + (offset * square)[..., None] * turned(scene.layout.sense, scene.angle_rad)
-    centre, radius = (fixed.centre[:count] + offset) * square, (fixed.radius[:count] * square).tolist()
-    rms = np.sqrt(curves.curves.variance + np.abs(curves.curves.mean + offset) ** 2) * square
-    figures = map(Curve.rows, samples.real), map(Curve.rows, samples.imag), rms.tolist(), centre.tolist()
+    centre, radius = ((fixed.centre[:count] + offset) * square).tolist(), (fixed.radius[:count] * square).tolist()
+    rms = (np.sqrt(curves.curves.variance + np.abs(curves.curves.mean + offset) ** 2) * square).tolist()
+    # of all sets, one after the other
+    xs, ys = (Curve.rows(part) for part in (samples.real, samples.imag))
     return [
         [
             {
-                "force_x_N": x,
-                "force_y_N": y,
+                "force_x_N": xs[number * count + k],
+                "force_y_N": ys[number * count + k],
                 "peak_N": peak.lower[k],
                 "peak_bracket_N": peak.bracket(k),
                 "peak_angle_deg": peak.angle_deg[k],
                 "specific_load_Pa": _over_area(peak.lower[k], bearing),
-                "rms_N": of_rms,
-                "floor_N": floor,
-                "circle_x_N": middle.real,
-                "circle_y_N": middle.imag,
+                "rms_N": rms[number][k],
+                "floor_N": radius[k],
+                "circle_x_N": centre[number][k].real,
+                "circle_y_N": centre[number][k].imag,
             }
-            for k, (bearing, floor, x, y, of_rms, middle) in enumerate(zip(bearings, radius, *own, strict=True))
+            for k, bearing in enumerate(bearings)
         ]
-        for peak, *own in zip(peaks, *figures, strict=True)
+        for number, peak in enumerate(peaks)
     ]
 
 

@@ -153,18 +153,19 @@ def hodographs(scene: Prepared, unbalance: Complex | None) -> Hodographs:
     shown = [scene.first_order()] if unbalance is None else [scene.first_order(), scene.first_order(unbalance)]
     # force and moment of each, all at once
     vectors = vectors_of(shown)
-    before, *after = Phasors(vectors[..., 0], vectors[..., 1]).of_turned(unit)
+    curves = Phasors(vectors[..., 0], vectors[..., 1]).of_turned(unit)
     return Hodographs.of_figures(
         {
             "angle_deg": scene.angles if scene.turns == 1 else scene.first_turn_deg,
-            "before": _hodograph(*before),
-            "after": _hodograph(*after[0]) if after else None,
+            "before": _hodograph(curves[0]),
+            "after": _hodograph(curves[1]) if len(curves) > 1 else None,
         }
     )
 
 
-def _hodograph(force: Complex, moment: Complex) -> dict[str, Real]:
-    """Force [N] and moment [N m] over the turn (n,)."""
+def _hodograph(curves: Complex) -> dict[str, Real]:
+    """Force [N] and moment [N m] over the turn (2, n)."""
+    force, moment = curves[0], curves[1]
     return {
         "force_x_N": force.real,
         "force_y_N": force.imag,

@@ -136,13 +136,14 @@ class Pieces:
         if group is None and all_true(finite):
             scale = np.abs(offset)
             scale += self.size if curve is None else self.size[curve]
-            share, signs = np.zeros((2, every.size))
+            share, signs = np.empty(every.size), np.zeros(every.size)
             share[:] = tolerance
             if not magnitudes:
                 signs[:] = sign
             return _bracketed(self, offset, of_member, every, scale, share, signs, magnitudes)
         sought = every if group is None else group
-        scale, share, signs = np.zeros((3, int(np.maximum.reduce(sought, initial=-1)) + 1))
+        count = int(np.maximum.reduce(sought, initial=-1)) + 1
+        scale, share, signs = np.zeros(count), np.zeros(count), np.zeros(count)
         offset, of_member, sought = offset[finite], of_member[finite], sought[finite]
         np.maximum.at(scale, sought, self.size[of_member] + np.abs(offset))
         np.maximum.at(share, sought, tolerance[finite] if isinstance(tolerance, np.ndarray) else tolerance)
@@ -185,10 +186,10 @@ def _bracketed(
         return Bracket(*(np.full(count, np.nan) for _ in range(4)))
     curve, peak = (in_order(np.asarray(part, np.int64)) for part in (of_member, group))
     members = parts.Members(curve, peak, in_order(np.asarray(offset, complex)), share, ROUNDING * scale, sign)
-    lower, upper, angle = np.zeros((3, count))
+    lower, upper = np.empty(count), np.empty(count)
     lower.fill(np.nan)
     upper.fill(-np.inf)
-    best = parts.Best(lower, upper, angle, *np.zeros((2, count), np.int64))
+    best = parts.Best(lower, upper, np.zeros(count), np.zeros(count, np.int64), np.zeros(count, np.int64))
     value = pieces.source.search(pieces.cubics, members, best)
     there = value + members.offset[best.member]
     lower = np.abs(there) if magnitudes else np.where(sign == 0.0, np.abs(there), sign * there.real)

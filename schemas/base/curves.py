@@ -60,7 +60,9 @@ class Curve(Sequence[_Number]):
         Where a number is not finite they are arrays, which a model refuses by the place of the number.
         """
         rows = _storage(values).reshape(prod(values.shape[:-1]), values.shape[-1])
-        return [*map(_curve, rows)] if _is_double(rows) and _is_finite(rows.reshape(-1)) else [*rows]
+        # to iterate over an array ends with an error that takes as long as the numbers do
+        every = map(rows.__getitem__, range(len(rows)))
+        return [*map(_curve, every)] if _is_double(rows) and _is_finite(rows.reshape(-1)) else [*every]
 
     def __len__(self) -> int:
         return len(self._values)
