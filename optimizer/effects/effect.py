@@ -59,7 +59,12 @@ class Effect:
     @property
     def demanding(self) -> bool:
         """Whether it asks anything of the request."""
-        return self.problems is not _none or self.rules is not _none
+        return self.problems is not _none or self.ruled
+
+    @property
+    def ruled(self) -> bool:
+        """Whether it asks anything of the fields beyond that they are there."""
+        return self.rules is not _none
 
     @property
     def universal(self) -> bool:

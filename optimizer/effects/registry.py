@@ -106,7 +106,7 @@ def rules_of(machine: Machine, name: str) -> Iterator[Rule]:
         return
     for path, message in _problems(machine)[name]:
         yield Rule(True, path, message)
-    if not any(problems_of(machine, (name,))):
+    if EFFECTS[name].ruled and not any(problems_of(machine, (name,))):
         yield from EFFECTS[name].rules(machine)
 
 

@@ -53,6 +53,7 @@ class Prepared:
     objective: Objective
     layout: Layout
     angle_deg: Real  # (T,) sampled shaft angles, the end point not repeated
+    angle_rad: Real  # (T,) the same
     simulated: Simulated
     mechanics_ms: float
     shafts: Complex | None = None  # (..., S) kg m, unbalances of the balance shafts that go with counterweights
@@ -229,7 +230,7 @@ def simulated(
     result = simulate(machine, plan, outputs, request.fidelity, radians, wrenches, readings)
     objective = request.objective if isinstance(request, OptimizeRequest) else Objective()
     spent_ms = (time.perf_counter() - start) * 1e3
-    return Prepared(request, machine, objective, plan, angle, result, spent_ms, turns=turns)
+    return Prepared(request, machine, objective, plan, angle, radians, result, spent_ms, turns=turns)
 
 
 @lru_cache(maxsize=4)

@@ -152,8 +152,8 @@ def _arms(bearing: Real, position: Real, station: Real, reaction: Real, load: Re
         arms.append(own)
         terms.append(own @ force[..., None])
     # both sides give the same, but one has the smaller terms, and no terms at all where the shaft ends
-    low, high = terms[0] + terms[1]
-    smaller = low < high
+    size = terms[0] + terms[1]
+    smaller = size[0] < size[1]
     of_bearings, of_loads = (np.where(smaller, own[0], own[1]) for own in arms)
     return of_bearings, of_loads
 
@@ -222,7 +222,8 @@ def _rising(place: Real) -> bool:
 def _levers(spans: _Spans) -> Real:
     """Lever rule in every span; on an overhang one share is negative and the other above 1. (..., B, L)."""
     # each share from its own distance, not as 1 minus the other: exact at a bearing
-    return _at_bearings(*(spans.carries * (spans.distance / spans.length)))
+    shares = spans.carries * (spans.distance / spans.length)
+    return _at_bearings(shares[0], shares[1])
 
 
 def _at_bearings(left: Real, right: Real) -> Real:

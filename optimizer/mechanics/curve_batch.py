@@ -3,7 +3,7 @@
 Whatever is asked for at an angle, the rows are expanded about it once, and each force is read from that once.
 """
 
-from itertools import accumulate, pairwise
+from itertools import accumulate, chain, pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,6 +13,7 @@ from optimizer.mechanics.whole_turn import TurnCurves
 from optimizer.numerics.arrays import Complex, Real, spread
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
+from optimizer.responses.floors import Floors
 from optimizer.responses.piecewise_cubics import Index, Pieces
 
 if TYPE_CHECKING:
@@ -54,10 +55,14 @@ class CurveBatch:
         """Peaks of the curves, or of one of them in motion."""
         return self._series.search(cubics, members, best, motion)
 
+    def circles(self, cubics: "Cubics", members: "Members", motion: "Motion | None" = None) -> Floors:
+        """The smallest circles around the curves, or around one of them in motion."""
+        return self._series.circles(cubics, members, motion)
+
     @cached_property
     def _series(self) -> CurveSeries:
         turn = self.parts[0].whole
-        readings = tuple(part.reading for part in self.parts for _ in part.weights[0])
+        readings = tuple(chain.from_iterable((part.reading,) * len(part.weights[0]) for part in self.parts))
         weights, constant = (
             np.concatenate([getattr(part, name)[0] for part in self.parts]) for name in ("weights", "constant")
         )

@@ -1,16 +1,19 @@
 """Series of curves about angles within pieces of the turn: all rows are expanded about an angle once, whatever curves
 ask for it."""
 
+from functools import cache
 from itertools import repeat
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from optimizer.mechanics.row_data import RowData, compact
-from optimizer.mechanics.row_series import AT_ONCE, NO_WIDTHS, Reading, RowSeries
+from optimizer.mechanics.row_series import AT_ONCE, NO_WIDTHS, Reading, RowSeries, turn_kernel
 from optimizer.numerics.arrays import Complex, Real, in_order, spread
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
+from optimizer.responses.floors import Floors
 from optimizer.responses.piecewise_cubics import Index
 
 if TYPE_CHECKING:
@@ -48,18 +51,17 @@ class CurveSeries:
     def over(self, points: RowSeries | None, bounds: RowSeries | None, half: Real) -> tuple[Complex, Real, Real]:
         """Coefficients (J, P, order + 1) over the angles of series, in units of half widths (N, P); by bounds what they
         leave out (J, P), and of both the size (J,) of what is added up. Nothing of what is not given."""
-        from optimizer.mechanics.kernel.curves import NOTHING
-        from optimizer.mechanics.kernel.entry import NO_KINDS, SUMS, Reading, over_turn
-
-        series, nothing = points or bounds, repeat((NOTHING, None))
+        entry = turn_kernel()
+        series, nothing = points or bounds, repeat((entry.NOTHING, None))
         assert series is not None  # one of both is given
-        rows, turned = series.rows, NO_KINDS if series.kinds is None else series.kinds.places
+        rows, turned = series.rows, entry.NO_KINDS if series.kinds is None else series.kinds.places
         functions = (nothing if series is None else series.functions(self._pressed) for series in (points, bounds))
         results, order = [], -1 if bounds is None else bounds.order
         for (at, place), (over, other) in zip(*functions, strict=False):
             wide = compact(half[:, place or other])
-            reading = Reading(self._every, np.arange(len(wide)), wide, order, wide.shape[1], turned)
-            results.append(over_turn(SUMS, rows, self.sums, reading=reading, points=at, bounds=over)[1:])
+            reading = entry.Reading(self._every, np.arange(len(wide)), wide, order, wide.shape[1], turned)
+            made = entry.over_turn(entry.SUMS, rows, self.sums, reading=reading, points=at, bounds=over)
+            results.append(made[1:])
         if len(results) == 1:
             return results[0]
         cubic, rest, size = zip(*results, strict=True)
@@ -67,37 +69,54 @@ class CurveSeries:
 
     def of_forces(self, forces: "Functions", order: int, half: Real) -> tuple[Complex, Real, Real]:
         """The same of curves of one reading, of the forces of the rows that are made already, bounded to an order."""
-        from optimizer.mechanics.kernel.entry import FORCE_SUMS, Reading, over_turn
-
-        reading = Reading(self._every, np.arange(len(half)), compact(half), order, half.shape[1])
-        return over_turn(FORCE_SUMS, self.rows.packed, self.sums, reading=reading, points=forces)[1:]
+        entry = turn_kernel()
+        reading = entry.Reading(self._every, np.arange(len(half)), compact(half), order, half.shape[1])
+        made = entry.over_turn(entry.FORCE_SUMS, self.rows.packed, self.sums, reading=reading, points=forces)
+        cubic, rest, size = made[1:]
+        return cubic, rest, size
 
     @cached_property
     def sums(self) -> "Sums":
         """What is compiled takes them as."""
-        from optimizer.mechanics.kernel.curves import Sums
-        from optimizer.mechanics.kernel.readings import READINGS
-
-        number = np.empty(len(self.weights), np.int64)
-        number[:] = [READINGS.index(reading) for reading in self.readings]
-        return Sums(number, *(in_order(np.asarray(array, complex)) for array in (self.weights, self.constant)))
+        number, every = np.empty(len(self.weights), np.int64), _readings().READINGS
+        number[:] = [every.index(reading) for reading in self.readings]
+        vectors = [in_order(np.asarray(array, complex)) for array in (self.weights, self.constant)]
+        sums: Sums = turn_kernel().Sums(number, *vectors)
+        return sums
 
     def search(self, cubics: "Cubics", members: "Members", best: "Best", motion: "Motion | None") -> Complex:
         """Peaks of the curves, or of one of them in motion, from their pieces, and the curves there, at rest."""
-        from optimizer.mechanics.kernel.entry import NO_LEVELS, PEAKS, Sought, over_turn
-        from optimizer.responses.kernel.motion import STILL
+        entry = turn_kernel()
+        moving = entry.STILL if motion is None else motion
+        sought = entry.Sought(cubics, members, best, entry.NO_LEVELS, self._within, moving)
+        _, values, _, _ = entry.over_turn(entry.PEAKS, self.rows.packed, self.sums, sought=sought)
+        there: Complex = values[:, 0, 0]
+        return there
 
-        moving = STILL if motion is None else motion
-        sought = Sought(cubics, members, best, NO_LEVELS, self._within, moving)
-        return over_turn(PEAKS, self.rows.packed, self.sums, sought=sought)[1][:, 0, 0]
+    def circles(self, cubics: "Cubics", members: "Members", motion: "Motion | None") -> Floors:
+        """The smallest circles around the curves, or around one of them in motion."""
+        from optimizer.mechanics.kernel.circles import ANGLES, COUNT, RADIUS, UPPER, WEIGHTS
+
+        entry = turn_kernel()
+        moving = entry.STILL if motion is None else motion
+        sought = entry.Sought(cubics, members, entry.NO_BEST, entry.NO_LEVELS, self._within, moving)
+        _, vectors, numbers, _ = entry.over_turn(entry.CIRCLES, self.rows.packed, self.sums, sought=sought)
+        return Floors(
+            vectors[:, 0, 0],
+            numbers[:, RADIUS],
+            numbers[:, UPPER],
+            numbers[:, ANGLES:WEIGHTS],
+            vectors[:, 1:, 0],
+            numbers[:, WEIGHTS:],
+            numbers[:, COUNT].astype(np.intp),
+        )
 
     def crossings(self, cubics: "Cubics", level: Real) -> tuple[Real, Real]:
         """Angles at which the curves cross levels (J,), and what their integrals may be off by, from their pieces."""
-        from optimizer.mechanics.kernel.entry import CROSSINGS, NO_BEST, NO_MEMBERS, Sought, over_turn
-        from optimizer.responses.kernel.motion import STILL
-
-        sought = Sought(cubics, NO_MEMBERS, NO_BEST, level, self._within, STILL)
-        return over_turn(CROSSINGS, self.rows.packed, self.sums, sought=sought)[2:]
+        entry = turn_kernel()
+        sought = entry.Sought(cubics, entry.NO_MEMBERS, entry.NO_BEST, level, self._within, entry.STILL)
+        _, _, angle, error = entry.over_turn(entry.CROSSINGS, self.rows.packed, self.sums, sought=sought)
+        return angle, error
 
     def _places(self, curve: Index, piece: Index) -> tuple[Index, Index, Real]:
         """Curves (m,), their designs, and angles rad that say which process counts, as what is compiled takes them."""
@@ -116,21 +135,20 @@ class CurveSeries:
         )
 
     def _at(self, curve: Index, design: Index, angle: Real, within: Real, order: int) -> Complex:
-        from optimizer.mechanics.kernel.entry import BOTH, Reading, over_turn
-        from optimizer.mechanics.kernel.rows import Places
-
-        places = Places(design, angle, NO_WIDTHS, within)
+        entry = turn_kernel()
+        places = entry.Places(design, angle, NO_WIDTHS, within)
         wide = np.empty((curve.size, 1))
         wide.fill(1.0)
-        reading = Reading(curve, design, wide, -1, 1)
-        return over_turn(BOTH, self.rows.packed, self.sums, places, order, self._pressed, reading)[1][:, 0]
+        reading = entry.Reading(curve, design, wide, -1, 1)
+        _, vectors, *_ = entry.over_turn(entry.BOTH, self.rows.packed, self.sums, places, order, self._pressed, reading)
+        coefficients: Complex = vectors[:, 0]
+        return coefficients
 
     @cached_property
     def _pressed(self) -> bool:
         """Whether gas is a part of any."""
-        from optimizer.mechanics.kernel.readings import WITHOUT_GAS
-
-        return any(reading not in WITHOUT_GAS for reading in self.readings)
+        without_gas = _readings().WITHOUT_GAS
+        return any(reading not in without_gas for reading in self.readings)
 
     @cached_property
     def _every(self) -> Index:
@@ -139,6 +157,14 @@ class CurveSeries:
     @cached_property
     def _within(self) -> Real:
         return compact(self.middle)
+
+
+# it loads the compiler, and so at the first call; an import at each takes as long as a small array
+@cache
+def _readings() -> ModuleType:
+    from optimizer.mechanics.kernel import readings
+
+    return readings
 
 
 def _integers(values: Index) -> Index:

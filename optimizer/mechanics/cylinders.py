@@ -61,7 +61,7 @@ def _chambers(machine: ReciprocatingMachine) -> Chambers:
     rows = [([side for member in row for side in _row(member)] + [_NONE] * count)[:count] for row in cylinders]
     values = stacked([chamber[number] for number in range(7) for row in rows for chamber in row])
     table = values.reshape(*values.shape[:-1], 7, len(rows), count)
-    area, low, high, clearance, expansion, compression, closed = np.moveaxis(table, -3, 0)
+    area, low, high, clearance, expansion, compression, closed = [table[..., number, :, :] for number in range(7)]
     return Chambers(area, low, high, clearance, expansion, compression, closed.astype(bool))
 
 

@@ -49,8 +49,8 @@ def foundation_load(
     phasors = np.empty((4, *co.shape[1:]), complex)
     phasors[0::2], phasors[1::2] = co + mirrored, -1j * (co - mirrored)
     least = np.array([spread(entry, phasors.shape[1:]) for entry in negligible for _ in range(2)])
-    loads = _oscillation(phasors, order, sense, dead_centre_deg, least)
-    return FoundationLoad(*(Oscillation(*entry) for entry in zip(*loads, strict=True)))
+    size, phase = _oscillation(phasors, order, sense, dead_centre_deg, least)
+    return FoundationLoad._make([Oscillation(size[number], phase[number]) for number in range(4)])
 
 
 def _oscillation(phasor: Complex, order: int | Index, sense: Real, dead_centre_deg: Real, least: Real) -> Oscillation:

@@ -10,11 +10,12 @@ head side -p A, crank side +p A (design calculation of the 2D12, 2-14 and 2-15).
 import math
 from collections.abc import Sequence
 from functools import cache
+from types import ModuleType
 
 import numpy as np
 
 from optimizer.mechanics.indicated import Trace
-from optimizer.mechanics.kinematics import Motion, row_table
+from optimizer.mechanics.kinematics import Motion, motion_kernel, row_table
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.layout import spread as spread_layout
 from optimizer.numerics.arrays import Real, in_order, mapped, spread
@@ -66,9 +67,6 @@ def gas_forces(chambers: Chambers, motion: Motion, layout: Layout, traces: Seque
     ----------
     traces : pressures of chambers, in place of these.
     """
-    # the compiler is loaded when it is first needed
-    from optimizer.mechanics.kernel.motion_values import cycle_pressures
-
     chambers, layout = _common_axes(chambers, layout, motion.crank_angle.shape[:-2])
     rows, table = row_table(layout), chamber_table(chambers)
     *leading, count, sides = table.shape[1:]
@@ -76,7 +74,7 @@ def gas_forces(chambers: Chambers, motion: Motion, layout: Layout, traces: Seque
     places, number = (*leading, count, angles), math.prod(leading) * count
     series = (motion.crank_angle, motion.displacement, motion.remaining)
     pressure = np.empty((*leading, count, sides, angles))
-    cycle_pressures(
+    motion_kernel().cycle_pressures(
         *(in_order(spread(values, places)).reshape(number, angles) for values in series),
         *(rows.reshape(len(rows), number), table.reshape(len(table), number, sides)),
         pressure.reshape(number, sides, angles),
@@ -115,30 +113,35 @@ def _common_axes(chambers: Chambers, layout: Layout, leading: tuple[int, ...] = 
     return chambers, layout
 
 
+# it loads the compiler, and so at the first call; an import at each takes as long as a small array
+@cache
+def _kernel() -> ModuleType:
+    from optimizer.mechanics.kernel import chamber_values
+
+    return chamber_values
+
+
 def switching_travels(chambers: Chambers, layout: Layout) -> tuple[Real, Real]:
     """Own travel at which suction opens and at which discharge opens, (..., rows, C) m; nan where open.
 
     By what re-expansion adds to the clearance, V_0 ((p_d / p_s)^(1/m) - 1), and compression takes off the full volume.
     """
-    from optimizer.mechanics.kernel.chamber_values import DISCHARGE, SUCTION
-
-    values = cycle_values(chambers, layout)
-    return values[SUCTION], values[DISCHARGE]
+    values, kernel = cycle_values(chambers, layout), _kernel()
+    return values[kernel.SUCTION], values[kernel.DISCHARGE]
 
 
 @remembered_of_both
 def cycle_values(chambers: Chambers, layout: Layout) -> Real:
     """What the chambers come to whatever the samples, as :func:`chamber_values` has it, (7, ..., rows, C)."""
-    from optimizer.mechanics.kernel.chamber_values import VALUES, chamber_values
-
+    kernel = _kernel()
     chambers, layout = _common_axes(chambers, layout)
     rows, table = row_table(layout), chamber_table(chambers)
     *leading, count, sides = table.shape[1:]
     number = math.prod(leading) * count
-    values = np.empty((VALUES, *leading, count, sides))
-    chamber_values(
+    values = np.empty((kernel.VALUES, *leading, count, sides))
+    kernel.chamber_values(
         *(rows.reshape(len(rows), number), table.reshape(len(table), number, sides)),
-        values.reshape(VALUES, number, sides),
+        values.reshape(kernel.VALUES, number, sides),
     )
     return values
 
@@ -150,17 +153,10 @@ def switching_angles(chambers: Chambers, layout: Layout, exact: bool = True) -> 
     ----------
     exact : kinematics, or cut off after the second order.
     """
-    from optimizer.mechanics.kernel.chamber_values import (
-        DISCHARGE_ANGLE,
-        DISCHARGE_CUT_OFF,
-        SUCTION_ANGLE,
-        SUCTION_CUT_OFF,
-    )
-
-    values = cycle_values(chambers, layout)
+    values, kernel = cycle_values(chambers, layout), _kernel()
     if not exact:
-        return values[SUCTION_CUT_OFF], values[DISCHARGE_CUT_OFF]
-    return values[SUCTION_ANGLE], values[DISCHARGE_ANGLE]
+        return values[kernel.SUCTION_CUT_OFF], values[kernel.DISCHARGE_CUT_OFF]
+    return values[kernel.SUCTION_ANGLE], values[kernel.DISCHARGE_ANGLE]
 
 
 def indicated_work(chambers: Chambers, layout: Layout) -> Real:
@@ -171,7 +167,6 @@ def indicated_work(chambers: Chambers, layout: Layout) -> Real:
     g(l, n) = integral from 0 to l of (e^{nu} - 1) e^{-u} du. So pressures that hardly differ keep their digits.
     nan where the chamber never delivers.
     """
-    from optimizer.mechanics.kernel.chamber_values import WORK
-
     # who has other pressures in some of the chambers writes their work to it
-    return cycle_values(chambers, layout)[WORK].copy()
+    work: Real = cycle_values(chambers, layout)[_kernel().WORK].copy()
+    return work

@@ -6,6 +6,8 @@ derivatives, so that the inertia force +m a on the frame is positive in rod tens
 """
 
 import math
+from functools import cache
+from types import ModuleType
 
 import numpy as np
 
@@ -89,9 +91,7 @@ def motion(layout: Layout, shaft_angle: Real, exact: bool = True) -> Motion:
     shaft_angle : (..., T) rad.
     exact : or cut off after the second order.
     """
-    # the compiler is loaded when it is first needed
-    from optimizer.mechanics.kernel.motion_values import VALUES, motion_values
-
+    kernel = motion_kernel()
     phi, table = own_angle(layout, shaft_angle), row_table(layout)
     if phi.shape[:-1] != table.shape[1:]:
         leading = np.broadcast_shapes(phi.shape[:-2], table.shape[1:-1])
@@ -99,13 +99,23 @@ def motion(layout: Layout, shaft_angle: Real, exact: bool = True) -> Motion:
         table = row_table(layout)
     shape, places = phi.shape, (math.prod(phi.shape[:-1]), phi.shape[-1])
     sine, cosine = in_order(np.sin(phi)), in_order(np.cos(phi))
-    omega, values = in_order(spread(layout.omega, shape[:-2])), np.empty((VALUES, *shape))
-    motion_values(
+    omega, values = in_order(spread(layout.omega, shape[:-2])), np.empty((kernel.VALUES, *shape))
+    kernel.motion_values(
         *(sine.reshape(places), cosine.reshape(places), table.reshape(len(table), places[0]), omega.reshape(-1)),
-        *(exact, values.reshape(VALUES, *places)),
+        *(exact, values.reshape(kernel.VALUES, *places)),
     )
-    x, c, a, beta_sine, beta_cosine, remaining = values
+    # to iterate over an array ends with an error that takes as long as to look at all of them
+    x, c, a, beta_sine, beta_cosine, remaining = map(values.__getitem__, range(kernel.VALUES))
     return Motion(phi, x, c, a, beta_sine, beta_cosine, remaining, sine, cosine)
+
+
+# it loads the compiler, and so at the first call; an import at each takes as long as a small array
+@cache
+def motion_kernel() -> ModuleType:
+    """What is compiled of motion and pressures at single angles."""
+    from optimizer.mechanics.kernel import motion_values
+
+    return motion_values
 
 
 @remembered

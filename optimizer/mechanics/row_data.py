@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -132,8 +133,17 @@ def _opened(state: Sequence[Real], closed: Real) -> tuple[Real, Real]:
     return 2.0 * clearance * np.exp(log / expansion), 2.0 * (1.0 + clearance) * np.exp(-log / compression)
 
 
+@cache
+def _no_tables() -> "Tables":
+    return _tables_of(())
+
+
 def _tables(traces: Sequence[Trace]) -> "Tables":
     """The pressures that traces give, as what is compiled takes them."""
+    return _tables_of(traces) if traces else _no_tables()
+
+
+def _tables_of(traces: Sequence[Trace]) -> "Tables":
     from optimizer.mechanics.kernel.rows import Tables
 
     number, designs = (

@@ -7,7 +7,9 @@ Shapes: N designs or places, R rows, P angles.
 
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import cache
 from itertools import pairwise
+from types import ModuleType
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -82,9 +84,7 @@ class RowSeries:
             yield functions, place
 
     def _made(self, pressed: bool) -> "Iterator[tuple[Functions, slice]]":
-        from optimizer.mechanics.kernel.entry import FUNCTIONS, over_turn
-        from optimizer.mechanics.kernel.rows import Functions, Places
-
+        entry = turn_kernel()
         rows, angles = self.rows, self.centre.shape[1]
         # the pressures may differ between designs that have all else in common
         once = len(rows.motion) == len(self.centre) == 1 and rows.traces.table.shape[1] == 1
@@ -98,18 +98,27 @@ class RowSeries:
         for first, last in pairwise(ends):
             place = slice(first, last)
             some = _flat(centre[:, place])
-            places = Places(
+            places = entry.Places(
                 np.repeat(design, last - first),
                 some,
                 NO_WIDTHS if half is None else _flat(half[:, place]),
                 some if within is centre else _flat(within[:, place]),
             )
-            made = over_turn(FUNCTIONS, rows, places=places, order=self.order, pressed=pressed)[0]
-            yield Functions(*made), place
+            made = entry.over_turn(entry.FUNCTIONS, rows, places=places, order=self.order, pressed=pressed)[0]
+            yield entry.Functions(*made), place
 
     @cached_property
     def _memo(self) -> "dict[bool, Functions]":
         return {}
+
+
+# it loads the compiler, and so at the first call; an import at each takes as long as a small array
+@cache
+def turn_kernel() -> ModuleType:
+    """The entry to what is compiled of the whole turn."""
+    from optimizer.mechanics.kernel import entry
+
+    return entry
 
 
 def _flat(values: Real) -> Real:

@@ -25,6 +25,7 @@ from optimizer.mechanics.turn import Turn, panels
 from optimizer.numerics.arrays import Complex, Real, all_true, spread
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
+from optimizer.responses.floors import Floors
 from optimizer.responses.piecewise_cubics import Index, Pieces
 
 if TYPE_CHECKING:
@@ -95,9 +96,7 @@ class WholeTurn:
 
     def curves(self, reading: Reading, weights: Complex | Real, constant: Complex | Real | float = 0.0) -> "TurnCurves":
         """Sums of a force of the rows over weights (N, C, R), with constants (N, C): N C curves."""
-        if not isinstance(constant, np.ndarray):
-            return TurnCurves(self, reading, weights, np.full(weights.shape[:2], constant))
-        return TurnCurves(self, reading, weights, spread(constant, weights.shape[:2]))
+        return TurnCurves(self, reading, weights, spread(np.asarray(constant), weights.shape[:2]))
 
     def of_designs(self, some: slice) -> "WholeTurn":
         """The turn of some of the designs alone."""
@@ -376,6 +375,10 @@ class TurnCurves:
     def search(self, cubics: "Cubics", members: "Members", best: "Best", motion: "Motion | None" = None) -> Complex:
         """Peaks of the curves, or of one of them in motion."""
         return self._series.search(cubics, members, best, motion)
+
+    def circles(self, cubics: "Cubics", members: "Members", motion: "Motion | None" = None) -> Floors:
+        """The smallest circles around the curves, or around one of them in motion."""
+        return self._series.circles(cubics, members, motion)
 
     @cached_property
     def _series(self) -> CurveSeries:

@@ -20,6 +20,8 @@ Part = TypeVar("Part")
 ROUNDING = 16 * float(np.finfo(float).eps)
 #: so few sums are compared sooner in plain numbers than by arrays
 _FEW = 16
+#: so few numbers are copied sooner than shared
+_SMALL = 256
 _ARRAYS = (np.ndarray, np.generic)
 #: what dataclasses hold most that is no array and no dataclass
 _PLAIN = frozenset({type(None), tuple, float})
@@ -51,13 +53,20 @@ def mapped(part: Part, function: Callable[[Any], Any]) -> Part:
 
 
 def spread(array: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:
-    """The same numbers along leading axes, of a shape that ends with their own; what is common to all is not copied."""
+    """The same numbers along leading axes, of a shape that ends with their own; of many what is common to all is not
+    copied. None may be written to."""
     if array.shape == shape:
         return array
-    if array.size == math.prod(shape):
+    size = math.prod(shape)
+    if array.size == size:
         # a view as well, in a tenth of the time
         return array.reshape(shape)
-    return np.broadcast_to(array, shape)
+    if size > _SMALL:
+        return np.broadcast_to(array, shape)
+    # a copy in a fifth of the time
+    copies = np.empty(shape, array.dtype)
+    copies[...] = array
+    return copies
 
 
 def side_by_side(*arrays: NDArray[Any]) -> NDArray[Any]:

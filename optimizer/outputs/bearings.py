@@ -1,6 +1,7 @@
 """Main-bearing loads without and with counterweights, and the bending moment inside the shaft."""
 
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -19,9 +20,10 @@ from optimizer.outputs.peaks import (
     shaft_peaks,
     shaft_search,
 )
-from optimizer.responses.curve import Floors, floors
+from optimizer.responses.curve import floors
+from optimizer.responses.floors import Floors
 from optimizer.responses.peak_table import PeakList
-from schemas.answer.dynamics import BearingLoad, BendingMoment, MainBearing, MainBearings
+from schemas.answer.dynamics import MainBearings
 from schemas.answer.outputs import labels
 from schemas.base.curves import Curve
 from schemas.machine.drive import Bearing
@@ -40,26 +42,28 @@ def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
     peaks = shaft_peaks(scene, sets)
     loads = _loads(scene, curves.first(count), peaks, fixed, sets)
     before = loads[0]
-    after: Sequence[BearingLoad | None] = [None] * count if unbalance is None else loads[-1]
+    after: Sequence[dict[str, Any] | None] = [None] * count if unbalance is None else loads[-1]
     moments = [peak.part(slice(count, None)) for peak in peaks]
     shown = moments[-1]
     worst = shown.lower.index(max(shown.lower))
-    return MainBearings(
-        angle_deg=scene.angles,
-        shaft=scene.request.fidelity.shaft,
-        bearings=tuple(
-            MainBearing(name=bearing.name, position_m=bearing.position_m, before=bare, after=loaded)
-            for bearing, bare, loaded in zip(machine.bearings, before, after, strict=True)
-        ),
-        bending=BendingMoment(
-            position_m=planes,
-            before_Nm=moments[0].lower,
-            after_Nm=None if unbalance is None else shown.lower,
-            peak_Nm=shown.lower[worst],
-            peak_bracket_Nm=(shown.lower[worst], max(shown.upper)),
-            peak_position_m=planes[worst],
-            floor_Nm=float(np.max(fixed.radius[count:])) * scene.omega_squared,
-        ),
+    return MainBearings.of_figures(
+        {
+            "angle_deg": scene.angles,
+            "shaft": scene.request.fidelity.shaft,
+            "bearings": tuple(
+                {"name": bearing.name, "position_m": bearing.position_m, "before": bare, "after": loaded}
+                for bearing, bare, loaded in zip(machine.bearings, before, after, strict=True)
+            ),
+            "bending": {
+                "position_m": planes,
+                "before_Nm": moments[0].lower,
+                "after_Nm": None if unbalance is None else shown.lower,
+                "peak_Nm": shown.lower[worst],
+                "peak_bracket_Nm": (shown.lower[worst], max(shown.upper)),
+                "peak_position_m": planes[worst],
+                "floor_Nm": float(np.max(fixed.radius[count:])) * scene.omega_squared,
+            },
+        }
     )
 
 
@@ -90,33 +94,34 @@ def _loads(
     peaks: Sequence[PeakList],
     fixed: Floors,
     sets: Sequence[Complex | None],
-) -> list[list[BearingLoad]]:
+) -> list[list[dict[str, Any]]]:
     """Loads of the bearings of one machine, by their curves, peaks and floors, with sets of counterweights (webs,) kg m
     or without."""
-    bearings, square, turn = scene.machine.bearings, scene.omega_squared, np.deg2rad(scene.angle_deg)
+    bearings, square = scene.machine.bearings, scene.omega_squared
     count = len(bearings)
     offset = np.array([curves.offsets(unbalance) for unbalance in sets])
-    samples = _samples(scene) + (offset * square)[..., None] * turned(scene.layout.sense, turn)
-    centre, radius = (fixed.centre[:count] + offset) * square, (fixed.radius[:count] * square).tolist()
-    rms = np.sqrt(curves.curves.variance + np.abs(curves.curves.mean + offset) ** 2) * square
-    figures = map(Curve.rows, samples.real), map(Curve.rows, samples.imag), rms.tolist(), centre.tolist()
+    samples = _samples(scene) + (offset * square)[..., None] * turned(scene.layout.sense, scene.angle_rad)
+    centre, radius = ((fixed.centre[:count] + offset) * square).tolist(), (fixed.radius[:count] * square).tolist()
+    rms = (np.sqrt(curves.curves.variance + np.abs(curves.curves.mean + offset) ** 2) * square).tolist()
+    # of all sets, one after the other
+    xs, ys = (Curve.rows(part) for part in (samples.real, samples.imag))
     return [
         [
-            BearingLoad(
-                force_x_N=x,
-                force_y_N=y,
-                peak_N=peak.lower[k],
-                peak_bracket_N=peak.bracket(k),
-                peak_angle_deg=peak.angle_deg[k],
-                specific_load_Pa=_over_area(peak.lower[k], bearing),
-                rms_N=of_rms,
-                floor_N=floor,
-                circle_x_N=middle.real,
-                circle_y_N=middle.imag,
-            )
-            for k, (bearing, floor, x, y, of_rms, middle) in enumerate(zip(bearings, radius, *own, strict=True))
+            {
+                "force_x_N": xs[number * count + k],
+                "force_y_N": ys[number * count + k],
+                "peak_N": peak.lower[k],
+                "peak_bracket_N": peak.bracket(k),
+                "peak_angle_deg": peak.angle_deg[k],
+                "specific_load_Pa": _over_area(peak.lower[k], bearing),
+                "rms_N": rms[number][k],
+                "floor_N": radius[k],
+                "circle_x_N": centre[number][k].real,
+                "circle_y_N": centre[number][k].imag,
+            }
+            for k, bearing in enumerate(bearings)
         ]
-        for peak, *own in zip(peaks, *figures, strict=True)
+        for number, peak in enumerate(peaks)
     ]
 
 

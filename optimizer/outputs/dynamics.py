@@ -21,20 +21,12 @@ from optimizer.outputs.peaks import (
 )
 from optimizer.responses.peak_table import PeakList
 from schemas.answer.dynamics import (
-    Chamber,
     Flywheel,
     Gas,
     Kinematics,
-    LoadCase,
     Overturning,
     PistonForce,
     RodLoads,
-    RowGas,
-    RowMotion,
-    RowOverturning,
-    RowPistonForce,
-    RowRodLoads,
-    RowTorque,
     Torque,
 )
 from schemas.base.curves import Curve
@@ -48,20 +40,23 @@ def kinematics(scene: Prepared, _fitted: Complex | None = None) -> Kinematics:
     """Motion of every row."""
     result = scene.results["kinematics"]
     own = np.mod(np.rad2deg(result.crank_angle), 360.0)
-    return Kinematics(
-        angle_deg=scene.angles,
-        rows=tuple(
-            RowMotion(
-                **labels,
-                crank_angle_deg=angle,
-                displacement_m=displacement,
-                velocity_m_s=velocity,
-                acceleration_m_s2=acceleration,
-            )
-            for labels, angle, displacement, velocity, acceleration in _by_row(
-                scene, own, result.displacement, result.velocity, result.acceleration
-            )
-        ),
+    # one validation of the whole takes two thirds of the time of one of each part, here and below
+    return Kinematics.of_figures(
+        {
+            "angle_deg": scene.angles,
+            "rows": tuple(
+                {
+                    **labels,
+                    "crank_angle_deg": angle,
+                    "displacement_m": displacement,
+                    "velocity_m_s": velocity,
+                    "acceleration_m_s2": acceleration,
+                }
+                for labels, angle, displacement, velocity, acceleration in _by_row(
+                    scene, own, result.displacement, result.velocity, result.acceleration
+                )
+            ),
+        }
     )
 
 
@@ -86,56 +81,60 @@ def gas(scene: Prepared, _fitted: Complex | None = None) -> Gas:
     pressure, forces = (Curve.rows(read_only(curves)) for curves in (cycle.forces.pressure, force))
     sides, power = force.shape[-2], cycle.power.tolist()
 
-    def chamber(k: int, side: int) -> Chamber:
+    def chamber(k: int, side: int) -> dict[str, Any]:
         suction, discharge = (None if isnan(angles[k][side]) else angles[k][side] for angles in opens)
-        return Chamber(
-            side=_SIDES[side % 2],
-            cylinder=side // 2,
-            name=names[k][side // 2],
-            pressure_Pa=pressure[k * sides + side],
-            force_N=forces[k * sides + side],
-            suction_opens_deg=suction,
-            discharge_opens_deg=discharge,
-            indicated_work_J=work[k][side],
-        )
+        return {
+            "side": _SIDES[side % 2],
+            "cylinder": side // 2,
+            "name": names[k][side // 2],
+            "pressure_Pa": pressure[k * sides + side],
+            "force_N": forces[k * sides + side],
+            "suction_opens_deg": suction,
+            "discharge_opens_deg": discharge,
+            "indicated_work_J": work[k][side],
+        }
 
-    return Gas(
-        angle_deg=scene.angles,
-        rows=tuple(
-            RowGas(
-                **labels,
-                chambers=tuple(chamber(k, side) for side in range(2 * len(names[k]))),
-                displacement_m=displacement,
-                force_N=of_row,
-                indicated_power_W=power[k],
-            )
-            for k, (labels, displacement, of_row) in enumerate(_by_row(scene, motion.displacement, total))
-        ),
-        indicated_power_W=float(_indicated_power(scene)),
+    return Gas.of_figures(
+        {
+            "angle_deg": scene.angles,
+            "rows": tuple(
+                {
+                    **labels,
+                    "chambers": tuple(chamber(k, side) for side in range(2 * len(names[k]))),
+                    "displacement_m": displacement,
+                    "force_N": of_row,
+                    "indicated_power_W": power[k],
+                }
+                for k, (labels, displacement, of_row) in enumerate(_by_row(scene, motion.displacement, total))
+            ),
+            "indicated_power_W": float(_indicated_power(scene)),
+        }
     )
 
 
 def piston_force(scene: Prepared, _fitted: Complex | None = None) -> PistonForce:
     """Gas, inertia and friction on every piston."""
     result, (high, low) = scene.results["piston_force"], row_peaks(scene, "piston")
-    return PistonForce(
-        angle_deg=scene.angles,
-        rows=tuple(
-            RowPistonForce(
-                **labels,
-                gas_N=of_gas,
-                inertia_N=inertia,
-                friction_N=friction,
-                total_N=total,
-                peak_tension_N=high.lower[k],
-                peak_tension_bracket_N=high.bracket(k),
-                peak_compression_N=-low.lower[k],
-                peak_compression_bracket_N=_negated(low.bracket(k)),
-            )
-            for k, (labels, of_gas, inertia, friction, total) in enumerate(
-                _by_row(scene, result.gas, result.inertia, result.friction, result.total)
-            )
-        ),
+    return PistonForce.of_figures(
+        {
+            "angle_deg": scene.angles,
+            "rows": tuple(
+                {
+                    **labels,
+                    "gas_N": of_gas,
+                    "inertia_N": inertia,
+                    "friction_N": friction,
+                    "total_N": total,
+                    "peak_tension_N": high.lower[k],
+                    "peak_tension_bracket_N": high.bracket(k),
+                    "peak_compression_N": -low.lower[k],
+                    "peak_compression_bracket_N": _negated(low.bracket(k)),
+                }
+                for k, (labels, of_gas, inertia, friction, total) in enumerate(
+                    _by_row(scene, result.gas, result.inertia, result.friction, result.total)
+                )
+            ),
+        }
     )
 
 
@@ -154,23 +153,25 @@ def rod_loads(scene: Prepared, _fitted: Complex | None = None) -> RodLoads:
         cases = tuple(column[k] for column in by_case)
         worst = max(cases, key=_largest)
         rows.append(
-            RowRodLoads(
+            {
                 **labels,
-                rod_N=rod,
-                side_N=side,
-                tangential_N=tangential,
-                radial_N=radial,
-                peak_side_N=sides[k][0],
-                peak_side_bracket_N=sides[k],
-                cases=cases,
-                governing_case=worst.case,
-                governing_load_N=_largest(worst),
-            )
+                "rod_N": rod,
+                "side_N": side,
+                "tangential_N": tangential,
+                "radial_N": radial,
+                "peak_side_N": sides[k][0],
+                "peak_side_bracket_N": sides[k],
+                "cases": cases,
+                "governing_case": worst["case"],
+                "governing_load_N": _largest(worst),
+            }
         )
-    return RodLoads(
-        angle_deg=scene.angles,
-        rows=tuple(rows),
-        governing_load_N=max((row.governing_load_N for row in rows), default=0.0),
+    return RodLoads.of_figures(
+        {
+            "angle_deg": scene.angles,
+            "rows": tuple(rows),
+            "governing_load_N": max((row["governing_load_N"] for row in rows), default=0.0),
+        }
     )
 
 
@@ -186,36 +187,40 @@ def torque(scene: Prepared, _fitted: Complex | None = None) -> Torque:
     peak = torque_peak(scene, result.rotating_friction)
     radii = scene.layout.reciprocating.crank_radius.tolist()
     common_radius = len(set(radii)) == 1
-    return Torque(
-        angle_deg=scene.angles,
-        rows=tuple(
-            RowTorque(**labels, torque_Nm=samples, mean_torque_Nm=mean)
-            for labels, samples, mean in _by_row(scene, result.rows, integrals.row_mean)
-        ),
-        rotating_friction_Nm=float(result.rotating_friction),
-        torque_Nm=result.total,
-        tangential_N=result.total / radii[0] if common_radius else None,
-        peak_Nm=peak.lower[0],
-        peak_bracket_Nm=peak.bracket(),
-        peak_angle_deg=peak.angle_deg[0],
-        mean_torque_Nm=float(integrals.mean),
-        mean_torque_error_Nm=float(errors.mean),
-        indicated_power_W=float(integrals.indicated_power),
-        friction_power_W=float(integrals.friction_power),
-        shaft_power_W=float(shaft_power),
-        fluctuation_energy_J=float(integrals.fluctuation),
-        fluctuation_energy_error_J=float(errors.fluctuation),
+    return Torque.of_figures(
+        {
+            "angle_deg": scene.angles,
+            "rows": tuple(
+                {**labels, "torque_Nm": samples, "mean_torque_Nm": mean}
+                for labels, samples, mean in _by_row(scene, result.rows, integrals.row_mean)
+            ),
+            "rotating_friction_Nm": float(result.rotating_friction),
+            "torque_Nm": result.total,
+            "tangential_N": result.total / radii[0] if common_radius else None,
+            "peak_Nm": peak.lower[0],
+            "peak_bracket_Nm": peak.bracket(),
+            "peak_angle_deg": peak.angle_deg[0],
+            "mean_torque_Nm": float(integrals.mean),
+            "mean_torque_error_Nm": float(errors.mean),
+            "indicated_power_W": float(integrals.indicated_power),
+            "friction_power_W": float(integrals.friction_power),
+            "shaft_power_W": float(shaft_power),
+            "fluctuation_energy_J": float(integrals.fluctuation),
+            "fluctuation_energy_error_J": float(errors.fluctuation),
+        }
     )
 
 
 def flywheel(scene: Prepared, _fitted: Complex | None = None) -> Flywheel:
     """Irregularity and inertia, J and MD^2 both; the source prints the latter as the former."""
     result = scene.results["flywheel"]
-    return Flywheel(
-        fluctuation_energy_J=float(scene.results["torque_integrals"].fluctuation),
-        irregularity=float(result.irregularity),
-        inertia_J_kg_m2=float(result.inertia),
-        inertia_MD2_kg_m2=4.0 * float(result.inertia),
+    return Flywheel.of_figures(
+        {
+            "fluctuation_energy_J": float(scene.results["torque_integrals"].fluctuation),
+            "irregularity": float(result.irregularity),
+            "inertia_J_kg_m2": float(result.inertia),
+            "inertia_MD2_kg_m2": 4.0 * float(result.inertia),
+        }
     )
 
 
@@ -223,13 +228,15 @@ def overturning(scene: Prepared, _fitted: Complex | None = None) -> Overturning:
     """Overturning couple on the frame."""
     rows = scene.results["rod_forces"].overturning
     total, peak = np.add.reduce(rows, axis=-2), torque_peak(scene)
-    return Overturning(
-        angle_deg=scene.angles,
-        rows=tuple(RowOverturning(**labels, couple_Nm=couple) for labels, couple in _by_row(scene, rows)),
-        couple_Nm=total,
-        peak_Nm=peak.lower[0],
-        peak_bracket_Nm=peak.bracket(),
-        peak_angle_deg=peak.angle_deg[0],
+    return Overturning.of_figures(
+        {
+            "angle_deg": scene.angles,
+            "rows": tuple({**labels, "couple_Nm": couple} for labels, couple in _by_row(scene, rows)),
+            "couple_Nm": total,
+            "peak_Nm": peak.lower[0],
+            "peak_bracket_Nm": peak.bracket(),
+            "peak_angle_deg": peak.angle_deg[0],
+        }
     )
 
 
@@ -239,18 +246,18 @@ def _by_row(scene: Prepared, *values: Real) -> Iterator[tuple[Any, ...]]:
     return zip(scene.row_labels, *parts, strict=True)
 
 
-def _cases(case: Case, tension: PeakList, compression: PeakList) -> list[LoadCase]:
-    """A load case of every row."""
+def _cases(case: Case, tension: PeakList, compression: PeakList) -> list[dict[str, Any]]:
+    """A load case of every row, as fields."""
     return [
-        LoadCase(
-            case=case,
-            tension_N=max(high, 0.0),
-            tension_bracket_N=_pull((high, most)),
-            tension_deg=at,
-            compression_N=0.0 - max(low, 0.0),
-            compression_bracket_N=_negated(_pull((low, deepest))),
-            compression_deg=there,
-        )
+        {
+            "case": case,
+            "tension_N": max(high, 0.0),
+            "tension_bracket_N": _pull((high, most)),
+            "tension_deg": at,
+            "compression_N": 0.0 - max(low, 0.0),
+            "compression_bracket_N": _negated(_pull((low, deepest))),
+            "compression_deg": there,
+        }
         for high, most, at, low, deepest, there in zip(*tension, *compression, strict=True)
     ]
 
@@ -265,8 +272,8 @@ def _negated(extremes: tuple[float, float]) -> tuple[float, float]:
     return 0.0 - extremes[1], 0.0 - extremes[0]
 
 
-def _largest(case: LoadCase) -> float:
-    return max(case.tension_N, -case.compression_N)
+def _largest(case: dict[str, Any]) -> float:
+    return max(case["tension_N"], -case["compression_N"])
 
 
 def _gas_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:

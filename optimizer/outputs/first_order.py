@@ -5,11 +5,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
 from typing import NamedTuple
 
-import numpy as np
-
 from optimizer.effects.inertia import FIRST_ORDER_EFFECTS
 from optimizer.formulation.formulate import RESPONSES
 from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.angles import turned
 from optimizer.mechanics.balance_shafts import shaft_arms
 from optimizer.mechanics.frame import phasors
 from optimizer.mechanics.inertia import Wrench
@@ -20,7 +19,7 @@ from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.phasors import PlainWrench, PolarWrench, polar_wrenches, vectors_of
 from optimizer.responses.response import Phasors
 from schemas.answer.first_order import FirstOrder, Floor, Residual, ResponseChange, ResponsePeak
-from schemas.answer.outputs import Hodograph, Hodographs, Order
+from schemas.answer.outputs import Hodographs, Order
 from schemas.answer.proof import BoundMultipliers
 from schemas.base.responses import PAIR
 
@@ -150,26 +149,29 @@ def _second_order(scene: Prepared, with_shafts: Sequence[bool]) -> list[PlainWre
 
 def hodographs(scene: Prepared, unbalance: Complex | None) -> Hodographs:
     """First order of one machine over the turn."""
-    turned = scene.layout.sense * np.deg2rad(scene.first_turn_deg)
+    unit = turned(scene.layout.sense, scene.angle_rad)[: scene.first_turn_deg.size]
     shown = [scene.first_order()] if unbalance is None else [scene.first_order(), scene.first_order(unbalance)]
     # force and moment of each, all at once
     vectors = vectors_of(shown)
-    before, *after = Phasors(vectors[..., 0], vectors[..., 1]).at(turned)
-    return Hodographs(
-        angle_deg=scene.first_turn_deg,
-        before=_hodograph(*before),
-        after=_hodograph(*after[0]) if after else None,
+    curves = Phasors(vectors[..., 0], vectors[..., 1]).of_turned(unit)
+    return Hodographs.of_figures(
+        {
+            "angle_deg": scene.angles if scene.turns == 1 else scene.first_turn_deg,
+            "before": _hodograph(curves[0]),
+            "after": _hodograph(curves[1]) if len(curves) > 1 else None,
+        }
     )
 
 
-def _hodograph(force: Complex, moment: Complex) -> Hodograph:
-    """Force [N] and moment [N m] over the turn (n,)."""
-    return Hodograph(
-        force_x_N=force.real,
-        force_y_N=force.imag,
-        moment_x_Nm=moment.real,
-        moment_y_Nm=moment.imag,
-    )
+def _hodograph(curves: Complex) -> dict[str, Real]:
+    """Force [N] and moment [N m] over the turn (2, n)."""
+    force, moment = curves[0], curves[1]
+    return {
+        "force_x_N": force.real,
+        "force_y_N": force.imag,
+        "moment_x_Nm": moment.real,
+        "moment_y_Nm": moment.imag,
+    }
 
 
 def _ellipses(wrenches: Sequence[PolarWrench]) -> list[dict[str, dict[str, float]]]:

@@ -38,7 +38,7 @@ def foundation_loads(scene: Prepared, unbalance: Complex | None) -> tuple[OrderO
     reference = dead_centre_deg(scene.machine)
     of_sets = dict(zip(sets, _loads(scene, list(sets.values()), reference), strict=True))
     return tuple(
-        OrderOfFoundation.model_validate(
+        OrderOfFoundation.of_figures(
             {"order": order, "dead_centre_deg": reference, **{name: loads[order] for name, loads in of_sets.items()}}
         )
         for order in scene.request.foundation_orders
@@ -75,7 +75,7 @@ def _loads(
     phasors = np.array(every).transpose(2, 3, 0, 1)
     weights = np.array([bare if vectors is None else vectors for _, vectors in sets])
     force, couple = (least[:, None] for least in rounding(scene.layout, weights))
-    wrench = Wrench(*(Phasors(*pair) for pair in phasors))
+    wrench = Wrench(Phasors(phasors[0, 0], phasors[0, 1]), Phasors(phasors[1, 0], phasors[1, 1]))
     loads = foundation_load(wrench, np.array(orders), scene.layout.sense, np.asarray(reference), (force, couple))
     results: list[dict[int, dict[str, Any]]] = [{order: {} for order in orders} for _ in sets]
     for name, load in loads._asdict().items():

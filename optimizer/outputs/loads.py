@@ -26,7 +26,7 @@ from optimizer.outputs.peaks import (
     torque_peak,
     torque_search,
 )
-from schemas.answer.loads import BearingWeight, CoverLoad, FrameLoad, GuideLoad, Loads, RowLoad, ThrowMass
+from schemas.answer.loads import Loads
 from schemas.answer.outputs import labels
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.machine.throws import row_cylinders
@@ -40,24 +40,26 @@ def _figure(scene: Prepared, fitted: Complex | None) -> Loads:
     result, integrals = scene.results["torque"], scene.results["torque_integrals"]
     beyond = result.total - integrals.mean
     inertia = _inertia(scene, machine)
-    return Loads(
-        angle_deg=scene.angles,
-        rows=tuple(_rows(scene, machine)),
-        throws=tuple(
-            ThrowMass(throw=t, rotating_mass_kg=throw.rotating_mass_kg + sum(row.rotating_kg for row in throw.rows))
-            for t, throw in enumerate(machine.throws)
-        ),
-        driver_Nm=float(integrals.mean),
-        shared_base_Nm=beyond,
-        own_base_peak_Nm=torque_peak(scene, result.rotating_friction).lower[0],
-        shared_base_peak_Nm=torque_peak(scene, result.rotating_friction - integrals.mean).lower[0],
-        # J eps is what the constant torque of the driver leaves over
-        angular_acceleration_rad_s2=None if inertia is None else -beyond / inertia,
-        bearing_weights=tuple(_weights(scene, machine, fitted)),
-        foundation_weight_N=(
-            None if machine.stationary_mass_kg is None else float(whole_weight(scene, machine, fitted))
-        ),
-        gravity_deg=machine.gravity_deg,
+    return Loads.of_figures(
+        {
+            "angle_deg": scene.angles,
+            "rows": tuple(_rows(scene, machine)),
+            "throws": tuple(
+                {"throw": t, "rotating_mass_kg": throw.rotating_mass_kg + sum(row.rotating_kg for row in throw.rows)}
+                for t, throw in enumerate(machine.throws)
+            ),
+            "driver_Nm": float(integrals.mean),
+            "shared_base_Nm": beyond,
+            "own_base_peak_Nm": torque_peak(scene, result.rotating_friction).lower[0],
+            "shared_base_peak_Nm": torque_peak(scene, result.rotating_friction - integrals.mean).lower[0],
+            # J eps is what the constant torque of the driver leaves over
+            "angular_acceleration_rad_s2": None if inertia is None else -beyond / inertia,
+            "bearing_weights": tuple(_weights(scene, machine, fitted)),
+            "foundation_weight_N": (
+                None if machine.stationary_mass_kg is None else float(whole_weight(scene, machine, fitted))
+            ),
+            "gravity_deg": machine.gravity_deg,
+        }
     )
 
 
@@ -73,7 +75,7 @@ def _inertia(scene: Prepared, machine: ReciprocatingMachine) -> float | None:
     return float(scene.results["torque_integrals"].fluctuation / (allowed * scene.omega_squared))
 
 
-def _rows(scene: Prepared, machine: ReciprocatingMachine) -> Iterator[RowLoad]:
+def _rows(scene: Prepared, machine: ReciprocatingMachine) -> Iterator[dict[str, Any]]:
     forces, masses = scene.results["piston_force"], scene.layout.reciprocating.mass.tolist()
     piston, rod, stopped = ([least for least, _ in row_magnitudes(scene, reading)] for reading in _READINGS)
     at_centres = at_dead_centres(scene).tolist()
@@ -84,24 +86,24 @@ def _rows(scene: Prepared, machine: ReciprocatingMachine) -> Iterator[RowLoad]:
         three = {"gas": _magnitude(*gas[k]), "inertia": _magnitude(*inertia[k]), "running": piston[k]}
         link = rows[k].connecting_rod
         worst = max(three, key=lambda name: three[name])
-        yield RowLoad(
+        yield {
             **place,
-            reciprocating_mass_kg=masses[k],
-            rod_rotating_mass_kg=0.0 if link is None else float(link.rotating_kg),
-            rotating_mass_kg=float(rows[k].rotating_kg),
-            largest_gas_N=three["gas"],
-            largest_inertia_N=three["inertia"],
-            largest_piston_force_N=three["running"],
-            piston_rod_N=three[worst],
-            piston_rod_governed_by=worst,
-            crosshead_pin_N=rod[k],
-            stop_at_outer_dead_centre_N=at_centres[k][0],
-            stop_at_inner_dead_centre_N=at_centres[k][1],
-            stop_over_the_turn_N=stopped[k],
-            covers=tuple(covers[k][: 2 * sum(1 for _ in row_cylinders(rows[k]))]) if covers else (),
-            frame=frames[k],
-            guide=None if guides is None else guides[k],
-        )
+            "reciprocating_mass_kg": masses[k],
+            "rod_rotating_mass_kg": 0.0 if link is None else float(link.rotating_kg),
+            "rotating_mass_kg": float(rows[k].rotating_kg),
+            "largest_gas_N": three["gas"],
+            "largest_inertia_N": three["inertia"],
+            "largest_piston_force_N": three["running"],
+            "piston_rod_N": three[worst],
+            "piston_rod_governed_by": worst,
+            "crosshead_pin_N": rod[k],
+            "stop_at_outer_dead_centre_N": at_centres[k][0],
+            "stop_at_inner_dead_centre_N": at_centres[k][1],
+            "stop_over_the_turn_N": stopped[k],
+            "covers": tuple(covers[k][: 2 * sum(1 for _ in row_cylinders(rows[k]))]) if covers else (),
+            "frame": frames[k],
+            "guide": None if guides is None else guides[k],
+        }
 
 
 def at_dead_centres(scene: Prepared) -> Real:
@@ -118,7 +120,7 @@ def at_dead_centres(scene: Prepared) -> Real:
     return np.stack([total[..., rows, rows], total[..., rows, count + rows]], axis=-1)
 
 
-def _covers(scene: Prepared) -> list[list[CoverLoad]]:
+def _covers(scene: Prepared) -> list[list[dict[str, Any]]]:
     """Loads on the covers of every row, of as many chambers as any row has; none without gas."""
     cycle: GasCycle | None = scene.results.get("gas")
     if cycle is None:
@@ -127,27 +129,27 @@ def _covers(scene: Prepared) -> list[list[CoverLoad]]:
     smallest, largest = _ends(cycle.forces.pressure)
     return [
         [
-            CoverLoad(
-                cylinder=chamber // 2,
-                side="crank" if chamber % 2 else "head",
-                largest_N=high * area,
-                smallest_N=low * area,
-            )
+            {
+                "cylinder": chamber // 2,
+                "side": "crank" if chamber % 2 else "head",
+                "largest_N": high * area,
+                "smallest_N": low * area,
+            }
             for chamber, (low, high, area) in enumerate(zip(*of_row, strict=True))
         ]
         for of_row in zip(smallest, largest, cycle.forces.area.tolist(), strict=True)
     ]
 
 
-def _frame(smallest: float, largest: float) -> FrameLoad:
+def _frame(smallest: float, largest: float) -> dict[str, float]:
     """The cylinders of a row pull at the frame against the gas force [N] on its pistons."""
     low, high = -largest, -smallest
-    return FrameLoad(
-        tension_N=max(high, 0.0),
-        compression_N=min(low, 0.0) + 0.0,
-        mean_N=0.5 * (low + high) + 0.0,
-        amplitude_N=0.5 * (high - low),
-    )
+    return {
+        "tension_N": max(high, 0.0),
+        "compression_N": min(low, 0.0) + 0.0,
+        "mean_N": 0.5 * (low + high) + 0.0,
+        "amplitude_N": 0.5 * (high - low),
+    }
 
 
 def _magnitude(smallest: float, largest: float) -> float:
@@ -167,19 +169,19 @@ def on_guides(scene: Prepared, machine: ReciprocatingMachine) -> tuple[Real, Rea
     return on_guide(scene.results["rod_forces"].side, layout.reciprocating.axis, layout.sense, masses, down)
 
 
-def _guides(scene: Prepared, machine: ReciprocatingMachine) -> list[GuideLoad] | None:
+def _guides(scene: Prepared, machine: ReciprocatingMachine) -> list[dict[str, Any]] | None:
     if machine.gravity_deg is None:
         return None
     force, weight = on_guides(scene, machine)
     share = np.mean(force < 0.0, axis=-1)
     return [
-        GuideLoad(
-            weight_N=pull,
-            largest_N=largest,
-            smallest_N=smallest,
-            lifts=None if pull == 0.0 else lifted > 0.0,
-            lifted_share=0.0 if pull == 0.0 else lifted,
-        )
+        {
+            "weight_N": pull,
+            "largest_N": largest,
+            "smallest_N": smallest,
+            "lifts": None if pull == 0.0 else lifted > 0.0,
+            "lifted_share": 0.0 if pull == 0.0 else lifted,
+        }
         for pull, smallest, largest, lifted in zip(weight.tolist(), *_ends(force), share.tolist(), strict=True)
     ]
 
@@ -212,16 +214,16 @@ def on_bearings(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex 
     return result
 
 
-def _weights(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | None) -> Iterator[BearingWeight]:
+def _weights(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | None) -> Iterator[dict[str, Any]]:
     if not machine.bearings:
         return
     for bearing, weight in zip(machine.bearings, on_bearings(scene, machine, fitted).tolist(), strict=True):
-        yield BearingWeight(
-            name=bearing.name,
-            weight_N=abs(weight),
-            x_N=None if machine.gravity_deg is None else weight.real,
-            y_N=None if machine.gravity_deg is None else weight.imag,
-        )
+        yield {
+            "name": bearing.name,
+            "weight_N": abs(weight),
+            "x_N": None if machine.gravity_deg is None else weight.real,
+            "y_N": None if machine.gravity_deg is None else weight.imag,
+        }
 
 
 def whole_weight(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | None) -> Real:

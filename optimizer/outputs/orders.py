@@ -13,7 +13,7 @@ def orders(scene: Prepared, unbalance: Complex | None) -> OrdersComparison:
     sets = [scene.orders(None)] if unbalance is None else [scene.orders(None), scene.orders(unbalance)]
     polars = iter(polar_wrenches([PlainWrench.of(wrench) for wrenches in sets for wrench in wrenches.values()]))
     before, *after = ([next(polars).order(number) for number in wrenches] for wrenches in sets)
-    return OrdersComparison.model_validate({"before": before, "after": after[0] if after else None})
+    return OrdersComparison.of_figures({"before": before, "after": after[0] if after else None})
 
 
 def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:

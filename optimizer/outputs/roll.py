@@ -20,7 +20,7 @@ _BARE, _FITTED = ("roll",), ("roll", "shafts")
 
 
 def _figure(scene: Prepared, unbalance: Complex | None) -> Roll:
-    angle, square = np.deg2rad(scene.angle_deg), scene.omega_squared
+    angle, square = scene.angle_rad, scene.omega_squared
     bare = _samples(scene)
     before = after = _moment(scene, bare, peak_list(scene, _BARE, lambda: _bare(scene)))
     fitted = None if unbalance is None or scene.shafts is None else np.concatenate([unbalance, scene.shafts])

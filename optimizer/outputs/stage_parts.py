@@ -15,7 +15,7 @@ from optimizer.mechanics.layout import Layout
 from optimizer.outputs.ellipses import Ellipse
 from optimizer.outputs.phasors import PlainWrench
 from optimizer.outputs.rules_of_thumb import SAME_PLANE_M
-from schemas.answer.stages import Acting, StageIron
+from schemas.answer.stages import StageIron
 
 #: the smaller phasor over the larger one below which it counts as none: an optimum leaves what the asked gap allows
 _SHAPE = 1e-6
@@ -64,29 +64,31 @@ def in_two_planes(force: Any, couple: Any, low: Any, high: Any, centre: Any) -> 
     return (abs(couple - (high - centre) * force) + abs(couple - (low - centre) * force)) / (high - low)
 
 
-def actings(parts: Sequence[tuple[Ellipse, int]], speed: float, noise: tuple[float, float]) -> tuple[Acting, ...]:
-    """Force and moment, in turn, of some wrenches, each with its order.
+def actings(
+    parts: Sequence[tuple[Ellipse, int]], speed: float, noise: tuple[float, float]
+) -> tuple[dict[str, Any], ...]:
+    """Fields (:class:`schemas.answer.stages.Acting`) of force and moment, in turn, of wrenches, each with its order.
 
     Parameters
     ----------
     speed : rad/s.
     noise : force and moment that are none where they are no larger than this.
     """
-    return tuple(_acting(*part, k % 2 == 1, speed, noise[k % 2]) for k, part in enumerate(parts))
+    return tuple([_acting(*part, k % 2 == 1, speed, noise[k % 2]) for k, part in enumerate(parts)])
 
 
-def _acting(pair: Ellipse, order: int, moment: bool, speed: float, noise: float) -> Acting:
+def _acting(pair: Ellipse, order: int, moment: bool, speed: float, noise: float) -> dict[str, Any]:
     motion, direction = _motion(pair, noise)
-    return Acting(
-        quantity="moment" if moment else "force",
-        order=order,
-        frequency_Hz=order * speed / (2.0 * pi),
-        unit="N m" if moment else "N",
-        peak=0.0 if motion == "none" else pair.peak,
-        minor=0.0 if motion == "none" else pair.minor,
-        motion=motion,
-        direction_deg=direction,
-    )
+    return {
+        "quantity": "moment" if moment else "force",
+        "order": order,
+        "frequency_Hz": order * speed / (2.0 * pi),
+        "unit": "N m" if moment else "N",
+        "peak": 0.0 if motion == "none" else pair.peak,
+        "minor": 0.0 if motion == "none" else pair.minor,
+        "motion": motion,
+        "direction_deg": direction,
+    }
 
 
 def _motion(pair: Ellipse, noise: float) -> tuple[Motion, float | None]:

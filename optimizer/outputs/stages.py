@@ -107,6 +107,7 @@ _VIII = _Heading(
     "N",
 )
 _HEADINGS = (_I, _II, _III, _IV, _V, _VI, _VII, _VIII)
+_WORDS = tuple(heading._asdict() for heading in _HEADINGS)
 #: of forces and moments of the stages I to VI, and of what stage VIII sums up
 _ORDERS, _OF_BOTH = (1, 1, 1, 1, 2, 2), (1, 1, 2, 2)
 _NAMES = ("first-order force", "first-order moment", "second-order force", "second-order moment")
@@ -170,18 +171,25 @@ def stages(
     shapes.append(_summary(of_all, all_left, scale, speed))
     in_planes = iron(planes, centre, rotating, moving)
     rules = {_III: force_rules(of_force, square), _IV: moment_rules(of_moment, square, high - low)}
+    # one validation of a stage takes two thirds of the time of one of each part
     return tuple(
-        Stage(
-            **heading._asdict(),
-            **shape._asdict(),
-            value=value[k],
-            remaining=remaining[k],
-            acting=summed if heading is _VIII else before[k : k + 1],
-            left=None if unbalance is None else what_is_left if heading is _VIII else after[k : k + 1],
-            iron=in_planes if heading is _VII else (),
-            rules_of_thumb=rules.get(heading, ()),
-        )
-        for k, (heading, shape) in enumerate(zip(_HEADINGS, shapes, strict=True))
+        [
+            Stage.of_figures(
+                {
+                    **_WORDS[k],
+                    "plane": shape.plane,
+                    "frequency": shape.frequency,
+                    "balanceable": shape.balanceable,
+                    "value": value[k],
+                    "remaining": remaining[k],
+                    "acting": summed if heading is _VIII else before[k : k + 1],
+                    "left": None if unbalance is None else what_is_left if heading is _VIII else after[k : k + 1],
+                    "iron": in_planes if heading is _VII else (),
+                    "rules_of_thumb": rules.get(heading, ()),
+                }
+            )
+            for k, (heading, shape) in enumerate(zip(_HEADINGS, shapes, strict=True))
+        ]
     )
 
 

@@ -11,21 +11,16 @@ and the influence of a counterweight is free of speed. Angles are shaft angles t
 """
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple, Protocol
+from typing import Protocol
 
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, Reals, in_order
-from optimizer.numerics.enclosing_circle import Circle
 from optimizer.numerics.records import record
+from optimizer.responses.floors import Floor, Floors
 from optimizer.responses.moving_curves import Harmonics, moved
 from optimizer.responses.piecewise_cubics import Bracket, Index, Pieces
 from optimizer.responses.worst_masses import Parts
-
-#: points added to those of the pieces for the smallest circle around a curve, at most
-_MOST_POINTS = 50
-#: a circle this share of the curve's distance from the origin is a point
-_ROUNDING = 256 * np.finfo(float).eps
 
 
 class Curves(Protocol):
@@ -194,28 +189,6 @@ def _moving(response: TurnResponse, by: Harmonics, tolerance: Reals) -> Bracket:
     return brackets._replace(value=brackets.value - by.at(brackets.angle))
 
 
-class Floor(NamedTuple):
-    """What the peak of a curve comes to at least, whatever the counterweights."""
-
-    circle: Circle  # around some points of the curve; no constant brings the peak below its radius
-    angle: Real  # (support,) rad, of the points that hold it
-    value: Complex  # (support,) the curve there
-    upper: Real  # proven peak about the circle's centre, () : the floor is between the radius and this
-
-
-class Floors(NamedTuple):
-    """The same of J curves: circles around some points of each, and their proven peaks about the centres."""
-
-    centre: Complex  # (J,)
-    radius: Real  # (J,)
-    upper: Real  # (J,)
-    points: "_Points"
-
-    def floor(self, number: int) -> Floor:
-        """That of one curve, with the points that hold its circle."""
-        return Floor(*self.points.circle(number), self.upper[number])
-
-
 def floors(
     curves: Curves, tolerance: float, numbers: Sequence[int] | Index | None = None, group: Index | None = None
 ) -> Floors:
@@ -227,85 +200,15 @@ def floors(
     group : (numbers,) from 0, where only the largest radius of each group is asked for: of the others no more is found
         out than that they are smaller.
     """
-    from optimizer.responses.kernel.outlines import farthest, nearer, outlines
+    from optimizer.responses.kernel.parts import Members
 
-    pieces, every = curves.pieces, curves.pieces.cubics
-    number: Index = np.arange(len(pieces.half)) if numbers is None else np.array(numbers, dtype=np.intp)
-    together = np.arange(number.size) if group is None else group
-    outline = outlines(every, number, np.flatnonzero(pieces.half[number[0]] > 0.0), together)
-    rounding = _ROUNDING * outline.size
-    centre, radius, upper = outline.centre, outline.radius, outline.upper
-    sought = upper >= (outline.lower if group is None else _largest(outline.lower, group))
-    points = _Points(outline.centre, outline.lower)
-    open_ = np.flatnonzero(sought)
-    # the first points of a curve are those that hold its outline
-    held = sought[outline.curve]
-    first: tuple[Any, ...] = outline.curve[held], outline.at[held], outline.angle[held]
-    for _ in range(_MOST_POINTS):
-        # all points that may hold a circle about this centre, not only the farthest
-        of, curve, piece, half, near = farthest(every, number, outline, open_, centre[open_])
-        cubic = in_order(np.asarray(pieces.source.cubics(curve, piece, near, half), complex))
-        near = nearer(every, curve, piece, near, cubic, centre[of])
-        if first:
-            of, piece, near = (np.concatenate(both) for both in zip(first, (of, piece, near), strict=True))
-            curve, first = number[of], ()
-        points.add(of, near, pieces.source.values(curve, piece, near))
-        centre[open_], radius[open_] = points.surround(open_)
-        peak = pieces.peaks(-centre[open_], 0.5 * tolerance, number[open_])
-        upper[open_] = peak.upper
-        beyond = peak.upper > radius[open_] * (1.0 + tolerance) + rounding[open_]
-        if group is not None:
-            beyond &= peak.upper > _largest(radius, group)[open_]
-        open_ = open_[beyond]
-        if not open_.size:
-            break
-        points.add(open_, peak.angle[beyond], peak.value[beyond])
-        centre[open_], radius[open_] = points.surround(open_)
-    return Floors(points.centre, points.radius, upper, points)
-
-
-def _largest(values: Real, group: Index) -> Real:
-    """The largest of its group for each of some values (n,)."""
-    most = np.full(int(np.maximum.reduce(group)) + 1, -np.inf)
-    np.maximum.at(most, group, values)
-    return most[group]
-
-
-class _Points:
-    """Points of curves, of each those that may hold its smallest circle, and the circles last found.
-
-    centre, radius : (J,) of circles that no points hold, as long as there are none.
-    """
-
-    def __init__(self, centre: Complex, radius: Real) -> None:
-        curves = len(centre)
-        # which curve, rad, and the curve there
-        self._of, self._angle, self._value = np.zeros(0, np.intp), np.zeros(0), np.zeros(0, complex)
-        self.centre, self.radius = centre.copy(), np.maximum(radius, 0.0)
-        self._support, self._weights = np.zeros((curves, 3), np.intp), np.zeros((curves, 3))
-        self._count = np.zeros(curves, np.intp)
-
-    def add(self, of: Index, angle: Real, value: Complex) -> None:
-        """Points (n,) more."""
-        self._of = np.concatenate((self._of, of))
-        self._angle = np.concatenate((self._angle, angle))
-        self._value = np.concatenate((self._value, value))
-
-    def surround(self, some: Index) -> tuple[Complex, Real]:
-        """The smallest circles around the points of some curves (n,): centres and radii."""
-        from optimizer.responses.kernel.outlines import circles
-
-        centre, radius, *held = circles(self._of, in_order(self._value), some)
-        self.centre[some], self.radius[some] = centre, radius
-        self._support[some], self._weights[some], self._count[some] = held
-        return centre, radius
-
-    def circle(self, k: int) -> tuple[Circle, Real, Complex]:
-        """That of a curve, and angles and values of the points that hold it."""
-        count = self._count[k]
-        held = self._support[k, :count]
-        circle = Circle(complex(self.centre[k]), float(self.radius[k]), held, self._weights[k, :count])
-        return circle, self._angle[held], self._value[held]
+    pieces = curves.pieces
+    every = np.arange(len(pieces.half))
+    number = every if numbers is None else np.array(numbers, dtype=np.int64)
+    together = every[: number.size] if group is None else in_order(np.asarray(group, np.int64))
+    open_ = np.array([tolerance])
+    members = Members(number, together, np.zeros(0, complex), open_, pieces.size[number], np.zeros(0))
+    return pieces.source.circles(pieces.cubics, members)
 
 
 def floor(response: TurnResponse, tolerance: float) -> Floor:

@@ -13,6 +13,7 @@ import numpy as np
 from optimizer.numerics.arrays import Complex, Real, in_order, plain
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
+from optimizer.responses.floors import Floors
 from optimizer.responses.piecewise_cubics import Index, Pieces, Source
 
 if TYPE_CHECKING:
@@ -90,6 +91,10 @@ class MovingCurve:
     def search(self, cubics: "Cubics", members: "Members", best: "Best", motion: "Motion | None" = None) -> Complex:
         assert motion is None  # what moves is brought into another motion as one
         return self._seen(self.source.search(cubics, members, best, self.motion), best.angle)
+
+    def circles(self, cubics: "Cubics", members: "Members", motion: "Motion | None" = None) -> Floors:
+        assert motion is None  # as above
+        return self.source.circles(cubics, members, self.motion)
 
     def _seen(self, values: Complex, angle: Real) -> Complex:
         if self.axis is not None:

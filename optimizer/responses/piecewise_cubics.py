@@ -11,6 +11,8 @@ Shapes: J curves of P pieces each. A vector across the shaft is complex, x + jy;
 Source: R. T. Farouki, The Bernstein polynomial basis: a centennial retrospective, CAGD 29 (2012).
 """
 
+from functools import cache
+from types import ModuleType
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
@@ -19,6 +21,7 @@ from numpy.typing import NDArray
 from optimizer.numerics.arrays import Complex, Real, Reals, all_true, in_order
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
+from optimizer.responses.floors import Floors
 
 if TYPE_CHECKING:
     from optimizer.responses.kernel.motion import Motion
@@ -64,6 +67,15 @@ class Source(Protocol):
         best : so far, which it improves.
         """
 
+    def circles(self, cubics: "Cubics", members: "Members", motion: "Motion | None" = None) -> Floors:
+        """The smallest circles around the curves, or around one of them in motion, from their pieces.
+
+        Parameters
+        ----------
+        members : which curves, and of each group of them only the largest circle counts; what of a radius may be left
+            open (1,), and as rounding the size of what is added up in each.
+        """
+
 
 @record(frozen=True)
 class Pieces:
@@ -95,10 +107,9 @@ class Pieces:
     @cached_property
     def cubics(self) -> "Cubics":
         """What is compiled takes them as."""
-        from optimizer.responses.kernel.parts import Cubics
-
         centre, half, rest = (in_order(np.asarray(array, float)) for array in (self.centre, self.half, self.rest))
-        return Cubics(centre, half, in_order(np.asarray(self.cubic, complex)), rest)
+        cubics: Cubics = _parts().Cubics(centre, half, in_order(np.asarray(self.cubic, complex)), rest)
+        return cubics
 
     def peaks(
         self,
@@ -125,13 +136,14 @@ class Pieces:
         if group is None and all_true(finite):
             scale = np.abs(offset)
             scale += self.size if curve is None else self.size[curve]
-            share, signs = np.zeros((2, every.size))
+            share, signs = np.empty(every.size), np.zeros(every.size)
             share[:] = tolerance
             if not magnitudes:
                 signs[:] = sign
             return _bracketed(self, offset, of_member, every, scale, share, signs, magnitudes)
         sought = every if group is None else group
-        scale, share, signs = np.zeros((3, int(np.maximum.reduce(sought, initial=-1)) + 1))
+        count = int(np.maximum.reduce(sought, initial=-1)) + 1
+        scale, share, signs = np.zeros(count), np.zeros(count), np.zeros(count)
         offset, of_member, sought = offset[finite], of_member[finite], sought[finite]
         np.maximum.at(scale, sought, self.size[of_member] + np.abs(offset))
         np.maximum.at(share, sought, tolerance[finite] if isinstance(tolerance, np.ndarray) else tolerance)
@@ -139,6 +151,14 @@ class Pieces:
         some = np.zeros(scale.size, dtype=bool)
         some[sought] = True
         return _bracketed(self, offset, of_member, sought, scale, share, signs, magnitudes).where(some)
+
+
+# it loads the compiler, and so at the first call; an import at each takes as long as a small array
+@cache
+def _parts() -> ModuleType:
+    from optimizer.responses.kernel import parts
+
+    return parts
 
 
 def _bracketed(
@@ -161,17 +181,15 @@ def _bracketed(
     scale, share, sign : (count,) size of what is added up, tolerance and sign of each peak.
     magnitudes : whether all signs are 0.
     """
-    from optimizer.responses.kernel.parts import Best, Members
-
-    count = scale.size
+    count, parts = scale.size, _parts()
     if not group.size:
         return Bracket(*(np.full(count, np.nan) for _ in range(4)))
     curve, peak = (in_order(np.asarray(part, np.int64)) for part in (of_member, group))
-    members = Members(curve, peak, in_order(np.asarray(offset, complex)), share, ROUNDING * scale, sign)
-    lower, upper, angle = np.zeros((3, count))
+    members = parts.Members(curve, peak, in_order(np.asarray(offset, complex)), share, ROUNDING * scale, sign)
+    lower, upper = np.empty(count), np.empty(count)
     lower.fill(np.nan)
     upper.fill(-np.inf)
-    best = Best(lower, upper, angle, *np.zeros((2, count), np.int64))
+    best = parts.Best(lower, upper, np.zeros(count), np.zeros(count, np.int64), np.zeros(count, np.int64))
     value = pieces.source.search(pieces.cubics, members, best)
     there = value + members.offset[best.member]
     lower = np.abs(there) if magnitudes else np.where(sign == 0.0, np.abs(there), sign * there.real)

@@ -66,8 +66,11 @@ class Phasors:
         -------
         (..., n) complex.
         """
-        turn = np.exp(1j * order * angle_rad)
-        return self.co[..., None] * turn + self.counter[..., None] * np.conj(turn)
+        return self.of_turned(np.exp(1j * order * angle_rad))
+
+    def of_turned(self, unit: Complex) -> Complex:
+        """The same (..., n) where a shaft that turned as often as they do points along unit vectors (..., n)."""
+        return self.co[..., None] * unit + self.counter[..., None] * np.conj(unit)
 
 
 @record(frozen=True)

@@ -1,5 +1,6 @@
 """Answers as JSON in bytes, as workers send them."""
 
+from collections.abc import Callable
 from typing import Any
 
 import orjson
@@ -15,10 +16,23 @@ def json_bytes(answer: Model) -> bytes:
     time and writes curves as the arrays that they are; a test holds that their fields go out as they stand.
     """
     if curve_fields(type(answer)):
-        return orjson.dumps(answer, default=_content, option=orjson.OPT_SERIALIZE_NUMPY)
+        return orjson.dumps(answer, default=_contents(), option=orjson.OPT_SERIALIZE_NUMPY)
     return answer.__pydantic_serializer__.to_json(answer)
 
 
-def _content(part: Any) -> Any:
-    """What orjson writes of a curve or a model."""
-    return part.numbers if type(part) is Curve else vars(part)
+def _contents() -> Callable[[Any], Any]:
+    """What orjson writes of a curve or a model of one answer; of a curve that stands there again the same text."""
+    texts: dict[int, orjson.Fragment | None] = {}
+
+    def content(part: Any) -> Any:
+        if type(part) is not Curve:
+            return vars(part)
+        number = id(part)
+        if number not in texts:
+            texts[number] = None
+            return part.numbers
+        if texts[number] is None:
+            texts[number] = orjson.Fragment(orjson.dumps(part.numbers, option=orjson.OPT_SERIALIZE_NUMPY))
+        return texts[number]
+
+    return content

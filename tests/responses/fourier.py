@@ -9,6 +9,7 @@ import numpy as np
 from optimizer.mechanics.curve_series import CurveSeries
 from optimizer.mechanics.row_data import RowData
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.responses.floors import Floors
 from optimizer.responses.kernel.motion import STILL, Motion
 from optimizer.responses.kernel.parts import Best, Cubics, Members
 from optimizer.responses.piecewise_cubics import Index, Pieces
@@ -79,8 +80,20 @@ class FourierCurves:
 
     def search(self, cubics: Cubics, members: Members, best: Best, motion: Motion | None = None) -> Complex:
         """Harmonics that are added to what is 0."""
-        by, size, times = STILL if motion is None else motion, self.coefficient.astype(complex), self.order
-        if motion is not None:
+        by = STILL if motion is None else motion
+        series, moving = self._turning(by)
+        series.search(cubics, members, best, moving)
+        return self.values(members.curve[best.member] + by.first, best.piece, best.angle)
+
+    def circles(self, cubics: Cubics, members: Members, motion: Motion | None = None) -> Floors:
+        """Around the same."""
+        series, moving = self._turning(STILL if motion is None else motion)
+        return series.circles(cubics, members, moving)
+
+    def _turning(self, by: Motion) -> tuple[CurveSeries, Motion]:
+        """Curves that are 0, and the harmonics that are added, of all or of the one that is in motion."""
+        size, times = self.coefficient.astype(complex), self.order
+        if by is not STILL:
             size = size[by.first : by.first + 1]
         if by.unit != 0.0:
             size, times = size * by.unit, times + by.sense
@@ -89,6 +102,4 @@ class FourierCurves:
         nothing = np.zeros((len(size), 1))
         series = CurveSeries(_ROW, self.pieces.centre[:1], ("piston",), nothing, nothing[:, 0])
         scalar = by.scalar or by.unit != 0.0
-        moving = Motion(0, 0j, 0.0, times.astype(float), np.ascontiguousarray(size), scalar)
-        series.search(cubics, members, best, moving)
-        return self.values(members.curve[best.member] + by.first, best.piece, best.angle)
+        return series, Motion(0, 0j, 0.0, times.astype(float), np.ascontiguousarray(size), scalar)

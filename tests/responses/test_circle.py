@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 from scipy.optimize import minimize
 
 from optimizer.numerics.enclosing_circle import smallest_circle
-from optimizer.responses.kernel.outlines import circles
 
 
 def test_one_point_two_points_and_an_obtuse_triangle() -> None:
@@ -51,22 +50,6 @@ def test_it_holds_all_points_and_its_own_hold_it(seed: int, count: int, kind: st
     assert np.all(found.weights >= 0)
     assert np.sum(found.weights) == pytest.approx(1.0)
     assert abs(np.sum(found.weights * on)) <= 1e-12 * size
-
-
-def test_circles_of_several_curves_are_those_of_each_alone() -> None:
-    # independent: one after the other, with points of all curves in any order
-    rng = np.random.default_rng(11)
-    of, points = rng.integers(0, 4, 60), rng.normal(size=60) + 1j * rng.normal(size=60)
-    of[:8] = np.repeat(np.arange(4), 2)
-    some = np.array([2, 0, 3])
-    centre, radius, support, weights, number = circles(of, points, some)
-    for n, curve in enumerate(some.tolist()):
-        own = np.flatnonzero(of == curve)
-        alone = smallest_circle(points[own])
-        assert (centre[n], radius[n]) == (alone.centre, alone.radius)
-        assert support[n, : number[n]].tolist() == own[alone.support].tolist()
-        assert weights[n, : number[n]].tolist() == alone.weights.tolist()
-        assert not weights[n, number[n] :].any()
 
 
 def test_it_is_what_a_minimisation_finds() -> None:

@@ -43,6 +43,9 @@ def crossings(cubics, level, rows, sums, middle):  # type: ignore[no-untyped-def
             to = place[k] - above / (np.inf if slope[k] == 0.0 else slope[k])
             to = min(max(to, between[0, k]), between[1, k])
             step[k], place[k], before[k] = to - place[k], to, above
+        if not step.any():
+            # they stay where they are
+            break
     error, count = np.zeros(level.size), np.zeros(level.size, np.int64)
     for k in range(curve.size):
         # the integral is flat there

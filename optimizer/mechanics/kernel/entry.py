@@ -1,5 +1,5 @@
 """The entry to all that is made of rows over the whole turn: what their forces are made of, curves as sums of these,
-their peaks and their crossings; compiled.
+their peaks, circles and crossings; compiled.
 
 All but sums expand the rows, and machine code of that is made anew for every entry.
 """
@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from optimizer.mechanics.kernel.circles import circles
 from optimizer.mechanics.kernel.crossings import crossings
 from optimizer.mechanics.kernel.curves import NOTHING, Sums, sums_of_rows
 from optimizer.mechanics.kernel.design_forces import design_forces
@@ -18,9 +19,9 @@ from optimizer.numerics.compiling import kernel
 from optimizer.responses.kernel.motion import STILL, Motion
 from optimizer.responses.kernel.parts import Best, Cubics, Members
 
-#: what is made: functions of the rows, sums of such, both at once; peaks or crossings of curves; or forces of the rows
-#: of many designs, and sums of such
-FUNCTIONS, SUMS, BOTH, PEAKS, CROSSINGS, FORCES, FORCE_SUMS = range(7)
+#: what is made: functions of the rows, sums of such, both at once; peaks or crossings of curves; forces of the rows of
+#: many designs, and sums of such; or circles around curves
+FUNCTIONS, SUMS, BOTH, PEAKS, CROSSINGS, FORCES, FORCE_SUMS, CIRCLES = range(8)
 
 #: where all rows have functions of their own
 NO_KINDS = np.zeros((2, 0), np.int64)
@@ -46,7 +47,7 @@ class Reading(NamedTuple):
 
 
 class Sought(NamedTuple):
-    """What is sought of curves: peaks as :func:`search` takes them, or where they cross levels (N,)."""
+    """What is sought of curves: peaks as :func:`search` takes them, circles, or where they cross levels (N,)."""
 
     cubics: Cubics
     members: Members
@@ -83,7 +84,8 @@ def over_turn(
 
     Of forces of many designs as functions come the results of :func:`design_forces`, about centres that are sought. Of
     peaks, which it improves, the curves there (G, 1, 1); of levels (N,) the angles (N, n) at which curves cross them
-    in place of what is left out, and what their integrals may be off by (N,) in place of the size.
+    in place of what is left out, and what their integrals may be off by (N,) in place of the size; of circles the
+    results of :func:`circles`, (J, 4, 1) and (J, 9).
 
     Parameters
     ----------
@@ -118,11 +120,15 @@ def _over_turn(  # type: ignore[no-untyped-def]
         cubic, rest, size = sums_of_rows(
             rows, sums, curve, of, Functions(*bounds), bound, design, angles, half, task == FORCE_SUMS, parts[47]
         )
-    elif task == PEAKS:
+    elif task in (PEAKS, CIRCLES):
         motion = Motion(moved, unit, sense, parts[45], parts[46], scalar)
-        cubics, members, best = Cubics(*parts[28:32]), Members(*parts[32:38]), Best(*parts[38:43])
-        there = search(cubics, members, best, rows, sums, parts[44], motion)
-        cubic = there.reshape((there.size, 1, 1))
+        cubics, members = Cubics(*parts[28:32]), Members(*parts[32:38])
+        if task == CIRCLES:
+            vectors, rest = circles(cubics, members, rows, sums, parts[44], motion)
+            cubic = vectors.reshape((len(vectors), 4, 1))
+        else:
+            there = search(cubics, members, Best(*parts[38:43]), rows, sums, parts[44], motion)
+            cubic = there.reshape((there.size, 1, 1))
     elif task == FORCES:
         functions = design_forces(rows, parts[19], parts[44], parts[21], order, pressed)
     elif task == CROSSINGS:

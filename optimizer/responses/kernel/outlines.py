@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.numerics.compiling import inner, kernel
+from optimizer.numerics.compiling import inner, inner_with_arrays
 from optimizer.numerics.kernel.circle import length, smallest
 
 #: at which the cubic of every piece is looked at
@@ -47,15 +47,28 @@ class Outlines(NamedTuple):
     angle: Real
 
 
-@kernel
-def outlines(cubics, number, held, group):  # type: ignore[no-untyped-def]
-    """Outlines of curves (J,), by their pieces that have a width (P',); of each group (J,) only the largest counts.
+class Circles(NamedTuple):
+    """The smallest circles around points of J curves.
+
+    support, weights, held : (J, 3) which points hold each, with what weights, and (J,) how many.
+    """
+
+    centre: Complex
+    radius: Real
+    support: np.ndarray
+    weights: Real
+    held: np.ndarray
+
+
+@inner_with_arrays
+def outlines(cubics, number, group):  # type: ignore[no-untyped-def]
+    """Outlines of curves (J,), all of which have the same pieces; of each group (J,) only the largest counts.
 
     Between two places a cubic is no farther from its chord than an eighth of the square of their distance times its
     largest second derivative. A curve in a box that is smaller than the circle of another of its group has the circle
     around that box, and no places that hold it.
     """
-    curves, share = number.size, PLACES.size
+    curves, share, held = number.size, PLACES.size, _wide(cubics.half[number[0]])
     values = np.empty((curves, held.size * share), np.complex128)
     centre, radius = np.empty(curves, np.complex128), np.empty(curves)
     lower, upper = np.empty(curves), np.empty(curves)
@@ -99,6 +112,17 @@ def outlines(cubics, number, held, group):  # type: ignore[no-untyped-def]
     return Outlines(held, values, centre, radius, lower, upper, size, curve, at, angle)
 
 
+@inner_with_arrays
+def _wide(half):  # type: ignore[no-untyped-def]
+    """Which pieces (P',) have a width."""
+    count, held = 0, np.empty(half.size, np.int64)
+    for p in range(half.size):
+        if half[p] > 0.0:
+            held[count] = p
+            count += 1
+    return held[:count].copy()
+
+
 @inner
 def _at_places(cubic, out):  # type: ignore[no-untyped-def]
     """Write a cubic (4,) at the places; part by part, for a product of two complex numbers takes twice as long."""
@@ -139,7 +163,7 @@ def _box(cubics, curve, held):  # type: ignore[no-untyped-def]
     return complex(0.5 * (left + right), 0.5 * (low + high)), 0.5 * np.hypot(right - left, high - low)
 
 
-@kernel
+@inner_with_arrays
 def farthest(cubics, number, outline, chosen, centre):  # type: ignore[no-untyped-def]
     """Where some outlines (n,) are about as far from centres (n,) as anywhere: of which of all outlines, their curves,
     pieces and half widths of these, angles (m,) rad."""
@@ -165,28 +189,23 @@ def farthest(cubics, number, outline, chosen, centre):  # type: ignore[no-untype
     return which, number[which], piece[:count].copy(), angle[1, :count].copy(), angle[0, :count].copy()
 
 
-@kernel
-def circles(of, points, chosen):  # type: ignore[no-untyped-def]
-    """The smallest circles around points (m,) of curves (m,), for some of these (n,): centres, radii (n,), which points
-    hold each, with what weights (n, 3), and how many (n,)."""
-    count = chosen.size
-    centre, radius, number = np.empty(count, np.complex128), np.empty(count), np.zeros(count, np.int64)
-    support, weights = np.zeros((count, 3), np.int64), np.zeros((count, 3))
+@inner_with_arrays
+def surround(of, points, chosen, circles):  # type: ignore[no-untyped-def]
+    """Write the smallest circles around points (m,) of curves (m,), for some of these (n,)."""
     place, own = np.empty(of.size, np.int64), np.empty(of.size, np.complex128)
-    for n in range(count):
+    for j in chosen:
         size = 0
         for k in range(of.size):
-            if of[k] == chosen[n]:
+            if of[k] == j:
                 place[size], own[size] = k, points[k]
                 size += 1
-        centre[n], radius[n], held, shares = smallest(own[:size])
-        number[n] = held.size
+        circles.centre[j], circles.radius[j], held, shares = smallest(own[:size])
+        circles.held[j] = held.size
         for k in range(held.size):
-            support[n, k], weights[n, k] = place[held[k]], shares[k]
-    return centre, radius, support, weights, number
+            circles.support[j, k], circles.weights[j, k] = place[held[k]], shares[k]
 
 
-@kernel
+@inner_with_arrays
 def nearer(cubics, curve, piece, angle, cubic, centre):  # type: ignore[no-untyped-def]
     """Angles (m,) rad near others (m,) at which curves (m,) are farthest from centres (m,) within their pieces (m,), by
     cubics (m, 4) about the others."""

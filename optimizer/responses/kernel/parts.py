@@ -157,29 +157,34 @@ def _extremes(cubic, sign, square):  # type: ignore[no-untyped-def]
 def first_open(cubics, members, best):  # type: ignore[no-untyped-def]
     """The pieces that may hold a peak above the best value at a centre, by how far a cubic may be from it."""
     most = np.empty((members.curve.size, cubics.half.shape[1]))
-    parts = _none(_measured(cubics, members, best, most))
+    reach = np.empty(cubics.half.shape)
+    reach[:, 0] = np.nan
+    parts = _none(_measured(cubics, members, best, reach, most))
     _begun(cubics, members, best, most, parts)
     return still_open(parts, members, best, MOST_PARTS)
 
 
 @inner
-def _measured(cubics, members, best, most):  # type: ignore[no-untyped-def]
-    """Write what members (M,) are not above on pieces, (M, P); how many of these are open."""
+def _measured(cubics, members, best, reach, most):  # type: ignore[no-untyped-def]
+    """Write what members (M,) are not above on pieces, (M, P); how many of these are open.
+
+    Parameters
+    ----------
+    reach : (J, P) room for how far curves may be from the middles of their pieces, of which the first is nan where it
+        is not known yet.
+    """
     number, pieces = most.shape
     for m in range(number):
         curve, group = members.curve[m], members.group[m]
         half, cubic, rest, bound = cubics.half[curve], cubics.cubic[curve], cubics.rest[curve], most[m]
+        if reach[curve, 0] != reach[curve, 0]:
+            _reached(cubic, rest, reach[curve])
         offset, sign, largest, place = members.offset[m], members.sign[group], best.lower[group], -1
         for p in range(pieces):
             bound[p] = -np.inf
             if half[p] > 0.0:
                 middle = _size(cubic[p, 0] + offset, sign)
-                # how far the curve may be from the middle of a piece
-                above = middle + rest[p]
-                for i in range(1, 4):
-                    term = cubic[p, i]
-                    above += abs(term.real) if term.imag == 0.0 else length(term)
-                bound[p] = above
+                bound[p] = middle + reach[curve, p]
                 if not middle - rest[p] <= largest:
                     largest, place = middle - rest[p], p
         if place >= 0:
@@ -195,6 +200,16 @@ def _measured(cubics, members, best, most):  # type: ignore[no-untyped-def]
                 let_go = bound[p]
         _tell(best, group, let_go)
     return count
+
+
+@inner
+def _reached(cubic, rest, reach):  # type: ignore[no-untyped-def]
+    """Write how far a curve may be from the middles of its pieces (P,)."""
+    for p in range(rest.size):
+        reach[p] = rest[p]
+        for i in range(1, 4):
+            term = cubic[p, i]
+            reach[p] += abs(term.real) if term.imag == 0.0 else length(term)
 
 
 @inner

@@ -1,0 +1,164 @@
+"""The smallest circles around curves over the turn, from their pieces to their proofs; compiled.
+
+Shapes: J of the curves, m points of them.
+"""
+
+import numpy as np
+
+from optimizer.mechanics.kernel.curves import series_of_curves
+from optimizer.mechanics.kernel.search import search
+from optimizer.numerics.compiling import inner, inner_with_arrays
+from optimizer.numerics.kernel.circle import length
+from optimizer.responses.kernel.motion import moved
+from optimizer.responses.kernel.outlines import Circles, farthest, nearer, outlines, surround
+from optimizer.responses.kernel.parts import Best, Members
+from optimizer.responses.piecewise_cubics import ROUNDING
+
+#: points added to those of the pieces for the smallest circle around a curve, at most
+_MOST_POINTS = 50
+#: a circle this share of the curve's distance from the origin is a point
+_ROUNDING = 256 * np.finfo(float).eps
+#: orders, as numpy's integers like all else that is handed on
+_VALUE, _CUBIC = np.int64(0), np.int64(3)
+#: numbers of a circle: what no point of the curve is farther away than from the centre, how many points hold it, their
+#: angles and their weights
+RADIUS, UPPER, COUNT, ANGLES, WEIGHTS, _NUMBERS = 0, 1, 2, 3, 6, 9
+
+
+@inner_with_arrays
+def circles(cubics, members, rows, sums, middle, motion):  # type: ignore[no-untyped-def]
+    """The smallest circles around curves (J,): centres and the curves where they hold the circles (J, 4), and numbers
+    (J, 9), as named above.
+
+    Parameters
+    ----------
+    members : which curves, and of each group of them only the largest radius counts; how much of a radius may be left
+        open (1,), and as rounding the size of what is added up in each.
+    """
+    number, group, tolerance, size = members.curve, members.group, members.share[0], members.rounding
+    count = number.size
+    outline = outlines(cubics, number, group)
+    centre, radius, upper = outline.centre.copy(), outline.radius.copy(), outline.upper.copy()
+    result = Circles(
+        centre.copy(), np.empty(count), np.zeros((count, 3), np.int64), np.zeros((count, 3)), np.zeros(count, np.int64)
+    )
+    sought, largest = np.empty(count, np.bool_), np.empty(count)
+    _largest(outline.lower, group, largest)
+    for j in range(count):
+        result.radius[j] = max(outline.lower[j], 0.0)
+        sought[j] = upper[j] >= largest[group[j]]
+    chosen = _chosen(sought)
+    # the first points of a curve are those that hold its outline
+    first = np.empty(outline.curve.size, np.bool_)
+    for k in range(first.size):
+        first[k] = sought[outline.curve[k]]
+    of, at, angle = outline.curve[first], outline.at[first], outline.angle[first]
+    points = np.empty(0, np.complex128)
+    for _ in range(_MOST_POINTS if chosen.size > 0 else 0):
+        # all points that may hold a circle about this centre, not only the farthest
+        which, curve, piece, half, near = farthest(cubics, number, outline, chosen, centre[chosen])
+        cubic = _series(rows, sums, middle, motion, curve, piece, near, half, _CUBIC)
+        near = nearer(cubics, curve, piece, near, cubic, centre[which])
+        if points.size == 0:
+            which, piece, near = np.concatenate((of, which)), np.concatenate((at, piece)), np.concatenate((angle, near))
+            curve, of, angle = number[which], of[:0].copy(), angle[:0].copy()
+        there = _series(rows, sums, middle, motion, curve, piece, near, np.zeros(near.size), _VALUE)[:, 0]
+        of, angle, points = np.concatenate((of, which)), np.concatenate((angle, near)), np.concatenate((points, there))
+        surround(of, points, chosen, result)
+        _keep(result, chosen, centre, radius)
+        peak, value = _peaks(cubics, number, size, tolerance, chosen, centre, rows, sums, middle, motion)
+        _largest(radius, group, largest)
+        beyond = np.zeros(chosen.size, np.bool_)
+        for k in range(chosen.size):
+            j, most = chosen[k], peak.upper[k]
+            upper[j] = most
+            open_ = most > radius[j] * (1.0 + tolerance) + _ROUNDING * outline.size[j]
+            beyond[k] = open_ and most > largest[group[j]]
+        chosen = chosen[beyond]
+        if chosen.size == 0:
+            break
+        of, angle, points = (
+            np.concatenate((of, chosen)),
+            np.concatenate((angle, peak.angle[beyond])),
+            np.concatenate((points, value[beyond])),
+        )
+        surround(of, points, chosen, result)
+        _keep(result, chosen, centre, radius)
+    vectors, numbers = np.zeros((count, 4), np.complex128), np.zeros((count, _NUMBERS))
+    for j in range(count):
+        vectors[j, 0], numbers[j, RADIUS], numbers[j, UPPER] = result.centre[j], result.radius[j], upper[j]
+        numbers[j, COUNT] = result.held[j]
+        for k in range(result.held[j]):
+            held = result.support[j, k]
+            vectors[j, k + 1], numbers[j, ANGLES + k] = points[held], angle[held]
+            numbers[j, WEIGHTS + k] = result.weights[j, k]
+    return vectors, numbers
+
+
+@inner_with_arrays
+def _series(rows, sums, middle, motion, curve, piece, angle, half, order):  # type: ignore[no-untyped-def]
+    """Coefficients (m, 4) of curves in motion about angles (m,), in units of half widths (m,)."""
+    made, _ = series_of_curves(rows, sums, middle, curve + motion.first, piece, angle, np.empty(0), order)
+    cubic = np.zeros((curve.size, 4), np.complex128)
+    for n in range(curve.size):
+        wide = 1.0
+        for k in range(order + 1):
+            cubic[n, k] = made[n, k] * wide
+            wide *= half[n]
+        moved(motion, curve[n], cubic[n], 0.0, angle[n], half[n])
+    return cubic
+
+
+@inner_with_arrays
+def _peaks(  # type: ignore[no-untyped-def]
+    cubics, number, size, tolerance, chosen, centre, rows, sums, middle, motion
+):
+    """Peaks of some curves (n,) about their centres, and the curves there."""
+    count = chosen.size
+    members = Members(
+        number[chosen], np.arange(count), -centre[chosen], np.empty(count), np.empty(count), np.zeros(count)
+    )
+    for k in range(count):
+        members.share[k] = 0.5 * tolerance
+        members.rounding[k] = ROUNDING * (length(centre[chosen[k]]) + size[chosen[k]])
+    best = Best(
+        np.full(count, np.nan),
+        np.full(count, -np.inf),
+        np.zeros(count),
+        np.zeros(count, np.int64),
+        np.zeros(count, np.int64),
+    )
+    value = search(cubics, members, best, rows, sums, middle, motion)
+    cubic = np.zeros(4, np.complex128)
+    for k in range(count):
+        best.upper[k] += members.rounding[k]
+        cubic[:] = 0.0
+        cubic[0] = value[k]
+        moved(motion, members.curve[k], cubic, 0.0, best.angle[k], 0.0)
+        value[k] = cubic[0]
+    return best, value
+
+
+@inner
+def _keep(result, chosen, centre, radius):  # type: ignore[no-untyped-def]
+    for j in chosen:
+        centre[j], radius[j] = result.centre[j], result.radius[j]
+
+
+@inner
+def _largest(values, group, out):  # type: ignore[no-untyped-def]
+    """Write the largest of some values (n,) of each group."""
+    out[:] = -np.inf
+    for j in range(values.size):
+        out[group[j]] = max(out[group[j]], values[j])
+
+
+@inner_with_arrays
+def _chosen(mask):  # type: ignore[no-untyped-def]
+    """Numbers of those that are true."""
+    count, chosen = 0, np.empty(mask.size, np.int64)
+    for j in range(mask.size):
+        if mask[j]:
+            chosen[count] = j
+            count += 1
+    return chosen[:count].copy()
