@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from service.app import create_app
-from service.computations import COMPUTATIONS
+from service.computations.table import COMPUTATIONS
 from service.http.openapi import Documented
 from service.settings import Settings
 

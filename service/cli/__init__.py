@@ -23,7 +23,7 @@ from service.cli.table import table
 from service.cli.template import template
 from service.cli.terminal import FAULT, put
 from service.cli.verify import verify
-from service.computations import COMPUTATIONS
+from service.computations.table import COMPUTATIONS
 
 #: new objects before those are looked for that nothing holds any more; a first answer makes 220,000, nearly all of
 #: them modules and models

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import typer
 
 from service.cli.terminal import WORKBOOK, AsJson, File, answer, fail, put, read_input, show
-from service.computation import Computation
+from service.computations.computation import Computation
 
 #: statuses that say that the answer is not what was asked for
 _UNMET = ("infeasible", "inaccurate")

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 import typer
 
 from service.cli.terminal import File, answer, content, fail, question
-from service.computations import COMPUTATIONS
+from service.computations.table import COMPUTATIONS
 
 AnswerOption = Annotated[
     str | None,

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from service.cli.terminal import File, answer, fail, question
-from service.computations import COMPUTATIONS
+from service.computations.table import COMPUTATIONS
 
 OutputOptions = Annotated[
     list[str] | None,

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from service.cli.terminal import File, answer, fail, put, read_input
-from service.computations import COMPUTATIONS
+from service.computations.table import COMPUTATIONS
 
 _PREFIX = "table_"
 NAMES = tuple(name.removeprefix(_PREFIX) for name in COMPUTATIONS if name.startswith(_PREFIX))

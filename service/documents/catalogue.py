@@ -9,7 +9,7 @@ from schemas.answer.problem import Problem
 from schemas.base.model import Model
 from schemas.sweep.answers import SweepEstimate, SweepState
 from schemas.sweep.request import SweepRequest
-from service.computations import COMPUTATIONS
+from service.computations.table import COMPUTATIONS
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from starlette.responses import Response, StreamingResponse
 from schemas.base.model import Model
 from service.common.coding import Coding
 from service.common.validation import read_request
-from service.computation import XLSX, Computation, Form
+from service.computations.computation import XLSX, Computation, Form
 from service.fairness.quotas import holding
 from service.fairness.threads import threads_of
 from service.guard.sizes import SizeLimits

@@ -16,7 +16,7 @@ from starlette.responses import Response
 from schemas.answer.problem import Problem
 from schemas.base.model import Model
 from schemas.sweep.request import SweepRequest
-from service.computations import COMPUTATIONS
+from service.computations.table import COMPUTATIONS
 from service.guard.keys import PUBLIC, PUBLIC_FOLDERS
 from service.http.cached_document import CachedDocument, Shelf
 from service.http.operations import HEADERS, MODEL_REF, PARAMETERS, Described, headers, problems

@@ -12,7 +12,7 @@ from schemas.answer.problem import Problem
 from schemas.base.model import Model
 from schemas.sweep.answers import SweepState
 from service.common.problems import PROBLEM_JSON
-from service.computation import XLSX, Computation
+from service.computations.computation import XLSX, Computation
 from service.documents.examples import bodies
 
 Described = dict[str, Any]

@@ -41,7 +41,7 @@ def _read_again(kind: str, request: bytes) -> object:
     """All that a stored request says today, with today's defaults; None if it says nothing any more."""
     from schemas.sweep.request import SweepRequest
     from service.common.validation import InvalidRequest, check
-    from service.computations import COMPUTATIONS
+    from service.computations.table import COMPUTATIONS
 
     model = SweepRequest if kind == "sweep" else COMPUTATIONS[kind].request_model
     try:

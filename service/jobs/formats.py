@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 from service.common.plain import FORMULA, SECOND_CELL, TEXT_CELL
-from service.computation import XLSX
+from service.computations.computation import XLSX
 from service.jobs.outbox import Outbox
 from service.jobs.worksheet import worksheet
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from service.common.answer_bytes import json_bytes
-from service.computation import Computation
-from service.computations import COMPUTATIONS
+from service.computations.computation import Computation
+from service.computations.table import COMPUTATIONS
 from service.jobs.piece import ChunkResult, Unanswerable
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, BinaryIO
 
 from schemas.sweep.answers import SweepLinks, SweepState
 from schemas.sweep.request import SweepRequest
-from service.computation import request_bytes
+from service.computations.computation import request_bytes
 from service.jobs import results
 from service.jobs.coordinator import Coordinator
 from service.jobs.database import DatabaseUnavailable

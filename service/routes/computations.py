@@ -4,8 +4,8 @@ from fastapi import APIRouter
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 
-from service.computation import Computation
-from service.computations import COMPUTATIONS
+from service.computations.computation import Computation
+from service.computations.table import COMPUTATIONS
 from service.guard.access import require
 from service.http.computing import computing_of
 from service.http.direct import Endpoint

@@ -8,7 +8,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from schemas.request.requests import OptimizeRequest
-from service.computation import XLSX
+from service.computations.computation import XLSX
 from service.documents.examples import Examples, catalogue, load
 from service.documents.template import template
 from service.fairness.threads import in_threads

@@ -22,7 +22,7 @@ try:
     from pkgutil import resolve_name
 
     from optimizer.warm_up import warm_up
-    from service.computations import COMPUTATIONS
+    from service.computations.table import COMPUTATIONS
     from service.workers import worker  # noqa: F401
 
     for _computation in COMPUTATIONS.values():

@@ -8,7 +8,7 @@ from typing import BinaryIO
 
 from optimizer.numerics.records import record
 from service.common.coding import Coding
-from service.computation import Computation, Form
+from service.computations.computation import Computation, Form
 from service.guard.sizes import SizeLimits
 
 #: its priority, and how many bytes follow that say what to do, and with what

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from service.app import create_app
-from service.computations import COMPUTATIONS
+from service.computations.table import COMPUTATIONS
 
 
 @pytest.fixture(scope="module")

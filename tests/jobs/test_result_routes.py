@@ -11,7 +11,7 @@ import pytest
 from openpyxl import load_workbook
 from starlette.testclient import TestClient
 
-from service.computation import XLSX
+from service.computations.computation import XLSX
 from service.jobs import worksheet
 from tests.jobs.routes import ended, expected, finished, ready
 from tests.jobs.sweeps import MASS, analyses

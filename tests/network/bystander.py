@@ -28,7 +28,7 @@ from typing import Any
 import psutil
 
 from schemas.request.requests import OptimizeRequest
-from service.computation import XLSX
+from service.computations.computation import XLSX
 from service.documents.examples import bodies
 from service.workbook.answers import requested
 from tests.network.load import start_sweep

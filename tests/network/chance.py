@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from functools import cache
 from random import Random
 
-from service.computation import XLSX
-from service.computations import COMPUTATIONS
+from service.computations.computation import XLSX
+from service.computations.table import COMPUTATIONS
 from service.documents.examples import bodies
 from service.workbook.files import workbook
 from service.workbook.sheets import Sheets, written

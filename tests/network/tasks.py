@@ -11,8 +11,8 @@ from pathlib import Path
 from schemas.answer.problem import Problem
 from schemas.request.requests import OptimizeRequest
 from service.common.time_slices import slice_s
-from service.computation import JSON
-from service.computations import COMPUTATIONS
+from service.computations.computation import JSON
+from service.computations.table import COMPUTATIONS
 from service.documents.examples import load
 from service.guard.sizes import SizeLimits
 from service.settings import Settings

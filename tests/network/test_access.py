@@ -12,8 +12,8 @@ import pytest
 from starlette.testclient import TestClient
 
 from service.app import create_app
-from service.computation import Computation
-from service.computations import COMPUTATIONS
+from service.computations.computation import Computation
+from service.computations.table import COMPUTATIONS
 from service.documents.examples import bodies
 from service.guard import keys
 from service.guard.keys import Scope

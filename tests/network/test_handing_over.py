@@ -6,7 +6,7 @@ from typing import Any, cast
 import pytest
 from starlette.requests import Request
 
-from service.computations import COMPUTATIONS
+from service.computations.table import COMPUTATIONS
 from service.fairness.quotas import Holding, quotas
 from service.fairness.table import shares
 from service.fairness.threads import Threads

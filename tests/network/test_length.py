@@ -6,8 +6,8 @@ from typing import Any
 import pytest
 
 from service.common.validation import check
-from service.computation import XLSX
-from service.computations import COMPUTATIONS
+from service.computations.computation import XLSX
+from service.computations.table import COMPUTATIONS
 from service.documents.examples import bodies
 from service.fairness.length import long_by_size
 from tests.network.bystander import TORQUE, largest

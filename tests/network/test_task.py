@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from service.computations import COMPUTATIONS
+from service.computations.table import COMPUTATIONS
 from service.guard.sizes import SizeLimits
 from service.settings import Settings
 from service.workers.task import Priority, Task

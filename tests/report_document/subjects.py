@@ -13,7 +13,7 @@ from typing import Any
 from schemas.front.counts import CountFront
 from schemas.request.accuracy import AccuracyAnswer
 from schemas.request.requests import OptimizeRequest
-from service.computations import COMPUTATIONS
+from service.computations.table import COMPUTATIONS
 from service.documents.examples import bodies
 from service.report.blocks import Chapter
 from service.report.chapters.accuracy import measured

@@ -8,7 +8,7 @@ from starlette.testclient import TestClient
 from optimizer.errors import OutOfRange
 from schemas.request.requests import OptimizeRequest
 from service.app import create_app
-from service.computations import COMPUTATIONS
+from service.computations.table import COMPUTATIONS
 from service.report.blocks import Figure
 from service.report.document import report
 from service.settings import Settings

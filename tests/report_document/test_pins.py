@@ -13,7 +13,7 @@ from starlette.testclient import TestClient
 from optimizer.pins.answer import pin_loads
 from schemas.scroll.pin_loads import PinLoadsRequest
 from service.app import create_app
-from service.computations import COMPUTATIONS
+from service.computations.table import COMPUTATIONS
 from service.report.blocks import Number, Paragraph, Table
 from service.report.chapters.pins import _assumption, loaded
 from service.settings import Settings

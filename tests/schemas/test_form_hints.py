@@ -15,7 +15,7 @@ from schemas.base.titles import field_title, model_title
 from schemas.base.units import Unit
 from schemas.match.request import MatchRequest
 from schemas.sweep.request import SweepRequest
-from service.computations import COMPUTATIONS
+from service.computations.table import COMPUTATIONS
 from tests.schemas.test_json_schema import MODELS, Mode, each_model, schemas_of_all
 
 REQUESTS = [*dict.fromkeys(one.request_model for one in COMPUTATIONS.values()), SweepRequest]

@@ -15,7 +15,7 @@ from schemas.front.counts import CountFront
 from schemas.front.pareto import ParetoFront
 from schemas.front.trade import TradedFront
 from schemas.request.requests import OptimizeRequest
-from service.computations import COMPUTATIONS
+from service.computations.table import COMPUTATIONS
 from service.documents.examples import bodies
 
 BODY: dict[str, Any] = bodies("")["v90-equal"]

@@ -10,8 +10,8 @@ from starlette.requests import Request
 from starlette.testclient import TestClient
 
 from service.common.coding import Coding, coded
-from service.computation import Computation
-from service.computations import COMPUTATIONS
+from service.computations.computation import Computation
+from service.computations.table import COMPUTATIONS
 from service.guard.sizes import SizeLimits
 from service.http.cached_document import CachedDocument
 from service.settings import Settings

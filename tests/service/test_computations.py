@@ -15,8 +15,8 @@ from schemas.base.version import package_version
 from schemas.sweep.answers import SweepEstimate, SweepState
 from service.app import create_app
 from service.cli import command_line
-from service.computation import Computation
-from service.computations import COMPUTATIONS
+from service.computations.computation import Computation
+from service.computations.table import COMPUTATIONS
 from service.documents.catalogue import documents
 from service.guard import keys
 from service.settings import Settings

@@ -14,7 +14,7 @@ from optimizer.program.verdict import CONTRADICTED, Claim
 from optimizer.solve import answer_fields
 from optimizer.solve import certify as certified
 from service.common.faults import error_log
-from service.computations import COMPUTATIONS
+from service.computations.table import COMPUTATIONS
 from service.documents.examples import bodies
 from service.guard.sizes import SizeLimits
 from service.jobs import worker as jobs

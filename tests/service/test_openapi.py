@@ -10,7 +10,7 @@ from jsonschema import Draft202012Validator
 from starlette.testclient import TestClient
 
 from service.app import CORS, create_app
-from service.computations import COMPUTATIONS
+from service.computations.table import COMPUTATIONS
 from service.guard.keys import make, write
 from service.http.openapi import Documented
 from service.settings import Settings

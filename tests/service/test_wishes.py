@@ -3,7 +3,7 @@
 import pytest
 from starlette.requests import Request
 
-from service.computations import COMPUTATIONS
+from service.computations.table import COMPUTATIONS
 from service.http.accept import NotAcceptable
 from service.http.computing import _wishes, _wishes_of
 from service.http.request_body import UnsupportedMedia

@@ -12,7 +12,7 @@ from openpyxl.utils import get_column_letter
 from starlette.testclient import TestClient
 
 from schemas.request.requests import OptimizeRequest
-from service.computation import XLSX
+from service.computations.computation import XLSX
 from service.documents.examples import bodies
 from service.workbook.files import workbook, workbook_sheets
 from service.workbook.sheets import written

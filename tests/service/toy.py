@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from pydantic import Field
 
 from schemas.base.model import Model
-from service.computation import Computation
+from service.computations.computation import Computation
 from service.report.blocks import Chapter, facts
 
 

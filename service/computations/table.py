@@ -1,6 +1,6 @@
-"""What the service computes: all that routes, jobs, documents, OpenAPI, the command line and metrics say of it."""
+"""The table of computations: one entry is all that a new one takes."""
 
-from service.computation import JSON, XLSX, Computation, Form, Reference
+from service.computations.computation import JSON, XLSX, Computation, Form, Reference
 
 
 def _document(suffix: str, media_type: str, write: Reference, styles: str = "", compressed: bool = False) -> Form:
@@ -178,14 +178,14 @@ COMPUTATIONS: dict[str, Computation] = {
             path="/v1/convert",
             request="schemas.request.requests:OptimizeRequest",
             answer=None,
-            compute="service.computation:echo_request",
+            compute="service.computations.computation:echo_request",
             summary="A request itself, checked: a workbook as JSON, or JSON as a workbook",
             remark="The header `Accept` chooses. Quantities come in the units of their fields, what was not given stays"
             " away, nothing is solved. What is wrong with a workbook is said with its cell.",
             tag="examples",
             workbook="service.workbook.answers:requested",
             forms=(
-                Form("application/json", "service.computation:request_bytes", ".json"),
+                Form("application/json", "service.computations.computation:request_bytes", ".json"),
                 _workbook("service.workbook.answers:requested", "machine.xlsx"),
             ),
         ),
