@@ -27,6 +27,7 @@ from optimizer.outputs.ellipses import Ellipse
 from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.phasors import PlainWrench, polar_wrenches
 from optimizer.outputs.rules_of_thumb import SAME_PLANE_M, SHAPE_TOLERANCE, force_rules, moment_rules
+from optimizer.outputs.stage_headings import HEADINGS, STAGE_III, STAGE_IV, STAGE_VII, STAGE_VIII, WORDS
 from optimizer.outputs.stage_parts import (
     about_centre,
     actings,
@@ -46,14 +47,6 @@ _NEGLIGIBLE = 1e-5
 _ROUNDING = 1e-13
 
 
-class _Heading(NamedTuple):
-    stage: Literal["I", "II", "III", "IV", "V", "VI", "VII", "VIII"]
-    title: str
-    quantity: str
-    formula: str
-    unit: str
-
-
 class _Shape(NamedTuple):
     """What an engineer is told of a stage beside its size."""
 
@@ -62,52 +55,6 @@ class _Shape(NamedTuple):
     balanceable: Balanceable
 
 
-_ARMS = "every term times (z - z_ref)"
-_I = _Heading(
-    "I", "forces of rotating masses", "constant force that turns with the shaft", "omega^2 |sum m_r r e^{jd}|", "N"
-)
-_II = _Heading(
-    "II",
-    "moments of rotating masses",
-    "constant moment whose plane turns with the shaft",
-    f"as stage I, {_ARMS}",
-    "N m",
-)
-_III = _Heading(
-    "III",
-    "first-order forces of reciprocating masses",
-    "peak force over a revolution",
-    "|A1| + |B1|, A1 = omega^2/2 sum m r e^{jd}, B1 = omega^2/2 sum m r e^{j(2g - d)}",
-    "N",
-)
-_IV = _Heading("IV", "moments of first-order forces", "peak moment over a revolution", f"as stage III, {_ARMS}", "N m")
-_V = _Heading(
-    "V",
-    "second-order forces of reciprocating masses",
-    "peak force over a revolution",
-    "|A2| + |B2|, A2 = omega^2/2 sum m r a2 e^{j(2d - g)}, B2 = omega^2/2 sum m r a2 e^{j(3g - 2d)}, "
-    "a2 the second harmonic of the acceleration, r/l in the shortest series",
-    "N",
-)
-_VI = _Heading("VI", "moments of second-order forces", "peak moment over a revolution", f"as stage V, {_ARMS}", "N m")
-_VII = _Heading(
-    "VII",
-    "counterweights by superposition",
-    "total mass times radius, in the two outermost planes, that removes all that turns with the shaft "
-    "(rotating masses and co-rotating half of the reciprocating masses); remaining is the part still missing",
-    "|u1| + |u2|, u1 + u2 = -f, z1 u1 + z2 u2 = -c, f and c the co-rotating force and moment over omega^2",
-    "kg m",
-)
-_VIII = _Heading(
-    "VIII",
-    "summary of the residual unbalance",
-    "sum of the peak forces of orders 1 and 2, which their force never exceeds; the plane names every force and "
-    "moment that is left",
-    "|R + A1| + |B1| + |A2| + |B2|",
-    "N",
-)
-_HEADINGS = (_I, _II, _III, _IV, _V, _VI, _VII, _VIII)
-_WORDS = tuple(heading._asdict() for heading in _HEADINGS)
 #: of forces and moments of the stages I to VI, and of what stage VIII sums up
 _ORDERS, _OF_BOTH = (1, 1, 1, 1, 2, 2), (1, 1, 2, 2)
 _NAMES = ("first-order force", "first-order moment", "second-order force", "second-order moment")
@@ -151,7 +98,7 @@ def stages(
     of_all, was, with_fitted = [*pairs[:2], *pairs[6:8]], pairs[2:8], pairs[8:]
     value = [*(pair.peak for pair in was), lacking, of_all[0].peak + of_all[2].peak]
     now, all_left = was, of_all
-    remaining: Sequence[float | None] = [None] * len(_HEADINGS)
+    remaining: Sequence[float | None] = [None] * len(HEADINGS)
     if unbalance is not None:
         # counterweights on the crankshaft leave the second order as it is
         twice = with_fitted[6:] or was[4:]
@@ -170,25 +117,25 @@ def stages(
     shapes.append(_Shape(_planes_of_iron(planes), _frequency(1, speed), "fully"))
     shapes.append(_summary(of_all, all_left, scale, speed))
     in_planes = iron(planes, centre, rotating, moving)
-    rules = {_III: force_rules(of_force, square), _IV: moment_rules(of_moment, square, high - low)}
+    rules = {STAGE_III: force_rules(of_force, square), STAGE_IV: moment_rules(of_moment, square, high - low)}
     # one validation of a stage takes two thirds of the time of one of each part
     return tuple(
         [
             Stage.of_figures(
                 {
-                    **_WORDS[k],
+                    **WORDS[k],
                     "plane": shape.plane,
                     "frequency": shape.frequency,
                     "balanceable": shape.balanceable,
                     "value": value[k],
                     "remaining": remaining[k],
-                    "acting": summed if heading is _VIII else before[k : k + 1],
-                    "left": None if unbalance is None else what_is_left if heading is _VIII else after[k : k + 1],
-                    "iron": in_planes if heading is _VII else (),
+                    "acting": summed if heading is STAGE_VIII else before[k : k + 1],
+                    "left": None if unbalance is None else what_is_left if heading is STAGE_VIII else after[k : k + 1],
+                    "iron": in_planes if heading is STAGE_VII else (),
                     "rules_of_thumb": rules.get(heading, ()),
                 }
             )
-            for k, (heading, shape) in enumerate(zip(_HEADINGS, shapes, strict=True))
+            for k, (heading, shape) in enumerate(zip(HEADINGS, shapes, strict=True))
         ]
     )
 
