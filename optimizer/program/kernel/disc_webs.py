@@ -18,10 +18,9 @@ dp = dp_0 + E dv, with E = sum_e (g / e) n_e n_e', and
 where again nothing is subtracted that could cancel: det(S) = x z (zq (x^2 - |v|^2) + q A) / (A zq + D q). This inverse
 and its product with S, by which v follows p, are for predictor and corrector; all else of a step follows from dv.
 
-A number of a web stands at ``k WEB + NAME + t`` of ``web``, t the lane; one of its edges at ``k EDGE + NAME + t`` of
-``edge``, which is None where no web has a sector; one of a program at ``NAME + t`` of ``own``. All offsets are known to
-the compiler, which thus sees that nothing overlaps and turns every loop over the lanes into vector instructions. There
-are as many lanes however few programs are solved, so that what becomes of a program does not depend on their number.
+Numbers of a web stand at ``k WEB + NAME + t`` of ``web``, t the lane, those of its edges at ``k EDGE + NAME + t`` of
+``edge`` (None without sectors), those of a program at ``NAME + t`` of ``own``. The compiler knows all offsets. It makes
+vectors of the lanes. There are as many lanes however few programs, so that none depends on their number.
 """
 
 import numpy as np
@@ -30,7 +29,6 @@ from optimizer.program.kernel.compiling import fused, fused_inlined
 
 #: programs side by side: what a step needs of eight webs stays in the nearest cache
 LANES = 16
-
 (
     H1, H2, COST,  # influence on force and moment, mass at full reach
     VX, VY, X, Z, PX, PY,  # where the web stands
