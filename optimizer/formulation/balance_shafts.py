@@ -114,7 +114,7 @@ def drawn(machine: Machine, objective: Objective, mass_kg: Real, angle_deg: Real
     shafts = balance_shafts(machine)
     if not shafts:
         return mass_kg, angle_deg
-    angle = np.where(_mirror_images(machine, objective), np.mod(-angle_deg, 360.0), angle_deg)
+    angle = np.where(mirror_images(machine, objective), np.mod(-angle_deg, 360.0), angle_deg)
     return mass_kg, np.mod(angle, 360.0)
 
 
@@ -122,10 +122,10 @@ def posed(machine: Machine, objective: Objective, unbalance: Complex) -> Complex
     """What a program has for unbalances of all webs (..., K + S) kg m as they are drawn."""
     if not balance_shafts(machine):
         return unbalance
-    return np.where(_mirror_images(machine, objective), np.conj(unbalance), unbalance)
+    return np.where(mirror_images(machine, objective), np.conj(unbalance), unbalance)
 
 
-def _mirror_images(machine: Machine, objective: Objective) -> np.ndarray:
+def mirror_images(machine: Machine, objective: Objective) -> np.ndarray:
     """Whether a web stands for the mirror image of what is drawn (K + S,) bool."""
     ratio = [shaft.speed_ratio for shaft in balance_shafts(machine) for _ in shaft.webs]
     # over all orders nothing is mirrored
