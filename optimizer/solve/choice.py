@@ -40,6 +40,8 @@ from schemas.request.objective import COSTS, Cost
 _LOG = logging.getLogger(__name__)
 #: width of the brackets by which choices are told apart, as a share of goals
 _CLOSE = 1e-10
+#: share of the asked gap that a search for the lightest may leave where castings are not all
+_OF_GAP = 0.5
 #: by which products of shares are rounded, relative
 _ROUNDING = 1e-12
 
@@ -218,6 +220,9 @@ class _GoalOrder:
             levels = np.array([goal.most for goal in self._reached] or [np.inf])
             best = replace(best, limits=limits_beside_castings(self.task, program, levels))
         costs = Costs(program, best, self._reached[:-1], self._choices, self.caps, size, whole)
+        if not whole:
+            # any masses beside castings are the lightest but for a gap
+            costs.light = _OF_GAP * self.task.relative_gap
         if self.incumbent is not None:
             costs.offer(self.incumbent)
         level = self._reached[-1].most if self._reached else np.inf
