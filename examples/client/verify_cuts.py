@@ -73,15 +73,14 @@ class Part:
         external = {name: self.weights[name] for name in ON_FRAME if name in self.weights and not self.all}
         self.rows = {"sum": external} if self.apart else {name: {name: weight} for name, weight in external.items()}
         self.geared = geared(request / "machine", machine, mirrored=not self.all)
-        backwards = any(entry.ratio == -1 for entry in self.geared)
-        self.exact = Statement(machine, goal, self.rows if external else {}, not self.all, backwards)
+        self.exact = Statement(machine, goal, self.rows if external else {}, not self.all, self.geared)
         #: where reciprocating masses are off: every peak has a corner of its own, and so has a row of its own
         self.corners = corners(request, machine)
         if self.corners and self.over_turn:
             raise NotCovered(request / "tolerances" / "reciprocating_mass_relative")
         self.machines = self.corners or [machine]
         rows = {name: {name: weight} for name, weight in external.items()}
-        at_corners = [Statement(corner, goal, rows, False, backwards) for corner in self.corners]
+        at_corners = [Statement(corner, goal, rows, False, self.geared) for corner in self.corners]
         self.statements = at_corners or [self.exact]
 
     @cached_property

@@ -24,6 +24,7 @@ from verify_numbers import (
 )
 from verify_prices import prices, sensitivity
 from verify_program import CEILINGS, Statement, phasors, weighed
+from verify_shafts import Geared
 from verify_weights import catalogue, heavy_enough, stocked
 
 CEILING = 1e-9  # of the larger of a ceiling and what is there without counterweights, likewise
@@ -156,7 +157,8 @@ def light(statement: Statement, proof: Place, sizes: dict[str, Number], mass: Nu
     least, place = proof / "mass_lower_bound_kg", proof / "mass_yardstick_kg"
     size = place.number(0.0)
     if least and place:
-        limited = Statement(statement.machine, Place({}), {name: {name: ONE} for name in statement.caps}, capped=False)
+        rows = {name: {name: ONE} for name in statement.caps}
+        limited = Statement(statement.machine, Place({}), rows, False, statement.geared)
 
         def most(implied: Place) -> Number:
             cancelling = statement.lightest(sizes, implied), limited.lightest(statement.sizes, implied)
@@ -258,10 +260,13 @@ def implied_alone(verdict: Place, response: str, together: Place) -> Place:
     return own if own else together
 
 
-def smallest(machine: Machine, goal: Place, verdict: Place, proofs: Place, implied: Place) -> Claims:
-    """Bounds on either peak alone, under the ceilings of a goal."""
+def smallest(
+    machine: Machine, goal: Place, verdict: Place, proofs: Place, implied: Place, geared: Sequence[Geared] = ()
+) -> Claims:
+    """Bounds on either peak alone, under the ceilings of a goal. ``geared``: places on balance shafts."""
     for name, unit in NAMES.items():
         lowest = verdict / f"smallest_{name}_lower_bound_{unit}"
-        alone, priced = Statement(machine, goal, {name: {name: ONE}}), partial(priced_at, {name: lowest.number(0.0)})
+        priced = partial(priced_at, {name: lowest.number(0.0)})
+        alone = Statement(machine, goal, {name: {name: ONE}}, geared=geared)
         limits = implied_alone(verdict, name, implied)
         yield from proven(f"smallest_{name}", lowest, alone, proofs / f"smallest_{name}", limits, {}, priced)

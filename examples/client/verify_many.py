@@ -10,6 +10,7 @@ from verify_answer import MASS_GAP, before, touched
 from verify_cases import with_value
 from verify_ceilings import LOADED
 from verify_claims import EVIDENCE, Claim, Claims, covered, near, same
+from verify_cuts import SHAFTS
 from verify_first import CEILING, ceilings, infeasible, light, lightest, priced_at, proven, smallest
 from verify_form import form
 from verify_leaves import Path
@@ -17,8 +18,10 @@ from verify_machine import ENTRY_FIELDS, NAMES, ON_FRAME, Machine, Responses
 from verify_numbers import ABOUT_ONE, ONE, SPECK, ZERO, NotCovered, Number, Place, Unreadable, largest, real
 from verify_orders import first_order
 from verify_program import CEILINGS, Statement
+from verify_shafts import geared
 from verify_single import single
-from verify_weights import counterweights, listed, usual_gap
+from verify_turn import unreachable
+from verify_weights import counterweights, listed, shafts, usual_gap
 
 STATUSES = ("optimal", "inaccurate", "infeasible")
 STRAIGHT = 1e-4  # a front that lies nearer to the line between its ends has no knee
@@ -33,7 +36,7 @@ OF_STATUS = {"objective", "lower_bound", "yardstick"}
 def front(request: Place, answer: Place) -> Claims:
     """Fronts of force and moment, one for each budget."""
     yield from form(answer, ("pareto",))
-    request.require_coverage(ENTRY_FIELDS)
+    request.require_coverage(f"{ENTRY_FIELDS}{SHAFTS}")
     design, goal = request / "machine", request / "objective"
     plain = _machine(request, answer, design / "max_total_mass_kg")
     yield from before(request, plain, answer)
@@ -51,17 +54,20 @@ def front(request: Place, answer: Place) -> Claims:
             yield "max_total_mass", curve / "max_total_mass_kg", -ONE, ONE
         if (curve / "status").text(*STATUSES) == "infeasible":
             yield "status", curve / "status", ONE if curve / "infeasibility" else -ONE, ONE
-            yield from infeasible(request, answer, budget, curve / "infeasibility")
+            no_weights = unreachable if list(design / "balance_shafts") else infeasible
+            yield from no_weights(request, answer, budget, curve / "infeasibility")
             continue
         machine = _machine(request, answer, budget)
-        statement = Statement(machine, goal, {name: {name: ONE} for name in NAMES})
+        on_shafts = geared(design, machine, mirrored=True)
+        statement = Statement(machine, goal, {name: {name: ONE} for name in NAMES}, geared=on_shafts)
         for name, unit in NAMES.items():
-            yield _scale(Statement(machine, goal, {name: {name: ONE}}), curve / "scale" / f"{name}_{unit}")
+            alone = Statement(machine, goal, {name: {name: ONE}}, geared=on_shafts)
+            yield _scale(alone, curve / "scale" / f"{name}_{unit}")
         for entry in curve / "points":
             yield from covered(point(statement, request, curve / "scale", entry))
         yield from _shape(curve)
         ends, implied = curve / "ends", curve / "implied_max_mass_kg"
-        yield from covered(smallest(machine, goal, ends, ends / "multipliers", implied))
+        yield from covered(smallest(machine, goal, ends, ends / "multipliers", implied, on_shafts))
 
 
 def _shape(curve: Place) -> Claims:
@@ -119,6 +125,10 @@ def point(statement: Statement, request: Place, scale: Place, answer: Place) -> 
     optimal = status.text("optimal", "inaccurate") == "optimal"
     weights, mass = yield from counterweights(statement.machine, place, request / "machine")
     yield near("total_mass", answer / "total_mass_kg", mass)
+    if statement.geared or list(answer / "balance_shafts"):
+        turning, on_shafts = yield from shafts(statement.machine, request / "machine", answer / "balance_shafts")
+        yield near("total_mass", answer / "balance_shafts_mass_kg", on_shafts)
+        weights, mass = [*weights, *(weight for order, weight in turning if order == 1)], mass + on_shafts
     yield from ceilings(statement, weights, place, optimal)
     after = statement.machine.responses(weights)
     peaks = statement.values(after)

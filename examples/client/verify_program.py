@@ -22,6 +22,7 @@ from verify_numbers import (
     total,
 )
 from verify_plates import Plate
+from verify_shafts import Geared
 
 #: ceilings by the response that they limit, a component of it as force:x
 CEILINGS = {
@@ -83,9 +84,12 @@ class Statement:
         goal: Place,
         rows: dict[str, dict[str, Number]],
         capped: bool = True,
-        backwards: bool = False,
+        geared: Sequence[Geared] = (),
     ) -> None:
-        self.machine, self.rows, self.backwards = machine, rows, backwards
+        """``geared``: places on balance shafts, whose mirror images are chosen where they turn backwards."""
+        self.machine, self.rows, self.geared = machine, rows, geared
+        self.backwards = any(gear.ratio == -1 for gear in geared)
+        self.webs = [*machine.webs, *(gear.web for gear in geared)]
         self.x, self.y = ((goal / "direction_weights" / name).number(1.0, least=0) for name in ("x", "y"))
         self.floor: dict[str, Number] = dict.fromkeys(rows, ZERO)
         self.terms: dict[Key, Term] = {}
@@ -103,7 +107,7 @@ class Statement:
         """What a ceiling is measured by; if nothing is there and nothing allowed, what the rows call for does to it."""
         if size.low > 0:
             return size
-        webs = self.machine.webs
+        webs = self.webs
         most = {n: largest(ZERO, *(abs(self.machine.arm(n, web.position)) for web in webs)) for n in ON_FRAME}
         most = {response: arm if arm.low > 0 else ONE for response, arm in most.items()}
         moving = [term for term in self.terms.values() if abs(term.factor).low > 0]
@@ -145,16 +149,14 @@ class Statement:
         of an objective the multipliers have those of the ceilings, and prove that they conflict. ``printed``: with the
         price of the budget that is printed, beside plates too.
         """
-        limits = {(name, "ceiling"): Term(name, name, phasors(self.machine.laden, name)[0], ONE) for name in self.caps}
+        limits = {(name, "ceiling"): self._limited(name) for name in self.caps}
         terms = {**self.terms, **limits}
         rows, y = self._multipliers(proof, terms)
         if cost is ZERO and total(rows.values()).low <= 0:
             return Bound(None, rows)
         machine = self.machine
         price = cost + ((proof / "budget").number(0.0, least=0) if machine.left is not None else ZERO)
-        free = {
-            w.name: w for w in machine.webs if not believed and (w.limit is None or implied / w.name) and not w.plate
-        }
+        free = {w.name: w for w in self.webs if not believed and (w.limit is None or implied / w.name) and not w.plate}
         if price.high == 0:
             grouped = {machine.webs[k].name for group in machine.groups for k, _, _ in group}
             free = self._balance(y, terms, [w for w in free.values() if w.sector is None and w.name not in grouped])
@@ -162,20 +164,19 @@ class Statement:
         most = {key: rows.get(item.row, ZERO) for key, item in terms.items()}
         most.update({key: Number(abs(y[key]).high, abs(y[key]).high) for key in limits if self.floor})
         share = _share((most[key], abs(y[key])) for key in y)
-        least, slope = total(rows[name] * self.floor[name] for name in rows if self.floor), dict.fromkeys(NAMES, ZERO)
+        least = total(rows[name] * self.floor[name] for name in rows if self.floor)
         for key, term in terms.items():
             least = least + y[key].along(term.start) * share
-            machine.add(slope, term.moves, y[key] * term.factor * share)
         for name, _ in limits:
             least = least - most[name, "ceiling"] * (self.caps[name] + slack.get(name, ZERO))
-        pulls = self._pulls(slope)
-        gains = {web.name: web.radius * pulls[web.name] for web in machine.webs}
+        pulls = self._pulls({key: vector * share for key, vector in y.items()}, terms)
+        gains = {web.name: web.radius * pulls[web.name] for web in self.webs}
         # where a kilogram has a price, what has no limit must gain no more: all multipliers are shortened alike
         share = _share((price, gains[name]) for name in free if price.low > 0 and machine.left is None)
         least = least * share
         if machine.left is not None and not printed:
             price = cost + budget(machine, pulls, share, cost, implied if believed else Place(None), price - cost)
-        for web in machine.webs:
+        for web in self.webs:
             if web.plate is not None:
                 place = implied / web.name if believed else Place(None)
                 least = least - of_plate(web, web.plate, pulls[web.name] * share, price, place)
@@ -190,12 +191,30 @@ class Statement:
             least = least - (price - cost) * machine.left
         return Bound(least, {name: row * share for name, row in rows.items()})
 
-    def _pulls(self, slope: dict[str, Number]) -> dict[str, Number]:
+    def _limited(self, name: str) -> Term:
+        """What a ceiling limits."""
+        backwards = {"x": ONE, "y": -ONE}.get(name.partition(":")[2], ZERO)
+        return Term(name, name, phasors(self.machine.laden, name)[0], ONE, backwards)
+
+    def slopes(self, y: dict[Key, Number], terms: dict[Key, Term]) -> Tuple[dict[str, Number], dict[str, Number]]:
+        """What force and moment of a kilogram metre that turns with the shaft, and against it, are multiplied by."""
+        own, backwards = dict.fromkeys(NAMES, ZERO), dict.fromkeys(NAMES, ZERO)
+        for key, term in terms.items():
+            self.machine.add(own, term.moves, y[key] * term.factor)
+            if self.backwards:
+                self.machine.add(backwards, term.moves, y[key] * term.backwards)
+        return own, backwards
+
+    def _pulls(self, y: dict[Key, Number], terms: dict[Key, Term]) -> dict[str, Number]:
         """What a kilogram metre on each web takes off at most."""
-        machine = self.machine
-        arms = [web.position - machine.plane for web in machine.webs]
-        pulls = machine.together([-(slope["force"] + slope["moment"] * arm) * machine.square for arm in arms])
-        return {web.name: support(pull, web.sector) for web, pull in zip(machine.webs, pulls)}
+        machine, (own, backwards) = self.machine, self.slopes(y, terms)
+
+        def pull(web: Web, slope: dict[str, Number]) -> Number:
+            return -(slope["force"] + slope["moment"] * (web.position - machine.plane)) * machine.square
+
+        pulls = machine.together([pull(web, own) for web in machine.webs])
+        pulls += [gear.first(pull(gear.web, own), pull(gear.web, backwards)) for gear in self.geared]
+        return {web.name: support(whole, web.sector) for web, whole in zip(self.webs, pulls)}
 
     def _multipliers(self, proof: Place, terms: Iterable[Key]) -> tuple[dict[str, Number], dict[Key, Number]]:
         """Of the rows and of the terms, those that are not 0 and those that are to be given."""
@@ -216,11 +235,15 @@ class Statement:
         return rows, y
 
     def _balance(self, y: dict[Key, Number], terms: dict[Key, Term], webs: Sequence[Web]) -> dict[str, Web]:
-        """Choose a multiplier so that webs without limit gain exactly nothing; those for which that can be done."""
-        slope = dict.fromkeys(NAMES, ZERO)
+        """Choose a multiplier so that webs without limit gain exactly nothing; those for which that can be done.
+
+        What turns against the shaft is left as it is.
+        """
+        ratios = {gear.web.name: gear.ratio for gear in self.geared}
+        webs = [web for web in webs if ratios.get(web.name, 1) == 1]
+        slope, _ = self.slopes(y, terms)
         chosen: dict[str, Key] = {}
         for key, term in terms.items():
-            self.machine.add(slope, term.moves, y[key] * term.factor)
             if term.factor.low > 0 and term.moves in NAMES:
                 chosen.setdefault(term.moves, key)
         arms = {web.position.low: web.position - self.machine.plane for web in webs}
@@ -243,14 +266,20 @@ class Statement:
     def change(self, web: Web, row: str) -> Number:
         """What a kilogram on a web adds to a row at most."""
         arms = {name: abs(self.machine.arm(name, web.position)) for name in ON_FRAME}
-        does = total(abs(term.factor) * arms[term.moves] for term in self.terms.values() if term.row == row)
+        on_shafts = {gear.web.name: gear for gear in self.geared}
+
+        def factor(term: Term) -> Number:
+            gear = on_shafts.get(web.name)
+            return term.factor if gear is None else gear.first(term.factor, term.backwards)
+
+        does = total(abs(factor(term)) * arms[term.moves] for term in self.terms.values() if term.row == row)
         radius = real(web.plate.lever(0.0)) * ABOUT_ONE if web.plate else web.radius
         return does * radius * self.machine.square
 
     def reachable(self, implied: Place) -> Number | None:
         """What all that the limits allow adds to the rows at most; None where there is no limit."""
         added = ZERO
-        for web in self.machine.webs:
+        for web in self.webs:
             limit = self.reach(web, implied)
             if limit is None:
                 return None
@@ -259,7 +288,7 @@ class Statement:
 
     def lightest(self, sizes: dict[str, Number], implied: Place) -> Number | None:
         """The least mass that could cancel one of the rows, of these sizes; None where none can be."""
-        limits = [(web, self.reach(web, implied)) for web in self.machine.webs]
+        limits = [(web, self.reach(web, implied)) for web in self.webs]
         webs = [web for web, limit in limits if limit is None or limit.high > 0]
         most = {row: largest(ZERO, *(self.change(web, row) for web in webs)) for row in self.rows}
         masses = [sizes[row] / does for row, does in most.items() if does.low > 0 and sizes[row].low > 0]

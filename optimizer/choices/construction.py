@@ -4,7 +4,7 @@ import numpy as np
 
 from optimizer.choices.castings_beside import CastingsBeside, with_castings
 from optimizer.choices.catalogue import Catalogue
-from optimizer.choices.catalogue_options import Castings, stock
+from optimizer.choices.catalogue_options import Castings, Stock, stock
 from optimizer.choices.feasible_set import FeasibleSet
 from optimizer.choices.minimum_masses import MinimumMasses
 from optimizer.formulation.limits import least_fitted
@@ -40,6 +40,19 @@ def feasible_set(task: Task, limits: Limits) -> FeasibleSet:
         return Catalogue(held, limits.radius)
     least = np.where(castings.webs, 0.0, least_fitted(machine))
     return CastingsBeside(machine, held, castings.webs, least, limits, lightest)
+
+
+def options_of(task: Task) -> Stock:
+    """What the webs can take that take options.
+
+    Raises
+    ------
+    OutOfRange
+        where the options of a web cannot be told, or webs of a group are unlike.
+    """
+    if task.space.machine is task.machine:
+        return stock(task.machine)
+    return stock(task.space.machine, Castings.of(task.machine, task.objective))
 
 
 def takes_options(task: Task) -> np.ndarray:

@@ -17,6 +17,7 @@ from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex, Real
 from schemas.answer.counterweights import Counterweight, FittedShaft
 from schemas.answer.limits import MachineLimit, WebLimit
+from schemas.base.rules import Path
 from schemas.base.variation import with_fields
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import BalanceShaft, balance_shafts
@@ -48,6 +49,16 @@ def _mirrored(web: Web) -> Web:
     return web if web.sector is None else with_fields(web, {("sector", "centre_deg"): -web.sector.centre_deg})
 
 
+def as_drawn(machine: Machine) -> Machine:
+    """A machine with the webs of its balance shafts behind its own, none of them mirrored."""
+    return with_fields(machine, {("webs",): places(machine)}) if balance_shafts(machine) else machine
+
+
+def web_paths(machine: Machine) -> list[Path]:
+    """Where all webs stand in a machine, those of its balance shafts behind those of the crankshaft."""
+    return [(*path, k) for path, webs in machine.web_lists() for k in range(len(webs))]
+
+
 class Fitted(NamedTuple):
     """Counterweights of the crankshaft, and unbalances of the balance shafts, as they are drawn."""
 
@@ -61,6 +72,11 @@ class Fitted(NamedTuple):
     def unbalance(self) -> Complex:
         """Of all of them (K + S,) kg m."""
         return self.on_crank if self.on_shafts is None else np.concatenate([self.on_crank, self.on_shafts])
+
+    @property
+    def mass_kg(self) -> float:
+        """Of all of them."""
+        return self.total_mass_kg + sum(shaft.total_mass_kg for shaft in self.balance_shafts)
 
     @property
     def all_of_them(self) -> tuple[Counterweight, ...]:
@@ -111,8 +127,7 @@ def drawn(machine: Machine, objective: Objective, mass_kg: Real, angle_deg: Real
     mass_kg, angle_deg : (..., K + S) as a program has chosen them, of the webs of :func:`design_space`.
     """
     mass_kg, angle_deg = beside(machine, mass_kg, angle_deg)
-    shafts = balance_shafts(machine)
-    if not shafts:
+    if not balance_shafts(machine):
         return mass_kg, angle_deg
     angle = np.where(mirror_images(machine, objective), np.mod(-angle_deg, 360.0), angle_deg)
     return mass_kg, np.mod(angle, 360.0)

@@ -2,11 +2,13 @@
 
 import numpy as np
 
-from optimizer.choices.construction import feasible_set
+from optimizer.choices.construction import feasible_set, takes_options
 from optimizer.choices.feasible_set import Choice, SearchResult
+from optimizer.formulation.balance_shafts import drawn
+from optimizer.formulation.counterweights import places
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
-from optimizer.mechanics.fixed_weights import beside, fixed_masses
+from optimizer.mechanics.fixed_weights import fixed_masses
 from optimizer.numerics.arrays import Real
 from optimizer.numerics.records import record
 from optimizer.program.cuts.dominance import Group
@@ -22,6 +24,8 @@ from schemas.machine.machine import Machine
 
 #: of a mass, relative: by which sums of masses are rounded
 _ROUNDING = 1e-12
+#: the same where some have any mass: what keeps a ceiling to its tolerance may be lighter than all that keep it
+_KEPT = 1e-7
 #: gap of the least mass of any masses at any angles, which the search begins with
 _SHARP = 1e-6
 
@@ -30,8 +34,8 @@ _SHARP = 1e-6
 class BestSet:
     """The best set that may be chosen, by its objective or its mass, and what is proven of all."""
 
-    mass_kg: Real  # (K,), with the weights that are fixed
-    angle_deg: Real  # (K,)
+    mass_kg: Real  # (K + S,) as drawn, with the weights that are fixed, those on balance shafts behind the others
+    angle_deg: Real  # (K + S,)
     value: float
     lower_bound: float  # nan where nothing is proven, inf where it is proven that none keeps the ceilings
     relative_gap: float  # nan where nothing is proven
@@ -43,7 +47,7 @@ class BestSet:
 
 def none_of(machine: Machine, status: str, reason: str, nodes: int, method: str) -> BestSet:
     """Nothing on any web, where there is no set to show."""
-    nothing = np.zeros(len(machine.webs))
+    nothing = np.zeros(len(places(machine)))
     return BestSet(nothing, nothing, np.nan, np.nan, np.nan, status, reason, nodes, method)
 
 
@@ -65,10 +69,10 @@ def minimum_mass(task: Task, scene: Prepared) -> BestSet:
     choices = feasible_set(task, best.limits)
     choice, result = in_rounds(weighed, best, choices, gap, size, lambda: robust.left_s)
     reason = ample_reason(ended(result), result, best.proof.bound)
-    return _of_choice(task.machine, choice, result, gap, reason)
+    return _of_choice(task, choice, result, gap, reason)
 
 
-def _of_choice(machine: Machine, choice: Choice, result: SearchResult, gap: float, reason: str) -> BestSet:
+def _of_choice(task: Task, choice: Choice, result: SearchResult, gap: float, reason: str) -> BestSet:
     """What may be said of a choice.
 
     Parameters
@@ -79,10 +83,10 @@ def _of_choice(machine: Machine, choice: Choice, result: SearchResult, gap: floa
     status = "optimal" if result.feasible and lightest - bound <= gap * lightest else "inaccurate"
     if not result.feasible and bound == np.inf:
         status = "infeasible"
-    mass, angle = beside(machine, choice.mass, choice.angle)
-    value, fixed = float(np.sum(mass)), float(np.sum(fixed_masses(machine)))
+    mass, angle = drawn(task.machine, task.objective, choice.mass, choice.angle)
+    value, fixed = float(np.sum(mass)), float(np.sum(fixed_masses(task.machine)))
     bound = bound + fixed
-    if np.isfinite(bound) and bound > value * (1.0 + _ROUNDING):
+    if np.isfinite(bound) and bound > value * (1.0 + (_ROUNDING if np.all(takes_options(task)) else _KEPT)):
         bound, status, reason = np.nan, "inaccurate", CONTRADICTED
     bound = min(bound, value)
     of_value = (value - bound) / value if value > 0 else 0.0

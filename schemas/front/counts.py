@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from schemas.answer.counterweights import Counterweight
+from schemas.answer.counterweights import Counterweight, FittedShaft
 from schemas.base.model import Model, Shown
 from schemas.base.quantities import Kilograms, NewtonMetres, Newtons
 
@@ -51,15 +51,25 @@ class CountPoint(Model):
         " likewise",
         examples=[2e-4],
     )
-    weights: int | None = Field(description="webs that have a counterweight; null if infeasible", examples=[2])
+    weights: int | None = Field(
+        description="webs of the crankshaft that have a counterweight; null if infeasible", examples=[2]
+    )
     part_numbers: int | None = Field(description="different masses; null if infeasible", examples=[1])
-    total_mass_kg: Kilograms | None = Field(description="total mass; null if infeasible", examples=[50.0])
+    total_mass_kg: Kilograms | None = Field(
+        description="total mass on the crankshaft; null if infeasible", examples=[50.0]
+    )
     force_peak_N: Newtons | None = Field(description="first-order peak force; null if infeasible", examples=[7504.6])
     moment_peak_Nm: NewtonMetres | None = Field(
         description="first-order peak moment; null if infeasible", examples=[20123.3]
     )
     counterweights: tuple[Counterweight, ...] = Field(
         description="one for each web, in the machine's order; none if infeasible", examples=[[]]
+    )
+    balance_shafts: tuple[FittedShaft, ...] = Field(
+        (), description="unbalances of the balance shafts, in their order; none if infeasible", examples=[[]]
+    )
+    balance_shafts_mass_kg: Kilograms | None = Field(
+        None, description="total mass of these; null where there are none", examples=[None]
     )
     nodes: int = Field(description="nodes of the tree that proves it; 0 where all sets were compared", examples=[0])
     method: str = Field(description="what found it", examples=["exhaustion in halves"])

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from schemas.answer.answers import EffectUse, Timing
-from schemas.answer.counterweights import Counterweight
+from schemas.answer.counterweights import Counterweight, FittedShaft
 from schemas.answer.first_order import FirstOrder, Floor
 from schemas.answer.infeasibility import Infeasibility
 from schemas.answer.limits import MachineLimit
@@ -17,7 +17,7 @@ from schemas.base.rules import Rule, first_of
 from schemas.base.units import Unit, between
 from schemas.front.counts import CountFront, CountTrade
 from schemas.front.trade import MAX_TRADED_POINTS, TradedFront, TradedNames
-from schemas.machine.reciprocating import no_balance_shafts
+from schemas.machine.reciprocating import balance_shafts
 from schemas.request.requests import OptimizeRequest
 
 MAX_POINTS = 201
@@ -79,20 +79,22 @@ class ParetoRequest(OptimizeRequest):
         yield from super().rules()
         yield from self.worst_case_rules("remove it: a front is of one machine as it is given")
         yield from self._trade_rules()
-        yield from no_balance_shafts(self.machine, ("machine",), "a front")
         if self.counts is not None:
             yield from self.envelope_rules("counts are of a catalogue, whose counterweights have a known radius")
             yield from self._count_rules(self.counts)
         elif self.chosen:
             message = "remove it: it proves what free masses at free angles reach, and these counterweights are chosen"
             yield Rule(self.multipliers, ("multipliers",), message)
-        budgets = self.total_mass_budgets_kg or ()
+        budgets, shafts = self.total_mass_budgets_kg or (), balance_shafts(self.machine)
+        message = "with balance shafts the total mass has no limit: limit the masses of the webs"
+        yield Rule(bool(budgets and shafts), ("total_mass_budgets_kg",), message)
         fixed = sum((web.fixed.mass_kg for web in self.machine.webs if web.fixed is not None), 0.0)
         for index, budget in enumerate(budgets):
             path = ("total_mass_budgets_kg", index)
             yield Rule(budget in budgets[:index], path, "this budget is in the list already")
             yield Rule(budget < fixed, path, "the fixed counterweights are heavier than this budget")
-        together, places = self.points * len(budgets), self.points * max(1, len(budgets)) * len(self.machine.webs)
+        webs = sum((len(shaft.webs) for shaft in shafts), len(self.machine.webs))
+        together, places = self.points * len(budgets), self.points * max(1, len(budgets)) * webs
         points = f"points times budgets must be at most {MAX_POINTS_TOGETHER}"
         work = f"points times budgets times webs must be at most {MAX_PLACES}"
         yield from first_of(
@@ -122,6 +124,8 @@ class ParetoRequest(OptimizeRequest):
             yield from self._objective_rules(self.responses)
         for index, name in enumerate(self.responses):
             yield Rule(name in self.responses[:index], ("responses", index), "this response is in the list already")
+            message = "balance shafts alone change the roll moment, and the machine has none"
+            yield Rule(name == "roll" and not balance_shafts(self.machine), ("responses", index), message)
         yield Rule(self.multipliers, ("multipliers",), "remove it: only the front of force and moment takes it")
         together = self.points * max(1, len(self.total_mass_budgets_kg or ()))
         most = f"points times budgets must be at most {MAX_TRADED_POINTS} where responses are named"
@@ -132,7 +136,7 @@ class ParetoRequest(OptimizeRequest):
         message = "name `objective` and `mass` alone: the objective is made of the other responses"
         yield Rule(set(names) != {"objective", "mass"}, ("responses",), message)
         goal = self.objective
-        for name in ("bearing_weight", "bending_weight"):
+        for name in ("bearing_weight", "bending_weight", "roll_weight"):
             message = "remove it: the objective that is traded weighs force and moment of the first order"
             yield Rule(getattr(goal, name) != 0, ("objective", name), message)
         message = 'give "first": the objective that is traded is of the first order'
@@ -223,9 +227,17 @@ class ParetoPoint(Model):
         description="peak of the moment with direction weights, which is traded; the peak moment where both are 1",
         examples=[20123.28],
     )
-    total_mass_kg: Kilograms = Field(description="total mass of the counterweights", examples=[236.35])
+    total_mass_kg: Kilograms = Field(
+        description="total mass of the counterweights on the crankshaft", examples=[236.35]
+    )
     counterweights: tuple[Counterweight, ...] = Field(
         description="one for each web, in the machine's order", examples=[[]]
+    )
+    balance_shafts: tuple[FittedShaft, ...] = Field(
+        (), description="unbalances of the balance shafts, in their order", examples=[[]]
+    )
+    balance_shafts_mass_kg: Kilograms | None = Field(
+        None, description="total mass of these; null where there are none", examples=[None]
     )
     active_limits: tuple[MachineLimit, ...] = Field(
         description="limits of the whole machine that the point touches", examples=[["max_total_mass"]]

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field
 
-from schemas.answer.counterweights import Counterweight
+from schemas.answer.counterweights import Counterweight, FittedShaft
 from schemas.answer.infeasibility import Infeasibility
 from schemas.base.model import Model, Shown
 from schemas.base.quantities import Kilograms, NewtonMetres, Newtons
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     Traded = str
 else:
     #: of the responses on the frame, inside the shaft, the mass, and beside the mass all that is weighed
-    Traded = Literal[*RESPONSES, "bearings", "bending", "mass", "objective"]
+    Traded = Literal[*RESPONSES, "bearings", "bending", "roll", "mass", "objective"]
 TradedNames = Annotated[tuple[Traded, ...], Field(min_length=2, max_length=3)]
 #: points of all fronts of one request
 MAX_TRADED_POINTS = 100
@@ -25,7 +25,8 @@ class TradedResponse(Model):
 
     response: Traded = Field(
         description="force, moment: their peaks as weighed across the shaft, of the first order or of all as `orders`"
-        " says; bearings: the largest load as `bearing_measure` says; bending: the largest moment; mass: the total;"
+        " says; bearings: the largest load as `bearing_measure` says; bending: the largest moment; roll: the peak of"
+        " the moment about the crankshaft, of all orders; mass: the total, of balance shafts too;"
         " objective: force and moment of the first order, as they are weighed and combined",
         examples=["bearings"],
     )
@@ -89,9 +90,15 @@ class TradedPoint(Model):
     )
     force_peak_N: Newtons = Field(description="first-order peak force", examples=[7504.6])
     moment_peak_Nm: NewtonMetres = Field(description="first-order peak moment", examples=[20123.28])
-    total_mass_kg: Kilograms = Field(description="total mass of the counterweights", examples=[41.2])
+    total_mass_kg: Kilograms = Field(description="total mass of the counterweights on the crankshaft", examples=[41.2])
     counterweights: tuple[Counterweight, ...] = Field(
         description="one for each web, in the machine's order", examples=[[]]
+    )
+    balance_shafts: tuple[FittedShaft, ...] = Field(
+        (), description="unbalances of the balance shafts, in their order", examples=[[]]
+    )
+    balance_shafts_mass_kg: Kilograms | None = Field(
+        None, description="total mass of these; null where there are none", examples=[None]
     )
     certificate: TradedCertificate = Field(description="the proof", examples=[{"relative_gap": 3e-7}])
 

@@ -167,12 +167,6 @@ def balance_shafts(machine: Rotor) -> tuple[BalanceShaft, ...]:
     return machine.balance_shafts if isinstance(machine, ReciprocatingMachine) else ()
 
 
-def no_balance_shafts(machine: Rotor, path: Path, what: str) -> Iterator[Rule]:
-    """Refuses balance shafts, where something is of the crankshaft alone."""
-    message = f"{what} has no balance shafts: it is of the crankshaft alone"
-    yield Rule(bool(balance_shafts(machine)), (*path, "balance_shafts"), message)
-
-
 def _throw_rules(path: Path, throw: Throw, sense: float) -> Iterator[Rule]:
     if len(throw.rows) > 1:
         yield from unique_names((*path, "rows"), [row.name for row in throw.rows])

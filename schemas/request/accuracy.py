@@ -8,7 +8,6 @@ from pydantic import Field
 from schemas.base.model import Answer, Model
 from schemas.base.quantities import Count, Kilograms, Milliseconds
 from schemas.base.rules import Rule
-from schemas.machine.reciprocating import no_balance_shafts
 from schemas.request.requests import OptimizeRequest
 
 
@@ -34,7 +33,6 @@ class AccuracyRequest(OptimizeRequest):
         yield from self.worst_case_rules("the ladder is of one machine as it is given")
         for name in self.objective.over_the_turn:
             yield Rule(True, ("objective", name), "the ladder is of the first order: not asked of a whole cycle")
-        yield from no_balance_shafts(self.machine, ("machine",), "the ladder")
 
 
 class AccuracyRow(Model):
@@ -122,8 +120,10 @@ class ChoiceRow(Model):
     certified_gap: float | None = Field(
         description="objective minus the own bound, over the objective without counterweights", examples=[3e-4]
     )
-    total_mass_kg: Kilograms | None = Field(description="of all counterweights, fixed ones included", examples=[91.5])
-    pieces: int | None = Field(description="counterweights that are not fixed", examples=[3])
+    total_mass_kg: Kilograms | None = Field(
+        description="of all counterweights, fixed ones and those on balance shafts included", examples=[91.5]
+    )
+    pieces: int | None = Field(description="counterweights on the crankshaft that are not fixed", examples=[3])
     sizes: int | None = Field(description="different masses among them", examples=[2])
     limits_kept: bool = Field(
         description="whether ceilings, budget, number and part numbers are kept, which rounding may break",

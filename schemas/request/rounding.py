@@ -6,13 +6,12 @@ from typing import Annotated
 from pydantic import Field
 
 from schemas.answer.answers import OptimizeAnswer
-from schemas.answer.counterweights import Counterweight
+from schemas.answer.counterweights import Counterweight, FittedShaft
 from schemas.base.model import Model
 from schemas.base.quantities import Kilograms, Name
 from schemas.base.rules import Rule, Ruled
 from schemas.base.units import Unit, positive
 from schemas.machine.catalogue import angle_step_rules
-from schemas.machine.reciprocating import no_balance_shafts
 from schemas.request.requests import OptimizeRequest
 
 _BY_ITSELF = "what is fitted has a radius: optimise first, then give radius and mass of the plate"
@@ -26,15 +25,15 @@ class RoundRequest(Ruled):
         description="masses are whole multiples of it", examples=[0.5]
     )
     angle_step_deg: Annotated[float, Field(gt=0, le=180), Unit("deg")] = Field(
-        description="angles are whole multiples of it, counted from the own crank; a revolution must hold a whole"
-        " number of steps",
+        description="angles are whole multiples of it, counted from the own crank, on balance shafts from 0; a"
+        " revolution must hold a whole number of steps",
         examples=[5.0],
     )
 
     def rules(self) -> Iterator[Rule]:
         yield from angle_step_rules(("angle_step_deg",), self.angle_step_deg)
         request, machine = self.request, self.request.machine
-        limits = [web.max_mass_kg for web in machine.webs if web.fixed is None and web.envelope is None]
+        limits = [web.max_mass_kg for web in machine.every_web if web.fixed is None and web.envelope is None]
         finite = [limit for limit in limits if limit is not None]
         if finite and len(finite) == len(limits):
             most = max(finite)
@@ -45,7 +44,6 @@ class RoundRequest(Ruled):
             yield Rule(True, ("request", "machine", *field), message)
         message = "not with steps, which are judged as they are: round without, then send the masses as `fixed`"
         yield Rule(request.tolerances is not None, ("request", "tolerances"), message)
-        yield from no_balance_shafts(machine, ("request", "machine"), "steps of counterweights")
         for broken, path, text in request.envelope_rules(_BY_ITSELF):
             yield Rule(broken, ("request", *path), text)
 
@@ -55,9 +53,17 @@ class Weights(Model):
 
     objective: float = Field(description="objective, recomputed", examples=[40549.4])
     limits_kept: bool = Field(description="whether ceilings and the total mass keep their limits", examples=[True])
-    total_mass_kg: Kilograms = Field(description="total mass, fixed counterweights included", examples=[85.75])
+    total_mass_kg: Kilograms = Field(
+        description="total mass on the crankshaft, fixed counterweights included", examples=[85.75]
+    )
     counterweights: tuple[Counterweight, ...] = Field(
         description="one for each web, in the machine's order", examples=[[]]
+    )
+    balance_shafts: tuple[FittedShaft, ...] = Field(
+        (), description="unbalances of the balance shafts, in their order", examples=[[]]
+    )
+    balance_shafts_mass_kg: Kilograms | None = Field(
+        None, description="total mass of these; null where there are none", examples=[None]
     )
 
 
@@ -83,7 +89,9 @@ class Rounding(Model):
     relative_rise: float | None = Field(
         description="the same as a share of the optimum's objective; null where that is 0", examples=[0.041]
     )
-    mass_rise_kg: Kilograms = Field(description="total mass of the answer above that of the optimum", examples=[-0.25])
+    mass_rise_kg: Kilograms = Field(
+        description="total mass of the answer above that of the optimum, of all shafts", examples=[-0.25]
+    )
     masses_alone_rise: float = Field(
         description="what the objective rises by with the masses of the answer at the angles of the optimum",
         examples=[70.0],

@@ -116,3 +116,20 @@ def test_the_headline_says_what_rises_from_nothing(portal: Portal) -> None:
     assert answer["residual"]["after"]["force"]["peak_N"] > 100
     assert headline.startswith(f"{answer['total_mass_kg']:.5g} kg of counterweights: force 0 → ")
     assert "moment −" in headline
+
+
+def test_points_show_what_balance_shafts_carry(portal: Portal, url: str) -> None:
+    portal.open("single-balance-shaft")
+    panel = portal.open_panel("pareto")
+    panel.locator("#trade-y").select_option("mass")
+    panel.get_by_text("Point, from least force to least mass").wait_for()
+    body = portal.bodies("/v1/pareto")[-1]
+    points = ask(url, "/v1/pareto", body)["trades"][0]["points"]
+    panel.locator("#pareto-point").press("Home")
+    panel.get_by_role("heading", name=f"Point 1 of {len(points)}").wait_for()
+    panel.get_by_text("Balance shaft balancer: Turns against the crankshaft").wait_for()
+    tables = panel.locator(".picked .beside table")
+    masses = [sum(number(row[1]) for row in cells(table)) for table in (tables.nth(0), tables.nth(1))]
+    expected = [points[0]["total_mass_kg"], points[0]["balance_shafts_mass_kg"]]
+    assert masses == pytest.approx(expected, rel=1e-3)
+    assert "roll" in panel.locator("#trade-y option").evaluate_all("all => all.map((each) => each.value)")

@@ -88,3 +88,21 @@ def test_versions_stand_side_by_side(portal: Portal) -> None:
     with portal.asking():
         panel.get_by_role("button", name="Open slow").click()
     assert portal.bodies("/v1/optimize")[-1]["machine"]["speed_rpm"] == 600
+
+
+def test_what_is_on_a_balance_shaft_is_fitted_and_rounded(portal: Portal, url: str) -> None:
+    portal.open("single-balance-shaft", ("what-if",))
+    panel = portal.panel("what-if")
+    panel.get_by_label("step of masses").fill("0.2")
+    panel.get_by_role("button", name="Suggest a rounding").click()
+    panel.get_by_text("Rounded to 0.2 kg and 5°").wait_for()
+    request = portal.bodies("/v1/round")[-1]
+    answer = ask(url, "/v1/round", request)
+    (on_shaft,) = answer["balance_shafts"][0]["counterweights"]
+    shown = panel.get_by_label(f"mass, kg, {on_shaft['web']}, as fitted").input_value()
+    assert float(shown) == on_shaft["mass_kg"]
+    after = answer["residual"]["after"]
+    panel.get_by_label(f"mass, kg, {on_shaft['web']}, as fitted").press("End")
+    rows = cells(panel.locator(".residual"))
+    assert number(rows[0][3]) == pytest.approx(after["force"]["peak_N"], rel=1e-3, abs=1e-3)
+    assert number(rows[2][3]) == pytest.approx(answer["total_mass_kg"] + answer["balance_shafts_mass_kg"], rel=1e-4)

@@ -9,9 +9,7 @@ from pydantic import ValidationError
 from optimizer.analyze import analyze
 from optimizer.formulation.balance_shafts import chosen, fitted
 from schemas.answer.answers import OptimizeAnswer
-from schemas.front.pareto import ParetoRequest
 from schemas.machine.reciprocating import ReciprocatingMachine
-from schemas.request.accuracy import AccuracyRequest
 from schemas.request.objective import Objective
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from tests.night import part
@@ -165,8 +163,7 @@ def test_what_is_not_done_with_balance_shafts_is_refused_by_name() -> None:
     body = {"machine": single([shaft("one", -1)])}
     for field in ("force_ceiling_N", "moment_ceiling_Nm"):
         assert _refused(OptimizeRequest, {**body, "objective": {field: 100.0}}) == ("objective", field)
-    assert _refused(ParetoRequest, body) == ("machine", "balance_shafts")
-    assert _refused(AccuracyRequest, body) == ("machine", "balance_shafts")
+
     forward = {"machine": single([shaft("one", 1)]), "objective": {"force_ceiling_N": 0.7 * WHOLE}}
     assert optimized(forward).status == "optimal"
 

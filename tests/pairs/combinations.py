@@ -48,6 +48,14 @@ def some_pairs() -> list[Combination]:
     return [*ONCE_WRONG, *(pair for n, pair in enumerate(all_pairs()) if n % _STRIDE == 0)]
 
 
+def pairs_with_shafts() -> Iterator[Combination]:
+    """Every feature beside every kind of balance shaft, on the machines that have a place for these."""
+    shafts = [name for name in FEATURES if name.startswith("balance shaft")]
+    for base in BASES:
+        for shaft in shafts if "throws" in BASES[base]["machine"] else ():
+            yield from ((base, (shaft, name)) for name in FEATURES if name not in shafts)
+
+
 def random_triples(count: int, seed: int = _SEED) -> Iterator[Combination]:
     """Features in any order, most of them on the machines that have a place for all."""
     chance, names, bases = np.random.default_rng(seed), list(FEATURES), list(BASES)

@@ -8,10 +8,10 @@ import pytest
 
 from tests.night import ALL, but, part
 from tests.pairs.asking import Outcome, ask
-from tests.pairs.combinations import Combination, all_pairs, random_triples, some_pairs
+from tests.pairs.combinations import Combination, all_pairs, pairs_with_shafts, random_triples, some_pairs
 from tests.pairs.features import FEATURES
 from tests.pairs.machines import BASES
-from tests.pairs.ways import pareto_fault, sweep_fault
+from tests.pairs.ways import accuracy_fault, pareto_fault, round_fault, sweep_fault
 
 #: CPU seconds of a warm answer, the time limit of its search being a sixth of it
 _MOST_CPU_S = 3.0
@@ -55,6 +55,30 @@ def test_some_pairs_in_rows_and_fronts(combination: Combination) -> None:
     """A row is the answer to its design alone, and a front is computed or refused by a field."""
     assert sweep_fault(*combination) is None
     assert pareto_fault(*combination) is None
+
+
+@pytest.mark.parametrize("combination", part(8, [*pairs_with_shafts()][::5]), ids=_short)
+def test_some_pairs_with_balance_shafts(combination: Combination) -> None:
+    """What stands beside balance shafts is computed by every way in, or refused by a field."""
+    assert pareto_fault(*combination) is None
+    assert round_fault(*combination) is None
+
+
+@pytest.mark.parametrize("combination", part(4, [*pairs_with_shafts()][::29]), ids=_short)
+def test_some_ladders_with_balance_shafts(combination: Combination) -> None:
+    assert accuracy_fault(*combination) is None
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("block", range(_BLOCKS))
+def test_all_pairs_with_balance_shafts(block: int) -> None:
+    faults = [
+        f"{_short(pair)} | {fault}"
+        for pair in [*pairs_with_shafts()][block::_BLOCKS]
+        for fault in (pareto_fault(*pair), round_fault(*pair))
+        if fault is not None
+    ]
+    assert not faults
 
 
 @pytest.mark.nightly

@@ -1,12 +1,19 @@
-"""The same combinations by the other ways in: a row of a sweep, and a front."""
+"""The same combinations by the other ways in: a row of a sweep, a front, steps of a workshop, and the ladder."""
 
+import json
+from collections.abc import Callable
 from typing import Any
 
 from optimizer.errors import NotComputable
+from optimizer.studies.accuracy.measure import accuracy
 from optimizer.studies.pareto.pareto import pareto
+from optimizer.studies.rounding.round import round_weights
 from schemas.front.pareto import ParetoRequest
+from schemas.request.accuracy import AccuracyRequest
+from schemas.request.rounding import RoundRequest
 from schemas.sweep.request import SweepRequest
 from service.common.validation import InvalidRequest, check
+from service.verification import checker
 from tests.pairs.asking import ask, body_of
 from tests.studies.sweep.single import assert_row_is_the_single_answer, table
 
@@ -38,14 +45,81 @@ def sweep_fault(base: str, features: tuple[str, ...]) -> str | None:
 
 
 def pareto_fault(base: str, features: tuple[str, ...]) -> str | None:
-    """What is wrong with a front of three points; None where it is computed or refused by a field."""
+    """What is wrong with a front of three points; None where no claim of it is broken, or a field refuses it."""
     body: dict[str, Any] | None = body_of(base, features)
     if body is None:
         return None
-    body["points"] = 3
+    # of what is chosen nothing is proven that multipliers could prove
+    fault = "multipliers"
+    for more in ({"multipliers": True}, {}):
+        sent = body | {"points": 3, **more}
+        found, fault = _answered(ParetoRequest, pareto, sent)
+        if found is not None:
+            return _broken(sent, found)
+        if fault != "multipliers":
+            break
+    return fault or None
+
+
+def round_fault(base: str, features: tuple[str, ...]) -> str | None:
+    """What is wrong with a rounding of it; None where its bound and its steps are right, or a field refuses it."""
+    body = body_of(base, features)
+    if body is None:
+        return None
+    sent = {"request": body, "mass_step_kg": 0.3, "angle_step_deg": 7.2}
+    text, fault = _answered(RoundRequest, round_weights, sent)
+    if text is None:
+        return fault or None
+    found = json.loads(text)
+    if found["rounding"] is None:
+        return None if found["status"] == "infeasible" else "nothing is said of the steps"
+    on_shafts = [weight for shaft in found["balance_shafts"] for weight in shaft["counterweights"]]
+    free = [weight for weight in (*found["counterweights"], *on_shafts) if not weight["fixed"]]
+    off = [abs(weight["mass_kg"] / 0.3 - round(weight["mass_kg"] / 0.3)) for weight in free]
+    off += [abs(weight["angle_deg"] / 7.2 - round(weight["angle_deg"] / 7.2)) for weight in on_shafts]
+    if max(off, default=0.0) > 1e-9:
+        return "a weight stands between two steps"
+    proof, goal = found["certificate"], body.get("objective", {})
+    least = found["rounding"]["optimum"]["objective"]
+    if not goal.get("priorities") and proof["objective"] < least - 1e-5 * proof["yardstick"]:
+        return f"{proof['objective']} on steps is below {least} of any masses"
+    bound = proof["lower_bound"]
+    return "the bound is above the value" if bound is not None and bound > proof["objective"] * (1 + 1e-9) else None
+
+
+def accuracy_fault(base: str, features: tuple[str, ...]) -> str | None:
+    """What is wrong with a ladder of it; None where no method is below the bound, or a field refuses it."""
+    body = body_of(base, features)
+    if body is None:
+        return None
+    text, fault = _answered(AccuracyRequest, accuracy, body | {"repeats": 1})
+    if text is None:
+        return fault or None
+    found = json.loads(text)
+    if found["status"] == "contradicted":
+        return "a bound is above a value"
+    rows = [row for row in (*found["ladder"], *found["choices_ladder"]) if row["relative_error"] is not None]
+    kept = [row for row in rows if row.get("limits_kept", True) and (row.get("excess") or 0.0) <= 1e-9]
+    below = [row["method"] for row in kept if row["relative_error"] < -1e-12]
+    return f"{below} are below the bound" if below else None
+
+
+def _answered(kind: type[Any], compute: Callable[[Any], Any], sent: dict[str, Any]) -> tuple[str | None, str]:
+    """The answer as text; else what is wrong: nothing where a field refuses it, whose name alone is `multipliers`."""
     try:
-        found = pareto(check(ParetoRequest, body))
+        text: str = compute(check(kind, sent)).model_dump_json()
     except (InvalidRequest, NotComputable) as refusal:
-        return None if all(each.path and each.message for each in refusal.problems) else "refused without a field"
-    text = found.model_dump_json()
-    return "the front holds no finite number" if "NaN" in text or "Infinity" in text else None
+        problems = list(refusal.problems)
+        if problems and all(each.path == ("multipliers",) for each in problems):
+            return None, "multipliers"
+        return None, "" if all(each.path and each.message for each in problems) else "refused without a field"
+    return (None, "it holds no finite number") if "NaN" in text or "Infinity" in text else (text, "")
+
+
+def _broken(sent: dict[str, Any], text: str) -> str | None:
+    """The first claim that the checker finds broken."""
+    found = checker()
+    claims = found.verify(sent, json.loads(text), found.PLACES)["claims"]
+    return next(
+        (f"{claim['claim']} is broken by {claim['margin']}" for claim in claims if claim["verdict"] == "broken"), None
+    )

@@ -82,6 +82,11 @@ def _made() -> dict[str, Body]:
         "matching, chosen": _matched(twin, choose_counterweights=True, objective={"combine": "max"}),
         "front of budgets": {**front, **SINGLE["ceilings"], "total_mass_budgets_kg": [0.5, 5.0, 20.0]},
         "front without limits": {**SINGLE["no limits, max, sector"], "points": 4, "multipliers": True},
+        "front of a balance shaft": {
+            **_pair("vee", "balance shaft backwards", "clockwise", "moment_ceiling_x_Nm near"),
+            "points": 3,
+            "multipliers": True,
+        },
         "sweep between ends": sweep | {"base": SINGLE["budget and ceiling"], "axes": [speeds]},
         "sweep of what is infeasible": sweep | {"base": SINGLE["infeasible"], "axes": [speeds]},
         "sweep over the turn": {"base": _pair("twin", "bearing weight"), "axes": [speeds]},

@@ -62,16 +62,15 @@ def sweep_of(asked: Body, rng: random.Random) -> Body:
 
 def front_of(asked: Body, rng: random.Random) -> Body:
     """A front of force and moment of a request to optimise."""
-    machine = {name: value for name, value in asked["machine"].items() if name != "balance_shafts"}
     kept = {name: value for name, value in asked.items() if name not in _ALONE}
-    found = kept | {"machine": machine, "points": rng.choice([2, 3, 3, 5])}
+    found = kept | {"points": rng.choice([2, 3, 3, 5])}
     webs, machine = found["machine"].get("webs", ()), found["machine"]
     chosen = {"catalogue", "web_groups"} & machine.keys() or any(
         {"envelope", "min_fitted_mass_kg", "hole_angles_deg", "catalogue_masses_kg"} & web.keys() for web in webs
     )
     if not chosen and rng.randrange(_BARE):
         found["multipliers"] = True
-    if rng.random() < 0.3:
+    if rng.random() < 0.3 and not machine.get("balance_shafts"):
         most = sum(web.get("max_mass_kg") or 10.0 for web in webs if isinstance(web.get("max_mass_kg", 0.0), float))
         found["total_mass_budgets_kg"] = [share * (most or 1.0) for share in rng.choice([(0.5,), (0.0, 0.3, 1.5)])]
     return found

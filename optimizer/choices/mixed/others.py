@@ -66,9 +66,8 @@ class Others:
         mask = np.arange(u.shape[-1] + webs) >= u.shape[-1]
         about = statement.about(np.concatenate([u, np.zeros((count, webs))], axis=-1)).only(mask)
         limits = self.limits.mapped(lambda array: spread(array, (count, *array.shape)))
-        speck = _SPECK * float(np.max(self.limits.max_mass)) or _NOTHING
-        left = np.maximum(statement.limits.max_total_mass - mass_kg, speck)
-        room = np.maximum(limits.max_mass, speck)
+        left = np.maximum(statement.limits.max_total_mass - mass_kg, self._speck)
+        room = np.maximum(limits.max_mass, self._speck)
         return replace(about, limits=replace(limits, max_mass=room, max_total_mass=left))
 
     def optima(self, programs: Statement, share: Real | None = None) -> Relaxations:
@@ -82,7 +81,13 @@ class Others:
         level = np.full(count, _SHARE) if share is None else share
         result = solved(programs, None, level, np.zeros(count), share is not None)
         # what is a speck is nothing
-        return result._replace(unbalance=np.where(self.most > 0, result.unbalance, 0.0))
+        some = (self.most > 0) & (programs.limits.max_total_mass > self._speck)[:, None]
+        return result._replace(unbalance=np.where(some, result.unbalance, 0.0))
+
+    @property
+    def _speck(self) -> float:
+        """What a web or a budget without room is given, kg."""
+        return _SPECK * float(np.max(self.limits.max_mass)) or _NOTHING
 
     def best(self, programs: Statement, below: float, clock: Clock) -> Complex:
         """What these webs carry at best (M, S) kg m, or nearly: of least masses what tangents find.

@@ -8,18 +8,20 @@ import logging
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from optimizer.choices.catalogue_options import part_numbers, stock
+from optimizer.choices.catalogue_options import part_numbers
+from optimizer.choices.construction import options_of, takes_options
 from optimizer.choices.discrete.options import EQUAL
-from optimizer.formulation.counterweights import unbalance
+from optimizer.formulation.balance_shafts import web_paths
+from optimizer.formulation.counterweights import places, unbalance
 from optimizer.formulation.goals import cone_program
 from optimizer.formulation.groups import alike_webs
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
-from optimizer.mechanics.fixed_weights import fixed_masses
+from optimizer.mechanics.fixed_weights import fixed_mass
 from optimizer.mechanics.layout import stacked
 from optimizer.mechanics.shapes import closed, plates
 from optimizer.numerics.arrays import Complex, Real
@@ -30,6 +32,7 @@ from optimizer.program.statement import Statement
 from optimizer.solve.solution import Infeasible
 from optimizer.solve.solve import solve
 from optimizer.studies.accuracy.ladder import LADDER_S, ROUNDS_S, frontier, median_ms
+from schemas.base.rules import Path
 from schemas.base.variation import with_fields
 from schemas.machine.choices import KINDS as CHOICES
 from schemas.machine.machine import Machine
@@ -56,7 +59,7 @@ _ROUNDING = 1e-12
 class Made(NamedTuple):
     """Counterweights that one way comes to."""
 
-    mass: Real  # (K,) kg, fixed weights apart
+    mass: Real  # (K + S,) kg, those on balance shafts behind those of the crankshaft, fixed weights apart
     objective: float  # as it is answered
     bound: float | None
     feasible: bool
@@ -97,8 +100,8 @@ class Ladder(NamedTuple):
 
 def at_rest(request: AccuracyRequest, scene: Prepared) -> Statement:
     """The program of any masses; plates are not opened yet, and reach as far as they can."""
-    square = np.array([scene.omega_squared])
-    return cone_program(closed(request.machine), request.objective, scene.responses, square).chosen(0)
+    (machine, objective), square = Task.of(request).space, np.array([scene.omega_squared])
+    return cone_program(closed(machine), objective, scene.responses, square).chosen(0)
 
 
 def choices_ladder(request: AccuracyRequest, scene: Prepared) -> Ladder:
@@ -165,8 +168,9 @@ class _Ways:
     def free(self) -> Task:
         """Any mass at any angle on every web; plates stay plates."""
         machine, usual = self.request.machine, Accuracy()
-        webs = [("webs", k, field) for k in range(len(machine.webs)) for field in (*CHOICES, "min_fitted_mass_kg")]
-        nothing = dict.fromkeys([*webs, ("catalogue",), ("max_counterweights",)]) | {("web_groups",): ()}
+        own = [(*web, field) for web in web_paths(machine) for field in (*CHOICES, "min_fitted_mass_kg")]
+        nothing: dict[Path, Any] = dict.fromkeys([*own, ("catalogue",), ("max_counterweights",)])
+        nothing |= {("web_groups",): ()}
         free = with_fields(machine, nothing)
         return replace(self.task, machine=free, relative_gap=usual.relative_gap, time_limit_s=usual.time_limit_s)
 
@@ -201,18 +205,18 @@ class _Ways:
 
     def _rounded(self) -> Made | Nothing:
         """The optimum of any masses, of a group the mean, each on what is nearest of its web."""
-        machine, free = self.request.machine, solve(self.free, self.scene, in_full=False)
+        free = solve(self.free, self.scene, in_full=False)
         if isinstance(free, Infeasible):
             return Nothing(free.reason)
-        mass, angle = _nearest(machine, free.unbalance)
-        u = unbalance(mass, angle, _radius(machine))
+        mass, angle = _nearest(self.task, free.unbalance)
+        u = unbalance(mass, angle, _radius(self.request.machine))
         value = float(self.program.objective(u)) * self.scene.omega_squared
         return Made(mass, value, None, self._keeps_limits(mass, u), None)
 
     def _keeps_limits(self, mass: Real, u: Complex) -> bool:
-        """Whether masses (K,) kg of unbalances (K,) kg m keep ceilings, budget and numbers, however they came about."""
+        """Whether masses (K + S,) kg of unbalances (K + S,) kg m keep ceilings, budget and numbers."""
         excess = np.max(self.program.ceilings.excess(u), initial=-np.inf)
-        return bool(excess <= CEILING_TOLERANCE) and _counts(self.request.machine, mass)
+        return bool(excess <= CEILING_TOLERANCE) and _counts(self.task, mass)
 
     def judged(self, rungs: Sequence[Rung]) -> Ladder:
         """What is known of all rows together, and each against it."""
@@ -224,8 +228,7 @@ class _Ways:
             _LOG.error("a lower bound is above the value of an answer: %.17g above %.17g", bound, objective)
             return Ladder(None, (), False)
         bound, any_mass = min(bound, objective), self._optimum(self.free)
-        fixed = float(np.sum(fixed_masses(self.request.machine)))
-        figures = [_figures(rung, bound, rest, fixed) for rung in rungs]
+        figures = [_figures(rung, bound, rest, self.task) for rung in rungs]
         reference = Reference(
             objective=objective,
             lower_bound=bound,
@@ -243,32 +246,45 @@ class _Ways:
 
 
 def _radius(machine: Machine) -> Real:
-    radius: Real = stacked([web.radius_m for web in machine.webs])
+    """Of all webs (K + S,) m."""
+    radius: Real = stacked([web.radius_m for web in places(machine)])
     return radius
 
 
-def _nearest(machine: Machine, u: Complex) -> tuple[Real, Real]:
-    """Masses [kg] and angles [deg] (K,) nearest to unbalances (K,)."""
-    alike = alike_webs(machine)
-    if machine.discrete:
-        held = stock(machine)
-        return held.fitted(held.options.nearest(u if alike is None else alike.means(u)))
-    u = u if alike is None else alike.nearest(u)
-    mass = np.abs(u) / _radius(machine)
-    least = stacked([web.min_fitted_mass_kg or 0.0 for web in machine.webs])
+def _castings(task: Task) -> np.ndarray:
+    """Webs whose pieces are counted (K + S,): those that take options, without any those of the crankshaft."""
+    if task.choice == "discrete":
+        return takes_options(task)
+    return np.arange(len(task.space.machine.webs)) < len(task.machine.webs)
+
+
+def _nearest(task: Task, u: Complex) -> tuple[Real, Real]:
+    """Masses [kg] and angles [deg] (K + S,) nearest to unbalances (K + S,) kg m; beside castings of any mass."""
+    machine = task.machine
+    alike, own = alike_webs(machine), len(machine.webs)
+    if alike is not None and not machine.discrete:
+        u = np.append(alike.nearest(u[:own]), u[own:])
+    mass, angle = np.abs(u) / _radius(machine), np.rad2deg(np.angle(u))
+    least = stacked([web.min_fitted_mass_kg or 0.0 for web in places(machine)])
     mass = np.where(mass < 0.5 * least, 0.0, np.maximum(mass, least))
-    return mass, np.where(mass > 0.0, np.mod(np.rad2deg(np.angle(u)), 360.0), 0.0)
+    if machine.discrete:
+        held, castings = options_of(task), takes_options(task)
+        units = held.options.alike
+        near = held.options.nearest(u[castings] if units is None else units.means(u[castings]))
+        mass[castings], angle[castings] = held.fitted(near)
+    return mass, np.where(mass > 0.0, np.mod(angle, 360.0), 0.0)
 
 
-def _counts(machine: Machine, mass: Real) -> bool:
-    """Whether masses (K,) keep the budget, and the numbers of castings and of sizes."""
+def _counts(task: Task, mass: Real) -> bool:
+    """Whether masses (K + S,) keep the budget, and the numbers of castings and of sizes."""
+    machine = task.machine
     budget, most = machine.max_total_mass_kg, machine.max_counterweights
     sizes = machine.catalogue.max_part_numbers if machine.catalogue is not None else None
-    total = float(np.sum(mass) + np.sum(fixed_masses(machine)))
+    total, castings = float(np.sum(mass) + fixed_mass(machine)), mass[_castings(task)]
     return (
         (budget is None or total <= budget * (1.0 + _ROUNDING))
-        and (most is None or int(np.sum(mass > 0)) <= most)
-        and (sizes is None or part_numbers(mass) <= sizes)
+        and (most is None or int(np.sum(castings > 0)) <= most)
+        and (sizes is None or part_numbers(castings) <= sizes)
     )
 
 
@@ -288,19 +304,20 @@ class _ChoiceFigures(NamedTuple):
 _NOTHING: Mapping[str, None] = dict.fromkeys(_ChoiceFigures._fields)
 
 
-def _figures(rung: Rung, bound: float, rest: float, fixed_kg: float) -> _ChoiceFigures | None:
+def _figures(rung: Rung, bound: float, rest: float, task: Task) -> _ChoiceFigures | None:
     made, time_ms = rung.made, median_ms(rung.times_s)
     if made is None or time_ms is None:
         return None
+    castings = made.mass[_castings(task)]
     return _ChoiceFigures(
         time_ms,
         made.objective,
         made.bound,
         (made.objective - bound) / rest,
         None if made.bound is None else (made.objective - made.bound) / rest,
-        float(np.sum(made.mass)) + fixed_kg,
-        int(np.sum(made.mass > 0.0)),
-        part_numbers(made.mass),
+        float(np.sum(made.mass)) + float(fixed_mass(task.machine)),
+        int(np.sum(castings > 0.0)),
+        part_numbers(castings),
     )
 
 

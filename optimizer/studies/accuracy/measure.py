@@ -13,6 +13,7 @@ import numpy as np
 from optimizer.formulation.formulate import limited, weights
 from optimizer.formulation.goals import cone_program
 from optimizer.formulation.simulation import Prepared
+from optimizer.formulation.task import Task
 from optimizer.outputs.registry import prepare
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import ceiling_allowance
@@ -78,7 +79,7 @@ def _as_made(request: AccuracyRequest, scene: Prepared) -> dict[str, object]:
 
 def _of_any_mass(request: AccuracyRequest, scene: Prepared) -> dict[str, object]:
     """Fields of the answer where counterweights have any mass at any angle."""
-    whole = within_reach(cone_program(request.machine, request.objective, scene.responses, scene.omega_squared))
+    whole = within_reach(cone_program(*Task.of(request).space, scene.responses, scene.omega_squared))
     usable = whole.limits.reach > 0
     statement = whole.only(usable)
     task = LadderProgram(statement, _turn(request, scene).only(usable))

@@ -31,8 +31,8 @@ from schemas.request.objective import Objective
 _LEAST_GAP = 1e-12
 #: least time of a search, s
 _LEAST_TIME = 1e-3
-#: fields of the weights of what is traded inside the shaft
-_INSIDE: Mapping[Traded, str] = {"bearings": "bearing_weight", "bending": "bending_weight"}
+#: fields of the weights of what is traded beside the responses on the frame
+_BESIDE: Mapping[Traded, str] = {"bearings": "bearing_weight", "bending": "bending_weight", "roll": "roll_weight"}
 
 
 @record(frozen=True)
@@ -59,7 +59,7 @@ class ChoiceSearch:
         self.square = np.array([1.0 if name == "mass" else scene.omega_squared for name in names])
         self.fixed = float(np.sum(fixed_masses(task.machine)))
         self.is_mass = np.array([name == "mass" for name in names])
-        self.nothing = np.zeros(len(task.machine.webs), complex)
+        self.nothing = np.zeros(len(task.space.machine.webs), complex)
 
     @cached_property
     def traded(self) -> Measures:
@@ -126,7 +126,7 @@ class ChoiceSearch:
         best = solve(task, replace(self.scene, machine=machine, objective=goal), in_full=False)
         if isinstance(best, Infeasible):
             return best
-        values = np.where(self.is_mass, best.shown.total_mass_kg, self.values(best.unbalance))
+        values = np.where(self.is_mass, best.shown.mass_kg, self.values(best.unbalance))
         bound = best.certificate.lower_bound
         corner = np.full(values.shape, np.nan)
         if bound is not None:
@@ -142,5 +142,5 @@ class ChoiceSearch:
             own = own_weights(self.task.machine, objective)
             more = {name: float(weight) * weights["objective"] for name, weight in own.items()}
             return weighing(objective, more)
-        inside = {field: weights.get(name, 0.0) for name, field in _INSIDE.items()}
-        return weighing(objective, weights, combine="max", **inside, **ceilings)
+        beside = {field: weights.get(name, 0.0) for name, field in _BESIDE.items()}
+        return weighing(objective, weights, combine="max", **beside, **ceilings)

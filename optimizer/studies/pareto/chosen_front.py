@@ -110,8 +110,9 @@ class _Boxes(ChoiceSearch):
         """Of all whose peak ``axis`` is the smallest, but for a share of the gap, the least of the other peak."""
         objective, field = self.task.objective, ("force_ceiling_N", "moment_ceiling_Nm")[axis]
         across = objective.direction_weights
-        if (across.x, across.y) != (1.0, 1.0):
-            # a ceiling is of a whole vector; the boxes find the corner
+        backwards = any(response.counter_influence is not None for response in self.scene.responses)
+        if (across.x, across.y) != (1.0, 1.0) or backwards:
+            # a ceiling is of a whole vector, and of one length of it; the boxes find the corner
             return end
         most = float(end.values[axis] + _SLACK * self.gap * size[axis])
         limit = getattr(objective, field)
@@ -153,7 +154,8 @@ class _Boxes(ChoiceSearch):
 
     def _point(self, optimum: ChosenPoint, size: Real) -> ParetoPoint:
         best, proven = optimum.solution, bool(np.all(np.isfinite(optimum.corner)))
-        shown, plain = best.shown, self.scene.first_order(best.shown.on_crank)
+        shown = best.shown
+        plain = self.scene.beside(shown.on_shafts).first_order(shown.on_crank)
         # of the peak that the optimum leaves room in nothing is claimed
         gap = float(np.max((optimum.values - optimum.corner) / size))
         wide = best.status == "optimal" and gap > self.gap
@@ -164,8 +166,7 @@ class _Boxes(ChoiceSearch):
             moment_peak_Nm=float(plain.moment.peak),
             weighted_force_peak_N=float(optimum.values[0]),
             weighted_moment_peak_Nm=float(optimum.values[1]),
-            total_mass_kg=shown.total_mass_kg,
-            counterweights=shown.counterweights,
+            **shown.fields,
             # of the request: a search has ceilings of its own
             active_limits=touched_limits(
                 self.task.machine,

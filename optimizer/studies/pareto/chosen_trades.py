@@ -74,7 +74,8 @@ class ChosenTrades(ChoiceSearch):
     def _shown(self, point: ChosenPoint, size: Real) -> TradedPoint:
         """A point with its proof."""
         best = point.solution
-        proof, after = best.certificate, self.scene.first_order(best.shown.on_crank)
+        shown, proof = best.shown, best.certificate
+        after = self.scene.beside(shown.on_shafts).first_order(shown.on_crank)
         gap = float(np.max((point.values - point.corner) / size))
         proven = bool(np.isfinite(gap))
         exact = proven and best.status == "optimal" and gap <= self.gap
@@ -84,8 +85,7 @@ class ChosenTrades(ChoiceSearch):
             values=tuple(point.values.tolist()),
             force_peak_N=float(after.force.peak),
             moment_peak_Nm=float(after.moment.peak),
-            total_mass_kg=best.shown.total_mass_kg,
-            counterweights=best.shown.counterweights,
+            **shown.fields,
             certificate=TradedCertificate(
                 corner=tuple(finite_or_null(value) if proven else None for value in point.corner),
                 relative_gap=max(gap, 0.0) if proven else None,

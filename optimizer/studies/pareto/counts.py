@@ -5,12 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from optimizer.choices.catalogue_options import part_numbers, stock
+from optimizer.choices.catalogue_options import part_numbers
+from optimizer.choices.construction import options_of, takes_options
 from optimizer.errors import MissingInput
-from optimizer.formulation.counterweights import counterweights, unbalance
+from optimizer.formulation.balance_shafts import fitted
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
-from optimizer.mechanics.layout import stacked
 from optimizer.outputs.requirements import missing
 from optimizer.solve.minimum_mass import BestSet, minimum_mass, none_of
 from optimizer.solve.solution import Infeasible
@@ -61,9 +61,9 @@ def at_most(machine: Machine, of: Counted, number: int) -> Machine:
     return with_fields(machine, {("catalogue",): catalogue})
 
 
-def _most(machine: Machine, of: Counted) -> int:
+def _most(task: Task, of: Counted) -> int:
     """The largest number that means anything."""
-    options = stock(machine).options
+    options = options_of(task).options
     if of in PIECES:
         return int(np.sum(options.webs[np.any(options.mass > 0, axis=-1)]))
     return int(np.max(options.part, initial=-1)) + 1
@@ -73,14 +73,15 @@ def _point(task: Task, scene: Prepared, trade: CountTrade, number: int | None) -
     best = (_smallest if trade.least == "objective" else minimum_mass)(task, scene)
     result = best.status != "infeasible"
     machine = task.machine
-    u = unbalance(best.mass_kg, best.angle_deg, stacked([web.radius_m for web in machine.webs]))
-    after = scene.first_order(u)
-    weights = int(np.sum(best.mass_kg[_chosen(machine)] > 0)) if result else None
-    sizes = part_numbers(best.mass_kg[_chosen(machine)]) if result else None
+    shown = fitted(machine, best.mass_kg, best.angle_deg)
+    after = scene.beside(shown.on_shafts).first_order(shown.on_crank)
+    castings = best.mass_kg[_chosen(task)]
+    weights = int(np.sum(castings > 0)) if result else None
+    sizes = part_numbers(castings) if result else None
     if number is None:
         # where no number limits it, so many as it takes
         used = weights if trade.of in PIECES else sizes
-        number = _most(machine, trade.of) if used is None else used
+        number = _most(task, trade.of) if used is None else used
     return CountPoint(
         at_most=number,
         status=best.status,
@@ -90,18 +91,17 @@ def _point(task: Task, scene: Prepared, trade: CountTrade, number: int | None) -
         relative_gap=_or_none(best.relative_gap) if result else None,
         weights=weights,
         part_numbers=sizes,
-        total_mass_kg=float(np.sum(best.mass_kg)) if result else None,
         force_peak_N=float(after.force.peak) if result else None,
         moment_peak_Nm=float(after.moment.peak) if result else None,
-        counterweights=counterweights(machine, best.mass_kg, best.angle_deg) if result else (),
+        **(shown.fields if result else {"total_mass_kg": None, "counterweights": ()}),
         nodes=best.nodes,
         method=best.method,
     )
 
 
-def _chosen(machine: Machine) -> np.ndarray:
-    """Webs whose weights are not fixed (K,)."""
-    return np.array([web.fixed is None for web in machine.webs], dtype=bool)
+def _chosen(task: Task) -> np.ndarray:
+    """Webs that take castings which are not fixed (K + S,)."""
+    return takes_options(task) & np.array([web.fixed is None for web in task.space.machine.webs], dtype=bool)
 
 
 def _smallest(task: Task, scene: Prepared) -> BestSet:
@@ -109,10 +109,10 @@ def _smallest(task: Task, scene: Prepared) -> BestSet:
     best = solve(task, scene, in_full=False)
     if isinstance(best, Infeasible):
         return none_of(task.machine, best.status, best.reason, best.nodes, best.method)
-    proof, fitted = best.certificate, best.shown.counterweights
+    proof, weights = best.certificate, best.shown.all_of_them
     return BestSet(
-        np.array([weight.mass_kg for weight in fitted]),
-        np.array([weight.angle_deg for weight in fitted]),
+        np.array([weight.mass_kg for weight in weights]),
+        np.array([weight.angle_deg for weight in weights]),
         proof.objective,
         np.nan if proof.lower_bound is None else proof.lower_bound,
         np.nan if proof.relative_gap is None else proof.relative_gap,

@@ -8,10 +8,11 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from optimizer.formulation.counterweights import counterweights, masses_and_angles, unbalance
+from optimizer.formulation.balance_shafts import chosen
+from optimizer.formulation.counterweights import masses_and_angles, unbalance
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
-from optimizer.mechanics.fixed_weights import beside, fixed_masses
+from optimizer.mechanics.fixed_weights import fixed_masses
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.certificate import ceiling_allowance
 from optimizer.program.cuts.optimum import METHOD, CertifiedOptimum, Conflict, over_turn
@@ -78,7 +79,8 @@ class Lines:
         share = min(1.0, float(np.min(size / unit)))
         # the ends have kept the ceilings
         result = over_turn(self.traded.along(anchor, unit), share * wanted, least).certain()
-        masses, angles = masses_and_angles(self.task.machine, result.point.unbalance, result.limits)
+        task = self.task
+        masses, angles = masses_and_angles(task.space.machine, result.point.unbalance, result.limits)
         u = unbalance(masses, angles, result.limits.radius)
         values, excess = self.traded.values(u), self.traded.excess(u)
         bound, rounding = _bound(result, u, excess)
@@ -98,16 +100,15 @@ class Lines:
             ),
             wanted,
         )
-        on_crank = beside(self.task.machine, masses, angles)
-        plain = self.scene.first_order(unbalance(*on_crank, result.limits.radius))
+        shown = chosen(task.machine, task.objective, masses, angles, u)
+        plain = self.scene.beside(shown.on_shafts).first_order(shown.on_crank)
         return TradedPoint(
             status="optimal" if judged.status == "optimal" else "inaccurate",
             status_reason=str(judged.reason),
             values=tuple((values * self.square + self.there).tolist()),
             force_peak_N=float(plain.force.peak),
             moment_peak_Nm=float(plain.moment.peak),
-            total_mass_kg=mass + self.fixed,
-            counterweights=counterweights(self.task.machine, *on_crank),
+            **shown.fields,
             certificate=TradedCertificate(
                 corner=tuple(
                     finite_or_null(coordinate) for coordinate in judged.lower_bound * self.square + self.there

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from optimizer.formulation.balance_shafts import design_space
 from optimizer.formulation.formulate import RESPONSES, weighing
 from optimizer.formulation.goals import Case, formulate
 from optimizer.formulation.simulation import Prepared
@@ -40,6 +41,7 @@ def alone(objective: Objective, names: Sequence[Traded]) -> Objective:
         priorities=(),
         bearing_weight=float("bearings" in names),
         bending_weight=float("bending" in names),
+        roll_weight=float("roll" in names),
     )
 
 
@@ -104,9 +106,9 @@ class Measures:
 
 def measures(task: Task, names: tuple[Traded, ...], scene: Prepared) -> Measures:
     """The responses of a task by their names."""
-    objective = alone(task.objective, names)
+    machine, objective = design_space(task.machine, alone(task.objective, names))
     turn = whole_turn_of(scene, objective) if objective.of_the_revolution else None
-    machine, square = closed(task.machine), scene.omega_squared
+    machine, square = closed(machine), scene.omega_squared
     case = Case(machine, square, (scene.responses,), None if turn is None else (turn, scene.laden))
     program = formulate(machine, objective, [case], square, task.fidelity).program
     every = tuple(row for group in program.groups for row in group.rows)
@@ -149,7 +151,8 @@ def unit_of(name: Traded, objective: Objective) -> str:
     if name in RESPONSES:
         return RESPONSES[name].unit
     specific = objective.bearing_measure == "specific"
-    return {"bearings": "Pa" if specific else "N", "bending": "N m", "mass": "kg", "objective": "as weighed"}[name]
+    inside = {"bearings": "Pa" if specific else "N", "bending": "N m", "roll": "N m"}
+    return (inside | {"mass": "kg", "objective": "as weighed"})[name]
 
 
 def _along(group: Group, anchor: float, unit: float) -> Group:

@@ -6,10 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from optimizer.formulation.counterweights import counterweights, masses_and_angles, unbalance
+from optimizer.formulation.balance_shafts import chosen, design_space
+from optimizer.formulation.counterweights import masses_and_angles, unbalance
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
-from optimizer.mechanics.fixed_weights import beside, fixed_masses
+from optimizer.mechanics.fixed_weights import fixed_masses
 from optimizer.numerics.arrays import Real
 from optimizer.numerics.records import record
 from optimizer.outputs.first_order import first_order, floor
@@ -116,7 +117,7 @@ def _front(request: ParetoRequest, machine: Machine, scene: Prepared) -> _Made:
     start = time.perf_counter()
     if request.chosen:
         return _Made(chosen_front(request, machine, scene), time.perf_counter() - start, 0.0)
-    traded = trade(machine, request.objective, scene.responses, scene.omega_squared)
+    traded = trade(*design_space(machine, request.objective), scene.responses, scene.omega_squared)
     result = front(traded, request.points, request.accuracy.relative_gap, request.objective.least_mass)
     solve_s = time.perf_counter() - start
     if isinstance(result, ConeSolution):
@@ -158,7 +159,7 @@ def _certified(request: ParetoRequest, machine: Machine, scene: Prepared, curve:
         knee=knee(shown),
         ends=ends,
         scale=Scale(force_N=float(scale[0]), moment_Nm=float(scale[1])),
-        implied_max_mass_kg=implied_max_mass(machine, curve.trade.both.limits.max_mass[None])[0],
+        implied_max_mass_kg=_implied(request, machine, curve),
     )
 
 
@@ -168,11 +169,10 @@ def _point(request: ParetoRequest, machine: Machine, scene: Prepared, curve: Fro
     unbalance_there = point.solution.unbalance
     if request.objective.symmetric:
         unbalance_there = symmetric(traded.both.alone(), unbalance_there[None])[0]
-    masses, angles = masses_and_angles(machine, unbalance_there, limits)
+    masses, angles = masses_and_angles(design_space(machine, request.objective).machine, unbalance_there, limits)
     u = unbalance(masses, angles, limits.radius)
     point = point.counting(traded, u)
-    on_crank = beside(machine, masses, angles)
-    fitted, together = counterweights(machine, *on_crank), unbalance(*on_crank, limits.radius)
+    shown = chosen(machine, request.objective, masses, angles, u)
     peaks = traded.peaks(u)
     fixed = float(np.sum(fixed_masses(machine)))
     judged = verdict(
@@ -188,7 +188,7 @@ def _point(request: ParetoRequest, machine: Machine, scene: Prepared, curve: Fro
         ),
         request.accuracy.relative_gap,
     )
-    plain = scene.first_order(together)
+    plain = scene.beside(shown.on_shafts).first_order(shown.on_crank)
     limit = (point.mass_limit * square).tolist() if point.mass_proof is not None else (None, None)
     weighted: Real = peaks * square
     proven: Real = judged.lower_bound * square
@@ -199,9 +199,15 @@ def _point(request: ParetoRequest, machine: Machine, scene: Prepared, curve: Fro
         moment_peak_Nm=float(plain.moment.peak),
         weighted_force_peak_N=float(weighted[0]),
         weighted_moment_peak_Nm=float(weighted[1]),
-        total_mass_kg=float(sum(counterweight.mass_kg for counterweight in fitted)),
-        counterweights=fitted,
-        active_limits=touched_limits(machine, request.objective, scene.responses, on_crank[0], u, square),
+        **shown.fields,
+        active_limits=touched_limits(
+            machine,
+            request.objective,
+            scene.responses,
+            np.array([counterweight.mass_kg for counterweight in shown.counterweights]),
+            u,
+            square,
+        ),
         certificate=CornerCertificate(
             force_N=finite_or_null(proven[0]),
             moment_Nm=finite_or_null(proven[1]),
@@ -214,11 +220,16 @@ def _point(request: ParetoRequest, machine: Machine, scene: Prepared, curve: Fro
             mass_yardstick_kg=float(judged.mass_yardstick) if request.objective.least_mass else None,
             mass_force_limit_N=limit[0],
             mass_moment_limit_Nm=limit[1],
-            implied_max_mass_kg=implied_max_mass(machine, limits.max_mass[None])[0],
+            implied_max_mass_kg=_implied(request, machine, curve),
             method=point.solution.method,
         ),
         multipliers=_of_point(traded, point, square) if request.multipliers else None,
     )
+
+
+def _implied(request: ParetoRequest, machine: Machine, curve: Front) -> dict[str, float]:
+    """Largest masses by web, kg, that all proofs of a front count with in place of those of the machine."""
+    return implied_max_mass(design_space(machine, request.objective).machine, curve.trade.both.limits.max_mass[None])[0]
 
 
 def _of_point(traded: Trade, point: FrontPoint, omega_squared: float) -> Multipliers:

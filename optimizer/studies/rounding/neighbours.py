@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.errors import refuse
+from optimizer.formulation.balance_shafts import as_drawn, web_paths
 from optimizer.formulation.groups import alike_webs
 from optimizer.formulation.limits import largest_mass, sectors
 from optimizer.mechanics.crank_of_web import crank_angles
@@ -35,14 +36,18 @@ def sides(machine: Machine, mass_kg: Real, angle_deg: Real, mass_step: float, an
 
     Parameters
     ----------
-    mass_kg, angle_deg : (K,) what the webs carry, fixed weights apart; of a group all the same, on their own cranks.
+    mass_kg, angle_deg : (K + S,) what the webs carry as drawn, those of balance shafts behind those of the crankshaft,
+        fixed weights apart; of a group all the same, on their own cranks. Angles on balance shafts count from 0.
 
     Raises
     ------
     OutOfRange
         where a web that carries something has no crank to count from, or no step falls into its sector.
     """
-    alike, cranks, limit = alike_webs(machine), crank_angles(machine), largest_mass(machine).tolist()
+    paths, cranks = web_paths(machine), [*crank_angles(machine)]
+    cranks += [0.0] * (len(paths) - len(cranks))
+    machine = as_drawn(machine)
+    alike, limit = alike_webs(machine), largest_mass(machine).tolist()
     free, centre, half_angle = sectors(machine)
     leader = list(range(len(machine.webs))) if alike is None else list(alike.leader)
     mirrored = [False] * len(leader) if alike is None else list(alike.mirrored)
@@ -55,14 +60,14 @@ def sides(machine: Machine, mass_kg: Real, angle_deg: Real, mass_step: float, an
             continue
         if crank is None:
             message = "steps of angle count from a crank: name the throw"
-            problems.append(FieldProblem(("machine", "webs", k, "throw"), message))
+            problems.append(FieldProblem(("machine", *paths[k], "throw"), message))
             continue
         if first == k:
             near = _steps(float(np.mod(angle_deg[k] - crank, 360.0)) / angle_step)
             inside = [n for n in near if free[k] or in_sector(crank + n * angle_step, centre[k], half_angle[k])]
             if not inside:
                 message = "no step of the angle falls into the sector"
-                problems.append(FieldProblem(("machine", "webs", k, "sector"), message))
+                problems.append(FieldProblem(("machine", *paths[k], "sector"), message))
             turns[k] = inside
         masses = (_decimal(n * mass_step) for n in _steps(mass_kg[first] / mass_step))
         fit = tuple(mass for mass in masses if 0.0 < mass <= limit[k])

@@ -1,12 +1,14 @@
 """The best rounding of an optimum to steps of mass and angle: a choice from a catalogue of what is on either side."""
 
 from collections.abc import Iterator
+from itertools import chain
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from optimizer.errors import NotComputable
-from optimizer.formulation.counterweights import counterweights, unbalance
+from optimizer.formulation.balance_shafts import fitted, posed, web_paths
+from optimizer.formulation.counterweights import places, unbalance
 from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import beside
 from optimizer.mechanics.layout import stacked
@@ -26,6 +28,7 @@ from schemas.base.rules import Path
 from schemas.base.variation import with_fields
 from schemas.machine.catalogue import Catalogue
 from schemas.machine.machine import Machine
+from schemas.request.objective import Objective
 from schemas.request.requests import OptimizeRequest
 from schemas.request.rounding import RoundAnswer, Rounding, RoundRequest, StepRise, Weights
 
@@ -58,17 +61,19 @@ def round_weights(request: RoundRequest) -> RoundAnswer:
 
 
 class _Set(NamedTuple):
-    """Counterweights that are not fixed."""
+    """Counterweights that are not fixed, those on balance shafts behind those of the crankshaft."""
 
-    mass: Real  # (K,) kg
-    angle: Real  # (K,) degrees
+    mass: Real  # (K + S,) kg
+    angle: Real  # (K + S,) degrees, as drawn
 
     @classmethod
     def of(cls, answer: OptimizeAnswer) -> "_Set":
-        free = [not counterweight.fixed for counterweight in answer.counterweights]
+        on_shafts = chain.from_iterable(shaft.counterweights for shaft in answer.balance_shafts)
+        every = [*answer.counterweights, *on_shafts]
+        free = [not counterweight.fixed for counterweight in every]
         return cls(
-            np.where(free, [counterweight.mass_kg for counterweight in answer.counterweights], 0.0),
-            np.where(free, [counterweight.angle_deg for counterweight in answer.counterweights], 0.0),
+            np.where(free, [counterweight.mass_kg for counterweight in every], 0.0),
+            np.where(free, [counterweight.angle_deg for counterweight in every], 0.0),
         )
 
 
@@ -77,6 +82,7 @@ class _Judge:
     """What sets come to, by the program of a request."""
 
     machine: Machine
+    goal: Objective
     program: Problem
     omega_squared: float
 
@@ -86,12 +92,12 @@ class _Judge:
         scene = prepare(request, ("residual", *request.outputs), () if request.cases else effects)
         task = Task.of(request)
         program = Robust(task, scene, task.demand).goals().program
-        return cls(request.machine, program, scene.omega_squared)
+        return cls(request.machine, request.objective, program, scene.omega_squared)
 
     def values(self, weights: _Set) -> tuple[float, float]:
         """Objective, and the largest excess over a ceiling."""
-        radius = stacked([web.radius_m for web in self.machine.webs])
-        values = self.program.values(unbalance(*weights, radius), _CLOSE)
+        radius = stacked([web.radius_m for web in places(self.machine)])
+        values = self.program.values(posed(self.machine, self.goal, unbalance(*weights, radius)), _CLOSE)
         return float(values.goals[-1]) * self.omega_squared, values.excess
 
     def objective(self, weights: _Set) -> float:
@@ -100,13 +106,13 @@ class _Judge:
     def weights(self, weights: _Set) -> Weights:
         """As it is answered."""
         mass, angle = beside(self.machine, *weights)
-        (objective, excess), total = self.values(weights), float(np.sum(mass))
+        (objective, excess), shown = self.values(weights), fitted(self.machine, mass, angle)
         budget = self.machine.max_total_mass_kg
         return Weights(
             objective=objective,
-            limits_kept=excess <= CEILING_TOLERANCE and (budget is None or total <= budget * (1.0 + _ROUNDING)),
-            total_mass_kg=total,
-            counterweights=counterweights(self.machine, mass, angle),
+            limits_kept=excess <= CEILING_TOLERANCE
+            and (budget is None or shown.total_mass_kg <= budget * (1.0 + _ROUNDING)),
+            **shown.fields,
         )
 
 
@@ -117,14 +123,14 @@ def _rounding(request: RoundRequest) -> RoundAnswer:
         return _answer(free, None)
     optimum, judge = _Set.of(free), _Judge.of(problem)
     near = sides(problem.machine, *optimum, request.mass_step_kg, request.angle_step_deg)
-    answer = optimize(_among(problem, near))
+    answer = _on_steps(optimize(_among(problem, near)), problem.machine, near)
     if answer.certificate is None:
         return _answer(answer, None)
     plain, certificate = judge.weights(_Set(*nearest(near))), answer.certificate
     better = plain.limits_kept and plain.objective < certificate.objective
     if better and len(judge.program.goals) == 1:
         # the time ended the search before it came to what is nearest
-        only = optimize(_among(problem, [web.nearest for web in near]))
+        only = _on_steps(optimize(_among(problem, [web.nearest for web in near])), problem.machine, near)
         if only.certificate is not None:
             answer = with_fields(only, _of_search(answer, certificate, only.certificate))
     return _answer(answer, _cost(request, judge, free, answer, plain))
@@ -140,11 +146,27 @@ def _answer(answer: OptimizeAnswer, rounding: Rounding | None) -> RoundAnswer:
 def _among(request: OptimizeRequest, every: list[Sides]) -> OptimizeRequest:
     """The request with what is on either side as all that there is."""
     values: dict[Path, Any] = {("machine", "catalogue"): Catalogue(), ("accuracy", "relative_gap"): _EXACT}
-    for k, (web, (masses, angles)) in enumerate(zip(request.machine.webs, every, strict=True)):
+    machine = request.machine
+    for path, web, (masses, angles) in zip(web_paths(machine), places(machine), every, strict=True):
         if not web.fixed:
-            place = ("machine", "webs", k)
+            place = ("machine", *path)
             values |= {(*place, "catalogue_masses_kg"): masses, (*place, "hole_angles_deg"): angles}
     return with_fields(request, values)
+
+
+def _on_steps(answer: OptimizeAnswer, machine: Machine, every: list[Sides]) -> OptimizeAnswer:
+    """The answer with angles on balance shafts as they were chosen: of a mirror image the last digits are lost."""
+    values: dict[Path, Any] = {}
+    for place, (_, angles) in zip(web_paths(machine), every, strict=True):
+        if place[0] == "webs" or not answer.balance_shafts or not angles:
+            continue
+        _, n, _, k = place
+        path = ("balance_shafts", n, "counterweights", k)
+        weight = answer.balance_shafts[int(n)].counterweights[int(k)]
+        if weight.mass_kg > 0.0:
+            there = weight.angle_deg
+            values[(*path, "angle_deg")] = min((abs(angle - there), angle) for angle in angles)[1]
+    return with_fields(answer, values) if values else answer
 
 
 def _of_search(search: OptimizeAnswer, of_all: Certificate, own: Certificate) -> dict[Path, Any]:
@@ -192,7 +214,7 @@ def _cost(
 
 def _steps(request: RoundRequest, judge: _Judge, best: _Set, value: float) -> Iterator[StepRise]:
     """What a step off costs, of every counterweight alone."""
-    mass_step, angle_step = request.mass_step_kg, request.angle_step_deg
+    mass_step, angle_step, webs = request.mass_step_kg, request.angle_step_deg, places(judge.machine)
     for k in np.flatnonzero(best.mass > 0.0).tolist():
 
         def rise(mass: float, angle: float, web: int = k) -> float:
@@ -201,7 +223,7 @@ def _steps(request: RoundRequest, judge: _Judge, best: _Set, value: float) -> It
             return judge.objective(_Set(heavier, turned)) - value
 
         yield StepRise(
-            web=judge.machine.webs[k].name,
+            web=webs[k].name,
             lighter=rise(-mass_step, 0.0),
             heavier=rise(mass_step, 0.0),
             backward=rise(0.0, -angle_step),

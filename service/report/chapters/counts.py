@@ -15,11 +15,18 @@ _VALUE = {"objective": "#objective", "mass": "#minimum mass, kg"}
 def counted(front: CountFront) -> Block:
     """A row for every number."""
     heads = [f"#at most, {_COUNTED[front.of]}", _VALUE[front.least], "#proven at least", "#relative gap"]
-    heads += ["#peak force, N", "#peak moment, N m", "#mass, kg", "#counterweights", "#part numbers", ""]
-    return table("", heads, [_row(point) for point in front.points])
+    heads += ["#peak force, N", "#peak moment, N m"]
+    heads += ["#mass on the crankshaft, kg", "#on balance shafts, kg"] if _geared(front) else ["#mass, kg"]
+    heads += ["#counterweights", "#part numbers", ""]
+    return table("", heads, [_row(point, _geared(front)) for point in front.points])
 
 
-def _row(point: CountPoint) -> tuple[Cell | float | None, ...]:
+def _geared(front: CountFront) -> bool:
+    """Whether there are balance shafts."""
+    return any(point.balance_shafts for point in front.points)
+
+
+def _row(point: CountPoint, geared: bool) -> tuple[Cell | float | None, ...]:
     gap = point.relative_gap
     fitted = (point.weights, point.part_numbers)
     return (
@@ -30,6 +37,7 @@ def _row(point: CountPoint) -> tuple[Cell | float | None, ...]:
         point.force_peak_N,
         point.moment_peak_Nm,
         point.total_mass_kg,
+        *((point.balance_shafts_mass_kg,) if geared else ()),
         *(None if count is None else Number(count, str(count)) for count in fitted),
         "" if point.status == "optimal" else point.status,
     )

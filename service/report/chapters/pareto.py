@@ -1,6 +1,7 @@
 """The trade-off of peak force and peak moment, front by front."""
 
 from collections.abc import Iterator
+from itertools import chain
 
 from schemas.front.pareto import ParetoAnswer, ParetoFront, ParetoPoint, ParetoRequest, Reason
 from schemas.front.trade import TradedFront, TradedPoint
@@ -69,6 +70,7 @@ def _trade(objective: Objective, trade: TradedFront) -> Iterator[Block]:
         yield from reachable(objective, trade.infeasibility)
         return
     heads = [f"#{response.response}, {response.unit}" for response in trade.responses]
+    geared = any(point.balance_shafts for point in trade.points)
     bounds: list[tuple[Cell | float | None, ...]] = [
         ("without counterweights", *(response.without_counterweights for response in trade.responses)),
         ("smallest by itself", *(response.smallest for response in trade.responses)),
@@ -76,10 +78,10 @@ def _trade(objective: Objective, trade: TradedFront) -> Iterator[Block]:
     ]
     yield table("", ["", *heads], bounds)
     rows: list[tuple[Cell | float | None, ...]] = [
-        (str(index), *point.values, point.total_mass_kg, _gap(point), "" if beaten is None else f"beaten by {beaten}")
+        (str(index), *point.values, *_mass(point), _gap(point), "" if beaten is None else f"beaten by {beaten}")
         for index, (point, beaten) in enumerate((point, point.beaten_by) for point in trade.points)
     ]
-    yield table("", ["point", *heads, "#mass, kg", "#relative gap", ""], rows)
+    yield table("", ["point", *heads, *_mass_heads(geared), "#relative gap", ""], rows)
     if trade.reason is not None:
         yield Paragraph("All are smallest at the same counterweights: nothing has to be traded.")
 
@@ -87,7 +89,8 @@ def _trade(objective: Objective, trade: TradedFront) -> Iterator[Block]:
 def _points(front: ParetoFront, weighted: bool) -> Table:
     heads = ["point", "#peak force, N", "#peak moment, N m"]
     heads += ["#weighted force, N", "#weighted moment, N m"] if weighted else []
-    heads += ["#mass, kg", "#relative gap", "limits reached", ""]
+    heads += _mass_heads(any(point.balance_shafts for point in front.points))
+    heads += ["#relative gap", "limits reached", ""]
     return table("", heads, [_point(front, index, point, weighted) for index, point in enumerate(front.points)])
 
 
@@ -97,11 +100,20 @@ def _point(front: ParetoFront, index: int, point: ParetoPoint, weighted: bool) -
         point.force_peak_N,
         point.moment_peak_Nm,
         *((point.weighted_force_peak_N, point.weighted_moment_peak_Nm) if weighted else ()),
-        point.total_mass_kg,
+        *_mass(point),
         _gap(point),
         _reached(point),
         "knee" if index == front.knee else "",
     )
+
+
+def _mass_heads(geared: bool) -> list[str]:
+    """Heads of the masses, where there are balance shafts apart."""
+    return ["#mass on the crankshaft, kg", "#on balance shafts, kg"] if geared else ["#mass, kg"]
+
+
+def _mass(point: ParetoPoint | TradedPoint) -> tuple[float | None, ...]:
+    return (point.total_mass_kg, point.balance_shafts_mass_kg) if point.balance_shafts else (point.total_mass_kg,)
 
 
 def _gap(point: ParetoPoint | TradedPoint) -> Cell:
@@ -112,7 +124,8 @@ def _gap(point: ParetoPoint | TradedPoint) -> Cell:
 def _reached(point: ParetoPoint) -> str:
     """Limits of the machine, and those of webs with their names."""
     webs: dict[str, list[str]] = {}
-    for counterweight in point.counterweights:
+    on_shafts = chain.from_iterable(shaft.counterweights for shaft in point.balance_shafts)
+    for counterweight in chain(point.counterweights, on_shafts):
         for limit in counterweight.active_limits:
             webs.setdefault(limits([limit]), []).append(counterweight.web)
     machine = [limits([limit]) for limit in point.active_limits]

@@ -1,6 +1,7 @@
 """What steps of mass and angle cost, beside the answer on these steps."""
 
 from collections.abc import Iterator
+from itertools import chain
 
 from schemas.answer.answers import OptimizeAnswer
 from schemas.request.rounding import RoundAnswer, Rounding, RoundRequest, Weights
@@ -24,14 +25,14 @@ def with_rounding(request: RoundRequest, answer: RoundAnswer) -> Iterator[Chapte
 
 def _blocks(request: RoundRequest, answer: OptimizeAnswer, rounding: Rounding) -> Iterator[Block]:
     assert answer.certificate is not None  # there is none where nothing can be rounded
-    pieces = sum(counterweight.mass_kg > 0 and not counterweight.fixed for counterweight in answer.counterweights)
+    heads = ["#mass on the crankshaft, kg", "#on balance shafts, kg"] if answer.balance_shafts else ["#mass, kg"]
     yield table(
         "",
-        ["", "#objective", "#mass, kg", "#counterweights", "<limits"],
+        ["", "#objective", *heads, "#counterweights", "<limits"],
         [
             _row("any mass, any angle", rounding.optimum),
             _row("each on the nearest step", rounding.nearest),
-            ("best rounding", answer.certificate.objective, answer.total_mass_kg, Number(pieces, str(pieces)), "kept"),
+            ("best rounding", answer.certificate.objective, *_made(answer), "kept"),
         ],
     )
     yield Paragraph(answer.status_reason)
@@ -53,6 +54,13 @@ def _blocks(request: RoundRequest, answer: OptimizeAnswer, rounding: Rounding) -
 
 
 def _row(name: str, weights: Weights) -> tuple[Cell | float | None, ...]:
-    pieces = sum(counterweight.mass_kg > 0 and not counterweight.fixed for counterweight in weights.counterweights)
-    count = Number(pieces, str(pieces))
-    return (name, weights.objective, weights.total_mass_kg, count, "kept" if weights.limits_kept else "broken")
+    return (name, weights.objective, *_made(weights), "kept" if weights.limits_kept else "broken")
+
+
+def _made(weights: Weights | OptimizeAnswer) -> tuple[Cell | float | None, ...]:
+    """Masses, those on balance shafts apart, and how many there are that are not fixed."""
+    on_shafts = chain.from_iterable(shaft.counterweights for shaft in weights.balance_shafts)
+    every = chain(weights.counterweights, on_shafts)
+    pieces = sum(counterweight.mass_kg > 0 and not counterweight.fixed for counterweight in every)
+    there = (weights.balance_shafts_mass_kg,) if weights.balance_shafts else ()
+    return (weights.total_mass_kg, *there, Number(pieces, str(pieces)))

@@ -35,8 +35,13 @@ class WeightedResponse:
     weight_y: float = 1.0
 
     def only(self, webs: np.ndarray) -> "WeightedResponse":
-        chosen = replace(self.response, influence=self.response.influence[webs])
-        return WeightedResponse(chosen, self.weight, self.weight_x, self.weight_y)
+        against = self.response.counter_influence
+        chosen = replace(
+            self.response,
+            influence=self.response.influence[webs],
+            counter_influence=None if against is None else against[webs],
+        )
+        return replace(self, response=chosen)
 
 
 @record(frozen=True)
@@ -119,13 +124,17 @@ def _vectors(
 ) -> tuple[Real, Part]:
     """Real and then imaginary parts of W F(theta_i) / unit as an affine function of the scaled variables.
 
-    F = f e^{ja} + b e^{-ja} with f affine in u. The sign of a, the sense of rotation, only changes the order
-    of the samples.
+    F = f e^{ja} + b e^{-ja} with f affine in u, and conj(b) where shafts turn backwards. The sign of a, the sense of
+    rotation, only changes the order of the samples.
     """
     response, turned = peak.response, np.exp(1j * grid)
     constant = response.baseline.co * turned + response.baseline.counter * np.conj(turned)
-    along = turned[:, None] * (response.influence * scaling.reach * statement.limits.centre)
+    reach = scaling.reach * statement.limits.centre
+    along = turned[:, None] * (response.influence * reach)
     across = 1j * along * statement.limits.half_angle_sin
+    if response.counter_influence is not None:
+        back = np.conj(turned[:, None] * (response.counter_influence * reach))
+        along, across = along + back, across - 1j * back * statement.limits.half_angle_sin
     x, y = (peak.weight * factor / unit for factor in (peak.weight_x, peak.weight_y))
     matrix = np.block([[x * along.real, x * across.real], [y * along.imag, y * across.imag]])
     return np.concatenate([x * constant.real, y * constant.imag]), dense(0, matrix)
@@ -135,8 +144,10 @@ def _terms(multiplier: Complex, grid: Real, peak: WeightedResponse) -> Complex:
     """Multipliers of the norm terms of a peak that multipliers of its samples amount to.
 
     With the weighted vector a_1 e^{ja} + conj(a_2) e^{-ja}: Re(conj(y) F) = Re(conj(y e^{-ja}) a_1) +
-    Re(conj(conj(y) e^{-ja}) a_2); with equal weights a_2 is constant and stands in the floor.
+    Re(conj(conj(y) e^{-ja}) a_2); with equal weights a_2 is constant and stands in the floor, if no shaft turns
+    backwards.
     """
     back = np.exp(-1j * grid)
-    both = (multiplier,) if peak.weight_x == peak.weight_y else (multiplier, np.conj(multiplier))
+    alone = peak.weight_x == peak.weight_y and peak.response.counter_influence is None
+    both = (multiplier,) if alone else (multiplier, np.conj(multiplier))
     return np.array([np.sum(part * back) for part in both])

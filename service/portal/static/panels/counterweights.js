@@ -29,6 +29,10 @@ export function counterweightTable(counterweights, prices = []) {
     ]));
 }
 
+// those on balance shafts behind those of the crankshaft, and the mass of all
+export const everyWeight = ({ counterweights: fitted, balance_shafts: shafts }) => [...fitted, ...(shafts ?? []).flatMap((shaft) => shaft.counterweights)];
+export const wholeMass = ({ total_mass_kg: mass, balance_shafts_mass_kg: onShafts }) => mass + (onShafts ?? 0);
+
 export const counterweights = {
   id: "counterweights", title: "Counterweights, their limits and what these cost", open: true,
   draw(body, { answer }) {

@@ -16,6 +16,7 @@ const NEEDS = {
   rods: { met: (machine) => machine.kind === "scroll" || everyRow(machine, "connecting_rod"), words: "a connecting rod on every row" },
   cylinders: { met: (machine) => everyRow(machine, "cylinder", "cylinders"), words: "a cylinder on every row" },
   flywheel: { met: (machine) => Boolean(machine.flywheel), words: "the flywheel" },
+  balance_shafts: { met: (machine) => (machine.balance_shafts ?? []).length > 0, words: "a balance shaft" },
   bearings: { met: (machine) => (machine.bearings ?? []).length > 1, words: "the main bearings" },
   pins: { met: (machine) => machine.anti_rotation?.type === "crank_pins" && (machine.rotation_torque_Nm ?? machine.tangential_gas_force_N ?? null) !== null,
     words: "crank pins and the torque that turns the scroll" },

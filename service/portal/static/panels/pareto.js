@@ -6,7 +6,7 @@ import { figure, number, share } from "../format.js";
 import { complaint } from "../naming.js";
 import { colours, plot } from "../plots.js";
 import { chosenFrom, counted } from "./counts.js";
-import { counterweightTable } from "./counterweights.js";
+import { counterweightTable, everyWeight, wholeMass } from "./counterweights.js";
 import { missing } from "./panels.js";
 
 const POINTS = 21;
@@ -18,7 +18,7 @@ const USUAL = ["force", "moment"];
 // what the front of the first order does not take
 const PLAIN = /^(orders|bearing_measure|(bearing|specific_load|bending)_ceiling_.*)$/;
 const WORDS = { force: "peak force", moment: "peak moment", bearings: "largest bearing load", bending: "largest bending moment", mass: "total mass", objective: "objective", roll: "roll moment" };
-const NEEDS = { bearings: ["rods", "bearings"], bending: ["rods", "bearings"], roll: ["rods"] };
+const NEEDS = { bearings: ["rods", "bearings"], bending: ["rods", "bearings"], roll: ["rods", "balance_shafts"] };
 const WHY = {
   reached_together: "Both are smallest at the same counterweights: there is nothing to trade.",
   resolution: "Points that rounding could not separate were left out.",
@@ -65,7 +65,7 @@ export const pareto = {
       chosen = index;
       slider.value = index;
       show(picked, drawing, found, index);
-      return Promise.all([draw(), views.ask(request, found.points[index].counterweights)]);
+      return Promise.all([draw(), views.ask(request, everyWeight(found.points[index]))]);
     };
     const pick = (index) => {
       keep("point", index + 1);
@@ -141,7 +141,7 @@ function picture({ points, titles, bare, whole }, chosen, click) {
     traces: [
       { x: of(0), y: of(1), mode: third ? "markers" : "lines+markers", name: "front", meta: "front", line: { color: after },
         marker: third ? { size: 12, color: of(2), colorscale: "Viridis", colorbar: { title: { text: third, side: "right" } } } : { size: 9, color: after },
-        customdata: third ? of(2) : points.map((point) => point.total_mass_kg),
+        customdata: third ? of(2) : points.map(wholeMass),
         hovertemplate: `%{x:.5~s}, %{y:.5~s}, %{customdata:.5~s} ${third ? third.split(", ").at(-1) : "kg"}<extra></extra>` },
       { x: [here[0]], y: [here[1]], mode: "markers", name: "chosen", hoverinfo: "skip",
         marker: { size: 17, symbol: "circle-open", color: mark, line: { width: 3 } } },
@@ -159,7 +159,14 @@ function show(place, drawing, { points, titles }, index) {
   place.replaceChildren(
     h("h3", {}, `Point ${index + 1} of ${points.length}`),
     table("The chosen point", [...titles, ...(weighed ? [] : ["all counterweights, kg"]), "gap"],
-      [[figure(point.values[0]), ...point.values.slice(1).map((value) => number(value)), ...(weighed ? [] : [number(point.total_mass_kg)]),
+      [[figure(point.values[0]), ...point.values.slice(1).map((value) => number(value)), ...(weighed ? [] : [number(wholeMass(point))]),
         { number: true, text: point.certificate.relative_gap === null ? "none" : share(Math.max(0, point.certificate.relative_gap)) }]]),
-    h("div", { class: "beside" }, drawing, counterweightTable(point.counterweights)));
+    h("div", { class: "beside" }, drawing, fitted(point)));
+}
+
+// what is fitted, shaft by shaft
+function fitted({ counterweights, balance_shafts: shafts = [] }) {
+  if (!shafts.length) return counterweightTable(counterweights);
+  return h("div", {}, counterweights.length ? counterweightTable(counterweights) : null,
+    shafts.map((shaft) => [h("p", {}, `Balance shaft ${shaft.name}: ${shaft.gearing}`), counterweightTable(shaft.counterweights)]));
 }

@@ -4,6 +4,7 @@ import { post } from "../api.js";
 import { h, table } from "../dom.js";
 import { figure, number, share } from "../format.js";
 import { quantity, read } from "../quantity.js";
+import { everyWeight, wholeMass } from "./counterweights.js";
 
 // steps that a workshop likes
 const STEPS = { mass: "0.5", angle: "5" };
@@ -31,8 +32,8 @@ export const whatIf = {
   about: "Type the weights as they will be made. The residual is computed at every key stroke.",
   draw(body, context) {
     const { answer } = context;
-    if (!answer.counterweights.length || !answer.residual.after || (answer.balance_shafts ?? []).length) {
-      body.replaceChildren(h("p", {}, "There are no counterweights of one shaft to change here."));
+    if (!everyWeight(answer).length || !answer.residual.after) {
+      body.replaceChildren(h("p", {}, "There are no counterweights to change here."));
       return;
     }
     body.replaceChildren(...fitted(context), ...limits(context));
@@ -42,7 +43,8 @@ export const whatIf = {
 function fitted({ request, answer, told }) {
   const { machine } = request;
   const shaped = (one) => (one.shape ? { radius_m: one.radius_m } : {});
-  const weights = answer.counterweights.map(({ web, mass_kg: mass, angle_deg: angle, ...more }) => ({ web, mass_kg: mass, angle_deg: angle, ...shaped(more) }));
+  const optimum = everyWeight(answer);
+  const weights = optimum.map(({ web, mass_kg: mass, angle_deg: angle, ...more }) => ({ web, mass_kg: mass, angle_deg: angle, ...shaped(more) }));
   const result = h("div", { class: "residual", role: "status" });
   const inputs = [];
   const call = newest();
@@ -54,7 +56,7 @@ function fitted({ request, answer, told }) {
     result.replaceChildren(table("What remains", ["", "without", "optimum", "as fitted", "against the optimum"], [
       ["peak force, N", number(bareForce), number(leastForce), number(force), change(force, leastForce)],
       ["peak moment, N m", number(bareMoment), number(leastMoment), number(moment), change(moment, leastMoment)],
-      ["total mass, kg", number(null), number(answer.total_mass_kg), number(found.total_mass_kg), change(found.total_mass_kg, answer.total_mass_kg)]]));
+      ["total mass, kg", number(null), number(wholeMass(answer)), number(wholeMass(found)), change(wholeMass(found), wholeMass(answer))]]));
     result.dataset.of = JSON.stringify(weights.map((one) => [one.mass_kg, one.angle_deg]));
   };
   const compute = async () => {
@@ -79,7 +81,7 @@ function fitted({ request, answer, told }) {
     inputs.push({ input, unit, index, name });
     return h("td", { class: "cell is-number" }, input);
   };
-  const rows = answer.counterweights.map((one, index) => h("tr", {}, h("th", { scope: "row" }, one.web),
+  const rows = optimum.map((one, index) => h("tr", {}, h("th", { scope: "row" }, one.web),
     h("td", { class: "number" }, figure(one.mass_kg)), h("td", { class: "number" }, one.mass_kg > 0 ? figure(one.angle_deg) : "–"),
     cell(index, "mass_kg", "kg"), cell(index, "angle_deg", "deg")));
   const put = (masses) => {
@@ -101,7 +103,7 @@ function fitted({ request, answer, told }) {
         said.textContent = found.status_reason;
         return;
       }
-      put(found.counterweights.map((one) => ({ mass_kg: one.mass_kg, angle_deg: one.angle_deg })));
+      put(everyWeight(found).map((one) => ({ mass_kg: one.mass_kg, angle_deg: one.angle_deg })));
       const { relative_rise: rise, masses_alone_rise: masses, angles_alone_rise: angles } = found.rounding;
       const cost = rise === null ? "" : ` The objective rises by ${share(Math.max(rise, 0))}.`;
       const finer = masses > angles ? "masses" : "angles";
@@ -112,7 +114,7 @@ function fitted({ request, answer, told }) {
     }
   };
   const back = () => {
-    put(answer.counterweights.map((one) => ({ mass_kg: one.mass_kg, angle_deg: one.angle_deg })));
+    put(optimum.map((one) => ({ mass_kg: one.mass_kg, angle_deg: one.angle_deg })));
     said.textContent = "";
     compute();
   };
@@ -143,7 +145,8 @@ function limits({ request, answer, adopt }) {
     const [part, pace] = [mass.input, speed.input].map((input) => Number(input.value) / 100);
     const scaled = (value, unit, by) => (value === null || value === undefined ? value : Number((quantity(value, unit) * by).toPrecision(12)));
     const { machine } = changed;
-    if (part !== 1) for (const web of machine.webs ?? []) web.max_mass_kg = scaled(web.max_mass_kg, "kg", part);
+    const webs = [machine, ...(machine.balance_shafts ?? [])].flatMap((shaft) => shaft.webs ?? []);
+    if (part !== 1) for (const web of webs) web.max_mass_kg = scaled(web.max_mass_kg, "kg", part);
     if (pace !== 1) {
       machine.speed_rpm = scaled(machine.speed_rpm, "rpm", pace);
       if (machine.overspeed_rpm) machine.overspeed_rpm = scaled(machine.overspeed_rpm, "rpm", pace);
@@ -167,5 +170,5 @@ function summary(found, answer) {
   const row = (title, now, was) => [title, number(was), number(now), change(now, was)];
   const [was, now] = [answer, found].map(({ residual }) => peaks(residual.after));
   return table("The optimum then", ["", "now", "then", "change"], [row("peak force, N", now[0], was[0]), row("peak moment, N m", now[1], was[1]),
-    row("total mass, kg", found.total_mass_kg, answer.total_mass_kg)]);
+    row("total mass, kg", wholeMass(found), wholeMass(answer))]);
 }
