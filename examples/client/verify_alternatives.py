@@ -8,7 +8,7 @@ from verify_claims import Claims, near, same
 from verify_machine import Machine
 from verify_numbers import ONE, ZERO, Number, Place, largest, real
 from verify_program import Statement, phasors
-from verify_weights import SAME, catalogue, counterweights
+from verify_weights import SAME, castings, catalogue, counterweights
 
 CEILING = 1e-9  # of the larger of a ceiling and what is there without counterweights
 
@@ -20,14 +20,14 @@ def alternatives(request: Place, answer: Place, machine: Machine, statement: Sta
         return
     best = (answer / "certificate" / "objective").number()
     rest = (answer / "certificate" / "objective_without_counterweights").number()
-    own = costs(request / "machine", answer / "counterweights", (answer / "total_mass_kg").number())
+    own = costs(request / "machine", answer, (answer / "total_mass_kg").number())
     stated = [entry.double() for entry in request / "alternatives"]
     for entry in answer / "alternatives":
         minimised, allowance = (entry / "minimised").text("mass", "pieces", "sizes"), entry / "allowance"
         yield "alternatives", entry / "minimised", ONE, ONE
         yield "alternatives", allowance, ONE if allowance.double() in stated else -ONE, ONE
         turning, mass = yield from counterweights(machine, entry / "counterweights", request / "machine")
-        yield from catalogue(request / "machine", entry / "counterweights")
+        yield from catalogue(request / "machine", entry)
         after = machine.responses(turning)
         value, most = largest(ZERO, *statement.values(after).values()), best * (ONE + allowance.number())
         yield near("alternatives", entry / "objective", value)
@@ -35,7 +35,7 @@ def alternatives(request: Place, answer: Place, machine: Machine, statement: Sta
         for name, cap in statement.caps.items():
             room = cap + statement.sizes[name] * real(CEILING) - abs(phasors(after, name)[0])
             yield "ceilings", entry / "counterweights", room, statement.sizes[name]
-        cost = costs(request / "machine", entry / "counterweights", mass)
+        cost = costs(request / "machine", entry, mass)
         yield near("alternatives", entry / "total_mass_kg", cost["mass"])
         for counted in ("pieces", "sizes"):
             yield same("alternatives", entry / counted, round(float(cost[counted])))
@@ -46,12 +46,10 @@ def alternatives(request: Place, answer: Place, machine: Machine, statement: Sta
             yield "alternatives", lowest, None, ONE
 
 
-def costs(design: Place, place: Place, mass: Number) -> Dict[str, Number]:
+def costs(design: Place, answer: Place, mass: Number) -> Dict[str, Number]:
     """Total mass, and the numbers of counterweights and of different masses that are chosen."""
     masses: List[float] = sorted(
-        (weight / "mass_kg").double()
-        for web, weight in zip(design / "webs", place)
-        if not web / "fixed" and (weight / "mass_kg").double() > 0
+        (weight / "mass_kg").double() for _, weight in castings(design, answer) if (weight / "mass_kg").double() > 0
     )
     sizes = sum(n == 0 or mass_kg - masses[n - 1] > SAME * mass_kg for n, mass_kg in enumerate(masses))
     return {"mass": mass, "pieces": real(len(masses)), "sizes": real(sizes)}

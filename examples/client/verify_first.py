@@ -120,9 +120,10 @@ def searched(design: Place, answer: Place, proof: Place) -> Claims:
     shafts = [(design, answer), *zip(design / "balance_shafts", answer / "balance_shafts")]
     for shaft, there in shafts:
         yield from heavy_enough(shaft, there / "counterweights")
-    stock = (design / "catalogue") or (design / "max_counterweights") or any(map(stocked, design / "webs"))
+    webs = (web for shaft, _ in shafts for web in shaft / "webs")
+    stock = (design / "catalogue") or (design / "max_counterweights") or any(map(stocked, webs))
     if stock:
-        yield from catalogue(design, answer / "counterweights")
+        yield from catalogue(design, answer)
     # of rows of a sweep the method alone tells it, where it is a column
     least = any((web / "min_fitted_mass_kg").value for shaft, _ in shafts for web in shaft / "webs")
     by_method = (proof / "method").value in SEARCHES or (least and not proof / "method")

@@ -13,7 +13,7 @@ from verify_bearings import within
 from verify_claims import Claims, same
 from verify_numbers import COSTS, ONE, Place, real
 from verify_values import Range, Value, most
-from verify_weights import SAME
+from verify_weights import SAME, castings
 
 #: share of a goal without counterweights by which brackets are wide
 WIDE = 2e-9
@@ -37,7 +37,7 @@ def levels(
         yield same("goals", place / "goal", name)
         last, allowance = name == labels[-1], (order[names.index(name)] / "allowance").double(0.0, least=0)
         if name in COSTS:
-            yield from _cost(name, place, answer, fitted, last)
+            yield from _cost(name, place, request, answer, fitted, last)
             continue
         value, nothing = (most([item.goal(name) for item in side]) for side in (there, rest))
         yield from _goal(place, value, nothing, allowance)
@@ -67,9 +67,9 @@ def _bound(place: Place, own: Place, proof: Place) -> Claims:
         yield "goals", place / "lower_bound", None if searched else ONE if alike else -ONE, ONE
 
 
-def _cost(name: str, place: Place, answer: Place, fitted: Fitted, last: bool) -> Claims:
+def _cost(name: str, place: Place, request: Place, answer: Place, fitted: Fitted, last: bool) -> Claims:
     """What castings cost: their mass, with those fixed, their number or their sizes, without."""
-    proof, chosen = answer / "certificate", [item for item in answer / "counterweights" if not (item / "fixed").value]
+    proof, chosen = answer / "certificate", [item for _, item in castings(request / "machine", answer)]
     masses = sorted((item / "mass_kg").double() for item in chosen if (item / "mass_kg").double() > 0)
     comes_to = {
         "mass": float(fitted.mass + fitted.on_shafts_mass),

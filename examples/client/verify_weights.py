@@ -226,11 +226,22 @@ def usual_gap(design: Place) -> float:
     return 1e-3 if any(place / name for place in places for name in names) else 1e-6
 
 
-def catalogue(design: Place, place: Place) -> Claims:
-    """Masses, holes and counts that there are; steps are not covered. What is fixed is no choice, and not counted."""
+def castings(design: Place, answer: Place) -> List[Tuple[Place, Place]]:
+    """Webs that take what there is, with what they carry: all of the crankshaft or none, and on balance shafts those
+    that say so. What is fixed is no choice."""
+    own = list(zip(design / "webs", answer / "counterweights"))
+    general = (design / "catalogue") or (design / "max_counterweights") or any(map(stocked, design / "webs"))
+    chosen = [pair for pair in own if general and not pair[0] / "fixed"]
+    for shaft, there in zip(design / "balance_shafts", answer / "balance_shafts"):
+        chosen += [pair for pair in zip(shaft / "webs", there / "counterweights") if stocked(pair[0])]
+    return chosen
+
+
+def catalogue(design: Place, answer: Place) -> Claims:
+    """Masses, holes and counts that there are; steps are not covered."""
     general = design / "catalogue"
     used: list[Number] = []
-    chosen = [(web, entry) for web, entry in zip(design / "webs", place) if not web / "fixed"]
+    chosen = castings(design, answer)
     for web, entry in chosen:
         mass, angle = (entry / "mass_kg").number(), (entry / "angle_deg").double()
         if mass.high <= 0:

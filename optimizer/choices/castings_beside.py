@@ -1,4 +1,4 @@
-"""Options for some webs of a machine, from a catalogue, and any mass at any angle for the webs behind them."""
+"""Options for some webs of a machine, from a catalogue, and any mass at any angle for the others."""
 
 from dataclasses import replace
 
@@ -24,63 +24,67 @@ _ROUNDING = 1e-11
 
 @record(frozen=True)
 class CastingsBeside:
-    """Every web of the crankshaft takes one of its options, those of balance shafts behind them any mass in a sector,
-    or one that is 0 or no less than a least one."""
+    """Some webs take one of their options, the others any mass in a sector, or one that is 0 or no less than a least
+    one: those of balance shafts beside castings on the crankshaft, or the other way round."""
 
     machine: Machine  # with all webs
-    stock: Stock  # of those of the crankshaft
-    least: Real  # (K + S,) kg, 0 where there is none
-    limits: Limits  # (K + S,)
+    stock: Stock  # of those that take options
+    castings: np.ndarray  # (K,) bool: those
+    least: Real  # (K,) kg, of the others; 0 where there is none
+    limits: Limits  # (K,)
     lightest: bool  # of all that are optima, but for their share, the lightest is wanted
 
     solved = True
 
     @property
-    def count(self) -> int:
-        """Webs that take options."""
-        return self.stock.options.on_webs.shape[0]
-
-    @property
     def reach(self) -> Real:
-        largest = np.max(np.abs(self.stock.options.on_webs), axis=-1)
-        return np.concatenate([largest, self.limits.reach[self.count :]])
+        reach = self.limits.reach.copy()
+        reach[self.castings] = np.max(np.abs(self.stock.options.on_webs), axis=-1)
+        return reach
 
     def holds(self, mass_kg: Real) -> bool:
         return False
 
     def posed(self, statement: Statement) -> Statement:
-        limits = with_castings(self.limits, self.stock)
+        limits = with_castings(self.limits, self.stock, self.castings)
         # what no optimum of any masses needs, those beside castings may
-        return within_semicontinuous_reach(replace(statement, limits=limits), self._least)
-
-    @property
-    def _least(self) -> Real:
-        """Of the webs that take no options (K + S,) kg."""
-        return np.where(np.arange(self.least.size) < self.count, 0.0, self.least)
+        return within_semicontinuous_reach(replace(statement, limits=limits), self.least)
 
     def best(self, subproblem: Subproblem) -> Choice:
-        statement, size, limits = subproblem.statement, subproblem.yardstick, subproblem.statement.limits
-        behind = np.arange(self.least.size) >= self.count
+        size, limits, others = subproblem.yardstick, subproblem.statement.limits, ~self.castings
         most = np.minimum(limits.max_mass, self.limits.max_mass)
-        own = replace(limits, max_mass=most, alike=None, max_total_mass=np.asarray(np.inf)).only(behind)
-        others = Others(own, self.least[behind] * own.radius)
-        share = OPTIMUM_SHARE * size if self.lightest else 0.0
-        goal = SearchGoal(subproblem.relative_gap * size, size, share, subproblem.time_limit_s)
-        options = replace(self.stock.options, beside=others)
-        chosen, beside, result = search(
-            statement, options, others, subproblem.points, subproblem.at_least, goal, subproblem.below
+        own = replace(limits, max_mass=most, alike=None, max_total_mass=np.asarray(np.inf)).only(others)
+        beside = Others(own, self.least[others] * own.radius)
+        goal = SearchGoal(
+            subproblem.relative_gap * size,
+            size,
+            OPTIMUM_SHARE * size if self.lightest else 0.0,
+            subproblem.time_limit_s,
         )
-        mass, angle = masses_and_angles(
-            self.machine, np.concatenate([options.carried(chosen), beside]), replace(limits, alike=None)
+        options = replace(self.stock.options, beside=beside)
+        # those that take options come first
+        order = np.concatenate([np.flatnonzero(self.castings), np.flatnonzero(others)])
+        below = subproblem.below
+        chosen, on_others, result = search(
+            subproblem.statement.ordered(order),
+            options,
+            beside,
+            subproblem.points[:, order],
+            subproblem.at_least,
+            goal,
+            None if below is None else below.ordered(order),
         )
+        u = np.zeros(limits.radius.shape, complex)
+        u[order] = np.concatenate([options.carried(chosen), on_others])
+        mass, angle = masses_and_angles(self.machine, u, replace(limits, alike=None))
         mass = np.where(np.abs(mass - self.least) <= _ROUNDING * self.least, self.least, mass)
-        mass[: self.count], angle[: self.count] = self.stock.fitted(chosen)
-        return Choice(mass, angle, unbalance(mass, angle, limits.radius), result, self.count)
+        mass[self.castings], angle[self.castings] = self.stock.fitted(chosen)
+        return Choice(mass, angle, unbalance(mass, angle, limits.radius), result, self.castings)
 
 
-def with_castings(limits: Limits, stock: Stock) -> Limits:
-    """Limits (K + S,) with those of the first webs no larger than the largest of their options."""
+def with_castings(limits: Limits, stock: Stock, castings: np.ndarray) -> Limits:
+    """Limits (K,) with those of webs that take options no larger than the largest of these."""
     largest = np.max(np.abs(stock.options.on_webs), axis=-1)
     most = limits.max_mass.copy()
-    most[: largest.size] = np.minimum(most[: largest.size], largest / limits.radius[: largest.size])
+    most[castings] = np.minimum(most[castings], largest / limits.radius[castings])
     return replace(limits, max_mass=most)

@@ -7,15 +7,18 @@ import numpy as np
 
 from optimizer.choices.discrete.options import Options
 from optimizer.errors import refuse
+from optimizer.formulation.balance_shafts import mirror_images
 from optimizer.formulation.groups import alike_webs
 from optimizer.formulation.limits import largest_mass, sectors
 from optimizer.mechanics.angles import direction
 from optimizer.mechanics.crank_of_web import crank_angles
 from optimizer.numerics.arrays import Real
 from schemas.base.model import FieldProblem
+from schemas.base.rules import Path
 from schemas.machine.catalogue import Catalogue, in_sector
 from schemas.machine.choices import own_options
 from schemas.machine.machine import Machine
+from schemas.request.objective import Objective
 
 #: masses that agree this closely, relative, are one part number
 _SAME = 1e-9
@@ -35,8 +38,31 @@ class Stock(NamedTuple):
         return (mass, angle) if alike is None else alike.fitted(mass[alike.owner], angle[alike.owner])
 
 
-def stock(machine: Machine) -> Stock:
-    """What every web of one machine can take; webs of a group are one slot.
+class Castings(NamedTuple):
+    """Webs that take options, among all that a program chooses."""
+
+    webs: np.ndarray  # (K + S,) bool
+    mirrored: np.ndarray  # (K + S,) bool: of those the program has the mirror image of what is drawn
+    own: int  # K, those of the crankshaft
+    paths: tuple[Path, ...]  # (K + S,) in the request
+
+    @classmethod
+    def of(cls, machine: Machine, objective: Objective) -> "Castings":
+        """Those of a machine as it is given."""
+        chosen = {path for path, _ in machine.catalogue_webs()}
+        every = [(*place, k) for place, webs in machine.web_lists() for k in range(len(webs))]
+        return cls(
+            np.array([path in chosen for path in every], bool),
+            mirror_images(machine, objective),
+            len(machine.webs),
+            tuple(("machine", *path) for path in every),
+        )
+
+
+def stock(machine: Machine, castings: Castings | None = None) -> Stock:
+    """What every web of one machine can take, or some of all that a program chooses; webs of a group are one slot.
+
+    Steps of angle count from the own crank, and on a balance shaft from the x axis.
 
     Raises
     ------
@@ -50,18 +76,27 @@ def stock(machine: Machine) -> Stock:
     cranks = crank_angles(machine)
     free, centre, half_angle = sectors(machine)
     limit = largest_mass(machine).tolist()
-    for k in range(len(machine.webs)) if alike is None else alike.first.tolist():
+    some = np.arange(len(machine.webs))
+    if castings is not None:
+        some = np.flatnonzero(castings.webs)
+        cranks = [*cranks[: castings.own], *(0.0 for _ in cranks[castings.own :])]
+        alike = None if alike is None or not np.any(castings.webs[: castings.own]) else alike.only(castings.webs)
+    for k in (some if alike is None else some[alike.first]).tolist():
         web, most = machine.webs[k], limit[k]
-        own, path = own_options(web), ("machine", "webs", k)
+        own, path = own_options(web), ("machine", "webs", k) if castings is None else castings.paths[k]
+        # the mirror image of what is drawn
+        sign = -1.0 if castings is not None and castings.mirrored[k] else 1.0
         if web.fixed is not None:
             held.append((np.zeros(1), np.zeros(1)))
             continue
         least = web.min_fitted_mass_kg or 0.0
         if own.pairs is not None:
-            pairs = sorted((weight, at % 360.0) for weight, at in own.pairs if 0.0 < weight <= most and weight >= least)
+            pairs = sorted(
+                (weight, sign * at % 360.0) for weight, at in own.pairs if 0.0 < weight <= most and weight >= least
+            )
             held.append((np.array([0.0, *(weight for weight, _ in pairs)]), np.array([0.0, *(at for _, at in pairs)])))
             continue
-        angles = np.mod(np.array(own.angles or (), dtype=float), 360.0)
+        angles = np.mod(sign * np.array(own.angles or (), dtype=float), 360.0)
         if own.angles is None:
             crank = cranks[k]
             if crank is None:
@@ -82,7 +117,7 @@ def stock(machine: Machine) -> Stock:
     most_options = max((mass.size for mass, _ in held), default=1)
     mass, angle = (np.array([np.pad(entry[n], (0, most_options - entry[n].size)) for entry in held]) for n in (0, 1))
     mass, angle = mass.reshape(len(held), most_options), angle.reshape(len(held), most_options)
-    radius = np.array([web.radius_m for web in machine.webs]).reshape(-1, 1)
+    radius = np.array([machine.webs[k].radius_m for k in some.tolist()]).reshape(-1, 1)
     radius = radius if alike is None else radius[alike.first]
     options = Options(
         unbalance=mass * radius * direction(angle),

@@ -2,6 +2,8 @@
 
 from typing import NamedTuple, Protocol
 
+import numpy as np
+
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.records import record
 from optimizer.program.statement import Statement
@@ -40,7 +42,7 @@ class Choice(NamedTuple):
     angle: Real  # (K,) degrees
     unbalance: Complex  # (K,) kg m
     result: SearchResult
-    castings: int | None = None  # webs that take options, before those of any mass; None: all, or none of them does
+    castings: np.ndarray | None = None  # (K,) bool: webs that take options; None: all, or none of them does
 
 
 class FeasibleSet(Protocol):

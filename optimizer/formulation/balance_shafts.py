@@ -6,7 +6,7 @@ stands for that; over all orders nothing is mirrored (:class:`optimizer.response
 """
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -46,12 +46,7 @@ def design_space(machine: Machine, objective: Objective) -> DesignSpace:
 
 
 def _mirrored(web: Web) -> Web:
-    values: dict[Path, Any] = {}
-    if web.sector is not None:
-        values["sector", "centre_deg"] = -web.sector.centre_deg
-    if web.hole_angles_deg is not None:
-        values["hole_angles_deg",] = tuple(-angle for angle in web.hole_angles_deg)
-    return with_fields(web, values) if values else web
+    return web if web.sector is None else with_fields(web, {("sector", "centre_deg"): -web.sector.centre_deg})
 
 
 def as_drawn(machine: Machine) -> Machine:
@@ -134,7 +129,7 @@ def drawn(machine: Machine, objective: Objective, mass_kg: Real, angle_deg: Real
     mass_kg, angle_deg = beside(machine, mass_kg, angle_deg)
     if not balance_shafts(machine):
         return mass_kg, angle_deg
-    angle = np.where(_mirror_images(machine, objective), np.mod(-angle_deg, 360.0), angle_deg)
+    angle = np.where(mirror_images(machine, objective), np.mod(-angle_deg, 360.0), angle_deg)
     return mass_kg, np.mod(angle, 360.0)
 
 
@@ -142,10 +137,10 @@ def posed(machine: Machine, objective: Objective, unbalance: Complex) -> Complex
     """What a program has for unbalances of all webs (..., K + S) kg m as they are drawn."""
     if not balance_shafts(machine):
         return unbalance
-    return np.where(_mirror_images(machine, objective), np.conj(unbalance), unbalance)
+    return np.where(mirror_images(machine, objective), np.conj(unbalance), unbalance)
 
 
-def _mirror_images(machine: Machine, objective: Objective) -> np.ndarray:
+def mirror_images(machine: Machine, objective: Objective) -> np.ndarray:
     """Whether a web stands for the mirror image of what is drawn (K + S,) bool."""
     ratio = [shaft.speed_ratio for shaft in balance_shafts(machine) for _ in shaft.webs]
     # over all orders nothing is mirrored

@@ -7,9 +7,7 @@ from optimizer.formulation.balance_shafts import DesignSpace, design_space
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
 from schemas.base.rules import Path
-from schemas.machine.choices import stated
 from schemas.machine.machine import Machine
-from schemas.machine.reciprocating import balance_shafts
 from schemas.machine.rotor import Choice
 from schemas.request.objective import Objective
 from schemas.request.requests import Accuracy, OptimizeRequest
@@ -84,14 +82,6 @@ class Task:
     def choice(self) -> Choice | None:
         """What counterweights are chosen from; None is any mass at any angle."""
         return self.machine.choice
-
-    @cached_property
-    def all_discrete(self) -> bool:
-        """Whether every web has options where some have, on balance shafts too: else these take any mass beside them.
-
-        A request has options for the crankshaft alone; what is on steps has them for all.
-        """
-        return all(stated(web) for shaft in balance_shafts(self.machine) for web in shaft.webs)
 
     @cached_property
     def space(self) -> DesignSpace:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
 from types import ModuleType
 from typing import Any
@@ -144,6 +145,11 @@ class Limits:
             None if self.alike is None else mapped(self.alike, function),
             None if self.marginal_radius is None else function(self.marginal_radius),
         )
+
+    def ordered(self, webs: np.ndarray) -> "Limits":
+        """The same with the webs, none of which are alike, in another order (K,)."""
+        of_webs: dict[str, Any] = {name: getattr(self, name)[..., webs] for name in OF_WEBS}
+        return replace(self, **of_webs)
 
     def only(self, webs: np.ndarray) -> "Limits":
         """The limits of some of the webs (K,) bool; or (N, K), of each of N programs as many, where none are alike."""

@@ -53,6 +53,10 @@ class Norms:
         """A function of every array."""
         return Norms(function(self.constant), function(self.influence), self.scatter, self.scalar)
 
+    def ordered(self, webs: np.ndarray) -> "Norms":
+        """The same with the webs in another order (K,)."""
+        return replace(self, influence=self.influence[..., webs].copy())
+
     def only(self, webs: np.ndarray) -> "Norms":
         # in the usual order in memory, in which sums are the same to the last bit
         return replace(self, influence=columns(self.influence, webs))

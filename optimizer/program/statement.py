@@ -278,6 +278,12 @@ class Statement:
             self, norms=self.norms.only(webs), ceilings=self.ceilings.only(webs), limits=self.limits.only(webs)
         )
 
+    def ordered(self, webs: np.ndarray) -> "Statement":
+        """The program with its webs in another order (K,), none of them alike."""
+        limits = replace(self.limits, alike=None)
+        ceilings = replace(self.ceilings, norms=self.ceilings.norms.ordered(webs))
+        return replace(self, norms=self.norms.ordered(webs), ceilings=ceilings, limits=limits.ordered(webs))
+
     def _mapped(self, function: Callable[[Any], Any]) -> "Statement":
         """A function of every array that has the leading axes."""
         return Statement(

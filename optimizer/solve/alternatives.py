@@ -12,7 +12,7 @@ from typing import NamedTuple, get_args
 
 import numpy as np
 
-from optimizer.choices.construction import feasible_set
+from optimizer.choices.construction import feasible_set, limits_beside_castings, takes_options
 from optimizer.choices.discrete.options import EQUAL
 from optimizer.choices.feasible_set import Choice, FeasibleSet
 from optimizer.formulation.balance_shafts import chosen
@@ -23,7 +23,6 @@ from optimizer.numerics.arrays import Complex
 from optimizer.program.cuts.optimum import over_turn
 from optimizer.program.limits import Limits
 from optimizer.solve.caps import cost
-from optimizer.solve.choice import beside_castings
 from optimizer.solve.costs import COMPARED, Costs
 from optimizer.solve.uncertain_program import MOST_ROUNDS, Robust
 from schemas.answer.alternatives import Alternative, Cheaper
@@ -94,15 +93,15 @@ def _cheaper(
     first = over_turn(program, robust.wanted.relative_gap, False, robust.left_s).certain()
     size = float(program.units[-1])
     task, seconds = robust.task, robust.left_s
-    whole = task.all_discrete
+    castings = takes_options(task)
+    whole = bool(np.all(castings))
     if not whole:
         worst = float(program.values(incumbents[0], _CLOSE).goals[-1]) * (1.0 + max(every))
-        first = replace(first, limits=beside_castings(task, program, np.array([worst])))
+        first = replace(first, limits=limits_beside_castings(task, program, np.array([worst])))
     costs = Costs(program, first, (), choices, size=size, whole=whole)
     # to the last digit, as it is answered
-    machine, castings = task.space.machine, len(task.machine.webs)
     offered = [
-        Choice(*masses_and_angles(machine, u, program.limits), u, COMPARED, None if whole else castings)
+        Choice(*masses_and_angles(task.space.machine, u, program.limits), u, COMPARED, None if whole else castings)
         for u in incumbents
     ]
     for start in offered:

@@ -63,5 +63,5 @@ def cost(choice: Choice, kind: Cost) -> float:
     """What a choice costs: kg, or a number of castings."""
     if kind == "mass":
         return float(np.sum(choice.mass))
-    mass = choice.mass[: choice.castings]
+    mass = choice.mass if choice.castings is None else choice.mass[choice.castings]
     return float(np.sum(mass > 0) if kind == "pieces" else part_numbers(mass))

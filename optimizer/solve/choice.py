@@ -11,9 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.choices.castings_beside import with_castings
-from optimizer.choices.catalogue_options import stock
-from optimizer.choices.construction import feasible_set
+from optimizer.choices.construction import feasible_set, limits_beside_castings, takes_options
 from optimizer.choices.discrete.options import EQUAL
 from optimizer.choices.feasible_set import Choice, FeasibleSet, SearchResult
 from optimizer.formulation.balance_shafts import chosen
@@ -42,6 +40,8 @@ from schemas.request.objective import COSTS, Cost
 _LOG = logging.getLogger(__name__)
 #: width of the brackets by which choices are told apart, as a share of goals
 _CLOSE = 1e-10
+#: share of the asked gap that a search for the lightest may leave where castings are not all
+_OF_GAP = 0.5
 #: by which products of shares are rounded, relative
 _ROUNDING = 1e-12
 
@@ -100,12 +100,25 @@ def best_choice(task: Task, scene: Prepared, in_full: bool = True) -> Solution |
         sum(stage.outcome.rounds for stage in stages),
         [stage.outcome.lower_bound for stage in stages[:-1]],
         course.closed,
-        course.levels,
+        _as_kept(course.levels, goals.program, picked, scene.omega_squared),
     )
     answer = solution_of(task, scene, goals, Candidate(picked.mass, picked.angle, best), judged, proof, in_full)
     if task.robust:
         answer = with_worst_case(robust, answer, *_nominal_choice(task, scene, robust.left_s))
     return answer
+
+
+def _as_kept(levels: list[GoalReached], program: Problem, choice: Choice, omega_squared: float) -> list[GoalReached]:
+    """Levels of goals, no lower than a choice keeps them: the time may end before all that makes it worse is known."""
+    if not levels:
+        return levels
+    values = (program.values(choice.unbalance, _CLOSE).goals * omega_squared).tolist()
+    there: dict[str, float] = {goal.name: value for goal, value in zip(program.goals, values, strict=True)}
+    above = {level.goal for level in levels if there.get(level.goal, -np.inf) > level.limit * (1.0 + _ROUNDING)}
+    return [
+        level.model_copy(update=dict.fromkeys(("value", "limit"), there[level.goal])) if level.goal in above else level
+        for level in levels
+    ]
 
 
 class _GoalChoice(NamedTuple):
@@ -201,11 +214,15 @@ class _GoalOrder:
         """Make a cost small."""
         n = max(len(self.stages) - 1, 0)
         best, size = self.stages[n].best if self.stages else self.first, float(self.program.units[n])
-        program, whole = self._so_far(n + 1), self.task.all_discrete
-        if self.task.choice == "discrete" and not whole:
+        program = self._so_far(n + 1)
+        whole = self.task.choice != "discrete" or bool(np.all(takes_options(self.task)))
+        if not whole:
             levels = np.array([goal.most for goal in self._reached] or [np.inf])
-            best = replace(best, limits=beside_castings(self.task, program, levels))
+            best = replace(best, limits=limits_beside_castings(self.task, program, levels))
         costs = Costs(program, best, self._reached[:-1], self._choices, self.caps, size, whole)
+        if not whole:
+            # any masses beside castings are the lightest but for a gap
+            costs.light = _OF_GAP * self.task.relative_gap
         if self.incumbent is not None:
             costs.offer(self.incumbent)
         level = self._reached[-1].most if self._reached else np.inf
@@ -247,7 +264,7 @@ def _limits(
     incumbent : a choice that keeps these and the ceilings, if there is one.
     """
     discrete = task.choice == "discrete"
-    if discrete and task.all_discrete:
+    if discrete and np.all(takes_options(task)):
         # what is chosen from a catalogue is what it holds
         return best.limits
     if incumbent is not None:
@@ -257,21 +274,8 @@ def _limits(
         value = float(rest.goals[-1]) if rest.excess <= 0.0 else np.inf
     most = np.array([*(goal.most for goal in before), value])
     if discrete:
-        return beside_castings(task, program, most)
+        return limits_beside_castings(task, program, most)
     return semicontinuous_limits(program, least_fitted(task.space.machine), most)
-
-
-def beside_castings(task: Task, program: Problem, most: Real) -> Limits:
-    """The same of castings on the crankshaft and any masses on balance shafts.
-
-    Parameters
-    ----------
-    most : (goals,) what the goals of some choice that keeps the ceilings come to; inf where none is known.
-    """
-    castings, least = len(task.machine.webs), least_fitted(task.space.machine)
-    least[:castings] = 0.0
-    program = program.changed(limits=with_castings(program.limits, stock(task.machine)))
-    return semicontinuous_limits(program, least, most)
 
 
 def _left(robust: Robust, reserve_s: float) -> Callable[[], float]:

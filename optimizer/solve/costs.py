@@ -81,6 +81,7 @@ class Costs:
     caps: Caps = NO_CAPS
     size: float = 1.0  # what gaps of the last goal are relative to
     whole: bool = True  # every web takes options, none any mass beside them
+    light: float = _LIGHT  # gap of the lightest choice
     offers: list[tuple[float, Choice]] = field(default_factory=list)  # with what they come to of the last goal
     few: dict[int, FewWebs] = field(default_factory=dict)  # by the number of webs
     proven: dict[tuple[Cost, int], float] = field(default_factory=dict)  # of no more than a number, of the last goal
@@ -269,7 +270,7 @@ class Costs:
             weighed,
             replace(any_mass, goals=(*reached, any_mass.goals[-1])),
             choices,
-            _LIGHT,
+            self.light,
             size,
             lambda: clock.left_s,
             Start(incumbent),

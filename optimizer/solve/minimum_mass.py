@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from optimizer.choices.construction import feasible_set
+from optimizer.choices.construction import feasible_set, takes_options
 from optimizer.choices.feasible_set import Choice, SearchResult
 from optimizer.formulation.balance_shafts import drawn
 from optimizer.formulation.counterweights import places
@@ -24,6 +24,8 @@ from schemas.machine.machine import Machine
 
 #: of a mass, relative: by which sums of masses are rounded
 _ROUNDING = 1e-12
+#: the same where some have any mass: what keeps a ceiling to its tolerance may be lighter than all that keep it
+_KEPT = 1e-7
 #: gap of the least mass of any masses at any angles, which the search begins with
 _SHARP = 1e-6
 
@@ -84,7 +86,7 @@ def _of_choice(task: Task, choice: Choice, result: SearchResult, gap: float, rea
     mass, angle = drawn(task.machine, task.objective, choice.mass, choice.angle)
     value, fixed = float(np.sum(mass)), float(np.sum(fixed_masses(task.machine)))
     bound = bound + fixed
-    if np.isfinite(bound) and bound > value * (1.0 + _ROUNDING):
+    if np.isfinite(bound) and bound > value * (1.0 + (_ROUNDING if np.all(takes_options(task)) else _KEPT)):
         bound, status, reason = np.nan, "inaccurate", CONTRADICTED
     bound = min(bound, value)
     of_value = (value - bound) / value if value > 0 else 0.0

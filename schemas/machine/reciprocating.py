@@ -12,7 +12,7 @@ from schemas.base.model import Model, NotEmpty
 from schemas.base.quantities import Angle, Mass, Name, Position
 from schemas.base.rules import Path, Rule, largest
 from schemas.base.units import Unit
-from schemas.machine.choices import KINDS as CHOICES
+from schemas.machine.choices import stated
 from schemas.machine.drive import MAX_BEARINGS, Bearing, FlywheelData, Friction
 from schemas.machine.parts import MAX_PARTS, ShaftPart
 from schemas.machine.rotor import MAX_WEBS, Rotor, unique_names
@@ -40,9 +40,7 @@ class BalanceShaft(Model):
 
 
 #: fields of webs that those of balance shafts do not have
-_OF_THE_CRANKSHAFT = (
-    *CHOICES, "fixed", "max_centrifugal_force_N",
-)  # fmt: skip
+_OF_THE_CRANKSHAFT = ("fixed", "max_centrifugal_force_N")
 
 
 class ReciprocatingMachine(Rotor):
@@ -97,6 +95,14 @@ class ReciprocatingMachine(Rotor):
         for i, shaft in enumerate(self.balance_shafts):
             yield ("balance_shafts", i, "webs"), shaft.webs
 
+    def catalogue_webs(self) -> Iterator[tuple[Path, Web]]:
+        yield from super().catalogue_webs()
+        for i, shaft in enumerate(self.balance_shafts):
+            for k, web in enumerate(shaft.webs):
+                # of a balance shaft those that say so themselves
+                if stated(web):
+                    yield ("balance_shafts", i, "webs", k), web
+
     @property
     def every_web(self) -> tuple[Web, ...]:
         shafts = self.balance_shafts
@@ -149,6 +155,9 @@ class ReciprocatingMachine(Rotor):
                 for name in _OF_THE_CRANKSHAFT:
                     yield Rule(getattr(web, name) is not None, (*path, name), "of the crankshaft's webs only")
                 taken.add(web.name)
+        chosen = {path[0] for path, _ in self.catalogue_webs()}
+        message = "with castings on balance shafts the crankshaft's are of the catalogue too: give one"
+        yield Rule(bool(self.web_groups) and chosen == {"balance_shafts"}, ("web_groups",), message)
         message = "with balance shafts the total mass has no limit: limit the masses of the webs"
         yield Rule(self.max_total_mass_kg is not None, ("max_total_mass_kg",), message)
 

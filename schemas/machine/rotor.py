@@ -124,9 +124,16 @@ class Rotor(Ruled):
         for name in ("catalogue", "max_counterweights"):
             if getattr(self, name) is not None:
                 yield (name,)
-        for k, web in enumerate(self.webs):
-            for name in stated(web):
-                yield ("webs", k, name)
+        for place, webs in self.web_lists():
+            for k, web in enumerate(webs):
+                for name in stated(web):
+                    yield (*place, k, name)
+
+    def catalogue_webs(self) -> Iterator[tuple[Path, Web]]:
+        """Webs that take what there is, with paths from the machine: all of the crankshaft, or none."""
+        general = self.catalogue is not None or self.max_counterweights is not None
+        if general or any(stated(web) for web in self.webs):
+            yield from ((("webs", k), web) for k, web in enumerate(self.webs))
 
     @property
     def choice(self) -> Choice | None:
@@ -159,7 +166,7 @@ class Rotor(Ruled):
             slower = self.overspeed_rpm < self.speed_rpm
             yield Rule(slower, ("overspeed_rpm",), "must be at least speed_rpm")
         if self.discrete:
-            yield from catalogue_rules(self.catalogue or Catalogue(), self.webs)
+            yield from catalogue_rules(self.catalogue or Catalogue(), [*self.catalogue_webs()])
             sizes, most = self.catalogue.max_part_numbers if self.catalogue else None, self.max_counterweights
             if sizes is not None and most is not None:
                 message = "more sizes than counterweights: max_counterweights is smaller"

@@ -19,7 +19,7 @@ _SAME = 1e-9
 
 
 def order(answer: OptimizeAnswer) -> list[list[Cell]]:
-    """A line for each casting that is to be made, the heaviest first; equal ones stand together."""
+    """A line for each piece that is to be made for any shaft, the heaviest first; equal ones stand together."""
     every = [piece for piece in every_counterweight(answer) if piece.mass_kg > 0 and not piece.fixed]
     sizes = _Sizes()
     every.sort(key=lambda piece: (-piece.mass_kg, piece.radius_m))

@@ -32,6 +32,7 @@ ONCE_WRONG: Sequence[Combination] = (
     ("vee", ("least fitted", "least mass false", "bending weight")),
     ("twin", ("external, then mass", "balance shaft backwards")),
     ("twin", ("cheaper choices", "no largest mass")),
+    ("twin", ("no counterweights", "no webs", "balance shaft backwards")),
 )
 
 

@@ -85,7 +85,7 @@ def tree_of(
         parts = [work.bounded(nodes[n : n + size], bounds[n : n + size], clock) for n in range(0, len(nodes), size)]
         return min(closed for closed, _ in parts), [split for _, splits in parts for split in splits]
 
-    ends = Termination(lambda: incumbent.least - work.gap, enough, _MEMORY / (2 * root.bits.size), most_nodes)
+    ends = Termination(lambda: incumbent.least - work.gap, enough, _MEMORY / max(2 * root.bits.size, 1), most_nodes)
     return branch_and_bound(root, at_least, bounded, work.children, ends, clock, size)
 
 

@@ -16,6 +16,7 @@ from optimizer.choices.mixed.incumbent import MixedIncumbent
 from optimizer.choices.mixed.others import Others
 from optimizer.choices.mixed.tree import MixedWork
 from optimizer.choices.semicontinuous.search import SearchGoal
+from optimizer.choices.semicontinuous.search import search as search_others
 from optimizer.numerics.arrays import Complex
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.statement import Statement
@@ -55,6 +56,10 @@ def search(
     at_least : lower bound of that optimum.
     below : nowhere above the statement and with no tighter ceilings, which bounds are of; by default that one.
     """
+    if not options.slots:
+        # nothing but the other webs
+        u, alone = search_others(statement, others.least, points[0], at_least, goal, list(points[1:]), below)
+        return MixedChoice(np.zeros(0, int), u, alone)
     clock, gap, below = Clock(goal.time_limit_s), goal.gap, below or statement
     incumbent = MixedIncumbent(statement, options, others, EQUAL * goal.yardstick, clock)
     _begin(incumbent, points)

@@ -12,7 +12,8 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from optimizer.choices.catalogue_options import part_numbers, stock
+from optimizer.choices.catalogue_options import part_numbers
+from optimizer.choices.construction import options_of, takes_options
 from optimizer.choices.discrete.options import EQUAL
 from optimizer.formulation.balance_shafts import web_paths
 from optimizer.formulation.counterweights import places, unbalance
@@ -204,18 +205,18 @@ class _Ways:
 
     def _rounded(self) -> Made | Nothing:
         """The optimum of any masses, of a group the mean, each on what is nearest of its web."""
-        machine, free = self.request.machine, solve(self.free, self.scene, in_full=False)
+        free = solve(self.free, self.scene, in_full=False)
         if isinstance(free, Infeasible):
             return Nothing(free.reason)
-        mass, angle = _nearest(machine, free.unbalance)
-        u = unbalance(mass, angle, _radius(machine))
+        mass, angle = _nearest(self.task, free.unbalance)
+        u = unbalance(mass, angle, _radius(self.request.machine))
         value = float(self.program.objective(u)) * self.scene.omega_squared
         return Made(mass, value, None, self._keeps_limits(mass, u), None)
 
     def _keeps_limits(self, mass: Real, u: Complex) -> bool:
         """Whether masses (K + S,) kg of unbalances (K + S,) kg m keep ceilings, budget and numbers."""
         excess = np.max(self.program.ceilings.excess(u), initial=-np.inf)
-        return bool(excess <= CEILING_TOLERANCE) and _counts(self.request.machine, mass)
+        return bool(excess <= CEILING_TOLERANCE) and _counts(self.task, mass)
 
     def judged(self, rungs: Sequence[Rung]) -> Ladder:
         """What is known of all rows together, and each against it."""
@@ -227,7 +228,7 @@ class _Ways:
             _LOG.error("a lower bound is above the value of an answer: %.17g above %.17g", bound, objective)
             return Ladder(None, (), False)
         bound, any_mass = min(bound, objective), self._optimum(self.free)
-        figures = [_figures(rung, bound, rest, self.request.machine) for rung in rungs]
+        figures = [_figures(rung, bound, rest, self.task) for rung in rungs]
         reference = Reference(
             objective=objective,
             lower_bound=bound,
@@ -250,8 +251,16 @@ def _radius(machine: Machine) -> Real:
     return radius
 
 
-def _nearest(machine: Machine, u: Complex) -> tuple[Real, Real]:
+def _castings(task: Task) -> np.ndarray:
+    """Webs whose pieces are counted (K + S,): those that take options, without any those of the crankshaft."""
+    if task.choice == "discrete":
+        return takes_options(task)
+    return np.arange(len(task.space.machine.webs)) < len(task.machine.webs)
+
+
+def _nearest(task: Task, u: Complex) -> tuple[Real, Real]:
     """Masses [kg] and angles [deg] (K + S,) nearest to unbalances (K + S,) kg m; beside castings of any mass."""
+    machine = task.machine
     alike, own = alike_webs(machine), len(machine.webs)
     if alike is not None and not machine.discrete:
         u = np.append(alike.nearest(u[:own]), u[own:])
@@ -259,22 +268,23 @@ def _nearest(machine: Machine, u: Complex) -> tuple[Real, Real]:
     least = stacked([web.min_fitted_mass_kg or 0.0 for web in places(machine)])
     mass = np.where(mass < 0.5 * least, 0.0, np.maximum(mass, least))
     if machine.discrete:
-        held = stock(machine)
-        castings = u[:own] if alike is None else alike.means(u[:own])
-        mass[:own], angle[:own] = held.fitted(held.options.nearest(castings))
+        held, castings = options_of(task), takes_options(task)
+        units = held.options.alike
+        near = held.options.nearest(u[castings] if units is None else units.means(u[castings]))
+        mass[castings], angle[castings] = held.fitted(near)
     return mass, np.where(mass > 0.0, np.mod(angle, 360.0), 0.0)
 
 
-def _counts(machine: Machine, mass: Real) -> bool:
-    """Whether masses (K + S,) keep the budget, and those on the crankshaft the numbers of castings and of sizes."""
-    mass = mass[: len(machine.webs)]
+def _counts(task: Task, mass: Real) -> bool:
+    """Whether masses (K + S,) keep the budget, and the numbers of castings and of sizes."""
+    machine = task.machine
     budget, most = machine.max_total_mass_kg, machine.max_counterweights
     sizes = machine.catalogue.max_part_numbers if machine.catalogue is not None else None
-    total = float(np.sum(mass) + fixed_mass(machine))
+    total, castings = float(np.sum(mass) + fixed_mass(machine)), mass[_castings(task)]
     return (
         (budget is None or total <= budget * (1.0 + _ROUNDING))
-        and (most is None or int(np.sum(mass > 0)) <= most)
-        and (sizes is None or part_numbers(mass) <= sizes)
+        and (most is None or int(np.sum(castings > 0)) <= most)
+        and (sizes is None or part_numbers(castings) <= sizes)
     )
 
 
@@ -294,18 +304,18 @@ class _ChoiceFigures(NamedTuple):
 _NOTHING: Mapping[str, None] = dict.fromkeys(_ChoiceFigures._fields)
 
 
-def _figures(rung: Rung, bound: float, rest: float, machine: Machine) -> _ChoiceFigures | None:
+def _figures(rung: Rung, bound: float, rest: float, task: Task) -> _ChoiceFigures | None:
     made, time_ms = rung.made, median_ms(rung.times_s)
     if made is None or time_ms is None:
         return None
-    castings = made.mass[: len(machine.webs)]
+    castings = made.mass[_castings(task)]
     return _ChoiceFigures(
         time_ms,
         made.objective,
         made.bound,
         (made.objective - bound) / rest,
         None if made.bound is None else (made.objective - made.bound) / rest,
-        float(np.sum(made.mass)) + float(fixed_mass(machine)),
+        float(np.sum(made.mass)) + float(fixed_mass(task.machine)),
         int(np.sum(castings > 0.0)),
         part_numbers(castings),
     )

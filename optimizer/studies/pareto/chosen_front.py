@@ -110,8 +110,9 @@ class _Boxes(ChoiceSearch):
         """Of all whose peak ``axis`` is the smallest, but for a share of the gap, the least of the other peak."""
         objective, field = self.task.objective, ("force_ceiling_N", "moment_ceiling_Nm")[axis]
         across = objective.direction_weights
-        if (across.x, across.y) != (1.0, 1.0):
-            # a ceiling is of a whole vector; the boxes find the corner
+        backwards = any(response.counter_influence is not None for response in self.scene.responses)
+        if (across.x, across.y) != (1.0, 1.0) or backwards:
+            # a ceiling is of a whole vector, and of one length of it; the boxes find the corner
             return end
         most = float(end.values[axis] + _SLACK * self.gap * size[axis])
         limit = getattr(objective, field)

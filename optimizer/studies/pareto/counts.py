@@ -5,7 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from optimizer.choices.catalogue_options import part_numbers, stock
+from optimizer.choices.catalogue_options import part_numbers
+from optimizer.choices.construction import options_of, takes_options
 from optimizer.errors import MissingInput
 from optimizer.formulation.balance_shafts import fitted
 from optimizer.formulation.simulation import Prepared
@@ -60,9 +61,9 @@ def at_most(machine: Machine, of: Counted, number: int) -> Machine:
     return with_fields(machine, {("catalogue",): catalogue})
 
 
-def _most(machine: Machine, of: Counted) -> int:
+def _most(task: Task, of: Counted) -> int:
     """The largest number that means anything."""
-    options = stock(machine).options
+    options = options_of(task).options
     if of in PIECES:
         return int(np.sum(options.webs[np.any(options.mass > 0, axis=-1)]))
     return int(np.max(options.part, initial=-1)) + 1
@@ -74,13 +75,13 @@ def _point(task: Task, scene: Prepared, trade: CountTrade, number: int | None) -
     machine = task.machine
     shown = fitted(machine, best.mass_kg, best.angle_deg)
     after = scene.beside(shown.on_shafts).first_order(shown.on_crank)
-    castings = best.mass_kg[: len(machine.webs)][_chosen(machine)]
+    castings = best.mass_kg[_chosen(task)]
     weights = int(np.sum(castings > 0)) if result else None
     sizes = part_numbers(castings) if result else None
     if number is None:
         # where no number limits it, so many as it takes
         used = weights if trade.of in PIECES else sizes
-        number = _most(machine, trade.of) if used is None else used
+        number = _most(task, trade.of) if used is None else used
     return CountPoint(
         at_most=number,
         status=best.status,
@@ -98,9 +99,9 @@ def _point(task: Task, scene: Prepared, trade: CountTrade, number: int | None) -
     )
 
 
-def _chosen(machine: Machine) -> np.ndarray:
-    """Webs of the crankshaft whose weights are not fixed (K,)."""
-    return np.array([web.fixed is None for web in machine.webs], dtype=bool)
+def _chosen(task: Task) -> np.ndarray:
+    """Webs that take castings which are not fixed (K + S,)."""
+    return takes_options(task) & np.array([web.fixed is None for web in task.space.machine.webs], dtype=bool)
 
 
 def _smallest(task: Task, scene: Prepared) -> BestSet:

@@ -70,7 +70,7 @@ def _catalogue(machine: Machine) -> Iterator[tuple[str, Cell | float]]:
         yield "step of masses, kg", general.mass_step_kg
     if general.angle_step_deg is not None:
         yield "step of angles from the crank, deg", general.angle_step_deg
-    for web in machine.webs:
+    for web in machine.every_web:
         for name in stated(web):
             kind = CHOICES[name]
             yield (

@@ -1,0 +1,87 @@
+"""Fronts of castings on the crankshaft beside any masses on balance shafts, and how many castings are worth it."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optimizer.studies.accuracy.measure import accuracy
+from service.report.chapters.counts import counted
+from tests.optimize.machines import web
+from tests.optimize.shafts import WHOLE, at, shaft, single
+from tests.studies.pareto.cases import ask, front
+
+ARM = 0.3
+#: one casting of 4 kg at the radius of the crank, opposite to it; the shaft in another plane takes up to 4 kg
+CASTING = single([shaft("back", -1, ARM, 4.0)]) | {
+    "webs": [web("a", 0.0, None, throw=0, catalogue_masses_kg=[4.0], hole_angles_deg=[270.0])]
+}
+FORCE = {"moment_weight": 0}
+
+
+def forces(point: dict[str, Any]) -> tuple[float, float]:
+    """Independent: force and couple of the first order, masses times accelerations."""
+    turn = np.array([at(CASTING, point, theta, first=True) for theta in range(0, 360, 2)])
+    force, moment = np.max(np.abs(turn), axis=0)
+    return float(force), float(moment)
+
+
+def test_force_and_moment_are_traded_by_the_shaft_alone() -> None:
+    # analytic: beside the casting 1 of 5 kg is left that turns with the crank and 5 - m against it: F = 6 - m, M = m d
+    found = front(CASTING, points=5)
+    assert found.status == "optimal"
+    assert len(found.points) == 5
+    for point in found.points[:-1]:
+        assert (point.total_mass_kg, point.counterweights[0].angle_deg) == (4.0, 270.0)
+        assert point.force_peak_N + point.moment_peak_Nm / ARM == pytest.approx(0.6 * WHOLE, rel=2e-3)
+        assert forces(point.model_dump()) == pytest.approx((point.force_peak_N, point.moment_peak_Nm), rel=2e-3)
+    assert found.points[0].force_peak_N == pytest.approx(0.2 * WHOLE, rel=2e-3)
+    # no ceiling is of what turns backwards too, so that the force at the other end is whatever the lightest leaves
+    assert found.points[-1].moment_peak_Nm == pytest.approx(0.0, abs=1e-9 * WHOLE)
+
+
+@pytest.mark.parametrize("orders", ["first", "all"])
+def test_force_is_traded_for_the_mass_of_castings_and_shafts(orders: str) -> None:
+    # analytic: a kilogram on either shaft takes a tenth of the first order of 10 kg
+    (found,) = ask(CASTING, points=5, responses=["force", "mass"], objective={"orders": orders} | FORCE).trades
+    assert found.status == "optimal"
+    for point in found.points:
+        assert point.total_mass_kg in (0.0, 4.0)
+        mass = point.total_mass_kg + point.balance_shafts_mass_kg
+        assert point.values[1] == pytest.approx(mass, abs=1e-12)
+        assert orders == "all" or point.values[0] == pytest.approx((1.0 - 0.1 * mass) * WHOLE, rel=2e-3)
+    # the lightest is nothing, under a budget of nothing
+    assert min(point.values[1] for point in found.points) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_castings_are_counted_on_the_crankshaft_alone() -> None:
+    # analytic: without a casting the shaft takes 4 of 10 kg, with it 8
+    (found,) = ask(CASTING, counts={"of": "weights"}, objective=FORCE).counts
+    assert [(point.at_most, point.weights) for point in found.points] == [(0, 0), (1, 1)]
+    for point, left in zip(found.points, (0.6, 0.2), strict=True):
+        assert point.value == pytest.approx(left * WHOLE, rel=1e-3)
+        assert point.balance_shafts_mass_kg == pytest.approx(4.0, rel=1e-3)
+        assert forces(point.model_dump())[0] == pytest.approx(point.force_peak_N, rel=2e-3)
+    titles = [column.title for column in counted(found).columns]
+    assert {"mass on the crankshaft, kg", "on balance shafts, kg"} <= {*titles}
+
+
+def test_the_least_mass_of_so_few_castings_is_that_of_all_shafts() -> None:
+    # analytic: half of the 8 kg that may turn along y is enough for the ceiling, and the casting is of use to both
+    goal = FORCE | {"force_ceiling_y_N": 0.6 * WHOLE}
+    (found,) = ask(CASTING, counts={"of": "weights", "least": "mass"}, objective=goal).counts
+    assert [point.status for point in found.points] == ["optimal"] * len(found.points)
+    for point in found.points:
+        assert point.value == pytest.approx(4.0, rel=1e-3)
+        assert point.value == pytest.approx(point.total_mass_kg + point.balance_shafts_mass_kg, rel=1e-9)
+
+
+def test_the_ladder_of_castings_counts_them_apart() -> None:
+    found = accuracy({"machine": CASTING, "objective": FORCE, "repeats": 1})
+    assert found.status == "measured"
+    assert found.reference is not None
+    assert found.reference.objective == pytest.approx(0.2 * WHOLE, rel=1e-3)
+    for row in found.choices_ladder:
+        if row.skipped is None:
+            assert (row.pieces, row.sizes, row.limits_kept) == (1, 1, True)
+            assert row.total_mass_kg == pytest.approx(8.0, rel=2e-2)
