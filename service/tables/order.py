@@ -1,6 +1,6 @@
 """The order for a workshop: sizes with how many of each, where they go, and how far each may be off."""
 
-from itertools import groupby
+from itertools import chain, groupby
 
 from optimizer.errors import OutOfRange
 from schemas.answer.answers import OptimizeAnswer
@@ -18,8 +18,9 @@ _SAME = 1e-9
 
 
 def order(answer: OptimizeAnswer) -> list[list[Cell]]:
-    """A line for each casting that is to be made, the heaviest first; equal ones stand together."""
-    every = [piece for piece in answer.counterweights if piece.mass_kg > 0 and not piece.fixed]
+    """A line for each piece that is to be made for any shaft, the heaviest first; equal ones stand together."""
+    on_shafts = chain.from_iterable(shaft.counterweights for shaft in answer.balance_shafts)
+    every = [piece for piece in (*answer.counterweights, *on_shafts) if piece.mass_kg > 0 and not piece.fixed]
     sizes = _Sizes()
     every.sort(key=lambda piece: (-piece.mass_kg, piece.radius_m))
     rows: list[list[Cell]] = []

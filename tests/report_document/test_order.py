@@ -44,6 +44,17 @@ def test_castings_by_size() -> None:
     assert "Order for the workshop" in titles
 
 
+def test_pieces_of_balance_shafts_are_made_too() -> None:
+    place = {"name": "s", "position_m": 0.0, "counterweight_radius_m": 0.05, "max_mass_kg": 30.0}
+    request = asked(balance_shafts=[{"name": "back", "speed_ratio": -1, "webs": [place]}])
+    _, *lines = order(request)
+    (line,) = (line for line in lines if line[3] == "s")
+    (shaft,) = optimize(request).balance_shafts
+    # of a shaft there is no crank to count from
+    assert line[0] == pytest.approx(shaft.counterweights[0].mass_kg, rel=1e-6)
+    assert line[4] is None
+
+
 def test_where_there_is_nothing_to_order_it_is_refused() -> None:
     with pytest.raises(OutOfRange, match="nothing to order"):
         order(asked(max_counterweights=0))
