@@ -100,7 +100,7 @@ def best_choice(task: Task, scene: Prepared, in_full: bool = True) -> Solution |
         sum(stage.outcome.rounds for stage in stages),
         [stage.outcome.lower_bound for stage in stages[:-1]],
         course.closed,
-        _as_kept(course.levels, goals.program, picked, scene.omega_squared),
+        _levels_of(course.levels, goals.program, picked, scene.omega_squared),
     )
     answer = solution_of(task, scene, goals, Candidate(picked.mass, picked.angle, best), judged, proof, in_full)
     if task.robust:
@@ -108,7 +108,7 @@ def best_choice(task: Task, scene: Prepared, in_full: bool = True) -> Solution |
     return answer
 
 
-def _as_kept(levels: list[GoalReached], program: Problem, choice: Choice, omega_squared: float) -> list[GoalReached]:
+def _levels_of(levels: list[GoalReached], program: Problem, choice: Choice, omega_squared: float) -> list[GoalReached]:
     """Levels of goals, no lower than a choice keeps them: the time may end before all that makes it worse is known."""
     if not levels:
         return levels

@@ -52,7 +52,7 @@ class CountPoint(Model):
         examples=[2e-4],
     )
     weights: int | None = Field(
-        description="webs of the crankshaft that have a counterweight; null if infeasible", examples=[2]
+        description="webs that have a counterweight, of those that take castings; null if infeasible", examples=[2]
     )
     part_numbers: int | None = Field(description="different masses; null if infeasible", examples=[1])
     total_mass_kg: Kilograms | None = Field(

@@ -123,7 +123,9 @@ class ChoiceRow(Model):
     total_mass_kg: Kilograms | None = Field(
         description="of all counterweights, fixed ones and those on balance shafts included", examples=[91.5]
     )
-    pieces: int | None = Field(description="counterweights on the crankshaft that are not fixed", examples=[3])
+    pieces: int | None = Field(
+        description="counterweights that are not fixed, of any mass on balance shafts left out", examples=[3]
+    )
     sizes: int | None = Field(description="different masses among them", examples=[2])
     limits_kept: bool = Field(
         description="whether ceilings, budget, number and part numbers are kept, which rounding may break",

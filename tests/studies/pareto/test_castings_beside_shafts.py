@@ -1,5 +1,6 @@
 """Fronts of castings on the crankshaft beside any masses on balance shafts, and how many castings are worth it."""
 
+from copy import deepcopy
 from typing import Any
 
 import numpy as np
@@ -74,6 +75,26 @@ def test_the_least_mass_of_so_few_castings_is_that_of_all_shafts() -> None:
     for point in found.points:
         assert point.value == pytest.approx(4.0, rel=1e-3)
         assert point.value == pytest.approx(point.total_mass_kg + point.balance_shafts_mass_kg, rel=1e-9)
+
+
+def test_castings_on_the_shaft_have_a_front_of_sets() -> None:
+    # analytic: of 10 kg along y each kilogram takes one, of 1, 2 or 4 kg on the shaft and 4 on the crankshaft
+    body = deepcopy(CASTING)
+    body["balance_shafts"][0]["webs"][0] |= {"catalogue_masses_kg": [1.0, 2.0, 4.0], "hole_angles_deg": [270.0, 30.0]}
+    both = front(body, points=9)
+    assert (both.status, both.reason) == ("optimal", "complete")
+    found = [(point.force_peak_N / WHOLE, point.balance_shafts_mass_kg) for point in both.points]
+    assert found == [(pytest.approx(0.6 - 0.1 * mass), mass) for mass in (4.0, 2.0, 1.0, 0.0)]
+    (of_mass,) = ask(body, points=6, responses=["force", "mass"], objective=FORCE).trades
+    assert [point.values[1] for point in of_mass.points] == [8.0, 6.0, 4.0, 2.0, 1.0, 0.0]
+    assert [point.values[0] / WHOLE for point in of_mass.points] == pytest.approx([0.2, 0.4, 0.6, 0.8, 0.9, 1.0])
+    (counts,) = ask(body, counts={"of": "weights"}, objective=FORCE).counts
+    assert [(point.weights, point.status) for point in counts.points] == [
+        (0, "optimal"),
+        (1, "optimal"),
+        (2, "optimal"),
+    ]
+    assert [point.value / WHOLE for point in counts.points] == pytest.approx([1.0, 0.6, 0.2])
 
 
 def test_the_ladder_of_castings_counts_them_apart() -> None:
