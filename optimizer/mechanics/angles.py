@@ -35,6 +35,8 @@ def direction(angle_deg: Real) -> Complex:
     angle = np.asarray(angle_deg, dtype=float)
     if angle.ndim == 1 and angle.size <= _FEW:
         return np.array([_vector(degrees) for degrees in angle.tolist()], complex)
+    if angle.ndim == 0:
+        return np.array(_vector(float(angle)))
     quarters = np.asarray(np.rint(angle / 90.0))
     rest = angle - 90.0 * quarters
     radians = rest * (np.pi / 180.0)

@@ -64,6 +64,13 @@ class Turn:
         return np.repeat(self.start + 0.5 * self.width, self.rule.weights.size, axis=-1)
 
 
+@cache
+def _grid(turns: int, widest: float) -> Real:
+    """Equal steps over so many turns, rad; nobody writes to them."""
+    period = 2.0 * np.pi * turns
+    return np.linspace(0.0, period, int(np.ceil(period / widest)) + 1)
+
+
 def panels(breaks: Real, widest: float, halved: bool = False, turns: int = 1) -> Turn:
     """Panels between break angles, cut at a regular grid as well; their number grows with that of the breaks.
 
@@ -76,7 +83,7 @@ def panels(breaks: Real, widest: float, halved: bool = False, turns: int = 1) ->
     """
     period = 2.0 * np.pi * turns
     inner = np.mod(np.where(np.isnan(breaks), 0.0, breaks), period)
-    grid = np.linspace(0.0, period, int(np.ceil(period / widest)) + 1)
+    grid = _grid(turns, widest)
     edges = np.concatenate([inner, spread(grid, (*inner.shape[:-1], grid.size))], axis=-1)
     edges.sort(axis=-1)
     width = edges[..., 1:] - edges[..., :-1]

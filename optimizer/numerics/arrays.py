@@ -71,6 +71,8 @@ def spread(array: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:
 
 def side_by_side(*arrays: NDArray[Any]) -> NDArray[Any]:
     """All (..., n) on one last axis, leading axes broadcast."""
+    if len({array.shape[:-1] for array in arrays}) == 1:
+        return np.concatenate(arrays, axis=-1)
     leading = np.broadcast_shapes(*(array.shape[:-1] for array in arrays))
     return np.concatenate([spread(array, (*leading, array.shape[-1])) for array in arrays], axis=-1)
 

@@ -144,10 +144,15 @@ class Pieces:
         sought = every if group is None else group
         count = int(np.maximum.reduce(sought, initial=-1)) + 1
         scale, share, signs = np.zeros(count), np.zeros(count), np.zeros(count)
-        offset, of_member, sought = offset[finite], of_member[finite], sought[finite]
+        if not all_true(finite):
+            offset, of_member, sought = offset[finite], of_member[finite], sought[finite]
+            tolerance, sign = (part[finite] if isinstance(part, np.ndarray) else part for part in (tolerance, sign))
         np.maximum.at(scale, sought, self.size[of_member] + np.abs(offset))
-        np.maximum.at(share, sought, tolerance[finite] if isinstance(tolerance, np.ndarray) else tolerance)
-        signs[sought] = sign[finite] if isinstance(sign, np.ndarray) else sign
+        if isinstance(tolerance, np.ndarray):
+            np.maximum.at(share, sought, tolerance)
+        else:
+            share[sought] = tolerance
+        signs[sought] = sign
         some = np.zeros(scale.size, dtype=bool)
         some[sought] = True
         return _bracketed(self, offset, of_member, sought, scale, share, signs, magnitudes).where(some)

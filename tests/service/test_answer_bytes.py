@@ -17,7 +17,7 @@ from optimizer.outputs.registry import OUTPUTS, require_inputs
 from optimizer.pins.answer import pin_loads
 from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer
 from schemas.answer.outputs import Hodograph, Hodographs
-from schemas.base.curves import curve_fields
+from schemas.base.curves import Curve, curve_fields
 from schemas.base.model import Answer, Model
 from schemas.request.requests import OptimizeRequest
 from schemas.scroll.pin_loads import PinLoadsAnswer
@@ -38,10 +38,10 @@ class Drawn(Answer):
 
 
 def _drawn(name: str, numbers: list[float]) -> Drawn:
-    curve = np.array(numbers)
-    part = Hodograph(force_x_N=curve, force_y_N=-curve, moment_x_Nm=numbers, moment_y_Nm=curve[::-1])
+    curve, again = np.array(numbers), Curve[float](numbers)
+    part = Hodograph(force_x_N=again, force_y_N=-curve, moment_x_Nm=numbers, moment_y_Nm=curve[::-1])
     return Drawn(
-        version="1", name=name, hodograph=Hodographs(angle_deg=curve, before=part, after=None), figures=numbers
+        version="1", name=name, hodograph=Hodographs(angle_deg=again, before=part, after=part), figures=numbers
     )
 
 

@@ -157,8 +157,10 @@ def _extremes(cubic, sign, square):  # type: ignore[no-untyped-def]
 def first_open(cubics, members, best):  # type: ignore[no-untyped-def]
     """The pieces that may hold a peak above the best value at a centre, by how far a cubic may be from it."""
     most = np.empty((members.curve.size, cubics.half.shape[1]))
-    reach = np.empty(cubics.half.shape)
-    reach[:, 0] = np.nan
+    # of designs of a sweep each has curves of its own, and memory that is not asked for is quicker
+    curves, pieces = cubics.half.shape
+    reach = np.empty((curves if members.curve.size > curves else 0, pieces))
+    reach[:, :1] = np.nan
     parts = _none(_measured(cubics, members, best, reach, most))
     _begun(cubics, members, best, most, parts)
     return still_open(parts, members, best, MOST_PARTS)
@@ -171,20 +173,23 @@ def _measured(cubics, members, best, reach, most):  # type: ignore[no-untyped-de
     Parameters
     ----------
     reach : (J, P) room for how far curves may be from the middles of their pieces, of which the first is nan where it
-        is not known yet.
+        is not known yet; (0, P) where none is asked for twice.
     """
     number, pieces = most.shape
     for m in range(number):
         curve, group = members.curve[m], members.group[m]
         half, cubic, rest, bound = cubics.half[curve], cubics.cubic[curve], cubics.rest[curve], most[m]
-        if reach[curve, 0] != reach[curve, 0]:
-            _reached(cubic, rest, reach[curve])
+        several = reach.shape[0] > 0
+        first = several and reach[curve, 0] != reach[curve, 0]
         offset, sign, largest, place = members.offset[m], members.sign[group], best.lower[group], -1
         for p in range(pieces):
             bound[p] = -np.inf
             if half[p] > 0.0:
                 middle = _size(cubic[p, 0] + offset, sign)
-                bound[p] = middle + reach[curve, p]
+                far = reach[curve, p] if several and not first else _reach(cubic[p], rest[p])
+                if first:
+                    reach[curve, p] = far
+                bound[p] = middle + far
                 if not middle - rest[p] <= largest:
                     largest, place = middle - rest[p], p
         if place >= 0:
@@ -203,13 +208,13 @@ def _measured(cubics, members, best, reach, most):  # type: ignore[no-untyped-de
 
 
 @inner
-def _reached(cubic, rest, reach):  # type: ignore[no-untyped-def]
-    """Write how far a curve may be from the middles of its pieces (P,)."""
-    for p in range(rest.size):
-        reach[p] = rest[p]
-        for i in range(1, 4):
-            term = cubic[p, i]
-            reach[p] += abs(term.real) if term.imag == 0.0 else length(term)
+def _reach(cubic, rest):  # type: ignore[no-untyped-def]
+    """How far a curve may be from the middle of a piece."""
+    reach = rest
+    for i in range(1, 4):
+        term = cubic[i]
+        reach += abs(term.real) if term.imag == 0.0 else length(term)
+    return reach
 
 
 @inner
