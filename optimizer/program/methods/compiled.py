@@ -99,7 +99,11 @@ def both_stages(
         quick = _as_discs(statement, share, demand, least_mass, level)
         if not all_true(quick.certified):
             left = np.flatnonzero(~quick.certified)
-            quick.put(left, _in_any_limits(statement.chosen(left), share[left], demand[left], least_mass, level[left]))
+            if statement.ceilings.names:
+                left = left[~_out_of_reach(statement.chosen(left))]
+            if left.size:
+                part = statement.chosen(left)
+                quick.put(left, _in_any_limits(part, share[left], demand[left], least_mass, level[left]))
         return quick
     quick = _as_discs(statement.chosen(discs), share[discs], demand[discs], least_mass, level[discs])
     done = discs[quick.certified]
@@ -129,6 +133,13 @@ def _as_discs(statement: Statement, share: Real, demand: Real, least_mass: bool,
         solved = _solve(part, share[left], least_mass, _DOUBLE, disc_stages, at_least[left])
         stages.put(left, _judged(part, share[left], demand[left], least_mass, solved))
     return stages
+
+
+def _out_of_reach(statement: Statement) -> np.ndarray:
+    """Whether the ceilings of N programs are proven to be out of reach (N,) bool: then no method ends well."""
+    excess, tolerance = statement.excess(), np.full(statement.floor.shape[:-1], CEILING_TOLERANCE)
+    nearest = _judged(excess, tolerance, tolerance, False, _solve(excess, tolerance, False, _DOUBLE))
+    return np.asarray(nearest.lower_bound > CEILING_ROUNDING)
 
 
 def unproven(statement: Statement, share: Real, least_mass: bool) -> tuple[Complex, Complex]:
