@@ -38,9 +38,7 @@ def designer_loads(request: Place, machine: Machine, pistons: Pistons, answer: P
     yield from _base(design, pistons, place, table.angles)
     gravity = design / "gravity_deg"
     yield same("loads", place / "gravity_deg", gravity.double() if gravity else None)
-    # the mass of what is cut from a plate follows from its own radius
-    if not any(web / "envelope" for web in design / "webs"):
-        yield from weights(request, answer, Turn(request, machine, loads=False))
+    yield from weights(request, answer, Turn(request, machine, loads=False))
 
 
 def _row(pistons: Pistons, row: Piston, k: int, place: Place, there: Sequence[Instant]) -> Claims:

@@ -41,6 +41,10 @@ def of_scroll(request: Place, answer: Place) -> Claims:
     if not place:
         return
     guide = design / "anti_rotation"
+    if (guide / "type").value != "crank_pins":
+        # there are none
+        yield CLAIM, place, -ONE, ONE
+        return
     pattern: Dict[str, Any] = {name: (design / name).value for name in _OF_SCROLL}
     pattern["pin_count"] = (guide / "count").value
     pattern["pin_circle_radius_m"] = (guide / "pin_circle_radius_m").value

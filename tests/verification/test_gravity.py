@@ -28,6 +28,7 @@ _KINDS: dict[str, tuple[str, tuple[str, ...], float | None]] = {
     "balance shaft": ("vee", ("balance shaft backwards",), 123.0),
     "continuous": ("twin", ("three bearings", "continuous shaft"), 270.0),
     "no direction": ("twin", (), None),
+    "plates": ("twin", ("plates, segments", "budget"), 123.0),
 }
 
 
