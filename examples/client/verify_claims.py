@@ -22,7 +22,7 @@ _ROOM = real(NOTHING)
 #: kind of claim, where it stands, the room that is left (None: not covered), and what it is a share of
 Claim = Tuple[str, Place, Optional[Number], Number]
 Claims = Generator[Claim, None, Any]
-#: no claim, but what one was proven by: with other numbers it may prove as much
+#: no claim, but what one was proven by: with other numbers it may prove as much; or words about it
 EVIDENCE = "evidence"
 #: sizes whose shares are told in doubles
 SMALL, LARGE = 1e-100, 1e100
@@ -39,6 +39,11 @@ def near(claim: str, place: Place, figure: Number, size: Optional[Number] = None
     if -off.low < off.high:
         off = -off
     return claim, place, off + _ROOM, abs(figure) if size is None else size
+
+
+def figure(claim: str, place: Place, number: Number, size: Optional[Number] = None) -> Claim:
+    """The same of a figure that has to be there."""
+    return near(claim, place, number, size) if place else (claim, place, -ONE, ONE)
 
 
 def same(claim: str, place: Place, value: Any) -> Claim:

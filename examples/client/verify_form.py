@@ -88,9 +88,13 @@ foundation_loads/before foundation_loads/after foundation_loads/as_built: force_
   couple_of_y_forces
 force_x force_y: amplitude_N phase_deg
 couple_of_x_forces couple_of_y_forces: amplitude_Nm phase_deg
+stages: stage title quantity formula value unit plane frequency balanceable remaining acting left iron rules_of_thumb
+stages/acting stages/left: quantity order frequency_Hz unit peak minor motion direction_deg
+stages/iron: position_m rotating_x_kg_m rotating_y_kg_m reciprocating_x_kg_m reciprocating_y_kg_m
+stages/rules_of_thumb: name source transferred_share total_mass_radius_kg_m peak peak_along peak_across
 """
 #: outputs whose form is known here, though none but those that are requested are in an answer
-OUTPUTS = ("hodograph", "orders", "foundation_loads")
+OUTPUTS = ("hodograph", "orders", "foundation_loads", "stages")
 #: outputs that may be empty although they are requested
 _ANYWAY = ("residual", "balance_rate")
 

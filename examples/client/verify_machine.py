@@ -105,7 +105,8 @@ class Machine:
             raise Unreadable((*place.path, "webs"), "names must be unique")
         self.budget = budget.number(least=0) if budget else None
         # where the machine says that moments are, or midway; where the answer says so is what counts from here
-        self.own_plane = (place / "reference_plane_m").number(0.5 * (min(planes) + max(planes)))
+        centre = 0.5 * (min(planes) + max(planes))
+        self.centre, self.own_plane = real(centre), (place / "reference_plane_m").number(centre)
         self.plane = plane.number() if plane else self.own_plane
         self.shares = {name: response.shares(self, goal) for name, response in ON_FRAME.items()}
         ends = [*ends, *((web / "position_m").double() for web in place / "webs")]
@@ -121,7 +122,7 @@ class Machine:
 
     def refresh(self) -> None:
         """What the masses do, without counterweights and with those that are there."""
-        self.before = self._plus(dict.fromkeys(ON_FRAME, (ZERO, ZERO)), self.masses)
+        self.before = self.alone(self.masses)
         self.laden = self.responses(self.there)
         #: phasors of higher orders without balance shafts, where they were needed; None where a row has no rod
         self.higher: Dict[int, Optional[Responses]] = {}
@@ -139,6 +140,10 @@ class Machine:
     def responses(self, weights: Sequence[Mass]) -> Responses:
         """With counterweights."""
         return self._plus(self.before, weights)
+
+    def alone(self, weights: Sequence[Mass]) -> Responses:
+        """Of some masses, without the machine."""
+        return self._plus(dict.fromkeys(ON_FRAME, (ZERO, ZERO)), weights)
 
     def _plus(self, responses: Responses, weights: Sequence[Mass]) -> Responses:
         sums = {}

@@ -5,46 +5,40 @@ The largest of samples are taken over the angles of the output, those that an ou
 
 from __future__ import annotations
 
-from fractions import Fraction
 from math import pi
-from typing import Iterator, Sequence, Tuple
+from typing import Sequence
 
 from verify_bearings import PEAK, SAMPLE, within
 from verify_claims import Claims, same
 from verify_curves import Turn
 from verify_dynamics import RUBBED, alone, enclosed, of_row, series, shown
 from verify_gas import force
+from verify_gravity import guide, turning_mass, weights
 from verify_harmonics import Peak
 from verify_machine import Machine, row_masses
 from verify_numbers import ONE, Place
 from verify_pistons import Instant, Piston, Pistons
 from verify_rods import CASES, RANGE, fluctuation, leaning, of_shaft
 
-GRAVITY = 9.80665  # m/s^2
-WEIGHED = 1e-11  # of all weights: by which one may be off
-
 
 def designer_loads(request: Place, machine: Machine, pistons: Pistons, answer: Place) -> Claims:
-    """All but what guides carry, and directions of weights, where gravity has one."""
+    """All of them."""
     place, design = answer / "loads", request / "machine"
     table = yield from shown("loads", request, pistons, place)
     for row, k, entry in table.rows:
-        yield from _row(pistons, row, k, entry, of_row(pistons, table.angles, k))
+        there = of_row(pistons, table.angles, k)
+        yield from _row(pistons, row, k, entry, there)
+        yield from guide(design, row, entry / "guide", there)
     throws = list(design / "throws")
     yield same("loads", Place(len(list(place / "throws")), *(place / "throws").path), len(throws))
     for n, (throw, entry) in enumerate(zip(throws, place / "throws")):
-        turning = (throw / "rotating_mass_kg").double(0.0) + sum(_turning(row) for row in throw / "rows")
+        turning = (throw / "rotating_mass_kg").double(0.0) + sum(turning_mass(row) for row in throw / "rows")
         yield same("loads", entry / "throw", n)
         yield within("loads", entry / "rotating_mass_kg", turning, turning, SAMPLE * turning)
     yield from _base(design, pistons, place, table.angles)
-    yield same("loads", place / "gravity_deg", (design / "gravity_deg").value)
-    # the mass of what is cut from a plate follows from its own radius
-    if not any(web / "envelope" for web in design / "webs"):
-        yield from _weights(request, place, Turn(request, machine, loads=False), list(_masses(design, answer)))
-
-
-def _turning(row: Place) -> float:
-    return row_masses(row)[1].middle().real
+    gravity = design / "gravity_deg"
+    yield same("loads", place / "gravity_deg", gravity.double() if gravity else None)
+    yield from weights(request, answer, Turn(request, machine, loads=False))
 
 
 def _row(pistons: Pistons, row: Piston, k: int, place: Place, there: Sequence[Instant]) -> Claims:
@@ -121,34 +115,3 @@ def _base(design: Place, pistons: Pistons, place: Place, angles: Sequence[float]
         share = RANGE * every.size / energy
     wide = off / inertia + share * max(map(abs, beyond), default=0.0) / inertia
     yield from series("loads", place / "angular_acceleration_rad_s2", [-torque / inertia for torque in beyond], wide)
-
-
-def _masses(design: Place, answer: Place) -> Iterator[Tuple[float, float]]:
-    """All that turns with the shaft: where along it [m], and its mass."""
-    for throw in design / "throws":
-        yield (throw / "position_m").double(), (throw / "rotating_mass_kg").double(0.0)
-        for row in throw / "rows":
-            where = (throw / "position_m").double() + (row / "offset_m").double(0.0)
-            yield where, _turning(row)
-    for part in [*(design / "shaft_parts"), *(answer / "counterweights")]:
-        yield (part / "position_m").double(), (part / "mass_kg").double()
-
-
-def _weights(request: Place, place: Place, turn: Turn, masses: Sequence[Tuple[float, float]]) -> Claims:
-    """Of all that turns: on the bearings, where gravity has no direction, and on the foundation."""
-    design, entries = request / "machine", list(place / "bearing_weights")
-    names = [(entry / "name").text() for entry in design / "bearings"]
-    yield "loads", place / "bearing_weights", ONE if len(entries) == len(names) else -ONE, ONE
-    for name, entry in zip(names, entries):
-        yield same("loads", entry / "name", name)
-        if design / "gravity_deg" or turn.spans is None:
-            yield "loads", entry / "weight_N", None, ONE
-            continue
-        shares = [float(turn.spans.shares(Fraction(where))[turn.bearings[name]]) for where, _ in masses]
-        value = sum(share * mass for share, (_, mass) in zip(shares, masses)) * GRAVITY
-        size = sum(abs(share) * mass for share, (_, mass) in zip(shares, masses)) * GRAVITY
-        yield within("loads", entry / "weight_N", abs(value), abs(value), WEIGHED * size)
-        yield same("loads", entry / "x_N", None)
-        yield same("loads", entry / "y_N", None)
-    if not design / "stationary_mass_kg":
-        yield same("loads", place / "foundation_weight_N", None)

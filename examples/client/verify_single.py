@@ -10,7 +10,9 @@ from verify_form import form, outputs
 from verify_machine import Machine
 from verify_numbers import ONE, Place
 from verify_outputs import dynamics
+from verify_pin_loads import of_scroll
 from verify_shaking import shaking
+from verify_stages import stages
 from verify_turn import looks_at_the_turn, over_turn, unreachable
 
 
@@ -31,6 +33,8 @@ def single(request: Place, answer: Place, whole: bool = True) -> Claims:
         yield from _nothing(answer)
         budget, why = design / "max_total_mass_kg", answer / "infeasibility"
         yield from covered(shaking(request, machine, answer, None))
+        yield from covered(stages(request, machine, answer, None))
+        yield from covered(of_scroll(request, answer))
         yield from covered(curves(request, machine, answer, None))
         yield from covered(dynamics(request, machine, answer, None))
         yield from covered((unreachable if turn else infeasible)(request, answer, budget, why))
@@ -39,6 +43,8 @@ def single(request: Place, answer: Place, whole: bool = True) -> Claims:
     there: Fitted = yield from fitted(request, machine, answer / "counterweights", answer / "balance_shafts", whole)
     yield from after(request, machine, answer, there)
     yield from covered(shaking(request, machine, answer, there))
+    yield from covered(stages(request, machine, answer, there))
+    yield from covered(of_scroll(request, answer))
     yield from covered(curves(request, machine, answer, there))
     yield from covered(dynamics(request, machine, answer, there))
     mass = there.mass + there.on_shafts_mass if there.on_shafts else there.mass

@@ -11,9 +11,10 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.angles import direction
 from optimizer.mechanics.gas import gas_forces
 from optimizer.mechanics.kinematics import angle_ahead, motion
-from optimizer.mechanics.layout import stacked
+from optimizer.mechanics.layout import stacked, web_radii
 from optimizer.mechanics.row_series import Reading
 from optimizer.mechanics.shaft import INFLUENCES, bearing_places
+from optimizer.mechanics.shapes import plates
 from optimizer.mechanics.weight import GRAVITY, along_axis, on_guide
 from optimizer.numerics.arrays import Complex, Real, side_by_side
 from optimizer.outputs.output import Columns, Output
@@ -194,10 +195,19 @@ def _turning(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | N
     places, masses = (stacked(column) for column in zip(*parts, strict=True))
     if fitted is None:
         return places, masses
-    webs = scene.layout.webs
+    return side_by_side(places, scene.layout.webs.position), side_by_side(masses, _fitted_masses(machine, fitted))
+
+
+def _fitted_masses(machine: ReciprocatingMachine, fitted: Complex) -> Real:
+    """Masses (..., webs) kg of counterweights (..., webs) kg m; 0 where a design has none."""
     size = np.abs(fitted)
-    # of designs without counterweights they are nan
-    return side_by_side(places, webs.position), side_by_side(masses, np.where(np.isnan(size), 0.0, size) / webs.radius)
+    size = np.where(np.isnan(size), 0.0, size)
+    masses, cut = size / web_radii(machine), plates(machine)
+    if cut is not None:
+        # of what a plate is opened for, many designs have no radius
+        given = masses[..., cut.webs]
+        masses[..., cut.webs] = np.where(np.isnan(given), cut.mass_of(size[..., cut.webs]), given)
+    return masses
 
 
 def on_bearings(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | None) -> Complex:

@@ -144,4 +144,6 @@ def _against(ends: tuple[float, ...], centre: float, force: complex, couple: com
     if len(ends) == 1:
         return (0.0 - force,)
     low, high = (end - centre for end in ends)
-    return (couple - high * force) / (high - low), (low * force - couple) / (high - low)
+    # not high - low: the webs may be far from the centre
+    apart = ends[1] - ends[0]
+    return (couple - high * force) / apart, (low * force - couple) / apart

@@ -13,7 +13,8 @@ class VerifyRequest(Model):
     """A request with the answer that it got; the checker reads both as they are (docs/verify.md)."""
 
     request: dict[str, Any] = Field(
-        description="body of /v1/optimize, /v1/pareto or /v1/sweeps", examples=[{"machine": {"kind": "reciprocating"}}]
+        description="body of /v1/optimize, /v1/pareto, /v1/sweeps or /v1/scroll/pin-loads",
+        examples=[{"machine": {"kind": "reciprocating"}}],
     )
     answer: dict[str, Any] | list[Any] = Field(
         description="the answer; of a sweep, a list of its rows as in NDJSON", examples=[{"status": "optimal"}]

@@ -9,10 +9,16 @@ import pytest
 
 from optimizer.analyze import analyze
 from optimizer.mechanics.weight import GRAVITY, on_guide
+from optimizer.optimize import optimize
+from optimizer.studies.sweep.rows import rows
+from optimizer.studies.sweep.table import result_schema, result_table
 from schemas.answer.answers import AnalyzeAnswer
 from schemas.answer.loads import Loads
-from schemas.request.requests import AnalyzeRequest
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
+from schemas.sweep.request import SweepRequest
 from service.documents.examples import load
+from tests.pairs.asking import body_of
+from tests.verification.checking import optimized
 
 
 def answer(outputs: tuple[str, ...] = ("loads", "torque", "rod_loads"), **machine: Any) -> AnalyzeAnswer:
@@ -128,3 +134,28 @@ def test_without_gas_only_inertia_loads() -> None:
         omega = 500.0 * np.pi / 30.0
         assert row.largest_inertia_N == pytest.approx(row.reciprocating_mass_kg * 0.14 * omega**2 * 1.2)
         assert row.piston_rod_governed_by in ("inertia", "running")
+
+
+@pytest.mark.parametrize("gravity", [None, 123.0])
+def test_what_is_cut_from_a_plate_weighs_on_the_bearings(gravity: float | None) -> None:
+    """Analytic: the lever rule with the masses that the answer shows; a row of a sweep has the same."""
+    body = body_of("twin", ("plates, segments",), 2.0)
+    assert body is not None
+    body = {**body, "machine": {**body["machine"], "gravity_deg": gravity}, "outputs": ["loads"]}
+    shown = optimized(body)
+    assert shown.loads is not None
+    plain = OptimizeRequest.model_validate({**body, "machine": {**body["machine"], "webs": []}})
+    bare = optimize(plain).loads
+    assert bare is not None
+    vectors, bare_vectors = (
+        np.array([complex(one.x_N or 0.0, one.y_N or 0.0) if gravity else one.weight_N for one in each.bearing_weights])
+        for each in (shown.loads, bare)
+    )
+    mass = sum(one.mass_kg for one in shown.counterweights)
+    assert mass > 0
+    assert abs(np.sum(vectors - bare_vectors)) == pytest.approx(mass * GRAVITY, rel=1e-9)
+    speeds = {"path": "/machine/speed_rpm", "values": [body["machine"]["speed_rpm"]] * 2}
+    sweep = SweepRequest.model_validate({"base": body, "axes": [speeds]})
+    (first, *_) = result_table(rows(sweep, 0, sweep.total), result_schema(sweep, b"{}")).to_pylist()
+    for one in shown.loads.bearing_weights:
+        assert first[f"bearing_weight_N.{one.name}"] == pytest.approx(one.weight_N, rel=1e-9)

@@ -80,3 +80,12 @@ def test_nothing_is_left_where_there_are_no_counterweights_to_show() -> None:
     stages = found(throw(0.0, row(90)), unbalance=None)
     assert [one.left for one in stages.values()] == [None] * 8
     assert [len(stages[name].iron) for name in ("VI", "VII", "VIII")] == [0, 2, 0]
+
+
+def test_iron_of_webs_far_from_the_machine_analytic() -> None:
+    """Analytic: the lever rule, of webs 0.1 m apart that are 700 m away."""
+    arrays = layout(machine(throw(0.0, row(90), z=700.0, rotating_kg=10.0), webs=[web("a", 0.0), web("b", 0.1)]))
+    low, high = all_stages(arrays, None)[6].iron
+    size = 10.0 * RADIUS
+    assert low.rotating_x_kg_m == pytest.approx(size * (700.0 - 0.1) / 0.1, rel=1e-14)
+    assert high.rotating_x_kg_m == pytest.approx(-size * 700.0 / 0.1, rel=1e-14)

@@ -71,6 +71,12 @@ def _dynamics(body: Body) -> Body:
     return {**body, "outputs": outputs, "angles": {"step_deg": 30.0}}
 
 
+def _weighed(body: Body) -> Body:
+    """With a direction of gravity, and a foundation."""
+    more = {"gravity_deg": 123.0, "stationary_mass_kg": 300.0}
+    return {**body, "machine": {**body["machine"], **more}, "outputs": ["loads"], "angles": {"step_deg": 30.0}}
+
+
 def _four_strokes() -> Body:
     """One row with friction, the other with a pressure over two revolutions, the first of its dead centres given."""
     body = _dynamics(_pair("twin", "friction", "clockwise"))
@@ -91,6 +97,9 @@ def _requests() -> dict[str, Body]:
         found[name] = _pair(base, *features)
     found["shaking"] = _shown(_pair("vee", "clockwise"), fitted=[{"web": "a", "mass_kg": 2.0, "angle_deg": 75.0}])
     found["shaking, balance shaft"] = _shown(_pair("vee", "balance shaft of order 2"))
+    found["stages"] = {**_pair("vee", "balance shaft of order 2"), "outputs": ["stages"]}
+    found["pin loads"] = {**SINGLE["scroll-three-pins"], "outputs": ["pin_loads"], "angles": {"step_deg": 30.0}}
+    found["weights"] = _weighed(_pair("twin"))
     found["dynamics"] = _dynamics(_pair("vee", "friction", "bearing weight"))
     found["four strokes"] = _four_strokes()
     found["front"] = {**SINGLE["sum"], "points": 3, "multipliers": True}

@@ -13,7 +13,7 @@ from schemas.match.answer import MatchAnswer
 #: parts of which nothing is looked at, whatever they hold
 _UNKNOWN = {"trades", "counts"}
 #: outputs of which the checker knows the form
-_KNOWN = ("hodograph", "orders", "foundation_loads")
+_KNOWN = ("hodograph", "orders", "foundation_loads", "stages")
 _OUTPUTS = {*OutputFields.model_fields} - {*_KNOWN}
 
 
