@@ -18,6 +18,8 @@ from verify_pins import LINE, Pins, Turn, causes
 CLAIM = "pin_loads"
 #: of a torque: by which doubles are off
 EXACT = 1e-12
+#: entries of a torque times pins, beyond which peaks take too long
+MANY = 50_000
 #: degrees of a direction, of pins that are not all but where the scroll turns
 TURNED = 1e-9
 FIELDS = {
@@ -124,16 +126,20 @@ def _load(turn: Turn, entry: Place, k: int) -> Claims:
             value, off = pins.load(k, torque.at(angle), angle)
             yield within(CLAIM, sample, value, value, off)
         loads.append(0.0 if stuck else sample.double())
+    loads = [*loads, *[0.0] * len(turn.angles)][: len(turn.angles)]
     if turn.is_unbounded:
         yield same(CLAIM, entry / "peak_N", None)
         yield same(CLAIM, entry / "peak_angle_deg", None)
         return loads
-    if pins.loose or (pins.dead and not pins.formula):
+    largest: Optional[Peak] = None
+    if not (pins.loose or (pins.dead and not pins.formula) or len(torque.angles) * pins.count > MANY):
+        largest = peak(pins, k, torque)
+    if largest is None:
         # at a dead point without a torque an error strains what nothing turns: the peak leaves that out
         usual = [abs(load) for load, angle in zip(loads, turn.angles) if not pins.is_dead(angle)]
         yield from _unclear(entry, max(usual, default=0.0))
     else:
-        yield from _peak(turn, entry, k)
+        yield from _peak(turn, entry, k, largest)
     return loads
 
 
@@ -145,12 +151,9 @@ def _unclear(entry: Place, least: float) -> Claims:
     yield CLAIM, entry / "peak_angle_deg", None if 0 <= angle < 360 else -ONE, ONE
 
 
-def _peak(turn: Turn, entry: Place, k: int) -> Claims:
+def _peak(turn: Turn, entry: Place, k: int, largest: Peak) -> Claims:
     """The largest load, and where it is."""
     pins, place, angle = turn.pins, entry / "peak_angle_deg", (entry / "peak_angle_deg").double()
-    largest: Optional[Peak] = peak(pins, k, turn.torque)
-    if largest is None:
-        raise NotCovered(entry / "peak_N")
     off = pins.load(k, turn.torque.at(largest.angle), largest.angle)[1]
     yield within(CLAIM, entry / "peak_N", largest.low * (1 - PEAK), largest.high, off)
     there = abs(pins.load(k, turn.torque.at(angle), angle)[0]) if 0 <= angle < 360 else -1.0

@@ -8,14 +8,16 @@ are halved until none can exceed the largest value by more than 10^-10 of it.
 from __future__ import annotations
 
 from heapq import heapify, heappop, heappush
-from math import ceil, degrees, pi, radians, sin
+from math import ceil, degrees, pi, radians, sin, sqrt
 from typing import List, Optional
 
 from verify_harmonics import Peak
 from verify_pins import Pins, Torque
 
 #: share by which the largest load may exceed the largest value, and intervals after which none is told
-CLOSE, MOST = 1e-10, 20_000
+CLOSE, MOST = 1e-10, 5_000
+#: of an angle: by which doubles are off, which counts where levers are all but equal
+ROUNDED = 1e-14
 #: degrees of an interval at first
 FIRST = 30.0
 
@@ -28,9 +30,10 @@ def peak(pins: Pins, k: int, torque: Torque) -> Optional[Peak]:
     pieces = zip(edges, edges[1:], ends, ends[1:])
     heap = [(-_most(pins, k, torque, *piece), *piece) for piece in pieces]
     heapify(heap)
+    close = CLOSE + (ROUNDED / sqrt(pins.rest) if pins.rest > 0 else 0.0)
     for _ in range(MOST):
         high, start, end, first, last = heappop(heap)
-        if -high <= low * (1 + CLOSE):
+        if -high <= low * (1 + close):
             return Peak(low, max(low, -high), angle)
         middle = (start + end) / 2
         value = abs(_load(pins, k, torque, middle))

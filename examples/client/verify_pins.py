@@ -26,8 +26,8 @@ _OFF, _NEAR = 1e-12, 1e-13
 _ALIKE = 1e3
 #: of clearances and errors
 _PLAY = 1e-10
-#: pins of one machine
-_MOST = 1000
+#: pins of one machine, evenly spaced ones and others
+_MOST, _MOST_NAMED = 1000, 200
 
 
 class Torque:
@@ -92,6 +92,8 @@ class Pins:
         stiffness = (bearing / "stiffness_N_per_m").double(0.0)
         self.drive = {"free": 0.0, "rigid": inf, "elastic": stiffness}[kind]
         if place / "pins":
+            if len(entries) > _MOST_NAMED:
+                raise NotCovered(place / "pins")
             self.phases = [(pin / "angle_deg").double() % 360.0 for pin in entries]
             self.radii = [(pin / "radius_m").double(least=1e-9) for pin in entries]
             self.stiffness = [(pin / "stiffness_N_per_m").double(1.0, least=1e-9) for pin in entries]

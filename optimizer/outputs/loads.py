@@ -205,8 +205,8 @@ def _fitted_masses(machine: ReciprocatingMachine, fitted: Complex) -> Real:
     masses, cut = size / web_radii(machine), plates(machine)
     if cut is not None:
         # of what a plate is opened for, many designs have no radius
-        given = masses[..., cut.webs]
-        masses[..., cut.webs] = np.where(np.isnan(given), cut.mass_of(size[..., cut.webs]), given)
+        of_plates = masses[..., cut.webs]
+        masses[..., cut.webs] = np.where(np.isnan(of_plates), cut.mass_of(size[..., cut.webs]), of_plates)
     return masses
 
 

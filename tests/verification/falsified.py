@@ -104,9 +104,11 @@ def _dust(answer: Any, path: Path) -> bool:
     So it is beside what the same object and those around it hold: of a phasor and of an ellipse, both orders, before
     and after.
     """
+    here = at(answer, path[:-1])
+    if path[0] == "stages":
+        return _size(here, path) <= _DUST * max(stage["value"] for stage in answer["stages"])
     if path[0] not in ("residual", "orders", "foundation_loads") and "first_order" not in path:
         return False
-    here = at(answer, path[:-1])
     kind = "_Nm" if "moment" in path or any(str(part).startswith("couple") for part in path) else "_N"
     sizes_of = {"_N": 1.0 if kind == "_N" else _ARM, "_Nm": 1.0 if kind == "_Nm" else 0.0}
     figures = [
@@ -122,6 +124,12 @@ def _dust(answer: Any, path: Path) -> bool:
         return min(sizes) <= _DUST * largest
     others = [one for name, one in here.items() if name.endswith(kind) and name != path[-1]]
     return abs(value) <= _DUST * largest or any(abs(value - one) <= _DUST * largest for one in others)
+
+
+def _size(here: Any, path: Path) -> float:
+    """Of a figure, or of that of which it tells the direction."""
+    size: float = here["peak"] if path[-1] == "direction_deg" else here[path[-1]]
+    return abs(size)
 
 
 def escaped(part: str) -> str:

@@ -15,6 +15,8 @@ from tests.optimize.machines import machine, row, throw, web
 from tests.optimize.shafts import shaft
 from tests.pairs.asking import body_of
 from tests.verification.answers import answered
+from tests.verification.anything import JSON, judged, paths
+from tests.verification.anything import replaced as replaced_anywhere
 from tests.verification.checking import broken
 from tests.verification.falsified import at, numbers, replaced
 from tests.verification.kinds import SINGLE
@@ -302,3 +304,15 @@ def test_stages_of_any_machine_are_held(
     answer = answered(body)
     assert not broken(body, answer)
     assert not [where for where in checker().verify(body, answer)["not_covered"] if "stages" in where]
+
+
+@settings(max_examples=15, deadline=None)
+@given(data=st.data())
+def test_nothing_that_is_sent_as_stages_raises(data: st.DataObject) -> None:
+    """Any JSON in any place of the stages is judged, or refused by name."""
+    request, text = _pair(data.draw(st.sampled_from(["along y", "balance shaft of order 2", "infeasible", "pins"])))
+    answer = json.loads(text)
+    for _ in range(data.draw(st.integers(1, 2))):
+        places = [path for path in paths(answer) if path[:1] == ("stages",)]
+        answer = replaced_anywhere(answer, data.draw(st.sampled_from(places)), data.draw(JSON))
+    judged(request, answer)
