@@ -7,7 +7,7 @@ _FINER = "finer or coarser than is needed, within what is told of it"
 _LOOKS = "a hundredth of the width of a line, or a px of the sample of a line in a legend: nobody can see it"
 _OPEN = "of open sides nothing is used"
 _MECHANICS: dict[str, str] = {
-    "bearings.py _arms: low < high -> low <= high": _ALIKE,
+    "bearings.py _arms: size[0] < size[1] -> size[0] <= size[1]": _ALIKE,
     "bearings.py _refuse_coincident: 4.0 * np.spacing(np.maximum(np.abs(first), np.abs(last)))"
     " -> 4.041 * np.spacing(np.maximum(np.abs(first), np.abs(last)))": _FINER,
     "row_data.py _opened: np.where(closed, discharge, 1.0) -> np.where(closed, discharge, 1.011)": _OPEN,

@@ -85,8 +85,9 @@ def test_the_angle_from_a_crank(angle: float, printed: float | None, right: bool
 def test_castings_are_counted_by_their_masses(masses: list[float], pieces: int, sizes: int) -> None:
     """Analytic: of one size are masses that differ by up to 1e-9 of themselves; what is fixed is not counted."""
     webs = [{"name": str(k)} for k in range(3)] + [{"name": "there", "fixed": {"mass_kg": 9.0}}]
-    entries = place([{"mass_kg": one} for one in [*masses, 9.0]])
-    found = part("alternatives").costs(place({"webs": webs}, "request"), entries, real(7.0))
+    answer = place({"counterweights": [{"mass_kg": one} for one in [*masses, 9.0]]})
+    machine = place({"webs": webs, "catalogue": {"masses_kg": [1.0]}}, "request")
+    found = part("alternatives").costs(machine, answer, real(7.0))
     assert {name: float(one) for name, one in found.items()} == {"mass": 7.0, "pieces": pieces, "sizes": sizes}
     assert part("levels")._sizes(sorted(one for one in masses if one > 0)) == sizes
 
