@@ -102,7 +102,7 @@ def two_throws(least: float, on_shaft: float) -> dict[str, Any]:
     return machine
 
 
-@pytest.mark.parametrize(("least", "on_shaft"), part(2, [(6.0, 9.0), (9.0, 4.0), (12.0, 12.0), (3.0, 20.0)], rows=True))
+@pytest.mark.parametrize(("least", "on_shaft"), part(4, [(6.0, 9.0), (9.0, 4.0), (12.0, 12.0), (3.0, 20.0)], rows=True))
 def test_no_choice_is_better_than_the_bound(least: float, on_shaft: float) -> None:
     # independent: programs of cvxpy in every piece of the circles of least masses
     machine = two_throws(least, on_shaft)
@@ -131,7 +131,7 @@ TWICE = in_line_four(
 )
 
 
-@pytest.mark.parametrize("machine", [BACK, WITHIN, TWICE], ids=["back", "within", "twice"])
+@pytest.mark.parametrize("machine", part(3, [TWICE, BACK, WITHIN]))
 @pytest.mark.parametrize(
     "goal",
     part(
