@@ -87,7 +87,8 @@ class Rounding(Model):
     )
     objective_rise: float = Field(description="objective of the answer above that of the optimum", examples=[1650.0])
     relative_rise: float | None = Field(
-        description="the same as a share of the optimum's objective; null where that is 0", examples=[0.041]
+        description="the same as a share of the optimum's objective; null where that is 0, or no more than its gap",
+        examples=[0.041],
     )
     mass_rise_kg: Kilograms = Field(
         description="total mass of the answer above that of the optimum, of all shafts", examples=[-0.25]

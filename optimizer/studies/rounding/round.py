@@ -199,12 +199,14 @@ def _cost(
     optimum, best = _Set.of(free), _Set.of(answer)
     least, value = (judge.objective(choice) for choice in (optimum, best))
     there = np.where(best.mass > 0.0, best.angle, optimum.angle)
-    rise = value - least
+    rise, proof = value - least, free.certificate
+    # of what may be nothing, as far as is proven, there is no share
+    something = least > (proof.gap if proof is not None and proof.gap is not None else 0.0)
     return Rounding(
         optimum=judge.weights(optimum),
         nearest=plain,
         objective_rise=rise,
-        relative_rise=rise / least if least > 0.0 else None,
+        relative_rise=rise / least if something else None,
         mass_rise_kg=float(np.sum(best.mass) - np.sum(optimum.mass)),
         masses_alone_rise=judge.objective(_Set(best.mass, optimum.angle)) - least,
         angles_alone_rise=judge.objective(_Set(optimum.mass, there)) - least,
