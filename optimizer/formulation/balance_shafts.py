@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.formulation.counterweights import counterweights, places, unbalance, unbalances_of_shaft
+from optimizer.formulation.counterweights import counterweights, unbalance, unbalances_of_shaft
 from optimizer.formulation.formulate import with_weights_of
 from optimizer.mechanics.fixed_weights import any_fixed, beside
 from optimizer.mechanics.layout import stacked
@@ -51,7 +51,7 @@ def _mirrored(web: Web) -> Web:
 
 def as_drawn(machine: Machine) -> Machine:
     """A machine with the webs of its balance shafts behind its own, none of them mirrored."""
-    return with_fields(machine, {("webs",): places(machine)}) if balance_shafts(machine) else machine
+    return with_fields(machine, {("webs",): machine.every_web}) if balance_shafts(machine) else machine
 
 
 def web_paths(machine: Machine) -> list[Path]:
@@ -157,7 +157,7 @@ def fitted(machine: Machine, mass_kg: Real, angle_deg: Real, vectors: Complex | 
     """
     own, shafts = len(machine.webs), balance_shafts(machine)
     if vectors is None:
-        vectors = unbalance(mass_kg, angle_deg, stacked([web.radius_m for web in places(machine)]))
+        vectors = unbalance(mass_kg, angle_deg, stacked([web.radius_m for web in machine.every_web]))
     results, first = [], own
     for shaft in shafts:
         there = slice(first, first + len(shaft.webs))

@@ -19,7 +19,6 @@ from schemas.base.variation import with_fields
 from schemas.machine.fitted import FittedCounterweight, GivenCounterweight
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import BalanceShaft
-from schemas.machine.webs import Web
 
 #: of a mass, relative to it, and of an angle, relative to a turn
 _ROUNDING = 8 * float(np.finfo(float).eps)
@@ -82,7 +81,7 @@ def mass_and_angle(
     Those on the webs of balance shafts stand behind those of the crankshaft.
     """
     weights = {counterweight.web: counterweight for counterweight in counterweights}
-    fitted = [weights.get(web.name) for web in places(machine)]
+    fitted = [weights.get(web.name) for web in machine.every_web]
     mass = stacked([weight.mass_kg if weight else 0.0 for weight in fitted])
     angle = np.mod(stacked([weight.angle_deg if weight else 0.0 for weight in fitted]), 360.0)
     return beside(machine, mass, angle)
@@ -100,11 +99,6 @@ def too_heavy(
         if weight.mass_kg > most.get(str(weight.web), np.inf) * (1.0 + _ABOVE_ENVELOPE):
             message = f"the envelope of this web holds {most[str(weight.web)]:.6g} kg at most"
             yield FieldProblem((field, index, "mass_kg"), message)
-
-
-def places(machine: Machine) -> tuple[Web, ...]:
-    """All webs of a machine, those of its balance shafts behind those of the crankshaft."""
-    return machine.every_web
 
 
 def counterweights(

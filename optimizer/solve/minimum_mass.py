@@ -5,7 +5,6 @@ import numpy as np
 from optimizer.choices.construction import feasible_set, takes_options
 from optimizer.choices.feasible_set import Choice, SearchResult
 from optimizer.formulation.balance_shafts import drawn
-from optimizer.formulation.counterweights import places
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import fixed_masses
@@ -47,7 +46,7 @@ class BestSet:
 
 def none_of(machine: Machine, status: str, reason: str, nodes: int, method: str) -> BestSet:
     """Nothing on any web, where there is no set to show."""
-    nothing = np.zeros(len(places(machine)))
+    nothing = np.zeros(len(machine.every_web))
     return BestSet(nothing, nothing, np.nan, np.nan, np.nan, status, reason, nodes, method)
 
 

@@ -10,7 +10,6 @@ from optimizer.formulation.counterweights import (
     counterweights,
     mass_and_angle,
     masses_and_angles,
-    places,
     too_heavy,
     unbalance,
 )
@@ -130,7 +129,7 @@ def test_masses_and_angles_of_a_request_stand_web_by_web() -> None:
     mass, angle = mass_and_angle(plan, given)
     assert mass.tolist() == [1.0, 2.0, 0.0, 1.5]
     assert angle.tolist() == [40.0, 330.0, 0.0, 30.0]
-    radius = np.array([one.radius_m for one in places(plan)])
+    radius = np.array([one.radius_m for one in plan.every_web])
     vectors = unbalance(mass, angle, radius)
     np.testing.assert_allclose(vectors, mass * radius * np.exp(1j * np.deg2rad(angle)), atol=1e-15)
 

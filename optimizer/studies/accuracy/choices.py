@@ -16,7 +16,7 @@ from optimizer.choices.catalogue_options import part_numbers
 from optimizer.choices.construction import options_of, takes_options
 from optimizer.choices.discrete.options import EQUAL
 from optimizer.formulation.balance_shafts import web_paths
-from optimizer.formulation.counterweights import places, unbalance
+from optimizer.formulation.counterweights import unbalance
 from optimizer.formulation.goals import cone_program
 from optimizer.formulation.groups import alike_webs
 from optimizer.formulation.simulation import Prepared
@@ -247,7 +247,7 @@ class _Ways:
 
 def _radius(machine: Machine) -> Real:
     """Of all webs (K + S,) m."""
-    radius: Real = stacked([web.radius_m for web in places(machine)])
+    radius: Real = stacked([web.radius_m for web in machine.every_web])
     return radius
 
 
@@ -265,7 +265,7 @@ def _nearest(task: Task, u: Complex) -> tuple[Real, Real]:
     if alike is not None and not machine.discrete:
         u = np.append(alike.nearest(u[:own]), u[own:])
     mass, angle = np.abs(u) / _radius(machine), np.rad2deg(np.angle(u))
-    least = stacked([web.min_fitted_mass_kg or 0.0 for web in places(machine)])
+    least = stacked([web.min_fitted_mass_kg or 0.0 for web in machine.every_web])
     mass = np.where(mass < 0.5 * least, 0.0, np.maximum(mass, least))
     if machine.discrete:
         held, castings = options_of(task), takes_options(task)

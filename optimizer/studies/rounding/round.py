@@ -8,7 +8,7 @@ import numpy as np
 
 from optimizer.errors import NotComputable
 from optimizer.formulation.balance_shafts import fitted, posed, web_paths
-from optimizer.formulation.counterweights import places, unbalance
+from optimizer.formulation.counterweights import unbalance
 from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import beside
 from optimizer.mechanics.layout import stacked
@@ -96,7 +96,7 @@ class _Judge:
 
     def values(self, weights: _Set) -> tuple[float, float]:
         """Objective, and the largest excess over a ceiling."""
-        radius = stacked([web.radius_m for web in places(self.machine)])
+        radius = stacked([web.radius_m for web in self.machine.every_web])
         values = self.program.values(posed(self.machine, self.goal, unbalance(*weights, radius)), _CLOSE)
         return float(values.goals[-1]) * self.omega_squared, values.excess
 
@@ -147,7 +147,7 @@ def _among(request: OptimizeRequest, every: list[Sides]) -> OptimizeRequest:
     """The request with what is on either side as all that there is."""
     values: dict[Path, Any] = {("machine", "catalogue"): Catalogue(), ("accuracy", "relative_gap"): _EXACT}
     machine = request.machine
-    for path, web, (masses, angles) in zip(web_paths(machine), places(machine), every, strict=True):
+    for path, web, (masses, angles) in zip(web_paths(machine), machine.every_web, every, strict=True):
         if not web.fixed:
             place = ("machine", *path)
             values |= {(*place, "catalogue_masses_kg"): masses, (*place, "hole_angles_deg"): angles}
@@ -216,7 +216,7 @@ def _cost(
 
 def _steps(request: RoundRequest, judge: _Judge, best: _Set, value: float) -> Iterator[StepRise]:
     """What a step off costs, of every counterweight alone."""
-    mass_step, angle_step, webs = request.mass_step_kg, request.angle_step_deg, places(judge.machine)
+    mass_step, angle_step, webs = request.mass_step_kg, request.angle_step_deg, judge.machine.every_web
     for k in np.flatnonzero(best.mass > 0.0).tolist():
 
         def rise(mass: float, angle: float, web: int = k) -> float:

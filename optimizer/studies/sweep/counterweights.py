@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from optimizer.formulation.balance_shafts import design_space, drawn
-from optimizer.formulation.counterweights import mass_and_angle, places, unbalance
+from optimizer.formulation.counterweights import mass_and_angle, unbalance
 from optimizer.formulation.formulate import responses, shape_facts
 from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import laden
@@ -48,7 +48,7 @@ def optimal(request: OptimizeRequest, count: int, multipliers: bool = False) -> 
 
 def columns_of(request: OptimizeRequest, best: Certified, multipliers: bool) -> tuple[Columns, Complex]:
     """The same of what was certified; the request is of the radii that it has."""
-    machine, every = request.machine, places(request.machine)
+    machine, every = request.machine, request.machine.every_web
     mass, angle = drawn(machine, request.objective, best.mass_kg, best.angle_deg)
     optimal, none = best.status == "optimal", best.status == "infeasible"
     columns: Columns = {
@@ -84,7 +84,7 @@ def _total_masses(machine: Machine, mass: Real) -> Columns:
 def fixed_columns(request: AnalyzeRequest, count: int) -> tuple[Columns, Complex]:
     """Total mass, and the unbalance of the counterweights (count, places) kg m."""
     mass, angle = mass_and_angle(request.machine, request.counterweights)
-    radius = stacked([web.radius_m for web in places(request.machine)])
+    radius = stacked([web.radius_m for web in request.machine.every_web])
     shape = (count, radius.shape[-1])
     columns: Columns = {
         "status": np.broadcast_to("analyzed", count),

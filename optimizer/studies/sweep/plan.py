@@ -5,7 +5,6 @@ from collections.abc import Iterator
 import pyarrow as pa
 
 from optimizer.errors import MissingInput
-from optimizer.formulation.counterweights import places
 from optimizer.numerics.memoization import remembered
 from optimizer.numerics.records import record
 from optimizer.outputs.registry import missing_inputs
@@ -180,5 +179,5 @@ def _seconds_per_design(request: SweepRequest) -> float:
         seconds += _ALONE_S
     elif isinstance(request.base, OptimizeRequest):
         per_web = _DISC_S if request.base.objective.combine == "sum" else _PROGRAM_S
-        seconds += per_web * max(len(places(request.base.machine)), 1)
+        seconds += per_web * max(len(request.base.machine.every_web), 1)
     return seconds

@@ -5,7 +5,6 @@ from typing import Any
 
 import numpy as np
 
-from optimizer.formulation.counterweights import places
 from optimizer.formulation.task import Task
 from optimizer.numerics.arrays import Complex
 from optimizer.outputs.registry import prepare
@@ -34,7 +33,7 @@ def single_optima(requests: Sequence[OptimizeRequest], multipliers: bool) -> tup
         name: np.array([row[name] for row in rows], dtype=object if isinstance(first, str | None) else float)
         for name, first in rows[0].items()
     }
-    nothing = np.full(len(places(requests[0].machine)), complex(np.nan))
+    nothing = np.full(len(requests[0].machine.every_web), complex(np.nan))
     return columns, np.array(
         [solution.shown.unbalance if isinstance(solution, Solution) else nothing for solution in solutions]
     )
@@ -61,7 +60,7 @@ def _row(request: OptimizeRequest, best: Solution | Infeasible, multipliers: boo
     fitted = () if shown is None else shown.all_of_them
     masses = {weight.web: (weight.mass_kg, weight.angle_deg) for weight in fitted}
     openings = {weight.web: weight.shape.half_angle_deg for weight in fitted if weight.shape is not None}
-    for web in places(request.machine):
+    for web in request.machine.every_web:
         if web.envelope is not None:
             row[f"half_angle_deg.{web.name}"] = openings.get(web.name, np.nan)
         row[f"mass_kg.{web.name}"], row[f"angle_deg.{web.name}"] = masses.get(web.name, (np.nan, np.nan))
