@@ -15,7 +15,7 @@ from optimizer.formulation.formulate import with_weights_of
 from optimizer.mechanics.fixed_weights import any_fixed, beside
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex, Real
-from schemas.answer.counterweights import Counterweight, FittedShaft
+from schemas.answer.counterweights import Counterweight, FittedShaft, every_counterweight
 from schemas.answer.limits import MachineLimit, WebLimit
 from schemas.base.rules import Path
 from schemas.base.variation import with_fields
@@ -81,10 +81,7 @@ class Fitted(NamedTuple):
     @property
     def all_of_them(self) -> tuple[Counterweight, ...]:
         """Those on the balance shafts behind those of the crankshaft."""
-        return (
-            *self.counterweights,
-            *(counterweight for shaft in self.balance_shafts for counterweight in shaft.counterweights),
-        )
+        return every_counterweight(self)
 
     def active_limits(
         self, of_machine: tuple[MachineLimit, ...]

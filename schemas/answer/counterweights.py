@@ -1,5 +1,8 @@
 """Counterweights as they are fitted."""
 
+from itertools import chain
+from typing import Protocol
+
 from pydantic import Field
 
 from schemas.answer.limits import WebLimit
@@ -70,3 +73,18 @@ class FittedShaft(Model):
     counterweights: tuple[Counterweight, ...] = Field(
         description="one for each of its webs; angles as drawn at shaft angle 0, forces at its own speed", examples=[[]]
     )
+
+
+class OnAllShafts(Protocol):
+    """What holds counterweights of the crankshaft and of balance shafts: answers, points of fronts, choices."""
+
+    @property
+    def counterweights(self) -> tuple[Counterweight, ...]: ...
+
+    @property
+    def balance_shafts(self) -> tuple[FittedShaft, ...]: ...
+
+
+def every_counterweight(holder: OnAllShafts) -> tuple[Counterweight, ...]:
+    """Those on balance shafts behind those of the crankshaft."""
+    return (*holder.counterweights, *chain.from_iterable(shaft.counterweights for shaft in holder.balance_shafts))

@@ -6,13 +6,12 @@ from optimizer.analyze import analyze
 from optimizer.errors import OutOfRange
 from optimizer.optimize import optimize
 from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer
-from schemas.answer.counterweights import Counterweight
+from schemas.answer.counterweights import Counterweight, every_counterweight
 from schemas.base.model import FieldProblem
 from schemas.request.drawings import DrawingsRequest
 from schemas.request.requests import AnalyzeRequest
 from service.drawings.parts import Part, parts
 from service.tables.as_built import AsBuilt, as_built
-from service.tables.fitted import every_counterweight
 
 
 @dataclass(frozen=True)

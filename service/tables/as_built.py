@@ -10,13 +10,13 @@ from typing import NamedTuple
 from optimizer.analyze import analyze
 from optimizer.errors import OutOfRange
 from schemas.answer.answers import OptimizeAnswer
-from schemas.answer.counterweights import Counterweight
+from schemas.answer.counterweights import Counterweight, every_counterweight
 from schemas.answer.first_order import FirstOrder
 from schemas.base.model import FieldProblem
 from schemas.machine.fitted import GivenCounterweight
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
-from service.tables.fitted import every_counterweight, whole_mass
 from service.tables.lines import Cell, Lines
+from service.tables.whole_mass import whole_mass
 
 #: share of the objective without counterweights that what is off may cost
 ALLOWANCE = 0.01

@@ -4,10 +4,9 @@ from itertools import groupby
 
 from optimizer.errors import OutOfRange
 from schemas.answer.answers import OptimizeAnswer
-from schemas.answer.counterweights import Counterweight
+from schemas.answer.counterweights import Counterweight, every_counterweight
 from schemas.base.model import FieldProblem
 from service.tables.as_built import tolerance
-from service.tables.fitted import every_counterweight
 from service.tables.lines import Cell, Lines
 
 HEADS = (

@@ -6,14 +6,15 @@ import pytest
 
 from optimizer.analyze import analyze
 from optimizer.optimize import optimize
+from schemas.answer.counterweights import every_counterweight
 from schemas.request.report import ReportRequest
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from service.report.blocks import Number, Table, number
 from service.report.chapters.answers import analyzed
 from service.report.chapters.versions import compared
 from service.tables.as_built import required, residual
-from service.tables.fitted import every_counterweight, whole_mass
 from service.tables.order import order
+from service.tables.whole_mass import whole_mass
 from tests.optimize.shafts import shaft, single
 
 #: analytic: half of the reciprocating mass on either shaft, at the crank radius and at half of it

@@ -26,6 +26,7 @@ from optimizer.studies.matching.chosen_search import WithChosen, with_chosen
 from optimizer.studies.matching.fitted import BestAssignment, as_fitted
 from optimizer.studies.matching.problem import Problem, stated
 from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer, Timing
+from schemas.answer.counterweights import every_counterweight
 from schemas.answer.first_order import FirstOrder, Residual
 from schemas.base.mappings import or_mapping
 from schemas.base.variation import with_fields
@@ -160,7 +161,7 @@ def _evaluated(request: MatchRequest, machine: ReciprocatingMachine, chosen: Sol
     else:
         weights = tuple(GivenCounterweight(**counterweight) for counterweight in _counterweights(request, chosen))
         answer = analyze(AnalyzeRequest(machine=machine, counterweights=weights))
-    fitted = (*answer.counterweights, *(weight for shaft in answer.balance_shafts for weight in shaft.counterweights))
+    fitted = every_counterweight(answer)
     mass, angle = np.array([weight.mass_kg for weight in fitted]), np.array([weight.angle_deg for weight in fitted])
     cut = fitted_masses(machine, mass)
     plan, space = layout(cut), design_space(cut, goal)

@@ -1,7 +1,6 @@
 """The best rounding of an optimum to steps of mass and angle: a choice from a catalogue of what is on either side."""
 
 from collections.abc import Iterator
-from itertools import chain
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -22,6 +21,7 @@ from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.solve.uncertain_program import Robust
 from optimizer.studies.rounding.neighbours import Sides, nearest, sides
 from schemas.answer.answers import Certificate, OptimizeAnswer
+from schemas.answer.counterweights import every_counterweight
 from schemas.base.mappings import or_mapping
 from schemas.base.model import FieldProblem
 from schemas.base.rules import Path
@@ -68,8 +68,7 @@ class _Set(NamedTuple):
 
     @classmethod
     def of(cls, answer: OptimizeAnswer) -> "_Set":
-        on_shafts = chain.from_iterable(shaft.counterweights for shaft in answer.balance_shafts)
-        every = [*answer.counterweights, *on_shafts]
+        every = every_counterweight(answer)
         free = [not counterweight.fixed for counterweight in every]
         return cls(
             np.where(free, [counterweight.mass_kg for counterweight in every], 0.0),

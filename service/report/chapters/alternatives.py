@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from schemas.answer.alternatives import Alternative
 from schemas.answer.answers import OptimizeAnswer
+from schemas.answer.counterweights import every_counterweight
 from service.report.blocks import Cell, Chapter, Number, Paragraph, table
 
 _LEAST = {"mass": "least mass", "pieces": "fewest counterweights", "sizes": "fewest sizes"}
@@ -39,10 +40,7 @@ def _row(choice: Alternative, best: float) -> tuple[Cell | float | None, ...]:
         Number(bound, f"{bound:.0f}") if counted and bound is not None else bound,
         ", ".join(
             f"{weight.web}: {weight.mass_kg:g} kg at {weight.angle_deg:g}°"
-            for weight in (
-                *choice.counterweights,
-                *(weight for shaft in choice.balance_shafts for weight in shaft.counterweights),
-            )
+            for weight in every_counterweight(choice)
             if weight.mass_kg
         ),
     )

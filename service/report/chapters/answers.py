@@ -22,7 +22,7 @@ from service.report.chapters.roll import roll
 from service.report.chapters.worst_case import worst_case
 from service.report.chapters.worth_knowing import worth_knowing
 from service.tables.as_built import as_built
-from service.tables.fitted import whole_mass
+from service.tables.whole_mass import whole_mass
 
 #: chapters of the outputs, in the order in which they stand
 CHAPTERS: Mapping[str, Callable[[Machine, Any], Chapter]] = {

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 
 from schemas.answer.answers import OptimizeAnswer
-from schemas.answer.counterweights import Counterweight, FittedShaft
+from schemas.answer.counterweights import Counterweight, FittedShaft, every_counterweight
 from schemas.answer.first_order import FirstOrder, Floor
 from schemas.answer.outputs import Hodographs, Stage
 from schemas.base.model import FieldProblem
@@ -72,8 +72,7 @@ def shown(answer: OptimizeAnswer) -> tuple[Sequence[Counterweight], FirstOrder |
 
 def carried(answer: OptimizeAnswer) -> tuple[Counterweight, ...]:
     """All that is to be drawn: those on balance shafts behind the counterweights to show."""
-    shafts = answer.balance_shafts if answer.infeasibility is None else answer.infeasibility.closest.balance_shafts
-    return (*shown(answer)[0], *(weight for shaft in shafts for weight in shaft.counterweights))
+    return every_counterweight(answer if answer.infeasibility is None else answer.infeasibility.closest)
 
 
 def added(answer: OptimizeAnswer, gaps: Mapping[str, float]) -> Iterator[tuple[str, float, Cell, str]]:

@@ -1,8 +1,8 @@
 """The trade-off of peak force and peak moment, front by front."""
 
 from collections.abc import Iterator
-from itertools import chain
 
+from schemas.answer.counterweights import every_counterweight
 from schemas.front.pareto import ParetoAnswer, ParetoFront, ParetoPoint, ParetoRequest, Reason
 from schemas.front.trade import TradedFront, TradedPoint
 from schemas.request.objective import Objective
@@ -124,8 +124,7 @@ def _gap(point: ParetoPoint | TradedPoint) -> Cell:
 def _reached(point: ParetoPoint) -> str:
     """Limits of the machine, and those of webs with their names."""
     webs: dict[str, list[str]] = {}
-    on_shafts = chain.from_iterable(shaft.counterweights for shaft in point.balance_shafts)
-    for counterweight in chain(point.counterweights, on_shafts):
+    for counterweight in every_counterweight(point):
         for limit in counterweight.active_limits:
             webs.setdefault(limits([limit]), []).append(counterweight.web)
     machine = [limits([limit]) for limit in point.active_limits]

@@ -1,9 +1,9 @@
 """What steps of mass and angle cost, beside the answer on these steps."""
 
 from collections.abc import Iterator
-from itertools import chain
 
 from schemas.answer.answers import OptimizeAnswer
+from schemas.answer.counterweights import every_counterweight
 from schemas.request.rounding import RoundAnswer, Rounding, RoundRequest, Weights
 from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, facts, table
 from service.report.chapters import balance, verdict
@@ -59,8 +59,7 @@ def _row(name: str, weights: Weights) -> tuple[Cell | float | None, ...]:
 
 def _made(weights: Weights | OptimizeAnswer) -> tuple[Cell | float | None, ...]:
     """Masses, those on balance shafts apart, and how many there are that are not fixed."""
-    on_shafts = chain.from_iterable(shaft.counterweights for shaft in weights.balance_shafts)
-    every = chain(weights.counterweights, on_shafts)
+    every = every_counterweight(weights)
     pieces = sum(counterweight.mass_kg > 0 and not counterweight.fixed for counterweight in every)
     there = (weights.balance_shafts_mass_kg,) if weights.balance_shafts else ()
     return (weights.total_mass_kg, *there, Number(pieces, str(pieces)))

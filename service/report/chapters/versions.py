@@ -7,7 +7,7 @@ from optimizer.analyze import analyze
 from optimizer.errors import MissingInput
 from optimizer.optimize import optimize
 from schemas.answer.answers import OptimizeAnswer
-from schemas.answer.counterweights import Counterweight
+from schemas.answer.counterweights import Counterweight, every_counterweight
 from schemas.answer.first_order import FirstOrder
 from schemas.base.model import FieldProblem
 from schemas.request.report import DesignVersion, ReportRequest
@@ -16,7 +16,7 @@ from service.common.figures import digits, typeset
 from service.common.validation import pointer
 from service.report.blocks import Block, Chapter, Paragraph, Table, table
 from service.report.chapters.balance import shown
-from service.tables.fitted import every_counterweight, whole_mass
+from service.tables.whole_mass import whole_mass
 
 #: differences of a version that are listed; of more it is said how many there are
 _MOST = 30
