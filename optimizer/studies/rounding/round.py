@@ -40,6 +40,8 @@ _EXACT = 1e-9
 _ALONE = "The sets are all roundings of the optimum to these steps."
 #: of a total mass, relative: by which sums are rounded
 _ROUNDING = 1e-12
+#: of an angle, by which that of a mirror image is rounded
+_ROUNDED_DEG = 1e-9
 
 
 @or_mapping(RoundRequest)
@@ -163,8 +165,10 @@ def _on_steps(answer: OptimizeAnswer, machine: Machine, every: list[Sides]) -> O
         path = ("balance_shafts", n, "counterweights", k)
         weight = answer.balance_shafts[int(n)].counterweights[int(k)]
         if weight.mass_kg > 0.0:
-            there = weight.angle_deg
-            values[(*path, "angle_deg")] = min((abs(angle - there), angle) for angle in angles)[1]
+            off, angle = min((abs(angle - weight.angle_deg), angle) for angle in angles)
+            # any other angle is no step, and is shown as it is
+            if off <= _ROUNDED_DEG:
+                values[(*path, "angle_deg")] = angle
     return with_fields(answer, values) if values else answer
 
 
