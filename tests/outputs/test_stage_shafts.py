@@ -74,3 +74,11 @@ def test_stages_add_up_to_the_orders_and_sweeps_have_the_same(ratio: int, rotati
     vectors = np.array([2.0, 0.0, 1.5]) * radii * np.exp(1j * np.deg2rad([210.0, 0.0, 70.0]))
     sizes = amounts(scene.layout, turning, first, second, vectors[:2], vectors[2:])
     np.testing.assert_allclose(sizes, [stages[name].remaining for name in stages], rtol=1e-9, atol=1e-9 * WHOLE)
+
+
+def test_what_shafts_carry_without_shafts_is_refused() -> None:
+    request = AnalyzeRequest.model_validate({"machine": single([]), "outputs": ["stages"]})
+    scene = prepare(request, request.outputs)
+    parts = [scene.results[name] for name in ("rotating_inertia", "reciprocating_inertia", "second_order")]
+    with pytest.raises(ValueError, match="the machine has none"):
+        amounts(scene.layout, *parts, np.zeros(1, complex), np.ones(1, complex))
