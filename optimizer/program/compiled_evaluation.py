@@ -301,14 +301,15 @@ def _work(terms: int, webs: int, rows: int) -> tuple[Real, Complex, np.ndarray]:
     return numbers, vectors, np.empty((2, webs), np.int64)
 
 
-def settling_work(own: Region, terms: int, webs: int) -> tuple[Complex, Complex]:
+def settling_work(own: Region, terms: int, webs: int) -> tuple[Complex, Complex, Real]:
     """What :mod:`optimizer.program.kernel.settling` writes to where others make up for something."""
     return _settling_work(2 * terms, 2 * webs) if own.leader.size else _settling_work(terms, webs)
 
 
 @lru_cache(maxsize=64)
-def _settling_work(terms: int, webs: int) -> tuple[Complex, Complex]:
-    return np.empty((5, max(terms, webs)), complex), np.empty((2, terms, webs), complex)
+def _settling_work(terms: int, webs: int) -> tuple[Complex, Complex, Real]:
+    shape = terms, webs
+    return np.empty((5, max(shape)), complex), np.empty((2, *shape), complex), np.empty((3, *shape))
 
 
 def _in_order(dual: Dual) -> Dual:

@@ -24,38 +24,43 @@ def least_changes(influence, constant, passes, row, basis, changes):  # type: ig
 @in_place
 def least_changes_of_real(influence, constant, passes, row, basis, changes):  # type: ignore[no-untyped-def]
     """The same to the last digit where influences are real, in a third of the time."""
-    number, terms, webs = influence.shape
-    for n in range(number):
-        u = changes[n]
-        for _ in range(passes):
-            for j in range(terms):
-                size = 0.0
+    for n in range(influence.shape[0]):
+        change_of_real(influence[n], constant[n], passes, row, basis, changes[n])
+
+
+@inner
+def change_of_real(influence, constant, passes, row, basis, u):  # type: ignore[no-untyped-def]
+    """The same of one program, added to u (K,) complex; row (K,) and basis (J, K) are real, and to be written to."""
+    terms, webs = influence.shape
+    for _ in range(passes):
+        for j in range(terms):
+            size = 0.0
+            for k in range(webs):
+                size = max(size, abs(influence[j, k]))
+            left = _over(constant[j], size) if size > 0.0 else 0.0j
+            for k in range(webs):
+                row[k] = influence[j, k] / (size if size > 0.0 else 1.0)
+                left += complex(row[k] * u[k].real, row[k] * u[k].imag)
+            for before in range(j * passes):
+                other, share = before % j, 0.0
                 for k in range(webs):
-                    size = max(size, abs(influence[n, j, k]))
-                left = _over(constant[n, j], size) if size > 0.0 else 0.0j
+                    share += row[k] * basis[other, k]
                 for k in range(webs):
-                    row[k] = influence[n, j, k] / (size if size > 0.0 else 1.0)
-                    left += complex(row[k] * u[k].real, row[k] * u[k].imag)
-                for before in range(j * passes):
-                    share = 0.0
-                    for k in range(webs):
-                        share += row[k] * basis[before % j, k]
-                    for k in range(webs):
-                        row[k] -= share * basis[before % j, k]
-                square = 0.0
-                for k in range(webs):
-                    square += row[k] * row[k]
-                size_left = np.sqrt(square)
-                new = size_left > _DEPENDENT
-                left = _over(left, size_left) if new else left
-                for k in range(webs):
-                    basis[j, k] = row[k] / size_left if new else 0.0
-                    u[k] -= complex(basis[j, k] * left.real, basis[j, k] * left.imag)
+                    row[k] -= share * basis[other, k]
+            square = 0.0
+            for k in range(webs):
+                square += row[k] * row[k]
+            size_left = np.sqrt(square)
+            new = size_left > _DEPENDENT
+            left = _over(left, size_left) if new else left
+            for k in range(webs):
+                basis[j, k] = row[k] / size_left if new else 0.0
+                u[k] -= complex(basis[j, k] * left.real, basis[j, k] * left.imag)
 
 
 @inner
 def change(influence, constant, passes, row, basis, u):  # type: ignore[no-untyped-def]
-    """The same of one program, added to u (K,); row (K,) and basis (J, K) are to be written to."""
+    """The same where influences are complex."""
     terms, webs = influence.shape
     for _ in range(passes):
         for j in range(terms):

@@ -163,6 +163,7 @@ def judge(  # type: ignore[no-untyped-def]
     sizes,
     rungs,
     work,
+    turned,
     scaled,
     unbalance,
     figures,
@@ -184,7 +185,7 @@ def judge(  # type: ignore[no-untyped-def]
     smallest, lightest : (N, K) the ends; the first is written to: the smallest objective, rest among them.
     term, row, ceiling : (N, J), (N, R), (N, I) multipliers; those of the mass likewise.
     sizes : (N, J + I) of the constants of the terms, and of more.
-    rungs, work, scaled : as of :func:`optimizer.program.kernel.settling.settle`.
+    rungs, work, turned, scaled : as of :func:`optimizer.program.kernel.settling.settle`.
     unbalance, figures : (N, K), and (4, N) as of :func:`optimizer.program.kernel.values.values`, to be written to.
     proven_term, proven_row, proven_ceiling : of the objective, to be written to.
     bounds : (3, N) of the objective, of the mass, and the largest objective that this one counts as an optimum.
@@ -244,6 +245,6 @@ def judge(  # type: ignore[no-untyped-def]
         else:
             target = lower + enough * share[n]
         figures[0, n], figures[1, n], figures[2, n], figures[3, n] = chosen
-        settle_point(u, figures, target, heaviest, rounding, rungs, programs, n, work, scaled)
+        settle_point(u, figures, target, heaviest, rounding, rungs, programs, n, work, turned, scaled)
         bounds[0, n], bounds[1, n], bounds[2, n], certified[n] = lower, mass_bound, counted, done
         clean[n] = is_clean(u, programs.region.radius[n], rungs[0, 0])

@@ -12,4 +12,7 @@ _SMALL, _LARGE = 1e-280, 1e280
 def length(vector):  # type: ignore[no-untyped-def]
     """|vector|, complex; in a fifth of the time of ``abs``, which always allows for over- and underflow."""
     square = vector.real * vector.real + vector.imag * vector.imag
-    return np.sqrt(square) if _SMALL < square < _LARGE else abs(vector)
+    if _SMALL < square < _LARGE:
+        return np.sqrt(square)
+    # webs that carry nothing, and what they change, are most of the rest
+    return 0.0 if vector.real == 0.0 and vector.imag == 0.0 else abs(vector)

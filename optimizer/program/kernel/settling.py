@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from optimizer.program.kernel.cancelling import change
+from optimizer.program.kernel.cancelling import change, change_of_real
 from optimizer.program.kernel.compiling import folded, in_place
 from optimizer.program.kernel.lengths import length
 from optimizer.program.kernel.regions import into
@@ -49,7 +49,7 @@ def put(u, dust, touched, region, n, room, settled):  # type: ignore[no-untyped-
 
 
 @folded
-def make_up(influence, across, region, n, room, left, work, scaled, u):  # type: ignore[no-untyped-def]
+def make_up(influence, across, region, n, room, left, work, turned, scaled, u):  # type: ignore[no-untyped-def]
     """Add to u (K,) the least change, relative to a room, that takes back what it changed; of alike webs alike.
 
     Parameters
@@ -57,63 +57,72 @@ def make_up(influence, across, region, n, room, left, work, scaled, u):  # type:
     influence, across : (J, K) real and imaginary parts, the latter (J, 0) where they are real.
     room : (K,).
     left : (J,) complex, what is to be taken back.
-    work : (3, max(2 J, 2 K)) complex, to be written to.
-    scaled : (2, J, K) complex, to be written to; of alike webs (2, 2 J, 2 K).
+    work : (3, max(2 J, 2 K)) complex, to be written to, as are the next.
+    turned : (2, J, K) complex.
+    scaled : (3, J, K); of alike webs (3, 2 J, 2 K).
     """
-    terms, webs = influence.shape
-    turned, row, made = across.shape[1] > 0, work[0], work[1]
-    if not region.leader.size:
+    (terms, webs), row, made, apart = influence.shape, work[0], work[1], not region.leader.size
+    if apart and across.shape[1] > 0:
         for j in range(terms):
             for k in range(webs):
-                scaled[0, j, k] = influence[j, k] * room[k]
-                if turned:
-                    scaled[0, j, k] += complex(0.0, across[j, k] * room[k])
+                turned[0, j, k] = complex(influence[j, k] * room[k], across[j, k] * room[k])
         made[:webs] = 0.0
-        change(scaled[0], left, _ONCE, row[:webs], scaled[1], made[:webs])
-        for k in range(webs):
-            u[k] += room[k] * made[k]
-        return
-    # mirror images are no complex multiples: in real and imaginary parts of what the first webs carry
-    scaled[0] = 0.0
-    for j in range(terms):
-        for k in range(webs):
-            first, sign = region.leader[k], -1.0 if region.mirrored[k] else 1.0
-            part = complex(influence[j, k], across[j, k] if turned else 0.0) * region.turn[n, k] * room[first]
-            scaled[0, j, first] += part.real
-            scaled[0, terms + j, first] += part.imag
-            scaled[0, j, webs + first] -= sign * part.imag
-            scaled[0, terms + j, webs + first] += sign * part.real
-        work[2, j], work[2, terms + j] = left[j].real, left[j].imag
-    made[: 2 * webs] = 0.0
-    change(scaled[0], work[2, : 2 * terms], _ONCE, row[: 2 * webs], scaled[1], made[: 2 * webs])
+        change(turned[0], left, _ONCE, row[:webs], turned[1], made[:webs])
+    else:
+        rows, unknowns = (terms, webs) if apart else (2 * terms, 2 * webs)
+        if apart:
+            for j in range(terms):
+                work[2, j] = left[j]
+                for k in range(webs):
+                    scaled[0, j, k] = influence[j, k] * room[k]
+        else:
+            # mirror images are no complex multiples: in real and imaginary parts of what the first webs carry
+            scaled[0] = 0.0
+            for j in range(terms):
+                for k in range(webs):
+                    first, sign = region.leader[k], -1.0 if region.mirrored[k] else 1.0
+                    imaginary = across[j, k] if across.shape[1] > 0 else 0.0
+                    part = complex(influence[j, k], imaginary) * region.turn[n, k] * room[first]
+                    scaled[0, j, first] += part.real
+                    scaled[0, terms + j, first] += part.imag
+                    scaled[0, j, webs + first] -= sign * part.imag
+                    scaled[0, terms + j, webs + first] += sign * part.real
+                work[2, j], work[2, terms + j] = left[j].real, left[j].imag
+        made[:unknowns] = 0.0
+        change_of_real(scaled[0], work[2, :rows], _ONCE, scaled[2, 0], scaled[1], made[:unknowns])
     for k in range(webs):
-        first = region.leader[k]
-        load = room[first] * complex(made[first].real, made[webs + first].real)
-        u[k] += region.turn[n, k] * (load.conjugate() if region.mirrored[k] else load)
+        if apart:
+            u[k] += room[k] * made[k]
+        else:
+            first = region.leader[k]
+            load = room[first] * complex(made[first].real, made[webs + first].real)
+            u[k] += region.turn[n, k] * (load.conjugate() if region.mirrored[k] else load)
 
 
 @folded
-def balance(u, influence, across, region, n, room, work, scaled, new):  # type: ignore[no-untyped-def]
+def balance(u, influence, across, region, n, room, work, turned, scaled, new):  # type: ignore[no-untyped-def]
     """Make up for what differs between u and new (K,), which is written to, and bring it within all limits.
 
     Parameters
     ----------
-    influence, across, room, scaled : as of :func:`make_up`.
+    influence, across, room, turned, scaled : as of :func:`make_up`.
     work : (4, max(2 J, 2 K)) complex, to be written to.
     """
     left, terms = work[3], influence.shape[0]
     for j in range(terms):
-        left[j] = 0.0
+        x, y = 0.0, 0.0
         for k in range(u.size):
-            left[j] += influence[j, k] * (new[k] - u[k])
+            moved = new[k] - u[k]
+            x, y = x + influence[j, k] * moved.real, y + influence[j, k] * moved.imag
             if across.shape[1] > 0:
-                left[j] += complex(0.0, across[j, k]) * (new[k] - u[k])
-    make_up(influence, across, region, n, room, left[:terms], work, scaled, new)
+                x, y = x - across[j, k] * moved.imag, y + across[j, k] * moved.real
+        left[j] = complex(x, y)
+    make_up(influence, across, region, n, room, left[:terms], work, turned, scaled, new)
     into(new, region, n, work[0])
 
 
 @in_place
-def rebalance(u, near, influence, across, region, room, work, scaled, new, moved):  # type: ignore[no-untyped-def]
+def rebalance(u, near, influence, across, region, room, work, turned, scaled, new, moved):  # type: ignore[no-untyped-def]
     """Of N points (N, K) what is near to nothing, or to a limit, there, and the others made up for it.
 
     Parameters
@@ -126,11 +135,11 @@ def rebalance(u, near, influence, across, region, room, work, scaled, new, moved
     for n in range(u.shape[0]):
         moved[n] = near[0] < 0.0 or put(u[n], near[0], near[1], region, n, room[n], new[n])
         if moved[n]:
-            balance(u[n], influence[n], across[n], region, n, room[n], work, scaled, new[n])
+            balance(u[n], influence[n], across[n], region, n, room[n], work, turned, scaled, new[n])
 
 
 @folded
-def settle_point(u, figures, target, heaviest, rounding, rungs, programs, n, work, scaled):  # type: ignore[no-untyped-def]
+def settle_point(u, figures, target, heaviest, rounding, rungs, programs, n, work, turned, scaled):  # type: ignore[no-untyped-def]
     """A point (K,) of program n, and what it comes to (4, N), in place, parameters as of :func:`settle`."""
     webs, influence, across, region = u.size, programs.influence[n], programs.across[n], programs.region
     new, room, rung = work[4, :webs], programs.numbers[1, :webs], 0
@@ -138,7 +147,7 @@ def settle_point(u, figures, target, heaviest, rounding, rungs, programs, n, wor
         dust, touched, after = rungs[rung, 0], rungs[rung, 1], int(rungs[rung, 2])
         rung += 1
         if put(u, dust, touched, region, n, room, new):
-            balance(u, influence, across, region, n, room, work, scaled, new)
+            balance(u, influence, across, region, n, room, work, turned, scaled, new)
             objective, mass, excess, off = value(new, programs, n)
             no_worse = objective <= max(target, figures[0, n]) + off
             no_worse = no_worse and excess <= max(figures[2, n], rounding) and mass <= max(figures[1, n], heaviest)
@@ -150,7 +159,7 @@ def settle_point(u, figures, target, heaviest, rounding, rungs, programs, n, wor
 
 
 @in_place
-def settle(u, figures, target, heaviest, rounding, rungs, programs, work, scaled):  # type: ignore[no-untyped-def]
+def settle(u, figures, target, heaviest, rounding, rungs, programs, work, turned, scaled):  # type: ignore[no-untyped-def]
     """N points and what they come to, in place.
 
     Parameters
@@ -160,7 +169,7 @@ def settle(u, figures, target, heaviest, rounding, rungs, programs, work, scaled
     rounding : of an excess over the ceilings.
     rungs : (n, 3) share of the largest mass that is next to nothing, share of a limit that is next to it, and which
         rung is next where this one moved something, and was no worse, or nothing: the last is n.
-    work, scaled : (5, ...) and (2, ..., ...) complex as of :func:`make_up`, to be written to.
+    work, turned, scaled : (5, ...) and others as of :func:`make_up`, to be written to.
     """
     for n in range(target.size):
-        settle_point(u[n], figures, target[n], heaviest[n], rounding, rungs, programs, n, work, scaled)
+        settle_point(u[n], figures, target[n], heaviest[n], rounding, rungs, programs, n, work, turned, scaled)
