@@ -57,23 +57,30 @@ def limited(ceilings: Sequence[tuple[Response, Reals]], objective: Norms, webs: 
     leading = objective.constant.shape[:-1]
     if not ceilings:
         return no_ceilings(leading, webs)
-    none = no_ceilings(leading, webs).norms
     terms = [Norms(response.baseline.co[..., None], response.influence[..., None, :]) for response, _ in ceilings]
-    norms = join([none, *terms])
+    if any(term.constant.shape[:-1] != leading or term.influence.shape[:-2] != leading for term in terms):
+        terms = [no_ceilings(leading, webs).norms, *terms]
+    norms = join(terms)
     # Peak = |f| + |b| <= ceiling is |f| <= ceiling - |b|
     cap = np.zeros((*leading, len(ceilings)))
     for index, (response, ceiling) in enumerate(ceilings):
         cap[..., index] = ceiling - np.abs(response.baseline.counter)
     size = np.maximum(np.abs(norms.constant), np.abs(cap))
     if not (size > SMALLEST).all():
-        # where both vanish: what the same response has with other masses
-        same = np.array([[a.name == b.name and a.scenario == b.scenario for a, _ in ceilings] for b, _ in ceilings])
-        size = np.where(size > SMALLEST, size, np.maximum.reduce(same * size[..., None, :], axis=-1))
+        size = _where_nothing(size, norms, objective, [response for response, _ in ceilings])
+    names, scenarios = zip(*((response.name, response.scenario) for response, _ in ceilings), strict=True)
+    return Ceilings(names, norms, cap, size, scenarios=scenarios)
+
+
+def _where_nothing(size: Real, norms: Norms, objective: Norms, responses: Sequence[Response]) -> Real:
+    """What an excess is measured by where cap and vector vanish too, (..., I)."""
+    # what the same response has with other masses
+    same = np.array([[a.name == b.name and a.scenario == b.scenario for a in responses] for b in responses])
+    size = np.where(size > SMALLEST, size, np.maximum.reduce(same * size[..., None, :], axis=-1))
     # else: what the unbalance that the objective calls for does to the response
     called_for = np.maximum.reduce(np.abs(objective.constant) / objective.largest_influence, axis=-1, initial=0.0)
     size = np.where(size > SMALLEST, size, norms.largest_influence * called_for[..., None])
-    size, scenarios = np.where(size > SMALLEST, size, 1.0), tuple(response.scenario for response, _ in ceilings)
-    return Ceilings(tuple(response.name for response, _ in ceilings), norms, cap, size, scenarios=scenarios)
+    return np.where(size > SMALLEST, size, 1.0)
 
 
 # of no numbers, so that nobody can write to any

@@ -136,27 +136,33 @@ def pairs(influence, basis, multiple, two, holds):  # type: ignore[no-untyped-de
     multiple, two, holds : (N, Q), (N, 2, K) and (N,) bool, whether the vectors are such multiples: what is found.
     """
     number, vectors, webs = influence.shape
+    others = 0
+    for q in range(vectors):
+        others += basis[q]
     for n in range(number):
-        holds[n] = True
+        same = True
         for b in range(2):
-            largest, most, own, square = -1, -1.0, 0, 0.0
+            largest, most, square = -1, -1.0, 0.0
             for q in range(vectors):
                 if basis[q] == b:
-                    size, own = 0.0, own + 1
+                    size = 0.0
                     for k in range(webs):
                         size = max(size, abs(influence[n, q, k]))
+                    # until it is a multiple
+                    multiple[n, q] = size
                     largest, most = (q, size) if size > most else (largest, most)
             for k in range(webs):
-                two[n, b, k] = influence[n, largest, k] if own > 0 else 0.0
+                two[n, b, k] = influence[n, largest, k] if largest >= 0 else 0.0
                 square += two[n, b, k] * two[n, b, k]
+            alone = (others if b > 0 else vectors - others) < 2
             for q in range(vectors):
                 if basis[q] == b:
-                    along, size = 0.0, 0.0
+                    along, off, allowed = 0.0, 0, _SAME * multiple[n, q]
                     for k in range(webs):
                         along += influence[n, q, k] * two[n, b, k]
-                        size = max(size, abs(influence[n, q, k]))
                     along = along / square if square > 0.0 else along
-                    multiple[n, q] = along if own > 1 else 1.0
                     for k in range(webs):
-                        off = abs(influence[n, q, k] - along * two[n, b, k])
-                        holds[n] = holds[n] and (own < 2 or off <= _SAME * size)
+                        off += 0 if abs(influence[n, q, k] - along * two[n, b, k]) <= allowed else 1
+                    multiple[n, q] = 1.0 if alone else along
+                    same = same and (alone or off == 0)
+        holds[n] = same
