@@ -60,12 +60,11 @@ def leave_empty(
         return
     if all_true(solutions.clean):
         return
-    dusty = has_dust(statement.limits, solutions.unbalance)
-    if unreachable is not None:
-        dusty = dusty & ~unreachable
-    if not np.count_nonzero(dusty):
+    unclean = np.flatnonzero(~solutions.clean if unreachable is None else ~(solutions.clean | unreachable))
+    masses = np.abs(solutions.unbalance[unclean]) / statement.limits.radius[unclean]
+    programs = unclean[np.logical_or.reduce(dust(masses), axis=-1)]
+    if not programs.size:
         return
-    programs = np.flatnonzero(dusty)
     some, part = statement.chosen(programs), share[programs]
     old = points_at(some, solutions.unbalance[programs])
     close = solutions.lower_bound[programs] + TARGET * part - old.rounding

@@ -63,10 +63,10 @@ def columns_of(request: OptimizeRequest, best: Certified, multipliers: bool) -> 
     for web, of_web, towards in zip(every, mass.T.copy(), angle.T.copy(), strict=True):
         columns[f"mass_kg.{web.name}"], columns[f"angle_deg.{web.name}"] = of_web, towards
     if none.any():
-        columns = {
-            name: np.where(none, np.nan, column) if column.dtype == float else column
-            for name, column in columns.items()
-        }
+        for name, column in columns.items():
+            if column.dtype == float:
+                columns[name] = blank = np.array(column)
+                blank[none] = np.nan
     if angle is best.angle_deg:
         return columns, best.unbalance
     return columns, unbalance(mass, angle, stacked([web.radius_m for web in every]))
