@@ -63,18 +63,30 @@ def exhausted(problem: Problem, cut: Plane, value: float, near: float, spent: Ca
     if not window.start.size:
         return Exhausted(None, value, cut.least, False)
     masses, least = _sets(problem, cut, lever[place])
-    peaks, size = Peaks(problem.start, effect, problem.peaks.weight), lever.size
-    orders = _orders((size + 1) // 2), _orders(size // 2)
+    peaks, size, half = Peaks(problem.start, effect, problem.peaks.weight), lever.size, (lever.size + 1) // 2
+    orders = _orders(half), _orders(size - half)
+    effects = window.effect[:, :half], window.effect[:, half:]
     best, bound, result = value, cut.least, None
     for mass, lowest in zip(masses, least.tolist(), strict=True):
         bound = max(bound, min(best, lowest))
         if best - bound <= near or spent():
             return Exhausted(result, best, bound, bound >= best)
-        reached, put = best_below(window, peaks, mass, lowest, orders, best)
+        first, second = (_sums(*part) for part in zip(effects, (mass[:half], mass[half:]), orders, strict=True))
+        rising = np.argsort(first[:, 0], kind="stable")
+        rising_orders, sums = (orders[0][rising], orders[1]), (first[rising], second)
+        reached, put = best_below(window, peaks, mass, lowest, rising_orders, sums, best)
         if reached < best:
             best, result = float(reached), np.empty_like(put)
             result[place] = put
     return Exhausted(result, best, best, True)
+
+
+def _sums(effect: Real, mass: Real, orders: np.ndarray) -> Real:
+    """What parts of masses (h,) come to in every order (p, C)."""
+    sums = np.zeros((len(orders), len(effect)))
+    for place, parts in enumerate(orders.T):
+        sums += mass[parts][:, None] * effect[:, place]
+    return sums
 
 
 def _window(problem: Problem, cut: Plane, effect: Complex, lever: Real) -> Window:

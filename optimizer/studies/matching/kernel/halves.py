@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.numerics.compiling import inner, inner_with_arrays, kernel
+from optimizer.numerics.compiling import inner, kernel
 
 
 class Window(NamedTuple):
@@ -32,7 +32,7 @@ class Peaks(NamedTuple):
 
 
 @kernel
-def best_below(window, peaks, mass, least, orders, level):  # type: ignore[no-untyped-def]
+def best_below(window, peaks, mass, least, orders, sums, level):  # type: ignore[no-untyped-def]
     """The smallest peak below a level of all assignments that have a set of parts on the first half of the places.
 
     Parameters
@@ -41,23 +41,26 @@ def best_below(window, peaks, mass, least, orders, level):  # type: ignore[no-un
     mass : (n,) of the parts on the first half, then of the others.
     least : that no assignment with the set is below.
     orders : (p, h) and (q, n - h) of the parts of either half.
+    sums : (p, C) and (q, C) what they come to; those of the first half in rising order of their first coordinate.
 
     Returns
     -------
     float : that peak, or the level where there is none below it.
     (n,) : masses place by place, where there is one.
     """
-    half, slack = orders[0].shape[1], level - least
+    (first, second), half, slack = sums, orders[0].shape[1], level - least
     best, put = np.zeros(mass.size), np.zeros(mass.size)
-    first = _sums(window.effect[:, :half], mass[:half], orders[0])
-    second = _sums(window.effect[:, half:], mass[half:], orders[1])
-    rising = np.argsort(first[:, 0])
-    key = first[rising, 0]
     for k in range(len(second)):
         there = window.start[0] - window.anchor[0] * level + second[k, 0]
-        at = np.searchsorted(key, -window.reach[0, 0] * slack - there)
-        while at < len(key) and key[at] + there <= window.reach[1, 0] * slack:
-            i = rising[at]
+        lowest, at, end = -window.reach[0, 0] * slack - there, 0, len(first)
+        while at < end:
+            middle = (at + end) // 2
+            if first[middle, 0] < lowest:
+                at = middle + 1
+            else:
+                end = middle
+        while at < len(first) and first[at, 0] + there <= window.reach[1, 0] * slack:
+            i = at
             at += 1
             if not _within(window, first[i], second[k], level, slack):
                 continue
@@ -68,19 +71,9 @@ def best_below(window, peaks, mass, least, orders, level):  # type: ignore[no-un
             value = _peak(peaks, put)
             if value < level:
                 level, slack = value, value - least
-                best[:] = put
+                for place in range(put.size):
+                    best[place] = put[place]
     return level, best
-
-
-@inner_with_arrays
-def _sums(effect, mass, orders):  # type: ignore[no-untyped-def]
-    """What parts come to in every order (p, C)."""
-    sums = np.zeros((len(orders), len(effect)))
-    for k in range(len(orders)):
-        for c in range(len(effect)):
-            for place in range(orders.shape[1]):
-                sums[k, c] += effect[c, place] * mass[orders[k, place]]
-    return sums
 
 
 @inner
