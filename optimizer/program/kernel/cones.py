@@ -155,6 +155,10 @@ def multiplier_steps(count, w, eta, f, ds, dz):  # type: ignore[no-untyped-def]
 
 @inner
 def cone_steps(s, ds, step):  # type: ignore[no-untyped-def]
-    """Largest step of every cone, (n,)."""
-    for i in range(s.shape[1]):
-        step[i] = step_to_boundary(s[0, i], s[1, i], s[2, i], ds[0, i], ds[1, i], ds[2, i])
+    """Steps (L,) that are no longer than those of every cone."""
+    lanes = step.size
+    for k in range(0, s.shape[1], lanes):
+        for t in range(lanes):
+            i = k + t
+            longest = step_to_boundary(s[0, i], s[1, i], s[2, i], ds[0, i], ds[1, i], ds[2, i])
+            step[t] = min(step[t], longest)

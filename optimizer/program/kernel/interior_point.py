@@ -169,26 +169,26 @@ def run(least_mass, programs, task, batch, course, packed, best, work):  # type:
                 best[i, t] = packed[i, t] if better[t] > 0.0 else best[i, t]
 
         factor(least_mass, batch, state, work)
-        # predictor
-        work.nu[:] = 0.0
-        work.keep[:] = 1.0
-        first_order(work)
-        direction(least_mass, batch, state, work)
-        longest_step(batch, state, work, 1.0 / _STEP)
-        for t in range(lanes):
-            sigma[t] = (1.0 - min(work.step[t], 1.0)) ** 3
-            if middle[t] > 0.0 and gap[t] * sigma[t] < 0.3 * middle[t]:
-                # not past the middle of the optima in one step
-                sigma[t] = 0.5 * middle[t] / gap[t]
-            # after a short step back to the middle: without the second-order part, towards the centre
-            wanted[t] = 1.0 - cautious[t]
-            if cautious[t] > 0.0:
-                sigma[t] = max(sigma[t], 0.5)
-            work.nu[t], work.keep[t] = gap[t] / barrier[t] * sigma[t], 1.0 - sigma[t]
-        # corrector
-        second_order(wanted, work)
-        direction(least_mass, batch, state, work)
-        longest_step(batch, state, work, 1.0 / _STEP)
+        # predictor, then corrector
+        for turn in range(2):
+            if turn == 0:
+                work.nu[:] = 0.0
+                work.keep[:] = 1.0
+                first_order(work)
+            else:
+                for t in range(lanes):
+                    sigma[t] = (1.0 - min(work.step[t], 1.0)) ** 3
+                    if middle[t] > 0.0 and gap[t] * sigma[t] < 0.3 * middle[t]:
+                        # not past the middle of the optima in one step
+                        sigma[t] = 0.5 * middle[t] / gap[t]
+                    # after a short step back to the middle: without the second-order part, towards the centre
+                    wanted[t] = 1.0 - cautious[t]
+                    if cautious[t] > 0.0:
+                        sigma[t] = max(sigma[t], 0.5)
+                    work.nu[t], work.keep[t] = gap[t] / barrier[t] * sigma[t], 1.0 - sigma[t]
+                second_order(wanted, work)
+            direction(least_mass, batch, state, work)
+            longest_step(batch, state, work, 1.0 / _STEP)
         for t in range(lanes):
             work.step[t] *= _STEP
             cautious[t] = 1.0 if work.step[t] < 0.1 else 0.0

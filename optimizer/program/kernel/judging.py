@@ -17,6 +17,8 @@ _SHARP = 1e-4
 _ABOVE = 1.0 + 1e-9
 #: of the proofs, as numpy's integer like all that is handed on
 _FIRST: Any = np.int64(0)
+#: objective, mass, excess, rounding, until they are known
+_NONE = 0.0, 0.0, 0.0, 0.0
 
 
 @folded
@@ -196,9 +198,14 @@ def judge(  # type: ignore[no-untyped-def]
     number, _, webs = programs.influence.shape
     for n in range(number):
         u, best, light = unbalance[n], smallest[n], lightest[n]
-        first, light_figures = value(best, programs, n), value(light, programs, n)
         u[:] = 0.0
-        rest = value(u, programs, n)
+        first, light_figures, rest = _NONE, _NONE, _NONE
+        # in a loop, as it would be compiled once for each
+        for which in range(3):
+            found = value(best if which == 0 else light if which == 1 else u, programs, n)
+            first = found if which == 0 else first
+            light_figures = found if which == 1 else light_figures
+            rest = found
         own, proof = (term[n], row[n], ceiling[n]), (proven_term[n], proven_row[n], proven_ceiling[n])
         lower = proof_of(programs, n, sizes[n], own, share[n], first[0], rest[0], proof[0], proof[1], proof[2])
         chosen = rest

@@ -229,14 +229,6 @@ def raise_to_size(values, largest):  # type: ignore[no-untyped-def]
 
 
 @inner
-def lower(values, lowest):  # type: ignore[no-untyped-def]
-    lanes = lowest.size
-    for k in range(values.size // lanes):
-        for t in range(lanes):
-            lowest[t] = min(lowest[t], values[k * lanes + t])
-
-
-@inner
 def move(step, change, value):  # type: ignore[no-untyped-def]
     for k in range(value.size):
         value[k] += step[k] * change[k]

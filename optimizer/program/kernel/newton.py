@@ -23,7 +23,7 @@ from optimizer.program.kernel.cones import (
     scaling,
     targets,
 )
-from optimizer.program.kernel.lanes import add_products, lower, move, product, raise_to_size, spread
+from optimizer.program.kernel.lanes import add_products, move, product, raise_to_size, spread
 from optimizer.program.kernel.webs import (
     eliminate_webs,
     lengths,
@@ -319,38 +319,31 @@ def direction(least_mass, batch, state, work):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _until_zero(present, value, change, step):  # type: ignore[no-untyped-def]
-    """Steps at which values reach 0 (n,)."""
-    for k in range(value.size):
-        reached = -value[k] / (change[k] if change[k] < 0.0 else 1.0)
-        step[k] = reached if (change[k] < 0.0) & (present[k] > 0.0) else 1e300
+def _stay_positive(present, value, change, step):  # type: ignore[no-untyped-def]
+    """Steps (L,) that are no longer than those at which values (n L,) reach 0."""
+    lanes = step.size
+    for k in range(0, value.size, lanes):
+        for t in range(lanes):
+            falls = change[k + t] < 0.0
+            reached = -value[k + t] / (change[k + t] if falls else 1.0)
+            step[t] = min(step[t], reached if falls & (present[k + t] > 0.0) else 1e300)
 
 
 @inner
 def longest_step(batch, state, work, longest):  # type: ignore[no-untyped-def]
     """The longest step in the direction that stays inside, at most ``longest``, into ``work.step``."""
-    step, cones = work.step, work.per_cone
-    webs = cones[: batch.sine.size]
+    step = work.step
     step[:] = longest
-    cone_steps(state.s, work.ds, cones)
-    lower(cones, step)
-    cone_steps(state.z, work.dz, cones)
-    lower(cones, step)
+    cone_steps(state.s, work.ds, step)
+    cone_steps(state.z, work.dz, step)
     for c in range(3):
-        _until_zero(batch.present[c], state.q[c], work.dq[c], webs)
-        lower(webs, step)
-        _until_zero(batch.present[c], state.zq[c], work.dzq[c], webs)
-        lower(webs, step)
-    lane = cones[: step.size]
-    always = work.always
+        _stay_positive(batch.present[c], state.q[c], work.dq[c], step)
+        _stay_positive(batch.present[c], state.zq[c], work.dzq[c], step)
     for r in range(state.rho.shape[0]):
-        _until_zero(always, state.rho[r], work.d_rho[r], lane)
-        lower(lane, step)
-        _until_zero(always, state.z_rho[r], work.dz_rho[r], lane)
-        lower(lane, step)
+        _stay_positive(work.always, state.rho[r], work.d_rho[r], step)
+        _stay_positive(work.always, state.z_rho[r], work.dz_rho[r], step)
     for c in range(2):
-        _until_zero(always, state.rest[c], work.d_rest[c], lane)
-        lower(lane, step)
+        _stay_positive(work.always, state.rest[c], work.d_rest[c], step)
 
 
 @inner

@@ -22,8 +22,9 @@ def copy(numbers, place):  # type: ignore[no-untyped-def]
 
 @folded
 def put(u, dust, touched, region, n, room, settled):  # type: ignore[no-untyped-def]
-    """What is next to nothing, or to a limit, there (K,); whether anything was, and the room of the others (K,)."""
-    most, moved = 0.0, False
+    """What is next to nothing, or to a limit, there (K,), and the room of the others (K,); whether anything was, and
+    whether that was next to nothing."""
+    most, moved, dusty = 0.0, False, False
     for k in range(u.size):
         room[k] = length(u[k])
         most = max(most, room[k] / region.radius[n, k])
@@ -43,9 +44,9 @@ def put(u, dust, touched, region, n, room, settled):  # type: ignore[no-untyped-
             if edge:
                 side = complex(cosine, np.copysign(sine, v.imag))
                 settled[k] = length(settled[k]) * side * centre
-        moved = moved or settled[k] != u[k]
+        moved, dusty = moved or settled[k] != u[k], dusty or none
         room[k] = 0.0 if none or edge or next_to else size
-    return moved
+    return moved, dusty
 
 
 @folded
@@ -133,7 +134,9 @@ def rebalance(u, near, influence, across, region, room, work, turned, scaled, ne
     room, new, moved : (N, K), (N, K) and (N,) bool, the points and which of them are others, to be written to.
     """
     for n in range(u.shape[0]):
-        moved[n] = near[0] < 0.0 or put(u[n], near[0], near[1], region, n, room[n], new[n])
+        moved[n] = near[0] < 0.0
+        if not moved[n]:
+            moved[n], _ = put(u[n], near[0], near[1], region, n, room[n], new[n])
         if moved[n]:
             balance(u[n], influence[n], across[n], region, n, room[n], work, turned, scaled, new[n])
 
@@ -142,19 +145,25 @@ def rebalance(u, near, influence, across, region, room, work, turned, scaled, ne
 def settle_point(u, figures, target, heaviest, rounding, rungs, programs, n, work, turned, scaled):  # type: ignore[no-untyped-def]
     """A point (K,) of program n, and what it comes to (4, N), in place, parameters as of :func:`settle`."""
     webs, influence, across, region = u.size, programs.influence[n], programs.across[n], programs.region
-    new, room, rung = work[4, :webs], programs.numbers[1, :webs], 0
+    new, room, rung, in_vain = work[4, :webs], programs.numbers[1, :webs], 0, -1.0
     while rung < rungs.shape[0]:
         dust, touched, after = rungs[rung, 0], rungs[rung, 1], int(rungs[rung, 2])
         rung += 1
-        if put(u, dust, touched, region, n, room, new):
+        if dust == 0.0 and touched == in_vain:
+            continue
+        moved, dusty = put(u, dust, touched, region, n, room, new)
+        if moved:
             balance(u, influence, across, region, n, room, work, turned, scaled, new)
             objective, mass, excess, off = value(new, programs, n)
             no_worse = objective <= max(target, figures[0, n]) + off
             no_worse = no_worse and excess <= max(figures[2, n], rounding) and mass <= max(figures[1, n], heaviest)
             if not no_worse:
+                # without dust it comes to the same once more
+                in_vain = in_vain if dusty else touched
                 continue
             copy(new, u)
             figures[0, n], figures[1, n], figures[2, n], figures[3, n] = objective, mass, excess, off
+            in_vain = -1.0
         rung = after
 
 
