@@ -65,7 +65,7 @@ def test_what_is_compiled_is_what_answers_need() -> None:
     warm_up()
     version = f"py{sys.version_info.major}{sys.version_info.minor}"
     entries = {
-        interior_point: ("run", "_aim"),
+        interior_point: ("run",),
         discs: ("solve",),
         bounds: ("bounds", "minorants"),
         judging: ("judge",),

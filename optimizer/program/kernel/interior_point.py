@@ -60,8 +60,9 @@ class Task(NamedTuple):
     tolerance: Real  # (N,) gap at which the stage ends
     middle: Real  # (N,) first stage: gap at which the state is kept on the way; 0 for nowhere
     way: Real  # (N, S) the state there; where the second stage starts
-    best: Real  # (N, S) the state with the smallest gap and residual
+    best: Real  # (stages, N, S) the state with the smallest gap and residual
     reached: Real  # (N,) its gap and residual
+    mass_unit: Real  # (N,) of the second stage
 
 
 @inner
@@ -101,9 +102,9 @@ def load(programs, task, n, batch, t):  # type: ignore[no-untyped-def]
         batch.mass[at], batch.budget[at] = task.cost[n, k], programs.budget[n, k]
 
 
-@in_place
-def run(least_mass, programs, task, batch, course, packed, best, work):  # type: ignore[no-untyped-def]
-    """A stage of every program: steps until the gap is at most the tolerance, or no longer falls."""
+@inner
+def _run_stage(least_mass, programs, task, ends, batch, course, packed, best, work):  # type: ignore[no-untyped-def]
+    """A stage of every program: steps until the gap is at most the tolerance, or no longer falls; ends (N, S)."""
     number, cones, webs = programs.influence.shape
     rows = programs.floor.shape[1]
     size, lanes = packed.shape
@@ -118,7 +119,7 @@ def run(least_mass, programs, task, batch, course, packed, best, work):  # type:
     while True:
         for t in range(lanes):
             if done[t] > 0.0 and program[t] >= 0:
-                _from_lane(best, t, task.best[program[t]])
+                _from_lane(best, t, ends[program[t]])
                 task.reached[program[t]] = reached[t]
                 solved += 1
                 program[t] = -1
@@ -226,6 +227,7 @@ def solve(
     size, lanes = state_size(webs, cones, rows), min(_LANES, number)
     batch, course = new_lanes(programs.row, webs, cones, rows, lanes), new_course(lanes)
     packed, best, work = np.ones((size, lanes)), np.ones((size, lanes)), new_work(webs, cones, terms, rows, lanes)
+    stages = 2 if least_mass else 1
     for begin in range(0, number, BLOCK):
         end = min(begin + BLOCK, number)
         count = end - begin
@@ -236,32 +238,44 @@ def solve(
             tolerance[begin:end].copy(),
             0.5 * share[begin:end] if least_mass else np.zeros(count),
             np.zeros((count, size)),
-            np.zeros((count, size)),
+            np.zeros((stages, count, size)),
             np.zeros(count),
+            mass_unit[begin:end],
         )
-        for stage in range(2 if least_mass else 1):
-            if stage > 0:
-                _aim(block, task, share[begin:end], mass_unit[begin:end])
-                task.tolerance[:] = mass_tolerance
-                task.middle[:] = 0.0
-            run(stage > 0, block, task, batch, course, packed, best, work)
-            _keep(task.best, v[stage, begin:end], p[stage, begin:end], prices[stage, begin:end])
+        run(share[begin:end], mass_tolerance, block, task, batch, course, packed, best, work)
+        for stage in range(stages):
+            _keep(task.best[stage], v[stage, begin:end], p[stage, begin:end], prices[stage, begin:end])
     return v, p, prices, mass_unit
 
 
 @in_place
-def _aim(programs, task, share, mass_unit):  # type: ignore[no-untyped-def]
-    """The unit of mass and the largest value of the second stage, from what the first one found."""
+def run(share, mass_tolerance, programs, task, batch, course, packed, best, work):  # type: ignore[no-untyped-def]
+    """The stages of every program, one after the other.
+
+    Parameters
+    ----------
+    share, mass_tolerance : as of :func:`solve`.
+    packed, best : (S, L) states of the lanes, and the best of them so far.
+    """
+    for stage in range(task.best.shape[0]):
+        if stage > 0:
+            _aim(programs, task, share, mass_tolerance)
+        _run_stage(stage > 0, programs, task, task.best[stage], batch, course, packed, best, work)
+
+
+@inner
+def _aim(programs, task, share, mass_tolerance):  # type: ignore[no-untyped-def]
+    """What the second stage is asked, from what the first one found."""
     number, cones, webs = programs.influence.shape
     rows, terms = programs.floor.shape[1], programs.row.size
     for n in range(number):
-        best = views(task.best[n].reshape((-1, 1)), webs, cones, rows)
+        best = views(task.best[0, n].reshape((-1, 1)), webs, cones, rows)
         total = 0.0
         for k in range(webs):
             total += programs.mass[n, k] * np.sqrt(best.s[1, k] ** 2 + best.s[2, k] ** 2)
-        mass_unit[n] = total if total > 0.0 else 1.0
+        unit = total if total > 0.0 else 1.0
         for k in range(webs):
-            task.cost[n, k] = programs.mass[n, k] / mass_unit[n]
+            task.cost[n, k] = programs.mass[n, k] / unit
         target = -np.inf
         for r in range(rows):
             value = programs.floor[n, r]
@@ -271,6 +285,9 @@ def _aim(programs, task, share, mass_unit):  # type: ignore[no-untyped-def]
             target = max(target, value)
         # what the first stage leaves open is kept back, so that the lightest is an optimum for certain
         task.target[n] = target + share[n] * (1.0 - RESERVE) - OPEN * task.reached[n]
+        task.mass_unit[n] = unit
+    task.tolerance[:] = mass_tolerance
+    task.middle[:] = 0.0
 
 
 def _keep(best: Real, v: Real, p: Real, price: Real) -> None:
