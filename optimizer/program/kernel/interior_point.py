@@ -16,7 +16,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Real
 from optimizer.program.kernel.compiling import in_place, inner
-from optimizer.program.kernel.lanes import new_course, new_lanes, new_work, state_size, views
+from optimizer.program.kernel.lanes import new_memory, parts_of, state_size, views
 from optimizer.program.kernel.newton import (
     direction,
     factor,
@@ -221,12 +221,12 @@ def solve(
     and for the second stage; and the unit of mass of the second stage (N,), which is that of the first answer.
     """
     number, cones, webs = programs.influence.shape
-    rows, terms = programs.floor.shape[1], programs.row.size
+    rows = programs.floor.shape[1]
     v, p = np.zeros((2, number, 3, webs)), np.zeros((2, number, cones, 2))
     prices, mass_unit = np.zeros((2, number, rows)), np.ones(number)
     size, lanes = state_size(webs, cones, rows), min(_LANES, number)
-    batch, course = new_lanes(programs.row, webs, cones, rows, lanes), new_course(lanes)
-    packed, best, work = np.ones((size, lanes)), np.ones((size, lanes)), new_work(webs, cones, terms, rows, lanes)
+    memory = new_memory(programs.row, webs, cones, rows, lanes)
+    packed, best = np.ones((size, lanes)), np.ones((size, lanes))
     stages = 2 if least_mass else 1
     for begin in range(0, number, BLOCK):
         end = min(begin + BLOCK, number)
@@ -242,14 +242,14 @@ def solve(
             np.zeros(count),
             mass_unit[begin:end],
         )
-        run(share[begin:end], mass_tolerance, block, task, batch, course, packed, best, work)
+        run(share[begin:end], mass_tolerance, block, task, memory, packed, best)
         for stage in range(stages):
             _keep(task.best[stage], v[stage, begin:end], p[stage, begin:end], prices[stage, begin:end])
     return v, p, prices, mass_unit
 
 
 @in_place
-def run(share, mass_tolerance, programs, task, batch, course, packed, best, work):  # type: ignore[no-untyped-def]
+def run(share, mass_tolerance, programs, task, memory, packed, best):  # type: ignore[no-untyped-def]
     """The stages of every program, one after the other.
 
     Parameters
@@ -257,6 +257,7 @@ def run(share, mass_tolerance, programs, task, batch, course, packed, best, work
     share, mass_tolerance : as of :func:`solve`.
     packed, best : (S, L) states of the lanes, and the best of them so far.
     """
+    batch, course, work = parts_of(memory)
     for stage in range(task.best.shape[0]):
         if stage > 0:
             _aim(programs, task, share, mass_tolerance)

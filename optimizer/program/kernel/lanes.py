@@ -107,78 +107,124 @@ class Work(NamedTuple):
     always: Real  # (L,) 1: limits that are there without any web
 
 
-def new_lanes(row: np.ndarray, webs: int, cones: int, rows: int, lanes: int) -> Lanes:
-    kl = webs * lanes
-    return Lanes(
-        row,
-        np.zeros((rows, lanes)),
-        np.zeros((cones - row.size, lanes)),
-        np.zeros((2, cones * lanes)),
-        np.zeros((cones, kl)),
-        np.zeros((2, kl)),
-        np.zeros(kl),
-        np.zeros(kl),
-        np.zeros((3, kl)),
-        np.zeros(kl),
-        np.zeros(kl),
-        np.zeros(lanes),
-    )
+class Memory(NamedTuple):
+    """All of these, those of one size in one array: to hand over an array takes as long as a short loop."""
+
+    row: np.ndarray  # (J,)
+    program: np.ndarray  # (L,)
+    where: np.ndarray  # (Q,)
+    lanes: Real  # (25, L)
+    webs: Real  # (48, K L)
+    peaks: Real  # (7, Q L)
+    cones: Real  # (23, C L)
+    rows: Real  # (6, R, L)
+    cap: Real  # (Q - J, L)
+    influence: Real  # (Q, K L)
+    m: Real  # (n, n, L)
+    unknowns: Real  # (2, n, L)
 
 
-def new_course(lanes: int) -> Course:
-    return Course(np.zeros(lanes, np.int64), *(np.zeros(lanes) for _ in range(12)))
-
-
-def new_work(webs: int, cones: int, terms: int, rows: int, lanes: int) -> Work:
-    kl, ql, cl = webs * lanes, cones * lanes, (webs + cones) * lanes
+def new_memory(row: np.ndarray, webs: int, cones: int, rows: int, lanes: int) -> Memory:
+    terms = row.size
     # unknowns: (y_x, y_y) of terms, (mu, y_x, y_y) of ceilings, budget, rows
     n = 2 * terms + rows + 3 * (cones - terms) + 1
     where = np.empty(cones, np.int64)
     for i in range(cones):
         where[i] = 2 * i if i < terms else 2 * terms + 3 * (i - terms) + 1
-    return Work(
-        np.zeros((2, ql)),
-        np.zeros((2, kl)),
-        np.zeros((3, kl)),
-        np.zeros((3, ql)),
-        np.zeros((rows, lanes)),
-        np.zeros(lanes),
-        np.zeros(lanes),
-        np.zeros(lanes),
-        np.zeros((3, cl)),
-        np.zeros(cl),
-        np.zeros((3, cl)),
-        np.zeros((3, cl)),
-        np.zeros((3, cl)),
-        np.zeros((3, cl)),
-        np.zeros((3, cl)),
-        np.zeros((3, cl)),
-        np.zeros(cl),
-        np.zeros((3, kl)),
-        np.zeros((3, kl)),
-        np.zeros((3, kl)),
-        np.zeros((2, kl)),
-        np.zeros((3, kl)),
-        np.zeros((3, kl)),
-        np.zeros((3, kl)),
-        np.zeros((3, kl)),
-        np.zeros((11, kl)),
-        np.zeros((n, n, lanes)),
-        np.zeros((n, lanes)),
-        np.zeros((n, lanes)),
-        np.zeros((rows, lanes)),
-        np.zeros(lanes),
-        np.zeros((rows, lanes)),
-        np.zeros((rows, lanes)),
-        np.zeros((rows, lanes)),
-        np.zeros((1, lanes)),
-        np.zeros((3, lanes)),
-        np.zeros(lanes),
-        np.zeros(lanes),
-        np.zeros(lanes),
+    return Memory(
+        row,
+        np.zeros(lanes, np.int64),
         where,
-        np.ones(lanes),
+        np.zeros((25, lanes)),
+        np.zeros((48, webs * lanes)),
+        np.zeros((7, cones * lanes)),
+        np.zeros((23, (webs + cones) * lanes)),
+        np.zeros((6, rows, lanes)),
+        np.zeros((cones - terms, lanes)),
+        np.zeros((cones, webs * lanes)),
+        np.zeros((n, n, lanes)),
+        np.zeros((2, n, lanes)),
     )
+
+
+@inner
+def parts_of(memory):  # type: ignore[no-untyped-def]
+    """The lanes, their course, and what a step is computed in."""
+    lane, web, peak, cone, row = memory.lanes, memory.webs, memory.peaks, memory.cones, memory.rows
+    batch = Lanes(
+        row=memory.row,
+        floor=row[0],
+        cap=memory.cap,
+        constant=peak[0:2],
+        influence=memory.influence,
+        centre=web[0:2],
+        sine=web[2],
+        cosine=web[3],
+        present=web[4:7],
+        mass=web[7],
+        budget=web[8],
+        target=lane[20],
+    )
+    course = Course(
+        program=memory.program,
+        done=lane[0],
+        better=lane[1],
+        cautious=lane[2],
+        barrier=lane[3],
+        costs=lane[4],
+        sigma=lane[5],
+        wanted=lane[6],
+        reached=lane[7],
+        tolerance=lane[8],
+        middle=lane[9],
+        steps=lane[10],
+        stalled=lane[11],
+    )
+    work = Work(
+        a=peak[2:4],
+        u=web[9:11],
+        rd=web[11:14],
+        rp=peak[4:7],
+        rp_row=row[1],
+        primal=lane[12],
+        dual=lane[13],
+        gap=lane[14],
+        w=cone[0:3],
+        eta=cone[3],
+        lam=cone[4:7],
+        f=cone[7:10],
+        ws=cone[10:13],
+        d=cone[13:16],
+        ds=cone[16:19],
+        dz=cone[19:22],
+        per_cone=cone[22],
+        e=web[14:17],
+        own=web[17:20],
+        response=web[20:23],
+        edges=web[23:25],
+        fq=web[25:28],
+        cq=web[28:31],
+        dq=web[31:34],
+        dzq=web[34:37],
+        block=web[37:48],
+        m=memory.m,
+        least=memory.unknowns[0],
+        right=memory.unknowns[1],
+        border=row[2],
+        border_square=lane[15],
+        c_rho=row[3],
+        d_rho=row[4],
+        dz_rho=row[5],
+        c_rest=lane[21:22],
+        d_rest=lane[22:25],
+        nu=lane[16],
+        keep=lane[17],
+        step=lane[18],
+        where=memory.where,
+        always=lane[19],
+    )
+    work.always[:] = 1.0
+    return batch, course, work
 
 
 def state_size(webs: int, cones: int, rows: int) -> int:
