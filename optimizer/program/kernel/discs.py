@@ -150,13 +150,17 @@ def run(least_mass, budgeted, edged, programs, first, edge, cost, most, toleranc
     """
     (number, webs), vectors = cost.shape, programs.basis.size
     basis, terms, sized = programs.basis, vectors - programs.cap.shape[1], least_mass or budgeted
-    web, own, peak = np.ones(webs * WEB), np.ones(OWN), np.ones((vectors, PEAK))
-    matrix, step = np.ones((vectors + 1, vectors + 1, BLOCK)), np.zeros((vectors + 1, PAIR))
-    program, steps, wanted = np.zeros(LANES, np.int64) - 1, np.zeros(LANES, np.int64), np.zeros(LANES)
+    # of one axis and then of their shape: to fill arrays the compiler makes a function for each number of axes
+    web, own, peak = np.ones(webs * WEB), np.ones(OWN), np.ones(vectors * PEAK).reshape((vectors, PEAK))
+    matrix = np.ones((vectors + 1) * (vectors + 1) * BLOCK).reshape((vectors + 1, vectors + 1, BLOCK))
+    step, wanted = np.zeros((vectors + 1, PAIR)), np.zeros(LANES)
+    program, steps = np.zeros(LANES, np.int64), np.zeros(LANES, np.int64)
     degree, before, held = np.ones(LANES), np.zeros(LANES), np.zeros(LANES, np.int64)
     # with edges or a budget limits are of very different size, and less is sure of steps to all of them at once
     longest = _LONGEST if edged or budgeted else 1.0
     loosest = _LOOSEST_MASS if least_mass else _LOOSEST
+    for t in range(LANES):
+        program[t] = -1
     waiting, solved = 0, 0
     while True:
         for t in range(LANES):
@@ -287,8 +291,9 @@ def solve(  # type: ignore[no-untyped-def]
     """
     programs = Discs(basis, multiple, constant, influence, mass, budget, cap, normals, which)
     number, vectors, webs = which.size, basis.size, mass.shape[1]
-    v, p = np.zeros((2, number, webs, 2)), np.zeros((2, number, vectors, 2))
-    prices, mass_unit = np.zeros((2, number, 1)), np.ones(number)
+    v = np.zeros(4 * number * webs).reshape((2, number, webs, 2))
+    p = np.zeros(4 * number * vectors).reshape((2, number, vectors, 2))
+    prices, mass_unit = np.zeros(2 * number).reshape((2, number, 1)), np.ones(number)
     edged = programs.normals.shape[2] > 0
     size, edge = 6 * webs + 4 * vectors + 2 + 2 * programs.normals.shape[2], np.ones(webs * EDGE)
     for begin in range(0, number, AT_A_TIME):
