@@ -202,10 +202,10 @@ def judge(  # type: ignore[no-untyped-def]
         first, light_figures, rest = _NONE, _NONE, _NONE
         # in a loop, as it would be compiled once for each
         for which in range(3):
-            found = value(best if which == 0 else light if which == 1 else u, programs, n)
-            first = found if which == 0 else first
-            light_figures = found if which == 1 else light_figures
-            rest = found
+            of_point = value(best if which == 0 else light if which == 1 else u, programs, n)
+            first = of_point if which == 0 else first
+            light_figures = of_point if which == 1 else light_figures
+            rest = of_point
         own, proof = (term[n], row[n], ceiling[n]), (proven_term[n], proven_row[n], proven_ceiling[n])
         lower = proof_of(programs, n, sizes[n], own, share[n], first[0], rest[0], proof[0], proof[1], proof[2])
         chosen = rest
