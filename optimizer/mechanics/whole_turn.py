@@ -41,7 +41,7 @@ _DEAD_CENTRES = np.array([0.0, np.pi])
 _GAUSS = 8
 _NODES, _SHARES = leggauss(_GAUSS)
 #: what such a polynomial leaves out of a part, as a share of the size of the curve, and the parts of a piece at most
-_LEFT_OUT, _MOST_PARTS = 1e-11, 512
+_LEFT_OUT, _MOST_PARTS = 1e-11, 512.0
 #: of a mean square, in units of the magnitudes of the terms that are added up in the curve
 _ROUNDING = 16 * np.finfo(float).eps
 
@@ -301,9 +301,11 @@ class TurnCurves:
     @cached_property
     def _parts(self) -> Real:
         """Number of equal parts of every piece (N, P) in the quadrature: the more, the more is left out there."""
-        size = np.where(self.pieces.size > 0.0, self.pieces.size, 1.0)
-        out = np.maximum.reduce(self._by_design(self._left_out / size[:, None]), axis=1)
-        number: Real = np.minimum(np.maximum(np.ceil((out / _LEFT_OUT) ** (1.0 / _GAUSS)), 1), _MOST_PARTS)
+        # the compiler is loaded when it is first needed
+        from optimizer.mechanics.kernel.quadrature import equal_parts
+
+        number, size = np.empty(self.whole.half.shape), self.pieces.size.reshape(self.weights.shape[:2])
+        equal_parts(self._by_design(self._left_out), compact(size), _LEFT_OUT, _GAUSS, _MOST_PARTS, number)
         if self.whole.kinds is None:
             return number
         # as many where another row does the same
@@ -319,28 +321,20 @@ class TurnCurves:
     def _quadrature(self) -> tuple[Complex, Real, Index]:
         """Values (N, C, n) at the Gauss nodes of all parts, the share of the turn for which each stands (N, 1, n), and
         how many nodes each design has (N,): beyond these are none that count."""
-        whole, parts = self.whole, self._parts.astype(np.intp)
-        count = np.add.reduce(parts, axis=-1)
-        # those of one design after those of another, and in every row as many as any of them has
-        piece = np.repeat(np.arange(parts.size), parts.reshape(-1))
-        parts = parts.reshape(-1)
-        number = np.arange(piece.size) - (np.add.accumulate(parts) - parts)[piece]
-        if len(count) == 1:
-            number, piece = number[None], piece[None]
-        else:
-            most, first = int(np.maximum.reduce(count)), np.add.accumulate(count) - count
-            row = np.minimum(np.arange(most), count[:, None] - 1) + first[:, None]
-            number, piece = number[row], piece[row]
-        wide, centre, parts = whole.half.reshape(-1)[piece], whole.centre.reshape(-1)[piece], parts[piece]
-        half = wide / parts
-        angle = (centre + wide * ((2.0 * number + 1.0) / parts - 1.0))[..., None] + half[..., None] * _NODES
-        shares = (half[..., None] * (_SHARES / (TURN * whole.turns))).reshape(len(half), -1)
-        within = np.repeat(centre, _GAUSS, axis=-1)
+        from optimizer.mechanics.kernel.quadrature import gauss_nodes
+
+        whole, parts = self.whole, self._parts
+        count = _GAUSS * np.add.reduce(parts, axis=-1).astype(np.intp)
+        shape = len(count), int(np.maximum.reduce(count))
+        angle, within, shares = np.empty(shape), np.empty(shape), np.empty(shape)
+        weight = _SHARES / (TURN * whole.turns)
+        gauss_nodes(compact(whole.centre), compact(whole.half), parts, _NODES, weight, angle, within, shares)
         kinds = whole.kinds
         if kinds is not None:
             at_once = kinds.first.size * within.size <= AT_ONCE
-            kinds = kinds.of_parts(np.searchsorted(piece[0], kinds.later) * _GAUSS) if at_once else None
-        return self._values(angle.reshape(within.shape), within, kinds), shares[:, None], count * _GAUSS
+            before = (np.add.accumulate(parts[0]) - parts[0]).astype(np.intp)
+            kinds = kinds.of_parts(before[kinds.later] * _GAUSS) if at_once else None
+        return self._values(angle, within, kinds), shares[:, None], count
 
     def in_pieces(self, places: Real) -> Complex:
         """The curves (N C, P n) at places (n,) from -1 to 1 of every piece, at its ends the one-sided limits."""

@@ -192,7 +192,9 @@ def torque(scene: Prepared, _fitted: Complex | None = None) -> Torque:
             "angle_deg": scene.angles,
             "rows": tuple(
                 {**labels, "torque_Nm": samples, "mean_torque_Nm": mean}
-                for labels, samples, mean in _by_row(scene, result.rows, integrals.row_mean)
+                for (labels, samples), mean in zip(
+                    _by_row(scene, result.rows), integrals.row_mean.tolist(), strict=True
+                )
             ),
             "rotating_friction_Nm": float(result.rotating_friction),
             "torque_Nm": result.total,
@@ -240,10 +242,12 @@ def overturning(scene: Prepared, _fitted: Complex | None = None) -> Overturning:
     )
 
 
-def _by_row(scene: Prepared, *values: Real) -> Iterator[tuple[Any, ...]]:
-    """Labels of every row and its part of values: curves of (rows, T), and floats of (rows,)."""
-    parts = (array.tolist() if array.ndim == 1 else Curve.rows(read_only(array)) for array in values)
-    return zip(scene.row_labels, *parts, strict=True)
+def _by_row(scene: Prepared, *series: Real) -> Iterator[tuple[Any, ...]]:
+    """Labels of every row and its curves, of series (rows, T)."""
+    # all at once: small arrays cost by their number
+    curves = Curve.rows(read_only(np.concatenate(series) if len(series) > 1 else series[0]))
+    count, rows = len(scene.row_labels), range(len(series))
+    return zip(scene.row_labels, *(curves[count * n : count * (n + 1)] for n in rows), strict=True)
 
 
 def _cases(case: Case, tension: PeakList, compression: PeakList) -> list[dict[str, Any]]:

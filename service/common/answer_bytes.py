@@ -26,7 +26,7 @@ def _contents() -> Callable[[Any], Any]:
 
     def content(part: Any) -> Any:
         if type(part) is not Curve:
-            return vars(part)
+            return part.__dict__
         number = id(part)
         if number not in texts:
             texts[number] = None

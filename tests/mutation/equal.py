@@ -27,11 +27,10 @@ _MECHANICS: dict[str, str] = {
     "turn.py fluctuation: np.max(end, axis=-1) -> np.min(end, axis=-1)": "the integral ends as it begins, at 0: every"
     " end of a panel is the beginning of another, of which the largest is taken anyway",
     "whole_turn.py in_pieces: within.shape[-1] -> within.shape[+1]": "it has two axes",
-    "whole_turn.py _LEFT_OUT: (1e-11, 512) -> (1e-11, 513)": _FINER,
-    "whole_turn.py _parts: 1 -> 2": _FINER,
-    "whole_turn.py _parts: 1.0 / _GAUSS -> 1.011 / _GAUSS": _FINER,
-    "whole_turn.py _parts: np.where(self.pieces.size > 0.0, self.pieces.size, 1.0)"
-    " -> np.where(self.pieces.size > 0.0, self.pieces.size, 1.011)": "of what has no size nothing is left out",
+    "whole_turn.py _LEFT_OUT: (1e-11, 512.0) -> (1e-11, 517.121)": _FINER,
+    "kernel/quadrature.py equal_parts: 1.0 / order -> 1.011 / order": _FINER,
+    "kernel/quadrature.py equal_parts: size[d, c] if size[d, c] > 0.0 else 1.0"
+    " -> size[d, c] if size[d, c] > 0.0 else 1.011": "of what has no size nothing is left out",
 }
 _PROGRAM: dict[str, str] = {
     "solution.py certify_s: 0.0 -> 0.001": "a millisecond of what is told of time",

@@ -17,7 +17,7 @@ PLACES = np.linspace(-1.0, 1.0, 17)
 BETWEEN = float(PLACES[1] - PLACES[0])
 #: share of the largest distance by which others that may hold a circle are less
 _ALIKE = 1e-3
-#: share by which a square is less than another for certain
+#: share by which a square, or a distance, is less than another for certain
 _CERTAIN = 1e-12
 #: Newton's steps to the farthest place
 _STEPS = 2
@@ -101,11 +101,10 @@ def outlines(cubics, number, group):  # type: ignore[no-untyped-def]
             count += 1
         rest, most = 0.0, -np.inf
         for p in range(held.size):
-            farthest = _largest(values[j, p * share : (p + 1) * share], centre[j])
-            cubic = cubics.cubic[number[j], held[p]]
-            bend = 2.0 * abs(cubic[2]) + 6.0 * abs(cubic[3])
-            rest = max(rest, cubics.rest[number[j], held[p]])
-            most = max(most, farthest + 0.125 * BETWEEN**2 * bend + cubics.rest[number[j], held[p]])
+            beyond = cubics.rest[number[j], held[p]]
+            rest = max(rest, beyond)
+            own, cubic = values[j, p * share : (p + 1) * share], cubics.cubic[number[j], held[p]]
+            most = max(most, _farthest_within(own, cubic, beyond, centre[j], most))
         lower[j], upper[j] = radius[j] - rest, most
         bounds[group[j]] = max(bounds[group[j]], lower[j])
     curve, at, angle = curve[:count].copy(), at[:count].copy(), angle[:count].copy()
@@ -135,18 +134,23 @@ def _at_places(cubic, out):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _largest(values, centre):  # type: ignore[no-untyped-def]
-    """Largest distance of values from a centre; of those that cannot be it by their squares none is taken."""
-    most = 0.0
+def _farthest_within(values, cubic, rest, centre, most):  # type: ignore[no-untyped-def]
+    """What a piece is not farther than from a centre, by its values at the places; less than the most of others where
+    it is less for certain."""
+    largest = 0.0
     for value in values:
         along, across = value.real - centre.real, value.imag - centre.imag
-        most = max(most, along * along + across * across)
-    most, farthest = most * (1.0 - _CERTAIN), 0.0
+        largest = max(largest, along * along + across * across)
+    second, third = abs(cubic[2].real) + abs(cubic[2].imag), abs(cubic[3].real) + abs(cubic[3].imag)
+    reach = np.sqrt(largest) + 0.125 * BETWEEN**2 * (2.0 * second + 6.0 * third) + rest
+    if reach * (1.0 + _CERTAIN) < most:
+        return reach
+    least, distance = largest * (1.0 - _CERTAIN), 0.0
     for value in values:
         along, across = value.real - centre.real, value.imag - centre.imag
-        if not along * along + across * across < most:
-            farthest = max(farthest, length(value - centre))
-    return farthest
+        if not along * along + across * across < least:
+            distance = max(distance, length(value - centre))
+    return distance + 0.125 * BETWEEN**2 * (2.0 * abs(cubic[2]) + 6.0 * abs(cubic[3])) + rest
 
 
 @inner
@@ -169,16 +173,17 @@ def farthest(cubics, number, outline, chosen, centre):  # type: ignore[no-untype
     pieces and half widths of these, angles (m,) rad."""
     share, pieces = PLACES.size, outline.piece
     most = outline.values.shape[1]
-    distance, which = np.empty(most), np.empty(chosen.size * most, np.int64)
+    square, which = np.empty(most), np.empty(chosen.size * most, np.int64)
     piece, angle, count = np.empty(chosen.size * most, np.int64), np.empty((2, chosen.size * most)), 0
     for n in range(chosen.size):
-        largest = 0.0
+        values, middle, largest = outline.values[chosen[n]], centre[n], 0.0
         for k in range(most):
-            distance[k] = length(outline.values[chosen[n], k] - centre[n])
-            largest = max(largest, distance[k])
+            along, across = values[k].real - middle.real, values[k].imag - middle.imag
+            square[k] = along * along + across * across
+            largest = max(largest, square[k])
+        least = (1.0 - _ALIKE) ** 2 * largest
         for k in range(most):
-            beside = max(distance[k - 1 if k > 0 else most - 1], distance[k + 1 if k + 1 < most else 0])
-            if distance[k] < (1.0 - _ALIKE) * largest or distance[k] < beside:
+            if square[k] < least or square[k] < max(square[k - 1], square[k + 1 if k + 1 < most else 0]):
                 continue
             curve, there = number[chosen[n]], pieces[k // share]
             at = _farthest(cubics.cubic[curve, there], centre[n], PLACES[k % share])
