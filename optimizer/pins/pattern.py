@@ -64,18 +64,19 @@ class Pattern:
 
     def contact(self, torque: Real, angle_deg: Real) -> Contact:
         """Loads with clearances, those of an elastic bearing the last; a rigid one holds the shift at 0."""
+        dead = self.at_dead_point(angle_deg)
         # levers are equal at a dead point, and no turn of the scroll changes a strain; digits alone would differ
-        lever = np.where(self.at_dead_point(angle_deg)[..., None], 0.0, levers(self.pins.place, angle_deg))
+        lever = np.where(dead[..., None], 0.0, levers(self.pins.place, angle_deg))
         clearance, error = self._with_drive(self.clearance, 0.0), self._with_drive(self.error, 0.0)
-        return pin_contact(lever, torque, self.pins.stiffness, clearance, error, held=self.held)
+        return pin_contact(lever, np.where(dead, 0.0, torque), self.pins.stiffness, clearance, error, held=self.held)
 
     def loads(self, torque: Real, angle_deg: Real) -> Real:
-        """(..., n) N, or (..., n + 1) with the drive's bearing; without meaning at dead points."""
+        """(..., n) N, or (..., n + 1) with the drive's bearing; at dead points, which hold no torque, those of none."""
         if self.formula:
             return even_pin_loads(torque, self.radius[0], self.count, angle_deg - self.phase_deg[0])
         if self.has_clearance:
             return self.with_rest(self.contact(torque, angle_deg).load)
-        return self.with_rest(elastic_loads(torque, self.pins, angle_deg))
+        return self.with_rest(elastic_loads(np.where(self.at_dead_point(angle_deg), 0.0, torque), self.pins, angle_deg))
 
     def with_rest(self, load: Real) -> Real:
         """Loads with what a rigid bearing carries: the rest of the net force."""

@@ -69,3 +69,15 @@ def test_pins_without_a_load_have_their_peak_at_angle_0_analytic() -> None:
     pins = given_pins([0.0, 120.0, 240.0], stiffness_N_per_m=STIFFNESS, clearance_m=MICRON)
     answer = ask(pins=pins, rotation_torque_Nm=0.0)
     assert [(pin.peak_N, pin.peak_angle_deg) for pin in answer.pins] == [(0.0, 0.0)] * 3
+
+
+@pytest.mark.parametrize("angle", [1e-160, 1e-309, 5e-324])
+@pytest.mark.parametrize("bearing", ["free", "rigid"])
+@pytest.mark.parametrize("clearance", [0.0, MICRON])
+def test_levers_below_all_numbers_hold_no_torque_analytic(angle: float, bearing: str, clearance: float) -> None:
+    """Regression: a torque over the squares of such levers was beyond all numbers."""
+    pins = given_pins([angle, 180.0], stiffness_N_per_m=STIFFNESS, clearance_m=clearance)
+    answer = ask(pins=pins, drive_bearing={"type": bearing})
+    assert answer.dead_points_deg[0] == pytest.approx(0.0, abs=1e-9)
+    assert answer.pins[0].load_N[0] is None
+    assert answer.peak_N is None
