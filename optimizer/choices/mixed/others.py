@@ -8,10 +8,10 @@ from dataclasses import replace
 import numpy as np
 
 from optimizer.choices.clock import Clock
+from optimizer.choices.relaxations import Relaxations, solved
 from optimizer.choices.semicontinuous.inside import BestPoint, lightened, sharing
 from optimizer.choices.semicontinuous.places import Places, root
 from optimizer.choices.semicontinuous.search import SearchGoal, search
-from optimizer.choices.semicontinuous.solved import Relaxations, solved
 from optimizer.numerics.arrays import Complex, Real, spread
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record

@@ -13,8 +13,8 @@ from optimizer.choices.discrete.branch import Work
 from optimizer.choices.discrete.options import Options
 from optimizer.choices.discrete.relaxed import hulls
 from optimizer.choices.mixed.incumbent import MixedIncumbent
+from optimizer.choices.relaxations import solved
 from optimizer.choices.semicontinuous.search import SearchGoal
-from optimizer.choices.semicontinuous.solved import solved
 from optimizer.numerics.arrays import Complex, Real, spread
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record

@@ -10,8 +10,8 @@ from dataclasses import replace
 import numpy as np
 
 from optimizer.choices.clock import Clock
+from optimizer.choices.relaxations import Relaxations, solved
 from optimizer.choices.semicontinuous.places import Places, wrapped
-from optimizer.choices.semicontinuous.solved import Relaxations, solved
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.limits import Limits
 from optimizer.program.statement import Statement
