@@ -16,11 +16,12 @@ from optimizer.choices.discrete.bound import proven, uphill
 from optimizer.choices.discrete.few import at_most, costs, offer_few
 from optimizer.choices.discrete.options import Incumbent, Options
 from optimizer.choices.discrete.relaxed import apart, on_first, relaxed
+from optimizer.choices.relaxations import solved
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
 from optimizer.program.certificate import Multipliers
-from optimizer.program.methods.compiled import both_stages
+from optimizer.program.methods.compiled import both_stages, suits_kernel
 from optimizer.program.statement import Statement
 
 #: nodes bounded at once, and options of all of them together
@@ -187,6 +188,10 @@ class Work:
         whole, parts_of, slot = self.apart
         base, program = relaxed(whole, parts_of, left[:, slot])
         count = len(left)
+        if not suits_kernel(program):
+            # over a revolution the shafts that turn faster are at other angles than the crankshaft
+            near, multipliers, nowhere = solved(program, None, np.full(count, 1e-9), np.zeros(count), False)
+            return on_first(self.options, base + near), multipliers, nowhere
         relaxation = both_stages(program, np.full(count, 1e-9), np.zeros(count), False)
         near = on_first(self.options, np.nan_to_num(base + relaxation.smallest))
         return near, relaxation.multipliers, np.zeros(count, bool)
