@@ -172,7 +172,7 @@ class Work:
             which, left = which[stays], left[stays]
         if not which.size:
             return closed, []
-        near, multipliers, nowhere = self.relaxation(left)
+        near, multipliers, nowhere = self.relaxation(left, clock)
         bound[which[nowhere]] = np.inf
         self.incumbent.offer(np.argmin(np.where(left, np.abs(options.unbalance - near[..., None]), np.inf), axis=-1))
         multipliers = self._raised(left, multipliers)
@@ -182,7 +182,7 @@ class Work:
         closed = min(closed, lowest)
         return closed, self._splits(nodes, which[~few], bound, left[~few], near[~few], multipliers.chosen(~few))
 
-    def relaxation(self, left: np.ndarray) -> tuple[Complex, Multipliers, np.ndarray]:
+    def relaxation(self, left: np.ndarray, clock: Clock) -> tuple[Complex, Multipliers, np.ndarray]:
         """Of nodes (N, K, O) the optima within discs, segments and sectors: unbalances of first webs (N, K) kg m, the
         multipliers of their bounds, and whether it is proven that nothing keeps their ceilings (N,)."""
         whole, parts_of, slot = self.apart
@@ -190,7 +190,7 @@ class Work:
         count = len(left)
         if not suits_kernel(program):
             # over a revolution the shafts that turn faster are at other angles than the crankshaft
-            near, multipliers, nowhere = solved(program, None, np.full(count, 1e-9), np.zeros(count), False)
+            near, multipliers, nowhere = solved(program, None, np.full(count, 1e-9), np.zeros(count), False, clock)
             return on_first(self.options, base + near), multipliers, nowhere
         relaxation = both_stages(program, np.full(count, 1e-9), np.zeros(count), False)
         near = on_first(self.options, np.nan_to_num(base + relaxation.smallest))
