@@ -233,13 +233,14 @@ def all_orders(loads: Loads, answer: Place, fitted: Optional[Fitted]) -> Claims:
     """Peaks of force and moment on the frame."""
     shown = answer / "residual" / "turn"
     for name, unit in NAMES.items():
-        sides = [("before", loads.curve(name))]
+        sides, added = [("before", loads.curve(name))], {"before": 0.0}
         if fitted is None:
             yield "turn", shown / "after", -ONE if shown / "after" else ONE, ONE
         else:
             sides.append(("after", loads.with_weights(name, fitted.turning, fitted.on_shafts)))
+            added["after"] = loads.of_weights(name, fitted.turning, fitted.on_shafts)
         for side, curve in sides:
             peak = peak_of(curve, shown)
-            # what weights add may be all that there is
-            off = SAMPLE * (loads.size_of(name) + peak.high)
+            # what weights add may be all that there is, and may cancel
+            off = SAMPLE * (loads.size_of(name) + peak.high + (added[side]))
             yield within("turn", shown / side / f"{name}_peak_{unit}", peak.low * (1 - 2e-8), peak.high, off)
