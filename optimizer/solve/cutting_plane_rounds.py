@@ -73,18 +73,18 @@ def in_rounds(
     """
     incumbent, level, hints = start
     # choices keep ceilings to a tolerance, which is worth something of the goal
-    gap, resolution, known = relative_gap * size, EQUAL * size, bound_beside(best.proof, CEILING_TOLERANCE)
+    gap, resolution, relaxation_bound = relative_gap * size, EQUAL * size, bound_beside(best.proof, CEILING_TOLERANCE)
     pool, points, case_of = Pool(_first_cuts(program), program.scatter), best.point.unbalance[None], program.case_of
     most = np.array([goal.most for goal in best.goals[:-1]])
     kinds = program.goal_of_case
     if program.finite is not None and incumbent is None:
         # all is known of it
         whole = choices.posed(replace(program.finite, limits=best.limits))
-        last = choices.best(Subproblem(whole, points, known, relative_gap, size, left_s()))
+        last = choices.best(Subproblem(whole, points, relaxation_bound, relative_gap, size, left_s()))
         result = last.result
-        bound = np.inf if result.lower_bound == np.inf else max(known, result.lower_bound)
+        bound = np.inf if result.lower_bound == np.inf else max(relaxation_bound, result.lower_bound)
         return last, replace(result, lower_bound=bound)
-    bound, least, chosen, stuck = known, np.inf, incumbent, not program.quantities
+    bound, least, chosen, stuck = relaxation_bound, np.inf, incumbent, not program.quantities
     if incumbent is not None:
         points = np.concatenate([points, incumbent.unbalance[None]])
         least = float(program.values(incumbent.unbalance, _CLOSE).goals[-1])
