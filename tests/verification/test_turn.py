@@ -187,3 +187,13 @@ def test_roll_alone_has_no_worst_case_of_bearings() -> None:
     found = sound_answer({"machine": body, "objective": {"roll_weight": 1.0}, "tolerances": {"unbalance_kg_m": 0.01}})
     assert found.worst_case is not None
     assert found.worst_case.bearing_peak_N is None
+
+
+def test_a_load_that_counterweights_cancel_is_judged_by_what_they_add() -> None:
+    """Regression: of a fixed weight that others balance 1e-9 N were left, and were told to doubles of themselves."""
+    fixed = {"name": "f", "position_m": -0.05, "counterweight_radius_m": 0.3}
+    webs = [fixed | {"fixed": {"mass_kg": 1.8, "angle_deg": 221.1}}, web("a", 0.05, 20.0), web("b", 0.15, 20.0)]
+    rows = [row(0.0, 0.0, connecting_rod={"length_m": 0.4})]
+    ends = [{"name": name, "position_m": place} for name, place in _ENDS]
+    body = machine([throw(0.0, 90.0, rows, rotating=0.0)], webs, bearings=ends)
+    sound_answer({"machine": body, "objective": {"bearing_weight": 1.0}, "outputs": ["main_bearings"]})
