@@ -138,13 +138,16 @@ def main_bearings(request: Place, loads: Loads, answer: Place, fitted: Optional[
         )
         before = loads.curve(f"bearing:{name}")
         circle = circle_of(before, item)
-        yield from _load(loads, own, before, item / "before", circle, angles)
+        size = max(before.size, loads.size_of("bearing"))
+        yield from _load(loads, own, before, item / "before", circle, angles, size)
         if fitted is None:
             yield "main_bearings", item / "after", -ONE if item / "after" else ONE, ONE
             continue
         by = loads.added(f"bearing:{name}", fitted.turning)
         moved = circle._replace(middle=circle.middle + by)
-        yield from _load(loads, own, before.moved(by), item / "after", moved, angles)
+        # what weights add may cancel what is there
+        size += loads.of_weights("force", fitted.turning, [])
+        yield from _load(loads, own, before.moved(by), item / "after", moved, angles, size)
     yield from _bending(loads, shown / "bending", fitted)
 
 
@@ -156,9 +159,10 @@ def circle_of(curve: Periodic, place: Place, enough: float = 0.0) -> Circle:
     return circle
 
 
-def _load(loads: Loads, own: Place, curve: Periodic, place: Place, circle: Circle, angles: Sequence[float]) -> Claims:
-    """Of one bearing."""
-    size = max(curve.size, loads.size_of("bearing"))
+def _load(
+    loads: Loads, own: Place, curve: Periodic, place: Place, circle: Circle, angles: Sequence[float], size: float
+) -> Claims:
+    """Of one bearing. ``size``: of all that adds up to its load [N]."""
     off = SAMPLE * size
     x, y = list(place / "force_x_N"), list(place / "force_y_N")
     yield "main_bearings", place, ONE if len(x) == len(y) == len(angles) else -ONE, ONE
@@ -201,13 +205,15 @@ def _bending(loads: Loads, place: Place, fitted: Optional[Fitted]) -> Claims:
     curves = [loads.curve(f"bending:{plane!r}") for plane in planes]
     after = [] if fitted is None else [loads.with_weights(f"bending:{plane!r}", fitted.turning) for plane in planes]
     yield same("main_bearings", Place(len(list(place / "after_Nm")), *(place / "after_Nm").path), len(after))
+    # what weights add may cancel what is there
+    added = 0.0 if fitted is None else loads.of_weights("force", fitted.turning, []) * (planes[-1] - planes[0])
+    off = SAMPLE * (loads.size_of("bending") + added)
     peaks: List[Peak] = []
     for of_planes, samples in ((curves, place / "before_Nm"), (after, place / "after_Nm")):
         peaks = [peak_of(curve, samples) for curve in of_planes] or peaks
         yield "main_bearings", samples, ONE if len(list(samples)) == len(of_planes) else -ONE, ONE
         for peak, item in zip(peaks, samples):
-            yield within("main_bearings", item, peak.low * (1 - PEAK), peak.high, SAMPLE * loads.size_of("bending"))
-    off = SAMPLE * loads.size_of("bending")
+            yield within("main_bearings", item, peak.low * (1 - PEAK), peak.high, off)
     low, high = max(item.low for item in peaks), max(item.high for item in peaks)
     yield within("main_bearings", place / "peak_Nm", low * (1 - PEAK), high, off)
     ends = list(place / "peak_bracket_Nm")
@@ -233,13 +239,14 @@ def all_orders(loads: Loads, answer: Place, fitted: Optional[Fitted]) -> Claims:
     """Peaks of force and moment on the frame."""
     shown = answer / "residual" / "turn"
     for name, unit in NAMES.items():
-        sides = [("before", loads.curve(name))]
+        sides, added = [("before", loads.curve(name))], {"before": 0.0}
         if fitted is None:
             yield "turn", shown / "after", -ONE if shown / "after" else ONE, ONE
         else:
             sides.append(("after", loads.with_weights(name, fitted.turning, fitted.on_shafts)))
+            added["after"] = loads.of_weights(name, fitted.turning, fitted.on_shafts)
         for side, curve in sides:
             peak = peak_of(curve, shown)
-            # what weights add may be all that there is
-            off = SAMPLE * (loads.size_of(name) + peak.high)
+            # what weights add may be all that there is, and may cancel
+            off = SAMPLE * (loads.size_of(name) + peak.high + (added[side]))
             yield within("turn", shown / side / f"{name}_peak_{unit}", peak.low * (1 - 2e-8), peak.high, off)

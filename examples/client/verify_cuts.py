@@ -64,7 +64,8 @@ class Part:
         self.turn = Turn(request, machine, loads or rolls)
         limits = [*names, *(CEILINGS.values() if self.all else ())]
         self.limited = any("_ceiling_" in name and goal / name for name in limits)
-        self.of_shaft, self.over_turn = loads, loads or rolls or self.all
+        self.of_shaft = loads and any((goal / name).value not in (None, 0) for name in names if name != "roll_weight")
+        self.over_turn = loads or rolls or self.all
         if loads and self.turn.spans is None:
             raise NotCovered(request / "machine" / "bearings")
         for row in self.turn.rows if self.over_turn else ():

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
-from typing import Dict, List, NamedTuple, Sequence
+from typing import Dict, Generator, List, NamedTuple, Sequence
 
+from verify_alternatives import CLAIM, Worth, every
 from verify_answer import Fitted
 from verify_bearings import within
 from verify_cases import Scatter, nominal
 from verify_ceilings import margins
-from verify_claims import Claims, near
+from verify_claims import Claim, Claims, near
 from verify_cuts import Part
 from verify_levels import WIDE, levels
 from verify_machine import NAMES, ON_FRAME, Machine
 from verify_nominal import NO_SCATTER, fixed_alone, nominal_optimum, nominal_part
-from verify_numbers import ABOUT_ONE, ONE, ZERO, Number, Place, largest
+from verify_numbers import ABOUT_ONE, ONE, ZERO, Number, Place, largest, real
 from verify_values import Value, most, off_sizes
 from verify_weights import listed
+
+LOADS = "main_bearings"
 
 
 class Program(NamedTuple):
@@ -39,6 +42,7 @@ def values(request: Place, answer: Place, program: Program, fitted: Fitted) -> C
         most_there = float(program.machine.budget)
         rooms["max_total_mass"] = 1 - float(fitted.mass) / most_there if most_there > 0 else 0.0
     yield from listed("active_limits", answer / "active_limits", rooms)
+    yield from _columns(answer / "bearing_columns", there[0])
     if list(request / "objective" / "priorities"):
         yield from levels(request, answer, program.named, there, rest, fitted)
     first = program.parts[0]
@@ -49,13 +53,54 @@ def values(request: Place, answer: Place, program: Program, fitted: Fitted) -> C
     value, nothing = (most([case.goal(last) for case in side]) for side in (there, rest))
     off = WIDE * nothing.high
     yield within("objective", proof / "objective", value.low, value.high, off)
-    yield within("before", proof / "objective_without_counterweights", nothing.low, nothing.high, off)
+    rest_of = proof / "objective_without_counterweights"
+    yield within("before", rest_of, nothing.low, nothing.high, off)
+    if not rest_of and nothing.low > off:
+        # a row of a sweep has the reference value alone
+        yield within("yardstick", proof / "yardstick", nothing.low, nothing.high, off)
     if answer / "worst_case":
         yield from _worst_case(answer / "worst_case", proof / "objective", there)
     if answer / "price_of_robustness":
         as_it_is = Value(nominal_part(request, program.machine, program.parts), fitted, NO_SCATTER).goal(last)
         yield within("price", answer / "price_of_robustness" / "nominal", as_it_is.low, as_it_is.high, off)
         yield from nominal_optimum(request, program.machine, program.parts, program.off, answer)
+
+
+def cheaper(request: Place, answer: Place, program: Program, best: Fitted) -> Claims:
+    """Cheaper choices beside the best one, by what they come to in all cases."""
+    rest = [Value(part, fixed_alone(program.machine, best), program.off) for part in program.parts]
+
+    def judged(entry: Place, there: Fitted) -> Generator[Claim, None, Worth]:
+        cases, place = [Value(part, there, program.off) for part in program.parts], entry / "objective"
+        yield from margins(entry / "counterweights", cases, rest, True)
+        if not program.parts[0].over_turn:
+            value = _exact(program, there)
+            return Worth(value, near(CLAIM, place, value * ABOUT_ONE))
+        between, nothing = (most([case.goal(program.named[-1]) for case in side]) for side in (cases, rest))
+        off = WIDE * nothing.high
+        return Worth(real(between.low - off), within(CLAIM, place, between.low, between.high, off))
+
+    yield from every(request, answer, program.machine, judged)
+
+
+def _exact(program: Program, there: Fitted) -> Number:
+    """What goals of the first order come to in all cases."""
+    sizes = off_sizes(program.parts[0], there)
+    placed = ((part, part.placed(there).first) for part in program.parts)
+    return largest(ZERO, *(part.value(weights, program.off, sizes) for part, weights in placed))
+
+
+def _columns(place: Place, there: Value) -> Claims:
+    """Loads of bearings and bending moments, of which a row of a sweep has the largest."""
+    turn, loads = there.part.turn, there.part.loads if place.value else None
+    for name in turn.bearings if loads else ():
+        peak = there.response(f"bearing:{name}")
+        yield within(LOADS, place / f"bearing_peak_N.{name}", peak.low, peak.high, WIDE * peak.high)
+    if loads and turn.bearings:
+        peak, planes = there.bearings(), loads.planes
+        yield within(LOADS, place / "peak_bearing_load_N", peak.low, peak.high, WIDE * peak.high)
+        peak = most([there.response(f"bending:{plane!r}") for plane in planes])
+        yield within(LOADS, place / "peak_bending_Nm", peak.low, peak.high, WIDE * peak.high)
 
 
 def _worst_case(place: Place, objective: Place, there: Sequence[Value]) -> Claims:
@@ -84,11 +129,14 @@ def _exactly(request: Place, answer: Place, program: Program, fitted: Fitted) ->
     sizes = off_sizes(program.parts[0], fitted)
     nothing = [ZERO for _ in sizes]
     parts = [(part, part.placed(fitted).first) for part in program.parts]
-    value = largest(ZERO, *(part.value(weights, program.off, sizes) for part, weights in parts))
+    value = _exact(program, fitted)
     rest = largest(ZERO, *(part.value(part.machine.there, program.off, nothing) for part, _ in parts))
     # what is off by itself is multiplied in doubles too
     yield near("objective", proof / "objective", value * ABOUT_ONE)
     yield near("before", proof / "objective_without_counterweights", rest * ABOUT_ONE)
+    if not proof / "objective_without_counterweights" and rest.low > 0:
+        # a row of a sweep has the reference value alone
+        yield near("yardstick", proof / "yardstick", rest * ABOUT_ONE)
     if worst:
         yield near("worst_case", worst / "objective", value * ABOUT_ONE)
         for name, unit in NAMES.items():

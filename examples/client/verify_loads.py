@@ -129,6 +129,14 @@ class Loads:
                 curve = curve.moved(size * mass.co.middle(), ratio - 1).moved(size * mass.counter.middle(), -ratio - 1)
         return curve
 
+    def of_weights(self, response: str, weights: Sequence[Mass], on_shafts: Sequence[Tuple[int, Mass]]) -> float:
+        """What weights add to a response on the frame at most, whatever of it cancels."""
+        sizes = [*((1, mass) for mass in weights), *on_shafts]
+        parts = (
+            ratio**2 * abs(self.factor(response, mass.position) * mass.product.middle().real) for ratio, mass in sizes
+        )
+        return self.square * sum(parts)
+
     def factor(self, response: str, position: Number) -> float:
         """What a newton in a plane adds to a response."""
         value: float = self.turn.factor(response, position).middle().real

@@ -29,6 +29,8 @@ UNSURE = 1e-9
 ORDERED = "crank_orders"  # a design that varies the crank angles instead of axes
 #: of a certificate what no row has, and what it has with its multipliers alone
 NO_COLUMN, WITH_MULTIPLIERS = "objective_without_counterweights", "mass_objective_limit"
+#: how columns begin that hold loads of bearings and bending moments
+LOADS = ("bearing_peak_N.", "peak_bearing_load_N", "peak_bending_Nm")
 #: columns without which it is not told whether a row is optimal
 OF_STATUS = {"objective", "lower_bound", "yardstick"}
 
@@ -259,6 +261,7 @@ def _row(request: Place, row: Place, chosen: bool) -> Claims:
         "balance_shafts": shafts if status != "infeasible" else [],
         "balance_shafts_mass_kg": (row / "balance_shafts_mass_kg").value,
         "residual": {"after": peaks, "responses": list(_beside(row))} if status != "infeasible" else {"after": None},
+        "bearing_columns": {name: row.value[name] for name in row.value if name.startswith(LOADS)},
         "certificate": proofs if status != "infeasible" else None,
         "infeasibility": {**proofs, "conflict": limits} if status == "infeasible" else None,
     }
@@ -323,6 +326,6 @@ def _column(path: Path, start: int, answer: Any) -> Path:
         return (*row, f"{name}_peak_{ON_FRAME[name].unit}")
     if inner[:2] == ("infeasibility", "conflict"):
         return (*row, "status")
-    if inner[:1] in (("certificate",), ("infeasibility",)):
+    if inner[:1] in (("certificate",), ("infeasibility",), ("bearing_columns",)):
         return (*row, *inner[1:2])
     return path

@@ -123,7 +123,9 @@ def _evaluated(
     fitted = yield from _fitted(after, answer, machines[1])
     turning = fitted.first
     if not chosen:
-        there = {(entry / "web").text(): entry for entry in request / "counterweights"}
+        webs = (web for web in request / "machine" / "webs" if web / "fixed")
+        there = {(web / "name").text(): web / "fixed" for web in webs}
+        there.update({(entry / "web").text(): entry for entry in request / "counterweights"})
         every = [entry for shaft in [answer, *(answer / "balance_shafts")] for entry in shaft / "counterweights"]
         for entry in every:
             place = there.get((entry / "web").text(), Place({"mass_kg": 0.0, "angle_deg": 0.0}))

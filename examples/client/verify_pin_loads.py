@@ -135,9 +135,7 @@ def _load(turn: Turn, entry: Place, k: int) -> Claims:
     if not (pins.loose or (pins.dead and not pins.formula) or len(torque.angles) * pins.count > MANY):
         largest = peak(pins, k, torque)
     if largest is None:
-        # at a dead point without a torque an error strains what nothing turns: the peak leaves that out
-        usual = [abs(load) for load, angle in zip(loads, turn.angles) if not pins.is_dead(angle)]
-        yield from _unclear(entry, max(usual, default=0.0))
+        yield from _unclear(entry, max(map(abs, loads), default=0.0))
     else:
         yield from _peak(turn, entry, k, largest)
     return loads

@@ -135,7 +135,8 @@ class Pins:
         major, minor, along = shape
         if abs(minor - LINE * major) <= 1e-4 * LINE * major:
             raise NotCovered(Place({}, "request"))
-        return [] if minor > LINE * major else [degrees(along) % 180, degrees(along) % 180 + 180]
+        first = _round(degrees(along)) % 180
+        return [] if minor > LINE * major else [first, first + 180]
 
     def _shapes(self) -> None:
         """Of all that carries: the pins, and the drive's bearing."""
@@ -220,6 +221,12 @@ class Turn(NamedTuple):
     def is_unbounded(self) -> bool:
         """Whether there is one anywhere."""
         return not self.pins.formula and any(self.torque.at(dead) for dead in self.pins.dead)
+
+
+def _round(angle: float) -> float:
+    """A round figure [degrees] where rounding alone keeps an angle off it: a torque may be 0 there alone."""
+    figure = round(angle, 6)
+    return figure if abs(angle - figure) < 1e-10 else angle
 
 
 def ellipse(offsets: List[complex], weights: List[float]) -> Tuple[float, float, float]:

@@ -19,7 +19,7 @@ from verify_cuts import FIELDS, SHAFTS
 from verify_first import excess, implied_alone, light, near_the_bound, priced_at, searched, smallest
 from verify_first import proven as exactly
 from verify_goals import Program as Asked
-from verify_goals import values
+from verify_goals import cheaper, values
 from verify_machine import ENTRY_FIELDS, NAMES, NOTHING, Machine
 from verify_misplacement import misplacement
 from verify_multipliers import Program
@@ -76,6 +76,7 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
         yield from light(first.statements[0], proof, rows, fitted.mass)
     goals_of = Asked([*program.parts.values()], program.named, program.off, machine, program.rows)
     yield from covered(values(request, answer, goals_of, fitted))
+    yield from covered(cheaper(request, answer, goals_of, fitted))
     yield from covered(_nominal(request, machine, answer))
     if slopes:
         yield from covered(costs(request, answer, machine, program.first, terms, slopes))

@@ -82,7 +82,9 @@ def uphill(
         better = result > value
         value, best = np.where(better, result, value), np.where(better[:, None], y, best)
         up = norms.constant + u @ norms.influence.T
-        step = np.maximum(target - result, 0.0) / np.maximum(np.sum(np.abs(up) ** 2, axis=-1), 1e-300)
+        # rows whose multipliers are all 0 prove nothing, whatever their terms
+        rise = np.where(np.isfinite(result), np.maximum(target - result, 0.0), 0.0)
+        step = rise / np.maximum(np.sum(np.abs(up) ** 2, axis=-1), 1e-300)
         y = y + step[:, None] * up
         size = np.abs(y)
         y = np.where(size > allowed, y * (allowed / np.where(size > 0, size, 1.0)), y)

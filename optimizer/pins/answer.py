@@ -7,7 +7,7 @@ import numpy as np
 from optimizer.numerics.arrays import Real
 from optimizer.pins.contact import Contact
 from optimizer.pins.energy import compared, pitch_energy
-from optimizer.pins.loads import PeriodicTable, at_dead_point, degrees_of_freedom, gas_torques, levers, peaks
+from optimizer.pins.loads import PeriodicTable, degrees_of_freedom, gas_torques, levers, peaks
 from optimizer.pins.pattern import Pattern, pattern_of
 from schemas.base.mappings import or_mapping
 from schemas.scroll.over_turn import ForceTable, TorqueTable
@@ -39,9 +39,7 @@ def pin_loads(request: PinLoadsRequest) -> PinLoadsAnswer:
     watched = np.concatenate([angle, torque.angle_deg, np.arange(0.0, 360.0, 45.0) + pattern.phase_deg[0]])
     contact = pattern.contact(torque.at(angle), angle) if pattern.has_clearance else None
     load = pattern.loads(torque.at(angle), angle) if contact is None else pattern.with_rest(contact.load)
-    stuck = np.zeros(angle.shape, dtype=bool)
-    if not pattern.formula:
-        stuck = at_dead_point(angle, pattern.dead_deg) & (torque.at(angle) != 0.0)
+    stuck = _stuck(pattern, torque, angle)
     equilibrium = _equilibrium(pattern, torque, watched)
     unbounded = not pattern.formula and bool(np.any(torque.at(pattern.dead_deg) != 0.0))
     peak, peak_angle = _peaks(pattern, torque)
@@ -107,6 +105,11 @@ def _periodic(torque: float | TorqueTable | ForceTable | None) -> PeriodicTable:
     return PeriodicTable(np.zeros(1), np.array([float(torque or 0.0)]))
 
 
+def _stuck(pattern: Pattern, torque: PeriodicTable, angle_deg: Real) -> np.ndarray:
+    """Whether a torque acts at shaft angles (...) where nothing holds it: the loads there have no meaning."""
+    return pattern.at_dead_point(angle_deg) & (torque.at(angle_deg) != 0.0)
+
+
 def _without(values: Real, left_out: np.ndarray) -> tuple[float | None, ...]:
     return tuple(None if out else value for value, out in zip(values.tolist(), left_out.tolist(), strict=True))
 
@@ -124,9 +127,10 @@ def _peaks(pattern: Pattern, torque: PeriodicTable) -> tuple[Real, Real]:
 
     def size(angle_deg: Real) -> Real:
         load = np.abs(pattern.loads(torque.at(angle_deg), angle_deg))
-        return np.where(at_dead_point(angle_deg, pattern.dead_deg)[..., None], 0.0, load)
+        return np.where(_stuck(pattern, torque, angle_deg)[..., None], 0.0, load)
 
-    return _refined_peaks(size, np.concatenate([np.arange(0.0, 360.0, _GRID_DEG), torque.angle_deg]))
+    # what errors strain at a dead point stands there alone: beside it the scroll turns until they do not
+    return _refined_peaks(size, np.concatenate([np.arange(0.0, 360.0, _GRID_DEG), torque.angle_deg, pattern.dead_deg]))
 
 
 def _refined_peaks(size: Callable[[Real], Real], grid_deg: Real) -> tuple[Real, Real]:
@@ -134,12 +138,15 @@ def _refined_peaks(size: Callable[[Real], Real], grid_deg: Real) -> tuple[Real, 
     on_grid = size(grid_deg)
     best = grid_deg[np.argmax(on_grid, axis=0)]
     half, pin = _GRID_DEG, np.arange(best.size)
+    # the best so far is the first of equal ones: it stays on a dead point or an entry of the table
+    parts = np.append(0.0, np.delete(np.linspace(-1.0, 1.0, _PARTS + 1), _PARTS // 2))
     for _ in range(_REFINEMENTS):
-        near = best[:, None] + half * np.linspace(-1.0, 1.0, _PARTS + 1)
-        values = size(near)[pin[:, None], np.arange(_PARTS + 1), pin[:, None]]
+        near = best[:, None] + half * parts
+        values = size(near)[pin[:, None], np.arange(parts.size), pin[:, None]]
         best = near[pin, np.argmax(values, axis=-1)]
         half *= 2.0 / _PARTS
-    return np.max(values, axis=-1), np.mod(best, 360.0)
+    peak = np.max(values, axis=-1)
+    return peak, np.where(peak > 0.0, np.mod(best, 360.0), 0.0)
 
 
 def _equilibrium(pattern: Pattern, torque: PeriodicTable, angle: Real) -> PinEquilibrium:
@@ -147,10 +154,8 @@ def _equilibrium(pattern: Pattern, torque: PeriodicTable, angle: Real) -> PinEqu
     moment = torque.at(angle)
     load = pattern.loads(moment, angle)
     lever = levers(pattern.places, angle)
-    stuck = np.zeros(angle.shape, dtype=bool)
-    dead = np.zeros(0)
-    if not pattern.formula:
-        stuck, dead = at_dead_point(angle, pattern.dead_deg), torque.at(pattern.dead_deg)
+    stuck = _stuck(pattern, torque, angle)
+    dead = np.zeros(0) if pattern.formula else torque.at(pattern.dead_deg)
     turned = np.where(stuck, 0.0, np.sum(load * lever, axis=-1) - moment)
     net = np.where(stuck, 0.0, np.sum(load, axis=-1))
     moment_error = float(max(np.max(np.abs(turned)), np.max(np.abs(dead), initial=0.0)))

@@ -8,7 +8,7 @@ from optimizer.mechanics.angles import direction
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.records import record
 from optimizer.pins.contact import Contact, pin_contact
-from optimizer.pins.loads import LoadShapes, Pins, dead_points, elastic_loads, even_pin_loads, levers
+from optimizer.pins.loads import LoadShapes, Pins, at_dead_point, dead_points, elastic_loads, even_pin_loads, levers
 from schemas.scroll.pin_loads import PinLoadsRequest
 
 
@@ -58,19 +58,25 @@ class Pattern:
     def _with_drive(self, pins: Real, drive: float) -> Real:
         return np.append(pins, drive) if 0.0 < self.drive < np.inf else pins
 
+    def at_dead_point(self, angle_deg: Real) -> np.ndarray:
+        """Whether no loads hold a torque at shaft angles (...); the formula has loads at any."""
+        return np.zeros(np.shape(angle_deg), dtype=bool) if self.formula else at_dead_point(angle_deg, self.dead_deg)
+
     def contact(self, torque: Real, angle_deg: Real) -> Contact:
         """Loads with clearances, those of an elastic bearing the last; a rigid one holds the shift at 0."""
-        lever = levers(self.pins.place, angle_deg)
+        dead = self.at_dead_point(angle_deg)
+        # levers are equal at a dead point, and no turn of the scroll changes a strain; digits alone would differ
+        lever = np.where(dead[..., None], 0.0, levers(self.pins.place, angle_deg))
         clearance, error = self._with_drive(self.clearance, 0.0), self._with_drive(self.error, 0.0)
-        return pin_contact(lever, torque, self.pins.stiffness, clearance, error, held=self.held)
+        return pin_contact(lever, np.where(dead, 0.0, torque), self.pins.stiffness, clearance, error, held=self.held)
 
     def loads(self, torque: Real, angle_deg: Real) -> Real:
-        """(..., n) N, or (..., n + 1) with the drive's bearing; without meaning at dead points."""
+        """(..., n) N, or (..., n + 1) with the drive's bearing; at dead points, which hold no torque, those of none."""
         if self.formula:
             return even_pin_loads(torque, self.radius[0], self.count, angle_deg - self.phase_deg[0])
         if self.has_clearance:
             return self.with_rest(self.contact(torque, angle_deg).load)
-        return self.with_rest(elastic_loads(torque, self.pins, angle_deg))
+        return self.with_rest(elastic_loads(np.where(self.at_dead_point(angle_deg), 0.0, torque), self.pins, angle_deg))
 
     def with_rest(self, load: Real) -> Real:
         """Loads with what a rigid bearing carries: the rest of the net force."""

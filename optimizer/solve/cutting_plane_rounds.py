@@ -21,6 +21,7 @@ from optimizer.program.cuts.optimum import CertifiedOptimum
 from optimizer.program.cuts.row_generation import FEW, MANY, single_group
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.methods.discs import in_discs
+from optimizer.solve.answer_fields import bound_beside
 
 #: width of the brackets by which choices are told apart, as a share of goals and ceilings
 _CLOSE = 1e-10
@@ -71,18 +72,19 @@ def in_rounds(
     left_s : what is left of the time limit.
     """
     incumbent, level, hints = start
-    gap, resolution = relative_gap * size, EQUAL * size
+    # choices keep ceilings to a tolerance, which is worth something of the goal
+    gap, resolution, relaxation_bound = relative_gap * size, EQUAL * size, bound_beside(best.proof, CEILING_TOLERANCE)
     pool, points, case_of = Pool(_first_cuts(program), program.scatter), best.point.unbalance[None], program.case_of
     most = np.array([goal.most for goal in best.goals[:-1]])
     kinds = program.goal_of_case
     if program.finite is not None and incumbent is None:
         # all is known of it
         whole = choices.posed(replace(program.finite, limits=best.limits))
-        last = choices.best(Subproblem(whole, points, best.proof.bound, relative_gap, size, left_s()))
+        last = choices.best(Subproblem(whole, points, relaxation_bound, relative_gap, size, left_s()))
         result = last.result
-        bound = np.inf if result.lower_bound == np.inf else max(best.proof.bound, result.lower_bound)
+        bound = np.inf if result.lower_bound == np.inf else max(relaxation_bound, result.lower_bound)
         return last, replace(result, lower_bound=bound)
-    bound, least, chosen, stuck = best.proof.bound, np.inf, incumbent, not program.quantities
+    bound, least, chosen, stuck = relaxation_bound, np.inf, incumbent, not program.quantities
     if incumbent is not None:
         points = np.concatenate([points, incumbent.unbalance[None]])
         least = float(program.values(incumbent.unbalance, _CLOSE).goals[-1])

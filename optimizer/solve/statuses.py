@@ -104,8 +104,8 @@ class SearchProof(NamedTuple):
 
     @property
     def lower_bound(self) -> float:
-        """Of the last goal, over omega^2."""
-        return -np.inf if self.bounds is None else self.ended.lower_bound
+        """Of the last goal, over omega^2: of what keeps the ceilings, so that of what does not nothing is proven."""
+        return -np.inf if self.bounds is None or not self.ended.feasible else self.ended.lower_bound
 
 
 def status_of(

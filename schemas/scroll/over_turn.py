@@ -11,6 +11,8 @@ from schemas.base.rules import Rule, Ruled, first_of
 from schemas.base.units import Unit, between, symmetric
 
 MAX_TABLE = 3601
+#: degrees between entries; a table may be steep, but it does not jump
+LEAST_STEP_DEG = 1e-9
 
 # the ranges keep every product and quotient of them far inside the floating-point numbers
 LEAST_PIN_RADIUS_M, LARGEST_PIN_RADIUS_M = 1e-6, 1e6
@@ -50,7 +52,7 @@ class ForceTable(Ruled):
 
 def _table_rules(angles: tuple[float, ...], values: tuple[float, ...], name: str) -> Iterator[Rule]:
     rising = [
-        Rule(left >= right, ("angle_deg", k), "the angles must rise")
+        Rule(right - left < LEAST_STEP_DEG, ("angle_deg", k), f"the angles must rise, by {LEAST_STEP_DEG:g} at least")
         for k, (left, right) in enumerate(pairwise(angles), start=1)
     ]
     if len(values) != len(angles):

@@ -369,3 +369,20 @@ def test_what_castings_on_shafts_lack_is_named(
     with pytest.raises(InvalidRequest) as refused:
         check(OptimizeRequest, {"machine": machine})
     assert [problem.path for problem in refused.value.problems] == [("machine", *path)]
+
+
+def test_a_choice_may_use_the_tolerance_of_a_ceiling() -> None:
+    """Regression: a choice above a ceiling by its tolerance comes to less than what keeps it, which is no fault."""
+    castings = {"catalogue_masses_kg": [1.0, 2.0], "hole_angles_deg": [0, 90, 180, 270]}
+    machine = {
+        "kind": "reciprocating",
+        "speed_rpm": 1e5,
+        "throws": [throw(0.0, 180.0, [], rotating=5.76) | {"crank_radius_m": 1e3}],
+        "webs": [{"name": "a", "position_m": -500.0, "counterweight_radius_m": 500.0, "max_mass_kg": None}],
+        "balance_shafts": [shaft("b", -2, -490.0, 4.0, x_m=1e3, y_m=3e3, radius=500.0, **castings)],
+    }
+    goal = {"roll_weight": 1e-4, "force_weight": 1e-9, "moment_weight": 1e-4, "force_ceiling_x_N": 0.0}
+    found = sound_answer({"machine": machine, "objective": goal})
+    assert found.status == "optimal"
+    # analytic: what turns is taken in another plane
+    assert found.counterweights[0].mass_kg == pytest.approx(11.52, rel=1e-8)

@@ -12,6 +12,7 @@ from optimizer.optimize import optimize
 from optimizer.program.verdict import CONTRADICTED
 from optimizer.solve import choice as certified_choice
 from optimizer.solve.cutting_plane_rounds import in_rounds
+from optimizer.solve.statuses import _NOTHING_FEASIBLE
 from schemas.answer.answers import OptimizeAnswer
 from schemas.request.requests import OptimizeRequest
 from tests.night import every, part
@@ -27,6 +28,7 @@ from tests.optimize.choices import (
     twin,
     two_webs,
 )
+from tests.optimize.test_catalogue import twin as catalogue_twin
 from tests.studies.sweep.single import assert_row_is_the_single_answer, sweep, table
 from tests.verification.checking import optimized
 from tests.verification.every import unchecked
@@ -219,3 +221,18 @@ def test_a_goal_below_its_bound_contradicts(monkeypatch: pytest.MonkeyPatch) -> 
     assert (answer.status, answer.status_reason) == ("inaccurate", CONTRADICTED)
     assert answer.certificate is not None
     assert [goal.lower_bound for goal in answer.certificate.goals] == [None]
+
+
+def test_what_exceeds_the_ceilings_contradicts_no_bound_of_what_keeps_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Regression: a search that the time ended before any choice kept the ceilings was called a fault."""
+
+    def late(*given: Any) -> tuple[Choice, SearchResult]:
+        picked, found = in_rounds(*given)
+        nothing = picked._replace(mass=0 * picked.mass, angle=0 * picked.angle, unbalance=0 * picked.unbalance)
+        # more than there is without counterweights
+        return nothing, replace(found, feasible=False, lower_bound=2.0 * given[4], ended="time")
+
+    monkeypatch.setattr(certified_choice, "in_rounds", late)
+    body = {"machine": catalogue_twin(), "objective": {"force_ceiling_N": 20_000.0}}
+    answer = unchecked(optimize)(OptimizeRequest.model_validate(body))
+    assert (answer.status, answer.status_reason) == ("inaccurate", _NOTHING_FEASIBLE)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mpmath import mp
 from scipy.optimize import minimize
 
 from optimizer.numerics.enclosing_circle import smallest_circle
@@ -63,3 +64,23 @@ def test_it_is_what_a_minimisation_finds() -> None:
         options={"xatol": 1e-10, "fatol": 1e-12, "maxiter": 4000},
     )
     assert smallest_circle(points).radius == pytest.approx(found.fun, rel=1e-7)
+
+
+@settings(max_examples=100, deadline=None)
+@given(st.integers(0, 10**6), st.sampled_from([1e-3, 1e-6, 1e-8, 1e-10]))
+def test_points_that_all_but_coincide_are_held_by_no_more_than_their_circle(seed: int, apart: float) -> None:
+    """Independent: in 60 digits. Of two points next to each other and one across the longest was 4e-8 too long."""
+    rng = np.random.default_rng(seed)
+    turn, offset = np.exp(1j * rng.uniform(0.0, 2 * np.pi)), complex(*rng.normal(size=2))
+    points = np.array([1.0, np.exp(1j * apart), np.exp(1j * (np.pi + apart * rng.uniform(0.2, 0.8)))]) * turn + offset
+    with mp.workdps(60):
+        first, second, third = (mp.mpc(point) for point in points.tolist())
+        sides = abs(second - third), abs(third - first), abs(first - second)
+        squares = sorted(side**2 for side in sides)
+        area = abs(mp.im(mp.conj(second - first) * (third - first))) / 2
+        acute = squares[0] + squares[1] > squares[2]
+        exact = mp.fprod(sides) / (4 * area) if acute and area > 0 else max(sides) / 2
+        found = mp.mpf(smallest_circle(points).radius)
+        size = float(abs(offset)) + 1.0
+        assert found <= exact + 4e-16 * size
+        assert found >= exact * (1 - mp.mpf("1e-12"))

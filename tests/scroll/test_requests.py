@@ -83,6 +83,9 @@ def without(body: dict[str, Any], name: str) -> dict[str, Any]:
 
 
 REFUSED = [
+    pytest.param(
+        table([0.0, 1e-309, 180.0], [1.0, 2.0, 3.0]), ("rotation_torque_Nm", "table", "angle_deg", 1), id="a jump"
+    ),
     pytest.param(without(EVEN, "pin_count") | {"pin_circle_radius_m": None}, ("pin_count",), id="no pins"),
     pytest.param({**PINS, "pin_count": 3}, ("pin_count",), id="pins twice"),
     pytest.param({**PINS, "pin_circle_radius_m": 0.05}, ("pin_circle_radius_m",), id="a circle for given pins"),

@@ -112,6 +112,21 @@ def test_the_rows_of_a_sweep(name: str) -> None:
 _SPEEDS = [{"path": "/machine/speed_rpm", "values": [500, 700]}]
 
 
+@pytest.mark.parametrize("features", [("bearing weight",), ("orders all",)])
+def test_rows_over_the_turn_are_held_with_reference_values_and_loads(features: tuple[str, ...]) -> None:
+    body = {"base": body_of("twin", features, 1.0), "axes": _SPEEDS, "multipliers": True}
+    table = swept(body)
+    assert verdict(body, table) == "held"
+    columns = ["yardstick", *(name for name in table[0] if name.startswith(("bearing_peak_N", "peak_b")))]
+    assert len(columns) > 3 or features == ("orders all",)
+    for row in table:
+        for column in columns:
+            for wrong in (row[column] * (1 + 1e-6), row[column] * (1 - 1e-6)):
+                right, row[column] = row[column], wrong
+                assert is_broken(body, table), column
+                row[column] = right
+
+
 @pytest.mark.parametrize("more", part(2, [{"multipliers": True}, {}, {"details": True}]))
 @pytest.mark.parametrize(
     "features", [("bearing weight",), ("plates, sectors",), ("ceilings out of reach",), ("priorities", "orders all")]

@@ -31,6 +31,19 @@ def test_a_genuine_assignment_is_held(files: tuple[Answer, Answer]) -> None:
     }
 
 
+def test_a_fixed_weight_is_on_its_web_whatever_is_listed() -> None:
+    """Regression: it was taken for a counterweight that nobody asked for."""
+    design = machine([0.0, 180.0, 90.0, 270.0], [0.0] * 4)
+    place = {"name": "w", "position_m": 0.1, "counterweight_radius_m": 0.2}
+    design["webs"] = [place | {"fixed": {"mass_kg": 2.0, "angle_deg": 30.0}}]
+    body = {"machine": design, "parts": parts(1, 4, 4)}
+    sent = MatchRequest.model_validate(body).model_dump(mode="json", by_alias=True)
+    answer = matched(body).model_dump(mode="json", by_alias=True)
+    assert checker().verify(sent, answer)["verdict"] == "held"
+    answer["counterweights"][0]["mass_kg"] = 2.1
+    assert checker().verify(sent, answer)["verdict"] == "broken"
+
+
 def swap_names(answer: Answer) -> None:
     first, second = answer["assignments"][:2]
     first["part"], second["part"] = second["part"], first["part"]

@@ -63,6 +63,11 @@ _WITH_CLEARANCE: dict[str, dict[str, Any]] = {
         "pins": _LOOSE,
         "drive_bearing": {"type": "elastic", "stiffness_N_per_m": 5e7},
     },
+    "an error at a dead point": {
+        "pins": [{**pin, "stiffness_N_per_m": 2e7, "eccentricity_error_m": 4e-6 * n} for n, pin in enumerate(_LINE)],
+        "rotation_torque_Nm": {"angle_deg": [30, 120, 210, 300], "torque_Nm": [0.0, 2.0, 0.0, -2.0]},
+        "angles": _ANGLES,
+    },
 }
 #: what may be off by a millionth: where a curve is level, what rounding leaves, and what has kinks
 _LEVEL = {
@@ -96,6 +101,13 @@ def test_with_clearance_all_but_peaks_between_samples_are_held(name: str) -> Non
     found = checker().verify(*_pair(name))
     assert found["verdict"] == "not covered"
     assert all(where.rpartition("/")[2] in _BETWEEN for where in found["not_covered"]), found["not_covered"]
+
+
+def test_a_peak_below_what_an_error_strains_at_a_dead_point_is_broken() -> None:
+    """All of what two pins carry at the points is their strain, 40 N; beside them no more than T' / 2 R."""
+    request, answer = _pair("an error at a dead point")
+    assert answer["pins"][0]["load_N"][1] == pytest.approx(-40.0) or answer["pins"][0]["load_N"][1] == pytest.approx(40)
+    assert is_broken(request, replaced(answer, ("pins", 0, "peak_N"), 0.9 * answer["pins"][0]["peak_N"]))
 
 
 @pytest.mark.parametrize("step", [5, pytest.param(1, marks=pytest.mark.nightly)])

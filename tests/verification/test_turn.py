@@ -17,8 +17,9 @@ from schemas.request.requests import OptimizeRequest
 from service.verification import checker
 from tests.night import part
 from tests.optimize.machines import machine, row, throw, web
+from tests.optimize.shafts import shaft, single
 from tests.verification.anything import JSON, judged, paths, replaced
-from tests.verification.checking import broken, is_broken
+from tests.verification.checking import broken, is_broken, sound_answer
 
 _BEARINGS = [
     {"name": name, "position_m": place, "diameter_m": 0.05, "length_m": 0.03 + 0.01 * k}
@@ -29,6 +30,9 @@ _WEBS = [
     web("b", 0.25, 8.0, sector={"centre_deg": 140.0, "half_angle_deg": 35.0}),
     web("c", 0.65, 30.0, 0.15),
 ]
+
+
+_ENDS = (("A", -0.3), ("B", 0.3))
 
 
 def _machine(webs: list[dict[str, Any]] = _WEBS, **more: Any) -> dict[str, Any]:
@@ -167,3 +171,29 @@ def test_terms_of_what_there_is_not_prove_nothing(response: str, angle: float | 
     assert "lower_bound" not in _claims(body, answer)
     nowhere = {**body, "machine": {**body["machine"], "bearings": []}}
     assert "lower_bound" not in _claims(nowhere, answer)
+
+
+def test_a_moment_that_shafts_cancel_is_judged_by_what_they_add() -> None:
+    """Regression: 1e-6 N m are left of 1400, and doubles were taken to tell them to 2e-8."""
+    throws = [throw(0.0, 12.4, [row(6.8, 1.55, connecting_rod={"length_m": 0.222})], rotating=9.8)]
+    body = machine(throws, [], balance_shafts=[shaft("s", -2, 0.435, 4.0), shaft("t", -2, 0.451, 4.0)])
+    goal = {"orders": "all", "combine": "max", "force_weight": 1e-9, "moment_weight": 1.0}
+    sound_answer({"machine": body, "objective": goal})
+
+
+def test_roll_alone_has_no_worst_case_of_bearings() -> None:
+    """Regression: a machine with bearings whose goal is the roll was to print the load of one."""
+    body = single([shaft("s", -1, 0.1, 4.0, x_m=0.1)], bearings=[{"name": n, "position_m": z} for n, z in _ENDS])
+    found = sound_answer({"machine": body, "objective": {"roll_weight": 1.0}, "tolerances": {"unbalance_kg_m": 0.01}})
+    assert found.worst_case is not None
+    assert found.worst_case.bearing_peak_N is None
+
+
+def test_a_load_that_counterweights_cancel_is_judged_by_what_they_add() -> None:
+    """Regression: of a fixed weight that others balance 1e-9 N were left, and were told to doubles of themselves."""
+    fixed = {"name": "f", "position_m": -0.05, "counterweight_radius_m": 0.3}
+    webs = [fixed | {"fixed": {"mass_kg": 1.8, "angle_deg": 221.1}}, web("a", 0.05, 20.0), web("b", 0.15, 20.0)]
+    rows = [row(0.0, 0.0, connecting_rod={"length_m": 0.4})]
+    ends = [{"name": name, "position_m": place} for name, place in _ENDS]
+    body = machine([throw(0.0, 90.0, rows, rotating=0.0)], webs, bearings=ends)
+    sound_answer({"machine": body, "objective": {"bearing_weight": 1.0}, "outputs": ["main_bearings"]})

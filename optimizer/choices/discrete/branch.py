@@ -16,11 +16,12 @@ from optimizer.choices.discrete.bound import proven, uphill
 from optimizer.choices.discrete.few import at_most, costs, offer_few
 from optimizer.choices.discrete.options import Incumbent, Options
 from optimizer.choices.discrete.relaxed import apart, on_first, relaxed
+from optimizer.choices.relaxations import solved
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
 from optimizer.program.certificate import Multipliers
-from optimizer.program.methods.compiled import both_stages
+from optimizer.program.methods.compiled import both_stages, suits_kernel
 from optimizer.program.statement import Statement
 
 #: nodes bounded at once, and options of all of them together
@@ -171,7 +172,7 @@ class Work:
             which, left = which[stays], left[stays]
         if not which.size:
             return closed, []
-        near, multipliers, nowhere = self.relaxation(left)
+        near, multipliers, nowhere = self.relaxation(left, clock)
         bound[which[nowhere]] = np.inf
         self.incumbent.offer(np.argmin(np.where(left, np.abs(options.unbalance - near[..., None]), np.inf), axis=-1))
         multipliers = self._raised(left, multipliers)
@@ -181,12 +182,16 @@ class Work:
         closed = min(closed, lowest)
         return closed, self._splits(nodes, which[~few], bound, left[~few], near[~few], multipliers.chosen(~few))
 
-    def relaxation(self, left: np.ndarray) -> tuple[Complex, Multipliers, np.ndarray]:
+    def relaxation(self, left: np.ndarray, clock: Clock) -> tuple[Complex, Multipliers, np.ndarray]:
         """Of nodes (N, K, O) the optima within discs, segments and sectors: unbalances of first webs (N, K) kg m, the
         multipliers of their bounds, and whether it is proven that nothing keeps their ceilings (N,)."""
         whole, parts_of, slot = self.apart
         base, program = relaxed(whole, parts_of, left[:, slot])
         count = len(left)
+        if not suits_kernel(program):
+            # over a revolution the shafts that turn faster are at other angles than the crankshaft
+            near, multipliers, nowhere = solved(program, None, np.full(count, 1e-9), np.zeros(count), False, clock)
+            return on_first(self.options, base + near), multipliers, nowhere
         relaxation = both_stages(program, np.full(count, 1e-9), np.zeros(count), False)
         near = on_first(self.options, np.nan_to_num(base + relaxation.smallest))
         return near, relaxation.multipliers, np.zeros(count, bool)

@@ -81,7 +81,7 @@ def search(
             return chosen, result
         incumbent.offer(chosen[None])
     if exhaust(options, every, incumbent, _most_sums(incumbent), _PAIRS, clock):
-        return _chosen(incumbent), SearchResult(True, incumbent.least, 0, EXHAUSTED, True)
+        return _chosen(incumbent), SearchResult(True, max(at_least, incumbent.least), 0, EXHAUSTED, True)
     gap = relative_gap * yardstick if relative_gap > EQUAL else -resolution
     nodes, floor = 0, at_least
 
@@ -102,7 +102,8 @@ def search(
             offer_light_sets(incumbent, below, relaxed, enough, light, sizes, at_least + gap)
         if ample:
             quarters(incumbent, enough, half)
-        bound = min(at_least, incumbent.least)
+        # a tree ends above what was offered; what any masses come to does not, or it contradicts that
+        bound = max(floor, min(at_least, incumbent.least))
         closed = incumbent.least - bound <= max(gap, 0.0)
         if closed or clock.spent():
             break

@@ -8,10 +8,10 @@ from dataclasses import replace
 import numpy as np
 
 from optimizer.choices.clock import Clock
+from optimizer.choices.relaxations import Relaxations, solved
 from optimizer.choices.semicontinuous.inside import BestPoint, lightened, sharing
 from optimizer.choices.semicontinuous.places import Places, root
 from optimizer.choices.semicontinuous.search import SearchGoal, search
-from optimizer.choices.semicontinuous.solved import Relaxations, solved
 from optimizer.numerics.arrays import Complex, Real, spread
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
@@ -70,7 +70,7 @@ class Others:
         room = np.maximum(limits.max_mass, self._speck)
         return replace(about, limits=replace(limits, max_mass=room, max_total_mass=left))
 
-    def optima(self, programs: Statement, share: Real | None = None) -> Relaxations:
+    def optima(self, programs: Statement, share: Real | None = None, clock: Clock | None = None) -> Relaxations:
         """Of programs (M,) of these webs, whatever their least masses.
 
         Parameters
@@ -79,7 +79,7 @@ class Others:
         """
         count = len(programs.floor)
         level = np.full(count, _SHARE) if share is None else share
-        result = solved(programs, None, level, np.zeros(count), share is not None)
+        result = solved(programs, None, level, np.zeros(count), share is not None, clock)
         # what is a speck is nothing
         some = (self.most > 0) & (programs.limits.max_total_mass > self._speck)[:, None]
         return result._replace(unbalance=np.where(some, result.unbalance, 0.0))
@@ -96,7 +96,7 @@ class Others:
         ----------
         below : objectives from which on a set is not worth a closer look.
         """
-        points = self.optima(programs).unbalance
+        points = self.optima(programs, clock=clock).unbalance
         if not self.semicontinuous:
             return points
         light = np.any((np.abs(points) > 0) & (np.abs(points) < self.least), axis=-1)

@@ -73,7 +73,8 @@ def search(
     _alternate(incumbent, points[0], Clock(_ALTERNATING * goal.time_limit_s), lambda: incumbent.least - at_least <= gap)
     work = MixedWork(options, incumbent, gap, below, goal.yardstick)
     tree = tree_of(work, at_least, lambda bound: False, clock)
-    bound = min(max(at_least, tree.lower_bound), incumbent.least)
+    # a tree ends above what was offered; what any masses come to does not, or it contradicts that
+    bound = max(at_least, min(tree.lower_bound, incumbent.least))
     closed = incumbent.least - bound <= gap
     result = SearchResult(True, bound, tree.nodes, TREE, ended=None if closed else tree.ended)
     share = min(goal.share, max(bound + gap - incumbent.least, 0.0))

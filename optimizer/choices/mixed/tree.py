@@ -13,8 +13,8 @@ from optimizer.choices.discrete.branch import Work
 from optimizer.choices.discrete.options import Options
 from optimizer.choices.discrete.relaxed import hulls
 from optimizer.choices.mixed.incumbent import MixedIncumbent
+from optimizer.choices.relaxations import solved
 from optimizer.choices.semicontinuous.search import SearchGoal
-from optimizer.choices.semicontinuous.solved import solved
 from optimizer.numerics.arrays import Complex, Real, spread
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
@@ -50,7 +50,7 @@ class MixedWork(Work):
         statement = replace(self.statement, limits=replace(self.statement.limits, alike=None))
         return statement, np.arange(self.options.slots) if alike is None else alike.owner
 
-    def relaxation(self, left: np.ndarray) -> tuple[Complex, Multipliers, np.ndarray]:
+    def relaxation(self, left: np.ndarray, clock: Clock) -> tuple[Complex, Multipliers, np.ndarray]:
         statement, slot = self.loose
         options = self.options
         webs = replace(
@@ -58,7 +58,7 @@ class MixedWork(Work):
         )
         base, limits = self._around(webs, left[:, slot])
         program = replace(statement.about(base), limits=limits)
-        result = solved(program, None, np.full(len(left), _SHARE), np.zeros(len(left)), False)
+        result = solved(program, None, np.full(len(left), _SHARE), np.zeros(len(left)), False, clock)
         near = (base + result.unbalance)[:, : slot.size]
         near = near if options.alike is None else options.alike.means(near)
         return near, result.multipliers, result.nowhere
@@ -98,7 +98,7 @@ class MixedWork(Work):
         chosen = np.argmax(left[decided], axis=-1)
         self.best.offer(chosen)
         below = self.best.programs(chosen, self.statement)
-        relaxations = self.best.others.optima(below)
+        relaxations = self.best.others.optima(below, clock=clock)
         least = np.maximum(objective_lower_bound(below, relaxations.multipliers), bound[decided])
         least = np.where(relaxations.nowhere, np.inf, least)
         open_sets = np.flatnonzero(least < self.incumbent.least - self.gap).tolist()

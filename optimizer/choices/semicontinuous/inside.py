@@ -10,8 +10,8 @@ from dataclasses import replace
 import numpy as np
 
 from optimizer.choices.clock import Clock
+from optimizer.choices.relaxations import Relaxations, solved
 from optimizer.choices.semicontinuous.places import Places, wrapped
-from optimizer.choices.semicontinuous.solved import Relaxations, solved
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.limits import Limits
 from optimizer.program.statement import Statement
@@ -37,9 +37,11 @@ class BestPoint:
         self.least = np.inf  # smallest objective
         self.unbalance: Complex | None = None  # (K,) kg m
 
-    def solved(self, programs: Statement, share: Real, gap: Real, least_mass: bool) -> Relaxations:
-        """Optima of N programs in all or some of what is added to points (N, K)."""
-        return solved(programs, self.places.alike, share, gap, least_mass)
+    def solved(
+        self, programs: Statement, share: Real, gap: Real, least_mass: bool, clock: Clock | None = None
+    ) -> Relaxations:
+        """Optima of N programs in all or some of what is added to points (N, K), as far as there is time."""
+        return solved(programs, self.places.alike, share, gap, least_mass, clock)
 
     def offer(self, u: Complex) -> Real:
         """Take the best of points (M, K) kg m, or stay; their objectives (M,), inf of what breaks a limit."""

@@ -66,7 +66,8 @@ def search(
             return first, result
         incumbent.offer(first[None])
     tree = branch(incumbent, at_least, gap, lambda bound: False, clock, below or statement)
-    bound = min(max(at_least, tree.lower_bound), incumbent.least)
+    # a tree ends above what was offered; what any masses come to does not, or it contradicts that
+    bound = max(at_least, min(tree.lower_bound, incumbent.least))
     share = min(goal.share, max(bound + gap - incumbent.least, 0.0))
     best = first if incumbent.unbalance is None else incumbent.unbalance
     lightest = lightened(incumbent, best, share, clock)

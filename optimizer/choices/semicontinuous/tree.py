@@ -69,7 +69,7 @@ def _bounded(
     count = inherited.size
     program = relaxed(statement, places)
     close = max(gap, _CLOSE)
-    relaxations = incumbent.solved(program, np.full(count, 1e-3 * close), np.full(count, 0.1 * close), False)
+    relaxations = incumbent.solved(program, np.full(count, 1e-3 * close), np.full(count, 0.1 * close), False, clock)
     near = np.where(places.out, 0.0, relaxations.unbalance)
     multipliers = replace(
         relaxations.multipliers, ceiling=relaxations.multipliers.ceiling[:, : statement.ceilings.cap.size]

@@ -97,9 +97,21 @@ def _around(few, last, held, weights):  # type: ignore[no-untyped-def]
             total = share + two + three
             share, two, three = share / total, two / total, three / total
             middle = share * few[k] + two * few[m] + three * few[last]
-            size = max(abs(few[k] - middle), abs(few[m] - middle), abs(few[last] - middle))
+            size = _mean(few[k] - middle, few[m] - middle, few[last] - middle, share, two, three)
             if size > radius:
                 centre, radius, number = middle, size, 3
                 held[0], held[1], held[2] = k, m, last
                 weights[0], weights[1], weights[2] = share, two, three
     return centre, radius, number
+
+
+@inner
+def _mean(first, second, third, share, two, three):  # type: ignore[no-untyped-def]
+    """Root of the weighted mean square of three lengths: no more than any centre leaves, however weights are rounded.
+
+    Of points that all but coincide the weights lose digits, and the longest of the three would be too long.
+    """
+    a, b, c = abs(first), abs(second), abs(third)
+    most = max(a, b, c, SMALLEST)
+    a, b, c = a / most, b / most, c / most
+    return most * np.sqrt(share * a * a + two * b * b + three * c * c)

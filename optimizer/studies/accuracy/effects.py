@@ -152,7 +152,8 @@ def _by_search(torque: Torque, breaks: Real, turns: int = 1) -> Figures:
     beside = np.max(np.abs(torque(np.concatenate([breaks - _BESIDE, breaks + _BESIDE]))))
     turn = panels(breaks, _WIDEST_PANEL, halved=True, turns=turns)
     highest = np.max(np.abs(torque(turn.angle)).reshape(turn.start.size, -1), axis=-1)
-    held = (highest > _NEARLY * np.max(highest)) & (turn.width > 0)
+    # of a torque that is 0 everywhere all panels hold the peak
+    held = (highest >= _NEARLY * np.max(highest)) & (turn.width > 0)
     within = np.linspace(0.0, 1.0, _WITHIN)
     angle = (turn.start[held, None] + turn.width[held, None] * within).ravel()
     best = int(np.argmax(np.abs(torque(angle))))

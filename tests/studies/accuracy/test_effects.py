@@ -140,3 +140,10 @@ def test_only_machines_with_the_data_have_a_ladder() -> None:
     )
     quantities = {key[0] for key in ladder(dry.model_copy(update={"throws": throws, "friction": None}))}
     assert quantities == {"peak_inertia_torque", "inertia_fluctuation_energy"}
+
+
+def test_rows_without_a_mass_have_a_torque_of_nothing() -> None:
+    """Regression: no panel held the peak of a torque that is 0 everywhere, and the search failed."""
+    found = ladder(machine(throw(0.0, row(90.0, 0.0))))
+    assert found
+    assert all(not row.relative_error for row in found.values())

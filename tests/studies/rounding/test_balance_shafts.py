@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from optimizer.analyze import analyze
+from optimizer.choices.discrete import search as discrete
 from optimizer.errors import OutOfRange
 from optimizer.optimize import optimize
 from optimizer.studies.rounding.round import round_weights
@@ -173,3 +174,12 @@ def test_the_report_counts_what_is_on_the_shafts() -> None:
         "on balance shafts, kg",
     ]
     assert str(table.rows[2]).count("'2'") == 1
+
+
+def test_a_tree_over_a_revolution_takes_shafts_at_twice_the_speed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Regression: what turns faster has influences with a phase, which the compiled kernel does not take."""
+    monkeypatch.setattr(discrete, "_SUMS", 0)
+    machine = in_line_four([shaft("a", 2, 0.1), shaft("b", -2, 0.26)])
+    request = {"machine": machine, "objective": {"orders": "all"}, "accuracy": {"time_limit_s": 5}}
+    found = round_weights(RoundRequest.model_validate({"request": request, "mass_step_kg": 0.5, "angle_step_deg": 15}))
+    assert found.status == "optimal"

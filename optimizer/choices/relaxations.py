@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from optimizer.choices.clock import Clock
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, nothing_proven
@@ -27,13 +28,16 @@ class Relaxations(NamedTuple):
     nowhere: np.ndarray  # (N,) bool: proven that nothing keeps their ceilings
 
 
-def solved(program: Statement, alike: Alike | None, share: Real, gap: Real, least_mass: bool) -> Relaxations:
+def solved(
+    program: Statement, alike: Alike | None, share: Real, gap: Real, least_mass: bool, clock: Clock | None = None
+) -> Relaxations:
     """Optima of N programs whose webs are alike.
 
     Parameters
     ----------
     share, gap : (N,) how far above the smallest objective an optimum may be, and the gap that is asked for.
     least_mass : the lightest of the optima, in place of any.
+    clock : ends what is done one by one; of programs after that the point is 0, and nothing is proven.
     """
     nowhere = np.zeros(gap.shape, bool)
     whole = program if alike is None else united(program, alike) if alike.plain else None
@@ -43,6 +47,8 @@ def solved(program: Statement, alike: Alike | None, share: Real, gap: Real, leas
         return Relaxations(np.nan_to_num(u if alike is None else apart(u, alike)), result.multipliers, nowhere)
     points, multipliers = np.zeros(program.limits.radius.shape, complex), nothing_proven(program)
     for n in range(len(points)):
+        if clock is not None and clock.spent():
+            break
         statement = program.chosen(n)
         statement = replace(statement, limits=replace(statement.limits, alike=alike))
         near = max(float(share[n]), _CLOSE * float(statement.at_rest))
