@@ -20,14 +20,14 @@ run: $(kernels)
 	$(bin)/counterweight serve
 
 # Kernels are compiled while what tests need is installed, and the code is checked while kernels are compiled, browsers
-# downloaded and tests run: many tests wait for other processes (tests/distribution.py), so two cores have room for five.
+# downloaded and tests run: many tests wait for other processes (tests/distribution.py), so two cores have room for seven.
 test: export PYTHONDONTWRITEBYTECODE :=
 test:
 	$(MAKE) --no-print-directory --jobs 3 lint tests
 
 # not by the command of pytest, which every process that a test starts workers from would run anew
 tests: mono bytecode $(kernels)
-	$(bin)/python -m pytest --numprocesses 5 -m "not nightly"
+	$(bin)/python -m pytest --numprocesses 7 -m "not nightly"
 
 # what goes wrong first, within a minute: for between the changes, not in place of all tests
 quick: .venv/development $(kernels)

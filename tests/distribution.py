@@ -1,8 +1,8 @@
 """Which process runs which tests of a parallel run, and in which order.
 
-Half of the processes begin with the tests that wait for other processes (servers, browsers, FreeCAD), the other half
-with those that compute: so neither the cores are idle, nor start all servers at once. What is long comes first: the
-last files decide when the run ends.
+Most processes begin with the tests that wait for other processes (servers, browsers, FreeCAD), which leave the cores
+idle half of the time; one of four with those that compute, at the lowest priority, as they fill what is left of the
+cores until the end. What is long comes first: the last files decide when the run ends.
 """
 
 from collections import defaultdict, deque
@@ -10,8 +10,10 @@ from collections.abc import Iterable
 from pathlib import Path
 
 TESTS = Path(__file__).parent
-#: folders whose tests mostly wait for other processes
-WAITING = ("browser", "clients", "deploy", "docs", "freecad", "jobs", "network", "service")
+#: of so many processes one begins with what computes
+_COMPUTES = 4
+#: folders, and files beside them, whose tests mostly wait for other processes
+WAITING = ("browser", "clients", "deploy", "docs", "freecad", "jobs", "network", "service", "test_forks.py")
 #: folders whose files share a server that is long in starting: one process runs all of it
 TOGETHER = ("browser", "clients", "freecad")
 #: of those, what would end last: from this file on another process runs it, in the order of the names
@@ -115,6 +117,11 @@ def _unit(name: str) -> str:
         return file
     half = HALVES.get(folder)
     return half if half is not None and file >= half else folder
+
+
+def begins_with_what_waits(number: int) -> bool:
+    """Whether a process of a run does so, and not with what computes."""
+    return number % _COMPUTES != 1
 
 
 def waits(unit: str) -> bool:

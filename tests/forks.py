@@ -24,12 +24,15 @@ import pytest
 from _pytest.capture import CaptureManager
 
 from tests.commands import share_mould
-from tests.distribution import Distribution
+from tests.distribution import Distribution, begins_with_what_waits
 from tests.mould import PR_SET_PDEATHSIG, prctl
 
 _FORK = multiprocessing.get_context("fork")
 #: what only the process does that prints and counts
 _OF_THE_FIRST = ("terminalreporter", "lfplugin", "nfplugin", "stepwiseplugin")
+#: of what begins with tests that compute: sweeps of services are nicer by 15, and who waits for them would wait for all
+#: that is computed beside them
+_NICE = 19
 #: between two looks at processes that say nothing [s]
 _LOOK_S = 1.0
 #: at the end of a run that is broken off, for a process to end [s]
@@ -114,7 +117,7 @@ class Run:
             share_mould()
         try:
             for number in range(processes):
-                self._start(waiting=number % 2 == 0, unit=deque())
+                self._start(waiting=begins_with_what_waits(number), unit=deque())
             # not before all have their first, which may be all that there is
             for worker in self._workers.values():
                 self._send(worker)
@@ -130,7 +133,7 @@ class Run:
     def _start(self, waiting: bool, unit: deque[int]) -> Worker:
         ours, theirs = _FORK.Pipe()
         others = (ours, *self._workers)
-        process = _FORK.Process(target=work, args=(self._session, theirs, others, next(self._numbers)))
+        process = _FORK.Process(target=work, args=(self._session, theirs, others, next(self._numbers), waiting))
         process.start()
         theirs.close()
         worker = self._workers[ours] = Worker(process, ours, waiting, unit)
@@ -203,9 +206,13 @@ def _end(code: int | None) -> str:
     return f"exit code {code}" if code is None or code >= 0 else signal.Signals(-code).name
 
 
-def work(session: pytest.Session, connection: Connection, others: Iterable[Connection], number: int) -> NoReturn:
+def work(
+    session: pytest.Session, connection: Connection, others: Iterable[Connection], number: int, waiting: bool
+) -> NoReturn:
     """In a process: the tests that are sent, until there is none."""
     prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
+    if not waiting:
+        os.nice(_NICE)
     # by which it would not be missed that the first process has ended
     for other in others:
         other.close()

@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests.distribution import HALVES, LONG, TESTS, TOGETHER, WAITING, Distribution, waits
+from tests.distribution import HALVES, LONG, TESTS, TOGETHER, WAITING, Distribution, begins_with_what_waits, waits
 
 
 def taken(collection: list[str], *waiting: bool) -> list[list[str]]:
@@ -15,7 +15,12 @@ def names(file: str, count: int) -> list[str]:
     return [f"tests/{file}::test_{number}" for number in range(count)]
 
 
-def test_half_begin_with_what_waits_and_half_with_what_computes() -> None:
+@pytest.mark.parametrize(("processes", "computing"), [(2, 1), (4, 1), (7, 2)])
+def test_some_compute_from_the_beginning(processes: int, computing: int) -> None:
+    assert [begins_with_what_waits(number) for number in range(processes)].count(False) == computing
+
+
+def test_some_begin_with_what_waits_and_others_with_what_computes() -> None:
     files = {"mechanics/test_rod.py": 40, "jobs/test_store.py": 4, "schemas/test_units.py": 9, "network/test_cut.py": 5}
     collection = [one for file, count in files.items() for one in names(file, count)]
     units = taken(collection, True, False, True, False, True)
