@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 from _pytest.mark.structures import ParameterSet
+from hypothesis import settings
 
 #: whether nothing is left to the night: as at night itself, and under mutants
 ALL = os.environ.get("CHECKED_ANSWERS") == "every"
@@ -23,6 +24,11 @@ def part(count: int, values: Iterable[Any], rows: bool = False) -> list[Any]:
     """
     sets = [one if isinstance(one, ParameterSet) or not rows else pytest.param(*one) for one in values]
     return sets if ALL else every(count, sets)
+
+
+def by_day(examples: int) -> settings:
+    """Of a property so many examples by day, where each takes long; by night and under mutants as many as of others."""
+    return settings() if ALL else settings(max_examples=examples)
 
 
 def but(day: Container[Any], values: Iterable[Any]) -> list[Any]:
