@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from optimizer.optimize import optimize
 from schemas.request.requests import OptimizeRequest
 from service.verification import checker
+from tests.night import by_day
 from tests.pairs.asking import body_of
 from tests.verification.anything import JSON, judged, paths, replaced
 from tests.verification.checking import ALL, broken, is_broken, optimized, verdict
@@ -177,6 +178,7 @@ _ASKED_AND_ANSWERED = {"request": SINGLE["ceilings"], "answer": _ANSWER}
 _PLACES = [path for path in paths(_ASKED_AND_ANSWERED) if path]
 
 
+@by_day(8)
 @given(st.lists(st.tuples(st.sampled_from(_PLACES), JSON), min_size=1, max_size=3))
 def test_nothing_that_is_sent_raises(changes: list[tuple[tuple[str | int, ...], Any]]) -> None:
     """Any JSON in any place of request and answer is judged, or refused by name."""

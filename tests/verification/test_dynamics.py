@@ -33,7 +33,7 @@ _OUTPUTS = (
 )
 
 
-@pytest.mark.parametrize("name", night.part(2, ["dynamics", "four strokes", "gas", "indicated pressure"]))
+@pytest.mark.parametrize("name", night.part(4, ["dynamics", "four strokes", "gas", "indicated pressure"]))
 def test_every_claim_is_held(name: str) -> None:
     found = checker().verify(*pair(name))
     assert (found["verdict"], found["not_covered"]) == ("held", [])

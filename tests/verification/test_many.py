@@ -112,7 +112,7 @@ def test_the_rows_of_a_sweep(name: str) -> None:
 _SPEEDS = [{"path": "/machine/speed_rpm", "values": [500, 700]}]
 
 
-@pytest.mark.parametrize("more", part(2, [{"multipliers": True}, {}, {"details": True}]))
+@pytest.mark.parametrize("more", part(3, [{"multipliers": True}, {}, {"details": True}]))
 @pytest.mark.parametrize(
     "features", [("bearing weight",), ("plates, sectors",), ("ceilings out of reach",), ("priorities", "orders all")]
 )
