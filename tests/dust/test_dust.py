@@ -36,7 +36,7 @@ _REGRESSIONS = (
 )  # fmt: skip
 
 
-@pytest.mark.parametrize(("mode", "seed"), part(2, _REGRESSIONS, rows=True))
+@pytest.mark.parametrize(("mode", "seed"), part(3, _REGRESSIONS, rows=True))
 def test_dust_stays_away(mode: str, seed: int) -> None:
     """Regression: webs left empty that no optimum needs, and plates of one size."""
     found = judgement(mode, seed)

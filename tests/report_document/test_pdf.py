@@ -26,7 +26,7 @@ def read(content: bytes) -> tuple[PdfReader, str]:
     return reader, re.sub(r"\s|\u200b", "", text)
 
 
-@pytest.mark.parametrize("example", part(2, ["2d12", "v8-cross-plane", "scroll-three-pins"]))
+@pytest.mark.parametrize("example", part(3, ["2d12", "v8-cross-plane", "scroll-three-pins"]))
 def test_pages_are_a4_tagged_and_numbered(made: Make, example: str) -> None:
     document = made(example)
     reader, text = read(pdf(document))
