@@ -1,7 +1,7 @@
 """Which process runs which tests of a parallel run, and in which order.
 
 Most processes begin with the tests that wait for other processes (servers, browsers, FreeCAD), which leave the cores
-idle half of the time; one of four with those that compute, at the lowest priority, as they fill what is left of the
+idle half of the time; one of four with those that compute, at a lower priority, as they fill what is left of the
 cores until the end. What is long comes first: the last files decide when the run ends.
 """
 
@@ -120,8 +120,13 @@ def _unit(name: str) -> str:
 
 
 def begins_with_what_waits(number: int) -> bool:
-    """Whether a process of a run does so, and not with what computes."""
+    """Whether a process of a run does so, by its number, and not with what computes."""
     return number % _COMPUTES != 1
+
+
+def divides(name: str) -> bool:
+    """Whether tests of the unit of a test may be run by several processes: those that share a server are not."""
+    return _unit(name).split("/", 1)[0] not in TOGETHER
 
 
 def waits(unit: str) -> bool:

@@ -2,7 +2,7 @@
 
 To import all and to collect takes six seconds of a core, so it happens once. Each process runs one test at a time and
 sends its reports; it has the test after it as well, whose fixtures it may keep. tests/distribution.py says what comes
-next.
+next. The last that run share what is left of long files.
 """
 
 import multiprocessing
@@ -24,15 +24,17 @@ import pytest
 from _pytest.capture import CaptureManager
 
 from tests.commands import share_mould
-from tests.distribution import Distribution, begins_with_what_waits
+from tests.distribution import Distribution, begins_with_what_waits, divides
 from tests.mould import PR_SET_PDEATHSIG, prctl
 
 _FORK = multiprocessing.get_context("fork")
 #: what only the process does that prints and counts
 _OF_THE_FIRST = ("terminalreporter", "lfplugin", "nfplugin", "stepwiseplugin")
 #: of what begins with tests that compute: sweeps of services are nicer by 15, and who waits for them would wait for all
-#: that is computed beside them
-_NICE = 19
+#: that is computed beside them; what is nicer still would get nothing beside other programs
+_NICE = 10
+#: tests that are left of a file so that another process takes half: of fewer it would rather make fixtures anew
+_LEFT = 8
 #: between two looks at processes that say nothing [s]
 _LOOK_S = 1.0
 #: at the end of a run that is broken off, for a process to end [s]
@@ -142,13 +144,22 @@ class Run:
 
     def _send(self, worker: Worker) -> None:
         if not worker.unit and not self._stopped:
-            worker.unit.extend(self._distribution.take(worker.waiting))
+            worker.unit.extend(self._distribution.take(worker.waiting) or self._half())
         place = worker.unit.popleft() if worker.unit and not self._stopped else None
         if place is not None:
             worker.sent.append(place)
         # one that has ended is heard of where it is heard
         with suppress(BrokenPipeError):
             worker.connection.send(place)
+
+    def _half(self) -> deque[int]:
+        """Where no unit is left, the second half of the longest that another process has, lest that one ends last."""
+        items = self._session.items
+        rests = [one.unit for one in self._workers.values() if one.unit and divides(items[one.unit[0]].nodeid)]
+        longest = max(rests, key=len, default=deque())
+        if len(longest) < _LEFT:
+            return deque()
+        return deque(reversed([longest.pop() for _ in range(len(longest) // 2)]))
 
     @property
     def _stopped(self) -> bool:

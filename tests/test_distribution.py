@@ -2,7 +2,17 @@
 
 import pytest
 
-from tests.distribution import HALVES, LONG, TESTS, TOGETHER, WAITING, Distribution, begins_with_what_waits, waits
+from tests.distribution import (
+    HALVES,
+    LONG,
+    TESTS,
+    TOGETHER,
+    WAITING,
+    Distribution,
+    begins_with_what_waits,
+    divides,
+    waits,
+)
 
 
 def taken(collection: list[str], *waiting: bool) -> list[list[str]]:
@@ -57,6 +67,11 @@ def test_nothing_is_left_or_taken_twice() -> None:
 @pytest.mark.parametrize("name", [*LONG, *WAITING, *TOGETHER, *HALVES.values()])
 def test_what_is_named_is_there(name: str) -> None:
     assert (TESTS / name).exists()
+
+
+def test_who_shares_a_server_stays_together() -> None:
+    names = ("tests/browser/test_form.py", "tests/browser/test_trials.py", "tests/jobs/test_store.py")
+    assert [divides(f"{name}::test_1") for name in names] == [False, False, True]
 
 
 def test_whether_any_waits_is_known_before() -> None:
