@@ -21,7 +21,9 @@ run: $(kernels)
 
 # Kernels are compiled while what tests need is installed, and the code is checked while kernels are compiled, browsers
 # downloaded and tests run: many tests wait for other processes (tests/distribution.py), so two cores have room for seven.
+# Types take half a minute of a core: one that kernels, which tests wait for, and then their collection leave.
 test: export PYTHONDONTWRITEBYTECODE :=
+test: export behind := nice
 test:
 	$(MAKE) --no-print-directory --jobs 3 lint tests
 
@@ -67,7 +69,7 @@ mono: freecad
 lint: .venv/development
 	$(bin)/ruff check .
 	$(bin)/ruff format --check .
-	$(bin)/mypy
+	$(behind) $(bin)/mypy
 	$(bin)/lint-imports
 	$(bin)/deno lint --quiet
 	DENO_NO_UPDATE_CHECK=1 $(bin)/deno check --quiet --no-remote service/portal/static
