@@ -52,7 +52,7 @@ def _refuted(request: Any, answer: Any, output: str) -> bool:
 
 
 @pytest.mark.parametrize("some", [3, pytest.param(24, marks=pytest.mark.nightly)])
-@pytest.mark.parametrize("name", ["dynamics", "four strokes"])
+@pytest.mark.parametrize("name", night.part(2, ["dynamics", "four strokes"]))
 def test_samples_and_peaks_that_are_falsified_are_broken(name: str, some: int) -> None:
     """Of every output some numbers, whatever they are."""
     request, answer = pair(name)
