@@ -12,8 +12,11 @@ from pathlib import Path
 TESTS = Path(__file__).parent
 #: of so many processes one begins with what computes
 _COMPUTES = 4
-#: folders, and files beside them, whose tests mostly wait for other processes
-WAITING = ("browser", "clients", "deploy", "docs", "freecad", "jobs", "network", "service", "test_forks.py")
+#: folders and files whose tests mostly wait for other processes
+WAITING = (
+    "browser", "clients", "deploy", "docs", "freecad", "jobs", "network", "optimize/test_warm_up.py", "service",
+    "studies/accuracy/test_service.py", "test_forks.py",
+)  # fmt: skip
 #: folders whose files share a server that is long in starting: one process runs all of it
 TOGETHER = ("browser", "clients", "freecad")
 #: of those, what would end last: from this file on another process runs it, in the order of the names
@@ -50,8 +53,10 @@ LONG = (
     "service/test_readiness.py",
     "network/test_priorities.py",
     "network/test_cut.py",
-    "docs/test_site.py",
+    "studies/accuracy/test_service.py",
     "test_forks.py",
+    "optimize/test_warm_up.py",
+    "docs/test_site.py",
     "pairs/test_pairs.py",
     "verification/test_claims.py",
     "hard_effects/test_hard_effects.py",
@@ -60,7 +65,6 @@ LONG = (
     "benchmarks/test_sweep.py",
     "benchmarks/test_cases.py",
     "studies/accuracy/test_ladder.py",
-    "studies/accuracy/test_service.py",
     "program/test_optima.py",
     "optimize/test_engines.py",
     "hard/test_search.py",
@@ -73,11 +77,18 @@ LONG = (
     "hard/test_battery.py",
     "verification/test_dynamics.py",
     "verification/test_turn.py",
-    "optimize/test_warm_up.py",
     "studies/pareto/test_chosen_trades.py",
     "choices/test_quarters.py",
     "studies/pareto/test_reach.py",
     "report_document/test_pdf.py",
+    "numerics/test_shortcuts.py",
+    "report_document/test_head.py",
+    "choices/test_ample.py",
+    "openmdao/test_balance.py",
+    "numerics/test_compiling.py",
+    "hard/test_boundary.py",
+    "studies/sweep/test_chosen_orders.py",
+    "studies/matching/test_four_lists.py",
 )
 
 
@@ -131,4 +142,4 @@ def divides(name: str) -> bool:
 
 def waits(unit: str) -> bool:
     """Whether the tests of a unit mostly wait for other processes."""
-    return unit.split("/", 1)[0] in WAITING
+    return unit in WAITING or unit.split("/", 1)[0] in WAITING

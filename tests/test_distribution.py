@@ -79,5 +79,9 @@ def test_whether_any_waits_is_known_before() -> None:
     assert not Distribution(names("program/test_cone.py", 2)).waits
 
 
+def test_a_file_may_wait_where_its_folder_computes() -> None:
+    assert [waits(f"studies/accuracy/test_{name}.py") for name in ("service", "ladder")] == [True, False]
+
+
 def test_both_kinds_are_there() -> None:
     assert {waits(name) for name in LONG} == {True, False}
