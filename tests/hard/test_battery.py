@@ -23,7 +23,7 @@ def _name(case: Case) -> str:
     return case.name
 
 
-@pytest.mark.parametrize("case", part(2, _CASES), ids=_name)
+@pytest.mark.parametrize("case", part(4, _CASES), ids=_name)
 def test_case(case: Case) -> None:
     """Optimal within the asked gap, or infeasible where it is; nothing differs from the reference."""
     verdict = run(case, _KNOWN[stored.digest(case.body)])
