@@ -41,7 +41,7 @@ os.environ["COUNTERWEIGHT_REQUEST_TIMEOUT_S"] = "600"
 # under mutants there are a few more; HYPOTHESIS_PROFILE=night looks at twenty times as many, =thorough at many more,
 # other ones each time
 quick = {"deadline": None, "derandomize": True, "database": None, "suppress_health_check": [HealthCheck.too_slow]}
-settings.register_profile("quick", max_examples=20 if ALL else 14, **quick)
+settings.register_profile("quick", max_examples=20 if ALL else 10, **quick)
 settings.register_profile("night", max_examples=300, **quick)
 settings.register_profile("thorough", deadline=None, max_examples=1000)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))

@@ -1,8 +1,8 @@
 """Which process runs which tests of a parallel run, and in which order.
 
-Half of the processes begin with the tests that wait for other processes (servers, browsers, FreeCAD), the other half
-with those that compute: so neither the cores are idle, nor start all servers at once. What is long comes first: the
-last files decide when the run ends.
+Most processes begin with the tests that wait for other processes (servers, browsers, FreeCAD), which leave the cores
+idle half of the time; one of four with those that compute, at a lower priority, as they fill what is left of the
+cores until the end. What is long comes first: the last files decide when the run ends.
 """
 
 from collections import defaultdict, deque
@@ -10,8 +10,13 @@ from collections.abc import Iterable
 from pathlib import Path
 
 TESTS = Path(__file__).parent
-#: folders whose tests mostly wait for other processes
-WAITING = ("browser", "clients", "deploy", "docs", "freecad", "jobs", "network", "service")
+#: of so many processes one begins with what computes
+_COMPUTES = 4
+#: folders and files whose tests mostly wait for other processes
+WAITING = (
+    "browser", "clients", "deploy", "docs", "freecad", "jobs", "network", "optimize/test_warm_up.py", "service",
+    "studies/accuracy/test_service.py", "test_forks.py",
+)  # fmt: skip
 #: folders whose files share a server that is long in starting: one process runs all of it
 TOGETHER = ("browser", "clients", "freecad")
 #: of those, what would end last: from this file on another process runs it, in the order of the names
@@ -48,8 +53,10 @@ LONG = (
     "service/test_readiness.py",
     "network/test_priorities.py",
     "network/test_cut.py",
-    "docs/test_site.py",
+    "studies/accuracy/test_service.py",
     "test_forks.py",
+    "optimize/test_warm_up.py",
+    "docs/test_site.py",
     "pairs/test_pairs.py",
     "verification/test_claims.py",
     "hard_effects/test_hard_effects.py",
@@ -58,7 +65,6 @@ LONG = (
     "benchmarks/test_sweep.py",
     "benchmarks/test_cases.py",
     "studies/accuracy/test_ladder.py",
-    "studies/accuracy/test_service.py",
     "program/test_optima.py",
     "optimize/test_engines.py",
     "hard/test_search.py",
@@ -71,11 +77,18 @@ LONG = (
     "hard/test_battery.py",
     "verification/test_dynamics.py",
     "verification/test_turn.py",
-    "optimize/test_warm_up.py",
     "studies/pareto/test_chosen_trades.py",
     "choices/test_quarters.py",
     "studies/pareto/test_reach.py",
     "report_document/test_pdf.py",
+    "numerics/test_shortcuts.py",
+    "report_document/test_head.py",
+    "choices/test_ample.py",
+    "openmdao/test_balance.py",
+    "numerics/test_compiling.py",
+    "hard/test_boundary.py",
+    "studies/sweep/test_chosen_orders.py",
+    "studies/matching/test_four_lists.py",
 )
 
 
@@ -117,6 +130,16 @@ def _unit(name: str) -> str:
     return half if half is not None and file >= half else folder
 
 
+def begins_with_what_waits(number: int) -> bool:
+    """Whether a process of a run does so, by its number, and not with what computes."""
+    return number % _COMPUTES != 1
+
+
+def divides(name: str) -> bool:
+    """Whether tests of the unit of a test may be run by several processes: those that share a server are not."""
+    return _unit(name).split("/", 1)[0] not in TOGETHER
+
+
 def waits(unit: str) -> bool:
     """Whether the tests of a unit mostly wait for other processes."""
-    return unit.split("/", 1)[0] in WAITING
+    return unit in WAITING or unit.split("/", 1)[0] in WAITING

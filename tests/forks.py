@@ -2,7 +2,7 @@
 
 To import all and to collect takes six seconds of a core, so it happens once. Each process runs one test at a time and
 sends its reports; it has the test after it as well, whose fixtures it may keep. tests/distribution.py says what comes
-next.
+next. The last that run share what is left of long files.
 """
 
 import multiprocessing
@@ -24,12 +24,17 @@ import pytest
 from _pytest.capture import CaptureManager
 
 from tests.commands import share_mould
-from tests.distribution import Distribution
+from tests.distribution import Distribution, begins_with_what_waits, divides
 from tests.mould import PR_SET_PDEATHSIG, prctl
 
 _FORK = multiprocessing.get_context("fork")
 #: what only the process does that prints and counts
 _OF_THE_FIRST = ("terminalreporter", "lfplugin", "nfplugin", "stepwiseplugin")
+#: of what begins with tests that compute: sweeps of services are nicer by 15, and who waits for them would wait for all
+#: that is computed beside them; what is nicer still would get nothing beside other programs
+_NICE = 10
+#: tests that are left of a file so that another process takes half: of fewer it would rather make fixtures anew
+_LEFT = 8
 #: between two looks at processes that say nothing [s]
 _LOOK_S = 1.0
 #: at the end of a run that is broken off, for a process to end [s]
@@ -114,7 +119,7 @@ class Run:
             share_mould()
         try:
             for number in range(processes):
-                self._start(waiting=number % 2 == 0, unit=deque())
+                self._start(waiting=begins_with_what_waits(number), unit=deque())
             # not before all have their first, which may be all that there is
             for worker in self._workers.values():
                 self._send(worker)
@@ -130,7 +135,7 @@ class Run:
     def _start(self, waiting: bool, unit: deque[int]) -> Worker:
         ours, theirs = _FORK.Pipe()
         others = (ours, *self._workers)
-        process = _FORK.Process(target=work, args=(self._session, theirs, others, next(self._numbers)))
+        process = _FORK.Process(target=work, args=(self._session, theirs, others, next(self._numbers), waiting))
         process.start()
         theirs.close()
         worker = self._workers[ours] = Worker(process, ours, waiting, unit)
@@ -139,13 +144,22 @@ class Run:
 
     def _send(self, worker: Worker) -> None:
         if not worker.unit and not self._stopped:
-            worker.unit.extend(self._distribution.take(worker.waiting))
+            worker.unit.extend(self._distribution.take(worker.waiting) or self._half())
         place = worker.unit.popleft() if worker.unit and not self._stopped else None
         if place is not None:
             worker.sent.append(place)
         # one that has ended is heard of where it is heard
         with suppress(BrokenPipeError):
             worker.connection.send(place)
+
+    def _half(self) -> deque[int]:
+        """Where no unit is left, the second half of the longest that another process has, lest that one ends last."""
+        items = self._session.items
+        rests = [one.unit for one in self._workers.values() if one.unit and divides(items[one.unit[0]].nodeid)]
+        longest = max(rests, key=len, default=deque())
+        if len(longest) < _LEFT:
+            return deque()
+        return deque(reversed([longest.pop() for _ in range(len(longest) // 2)]))
 
     @property
     def _stopped(self) -> bool:
@@ -203,9 +217,13 @@ def _end(code: int | None) -> str:
     return f"exit code {code}" if code is None or code >= 0 else signal.Signals(-code).name
 
 
-def work(session: pytest.Session, connection: Connection, others: Iterable[Connection], number: int) -> NoReturn:
+def work(
+    session: pytest.Session, connection: Connection, others: Iterable[Connection], number: int, waiting: bool
+) -> NoReturn:
     """In a process: the tests that are sent, until there is none."""
     prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
+    if not waiting:
+        os.nice(_NICE)
     # by which it would not be missed that the first process has ended
     for other in others:
         other.close()

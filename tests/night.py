@@ -1,11 +1,12 @@
 """What is tried by night alone: ``make nightly``, or ``pytest tests/folder/test_file.py`` for all of one file."""
 
 import os
-from collections.abc import Container, Iterable
+from collections.abc import Callable, Container, Iterable
 from typing import Any
 
 import pytest
 from _pytest.mark.structures import ParameterSet
+from hypothesis import settings
 
 #: whether nothing is left to the night: as at night itself, and under mutants
 ALL = os.environ.get("CHECKED_ANSWERS") == "every"
@@ -23,6 +24,19 @@ def part(count: int, values: Iterable[Any], rows: bool = False) -> list[Any]:
     """
     sets = [one if isinstance(one, ParameterSet) or not rows else pytest.param(*one) for one in values]
     return sets if ALL else every(count, sets)
+
+
+def at_night(test: Callable[..., None]) -> Callable[..., None]:
+    """A test that others stand for by day; under mutants it is run as they are."""
+    return test if ALL else pytest.mark.nightly(test)
+
+
+def by_day(examples: int, by_night: int | None = None) -> settings:
+    """Of a property so many examples by day, where each takes long; by night and under mutants, if that is not said, as
+    many as of others."""
+    if ALL:
+        return settings() if by_night is None else settings(max_examples=by_night)
+    return settings(max_examples=examples)
 
 
 def but(day: Container[Any], values: Iterable[Any]) -> list[Any]:

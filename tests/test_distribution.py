@@ -2,7 +2,17 @@
 
 import pytest
 
-from tests.distribution import HALVES, LONG, TESTS, TOGETHER, WAITING, Distribution, waits
+from tests.distribution import (
+    HALVES,
+    LONG,
+    TESTS,
+    TOGETHER,
+    WAITING,
+    Distribution,
+    begins_with_what_waits,
+    divides,
+    waits,
+)
 
 
 def taken(collection: list[str], *waiting: bool) -> list[list[str]]:
@@ -15,7 +25,12 @@ def names(file: str, count: int) -> list[str]:
     return [f"tests/{file}::test_{number}" for number in range(count)]
 
 
-def test_half_begin_with_what_waits_and_half_with_what_computes() -> None:
+@pytest.mark.parametrize(("processes", "computing"), [(2, 1), (4, 1), (7, 2)])
+def test_some_compute_from_the_beginning(processes: int, computing: int) -> None:
+    assert [begins_with_what_waits(number) for number in range(processes)].count(False) == computing
+
+
+def test_some_begin_with_what_waits_and_others_with_what_computes() -> None:
     files = {"mechanics/test_rod.py": 40, "jobs/test_store.py": 4, "schemas/test_units.py": 9, "network/test_cut.py": 5}
     collection = [one for file, count in files.items() for one in names(file, count)]
     units = taken(collection, True, False, True, False, True)
@@ -54,9 +69,18 @@ def test_what_is_named_is_there(name: str) -> None:
     assert (TESTS / name).exists()
 
 
+def test_who_shares_a_server_stays_together() -> None:
+    names = ("tests/browser/test_form.py", "tests/browser/test_trials.py", "tests/jobs/test_store.py")
+    assert [divides(f"{name}::test_1") for name in names] == [False, False, True]
+
+
 def test_whether_any_waits_is_known_before() -> None:
     assert Distribution([*names("program/test_cone.py", 2), *names("jobs/test_store.py", 1)]).waits
     assert not Distribution(names("program/test_cone.py", 2)).waits
+
+
+def test_a_file_may_wait_where_its_folder_computes() -> None:
+    assert [waits(f"studies/accuracy/test_{name}.py") for name in ("service", "ladder")] == [True, False]
 
 
 def test_both_kinds_are_there() -> None:

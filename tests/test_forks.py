@@ -148,6 +148,24 @@ def test_fixtures_are_shared_within_a_process_and_end_with_it(
     assert len({line[2] for line in modules}) == len({line[3] for line in modules}) == 3
 
 
+def test_the_rest_of_a_long_file_is_shared(tmp_path: Path) -> None:
+    text = """
+import os, pathlib, pytest, time
+HERE = pathlib.Path(__file__).parent
+
+@pytest.mark.parametrize("number", range(40))
+def test_number(number):
+    (HERE / f"of-{os.getpid()}").touch()
+    # the first waits for the other process
+    while number == 0 and len(list(HERE.glob("of-*"))) < 2:
+        time.sleep(0.02)
+"""
+    folder = written(tmp_path / "tests", {"test_a.py": text})
+    result = pytest_run(folder, "-n", "2")
+    assert "40 passed" in result.stdout
+    assert len(list(folder.glob("of-*"))) == 2
+
+
 def test_a_run_stops_after_the_first_failure(tmp_path: Path) -> None:
     many = "\n".join(f"def test_{number}(): pass" for number in range(50))
     folder = written(tmp_path / "tests", {"test_a.py": "def test_wrong(): assert False\n" + many})

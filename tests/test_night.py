@@ -1,6 +1,7 @@
 """What is left to the night, and what is not under mutants."""
 
 import pytest
+from hypothesis import settings
 
 from tests import night
 
@@ -24,3 +25,25 @@ def test_what_is_of_the_night_stays_so(everything: bool, monkeypatch: pytest.Mon
     monkeypatch.setattr(night, "ALL", everything)
     slow = pytest.param(1, marks=pytest.mark.nightly)
     assert len(_by_day(night.part(1, [slow, 2]))) == 1
+
+
+@pytest.mark.parametrize(("everything", "counts"), [(False, [3, 3]), (True, [5, None])])
+def test_examples_are_fewer_by_day_alone(
+    everything: bool, counts: list[int | None], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(night, "ALL", everything)
+    usual = settings.default.max_examples
+    found = [night.by_day(3, 5).max_examples, night.by_day(3).max_examples]
+    assert found == [usual if count is None else count for count in counts]
+
+
+@pytest.mark.parametrize("everything", [False, True])
+def test_what_others_stand_for_is_tried_at_night_and_under_mutants(
+    everything: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(night, "ALL", everything)
+
+    def test() -> None: ...
+
+    marks = getattr(night.at_night(test), "pytestmark", [])
+    assert [mark.name for mark in marks] == ([] if everything else ["nightly"])

@@ -1,18 +1,19 @@
 """The lightest set within a level of the objective: what trying every set comes to (independent)."""
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from optimizer.choices.clock import Clock
 from optimizer.choices.discrete.lightest import lighter, lightest
 from tests.choices.sets import every_set, options_of
+from tests.night import by_day
 from tests.program.cases import COMBINATIONS, random_statement
 
 _LONG = 3600.0
 
 
-@settings(max_examples=40, deadline=None)
+@by_day(20, 40)
 @given(
     seed=st.integers(0, 10_000),
     webs=st.integers(1, 4),

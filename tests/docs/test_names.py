@@ -3,6 +3,7 @@
 import ast
 import re
 from collections.abc import Iterator
+from functools import cache
 
 import pytest
 
@@ -34,6 +35,7 @@ CONTRACT = {
 }
 
 
+@cache
 def is_noun(name: str) -> bool:
     """Whether no part of a name is one of the words: parts stand between underscores, or begin with a capital."""
     parts = re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+", name)

@@ -14,7 +14,7 @@ from service.common.validation import check
 from tests.dust.judgement import body_of, judgement, seeds
 from tests.dust.modes import MODES
 from tests.dust.need import is_needed, is_needed_at
-from tests.night import part
+from tests.night import ALL, part
 
 _MACHINES = 2_000
 
@@ -36,7 +36,7 @@ _REGRESSIONS = (
 )  # fmt: skip
 
 
-@pytest.mark.parametrize(("mode", "seed"), part(2, _REGRESSIONS, rows=True))
+@pytest.mark.parametrize(("mode", "seed"), part(3, _REGRESSIONS, rows=True))
 def test_dust_stays_away(mode: str, seed: int) -> None:
     """Regression: webs left empty that no optimum needs, and plates of one size."""
     found = judgement(mode, seed)
@@ -72,7 +72,7 @@ def test_web_that_an_answer_lacks_is_not_needed() -> None:
     answer = optimize(request)
     empty = [each.web for each in answer.counterweights if each.mass_kg == 0.0]
     assert empty
-    assert not any(is_needed(request, answer, web) for web in empty)
+    assert not any(is_needed(request, answer, web) for web in (empty if ALL else empty[:2]))
 
 
 @pytest.mark.nightly

@@ -23,7 +23,7 @@ def _name(case: Case) -> str:
     return case.name
 
 
-@pytest.mark.parametrize("case", part(2, _CASES), ids=_name)
+@pytest.mark.parametrize("case", part(4, _CASES), ids=_name)
 def test_case(case: Case) -> None:
     """Optimal within the asked gap, or infeasible where it is; nothing differs from the reference."""
     verdict = run(case, _KNOWN[stored.digest(case.body)])
@@ -68,7 +68,7 @@ def test_what_a_double_cannot_hold_is_called_inaccurate() -> None:
     assert not [fault for fault in verdict.faults if "bound" in fault or "below" in fault]
 
 
-@pytest.mark.parametrize("gap", part(2, [1e-9, 1e-12, 1e-15]))
+@pytest.mark.parametrize("gap", part(3, [1e-9, 1e-12, 1e-15]))
 @pytest.mark.parametrize(("place", "limit"), [(0.0, 1e9), (0.1, 1e12)])
 def test_bounds_hold_where_the_webs_can_hardly_be_told_apart(place: float, limit: float, gap: float) -> None:
     """Slopes that cancel, times a reach of up to 1e12 kg (independent: the 100-digit reference)."""

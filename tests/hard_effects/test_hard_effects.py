@@ -21,7 +21,7 @@ _STEP = 3 if ALL else 6
 
 @pytest.mark.parametrize(
     "case",
-    part(2, (case for case in CASES if case.subject not in _LONG))
+    part(4, (case for case in CASES if case.subject not in _LONG))
     + [one for subject in _LONG for one in every(_STEP, (case for case in CASES if case.subject == subject))],
     ids=lambda case: case.id,
 )

@@ -31,7 +31,7 @@ _NAMED = (
 )
 
 
-@pytest.mark.parametrize("case", part(2, (case for case in _CASES if case.name in _NAMED)), ids=lambda case: case.name)
+@pytest.mark.parametrize("case", part(3, (case for case in _CASES if case.name in _NAMED)), ids=lambda case: case.name)
 def test_case(case: Case) -> None:
     """Independent: loads at many angles, which no bound is above."""
     verdict = run(case)

@@ -20,6 +20,7 @@ from tests.docs.reading import ROOT
 from tests.jobs import postgres, synthetic
 from tests.jobs.house import House
 from tests.jobs.test_coordinator import threads
+from tests.night import at_night
 
 TEXT = (ROOT / "docs/operation.md").read_text()
 SECTION = TEXT[TEXT.index("## Backup") : TEXT.index("## Upgrade")]
@@ -96,6 +97,7 @@ def test_sqlite(tmp_path: Path) -> None:
         assert finished(restored, job, before).state == "done"
 
 
+@at_night
 def test_postgresql(tmp_path: Path) -> None:
     data, copy, again = (tmp_path / name for name in ("data", "copy", "again"))
     for folder in (data, copy, again):

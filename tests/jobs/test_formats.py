@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 
 from service.common.plain import inert
 from service.jobs.formats import ARROW_FILE, FORMATS, _groups
+from tests.night import part
 
 SCHEMA = pa.schema(
     [
@@ -108,7 +109,7 @@ def test_no_rows(name: str) -> None:
     assert (content == b"") == (name == "ndjson")
 
 
-@pytest.mark.parametrize("name", ["ndjson", "csv", "parquet", "arrow", "xlsx"])
+@pytest.mark.parametrize("name", part(2, ["ndjson", "csv", "parquet", "arrow", "xlsx"]))
 def test_memory_stays_flat(name: str) -> None:
     def batches(count: int) -> Iterator[pa.RecordBatch]:
         for k in range(count):

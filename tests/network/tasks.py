@@ -50,6 +50,14 @@ def slow(_: OptimizeRequest) -> Problem:
     return _DONE
 
 
+def mostly_idle(_: OptimizeRequest) -> Problem:
+    until = time.thread_time() + 0.1
+    while time.thread_time() < until:
+        pass
+    time.sleep(1)
+    return _DONE
+
+
 def endless(_: OptimizeRequest) -> Problem:
     time.sleep(600)
     return _DONE

@@ -33,8 +33,8 @@ def test_it_answers(pool: Pool) -> None:
 
 
 def test_a_turn_counts_for_what_its_worker_computed(pool: Pool) -> None:
-    # it sleeps for a second
-    assert isinstance(run(pool, task(tasks.slow))[0], Answer)
+    # it sleeps for a second, and computes for longer than a busy machine may take between two looks at the clock
+    assert isinstance(run(pool, task(tasks.mostly_idle))[0], Answer)
     assert 0 < pool._short._loads.of("one") < 0.3
 
 

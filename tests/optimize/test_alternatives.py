@@ -16,6 +16,7 @@ from schemas.request.accuracy import AccuracyRequest
 from schemas.request.requests import OptimizeRequest
 from schemas.sweep.request import SweepRequest
 from service.report.chapters.alternatives import alternatives as chapter
+from tests.night import part
 from tests.optimize.machines import web
 from tests.optimize.test_catalogue import every_set, twin
 from tests.verification.checking import optimized, verdict
@@ -32,7 +33,7 @@ def small(**more: Any) -> dict[str, Any]:
     return twin(webs, catalogue={"masses_kg": [3, 7.5, 16], "angle_step_deg": 180}, **more)
 
 
-@pytest.mark.parametrize("combine", ["sum", "max"])
+@pytest.mark.parametrize("combine", part(2, ["sum", "max"]))
 def test_the_cheapest_of_all_sets(combine: str) -> None:
     """Independent: every set, by the analysis of each."""
     body = small()

@@ -102,7 +102,7 @@ def two_throws(seed: int, shafts: list[dict[str, Any]]) -> dict[str, Any]:
 
 @pytest.mark.parametrize("seed", part(5, range(9)))
 @pytest.mark.parametrize("combine", part(2, ["sum", "max"]))
-@pytest.mark.parametrize("back", [-1, 1])
+@pytest.mark.parametrize("back", part(2, [-1, 1]))
 def test_no_set_is_better(seed: int, combine: str, back: int) -> None:
     # independent: all sets, each with a program of cvxpy
     machine = two_throws(seed, [shaft("a", back, 0.1, 12.0), shaft("b", -1, 0.25, 5.0)][: 1 + seed % 2])
@@ -205,7 +205,7 @@ CASES = [
 @pytest.mark.parametrize(
     "goal",
     part(
-        2,
+        4,
         [
             {},
             {"orders": "all"},

@@ -113,6 +113,7 @@ def test_none_keeps_them() -> None:
     assert found.infeasibility.conflict == ("moment_ceiling_y_Nm",)
 
 
+@night.at_night
 def test_least_masses() -> None:
     """Independent: of both of two webs fitted, one or none, those of a grid that keep a ceiling."""
     machine = two_webs()

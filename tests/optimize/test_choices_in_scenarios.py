@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.night import at_night
 from tests.optimize.test_grouped_choices import PAIRS, every_set
 from tests.optimize.test_mirrored_groups import alike, grouped
 from tests.optimize.test_web_groups import RADIUS, objective
@@ -103,6 +104,7 @@ def test_ceilings_hold_in_each() -> None:
         assert none.infeasibility.closest.counterweights
 
 
+@at_night
 def test_at_least_so_heavy() -> None:
     """Independent: two webs, each of them fitted or not, in steps of half a kilogram and four degrees."""
     body = grouped([["0a", "1b"], ["1a", "2b"]], False, scenarios=[FAST, LADEN])

@@ -9,6 +9,7 @@ import pytest
 from optimizer.choices.discrete.search import EXHAUSTED, TREE
 from optimizer.optimize import optimize
 from schemas.request.requests import OptimizeRequest
+from tests.night import at_night
 from tests.optimize.choices import (
     DEGREE,
     FAST,
@@ -60,6 +61,7 @@ def test_no_set_by_hand_is_better(goal: dict[str, Any]) -> None:
     assert {(one.mass_kg, one.angle_deg) for one in found.counterweights} <= {(0.0, 0.0), *product(MASSES, HOLES)}
 
 
+@at_night
 def test_all_orders_and_bending() -> None:
     """Independent: every set of two webs by itself, as weights that are on the crank already."""
     machine = twin(catalogue={"masses_kg": [11.0]})

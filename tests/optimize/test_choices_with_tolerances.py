@@ -10,6 +10,7 @@ from optimizer.optimize import optimize
 from schemas.answer.answers import OptimizeAnswer
 from schemas.request.requests import OptimizeRequest
 from service.common.validation import InvalidRequest, check
+from tests.night import at_night
 from tests.pairs.asking import body_of
 from tests.studies.pareto.test_counts import PLANES, RADIUS, SPEED, body
 
@@ -120,6 +121,7 @@ def test_cheaper_choices_by_their_worst_case(tolerances: dict[str, float]) -> No
     assert found.alternatives
 
 
+@at_night
 def test_by_a_tree(monkeypatch: pytest.MonkeyPatch) -> None:
     """Independent: the same where halves are given no room."""
     monkeypatch.setattr("optimizer.choices.discrete.search._SUMS", 1)

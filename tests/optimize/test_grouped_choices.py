@@ -81,7 +81,7 @@ def test_no_set_by_hand_is_better(
 
 
 @pytest.mark.parametrize("mirror", part(2, [False, True]))
-@pytest.mark.parametrize("ceiling", [None, 200.0])
+@pytest.mark.parametrize("ceiling", part(2, [200.0, None]))
 def test_a_tree_finds_what_trying_all_sets_does(
     mirror: bool, ceiling: float | None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -144,7 +144,7 @@ def test_holes_count_from_the_own_crank(mirror: bool) -> None:
 
 
 @pytest.mark.parametrize("mirror", part(2, [False, True]))
-@pytest.mark.parametrize(("groups", "least"), [([NAMES], 8.5), (HALVES, 7.0)])
+@pytest.mark.parametrize(("groups", "least"), part(2, [(HALVES, 7.0), ([NAMES], 8.5)], rows=True))
 def test_no_least_mass_by_hand_is_better(mirror: bool, groups: list[list[str]], least: float) -> None:
     """Independent: every choice of groups that are fitted, each searched over size and angle of its castings."""
     body = grouped(groups, mirror, max_mass_kg=12.0)

@@ -22,7 +22,7 @@ _LEFT_OUT = (
 _NAMES = [name for name in records() if not any(part in name for part in _LEFT_OUT)]
 
 
-@pytest.mark.parametrize("name", part(2, _NAMES))
+@pytest.mark.parametrize("name", part(3, _NAMES))
 def test_an_answer_is_as_good_and_as_well_proven_as_it_was(name: str) -> None:
     request, recorded = records()[name]["request"], records()[name]["answer"]
     found = answered(request)

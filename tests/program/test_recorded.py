@@ -6,7 +6,7 @@ from tests.night import part
 from tests.program.recorded import RECORD
 
 
-@pytest.mark.parametrize("name", part(2, RECORD.cases))
+@pytest.mark.parametrize("name", part(3, RECORD.cases))
 def test_functions_come_to_what_they_did(name: str) -> None:
     assert RECORD.changes(name)[:4] == []
 

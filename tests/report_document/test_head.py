@@ -2,6 +2,7 @@
 
 import io
 import re
+from functools import cache
 from typing import Any
 
 import pytest
@@ -12,6 +13,7 @@ from starlette.testclient import TestClient
 
 from service.app import create_app
 from service.http.file_names import file_name
+from service.report.blocks import Document
 from service.report.document import report
 from service.report.html import html
 from service.report.pdf import pdf
@@ -34,12 +36,19 @@ def pages(content: bytes) -> list[str]:
     return [re.sub(r"\s|\u200b", "", page.extract_text()) for page in PdfReader(io.BytesIO(content)).pages]
 
 
+@cache
+def filed(example: str) -> tuple[Document, bytes]:
+    """A document with the head, and its file."""
+    made = report(asked(example, document=HEAD), AT)
+    return made, pdf(made)
+
+
 def test_the_head_says_what_the_request_gives() -> None:
-    made = report(asked("2d12", document=HEAD), AT)
+    made, content = filed("2d12")
     assert dict(made.head.rows[:6]) == {name: value for name, value in HEAD.items() if name != "notes"}
     assert made.notes == ("For approval.", "Supersedes revision A.")
     page = html(made).decode()
-    first, *_ = pages(pdf(made))
+    first, *_ = pages(content)
     for value in HEAD.values():
         for line in filter(None, value.splitlines()):
             assert line in page
@@ -60,8 +69,8 @@ def test_names_of_the_head_are_names() -> None:
 
 @pytest.mark.parametrize("example", part(2, ["2d12", "v8-cross-plane"]))
 def test_verdict_and_counterweights_are_on_the_first_page_and_the_contents_follow(example: str) -> None:
-    made = report(asked(example, document=HEAD), AT)
-    found = pages(pdf(made))
+    made, content = filed(example)
+    found = pages(content)
     assert "1Result" in found[0]
     assert "2Counterweights" in found[0]
     (contents,) = [page for page in found if "Contents1Result" in page]
@@ -75,7 +84,7 @@ def test_verdict_and_counterweights_are_on_the_first_page_and_the_contents_follo
 
 
 def test_no_page_is_half_empty() -> None:
-    reader = PdfReader(io.BytesIO(pdf(report(asked("2d12", document=HEAD), AT))))
+    reader = PdfReader(io.BytesIO(filed("2d12")[1]))
     lowest = []
     for page in reader.pages:
         heights: list[float] = []

@@ -70,7 +70,7 @@ def test_it_prints_on_a4_and_light(opened: Callable[..., Page], example: str) ->
 
 
 # colours are looked at once, which is half of the time: they are the same at every width
-@pytest.mark.parametrize(("width", "contrast"), [(390, False), (1280, True)])
+@pytest.mark.parametrize(("width", "contrast"), part(2, [(390, False), (1280, True)], rows=True))
 def test_nothing_keeps_anybody_from_reading_it(opened: Callable[..., Page], width: int, contrast: bool) -> None:
     page = opened("2d12", width, outputs=["torque", "main_bearings"])
     assert page.evaluate("document.documentElement.scrollWidth") <= width

@@ -21,7 +21,7 @@ def of(name: str) -> dict[str, list[str]]:
     return {leaf.removeprefix(f"{name}: "): places for leaf, places in PLACES.items() if leaf.startswith(f"{name}: ")}
 
 
-@pytest.mark.parametrize("name", part(2, NAMES))
+@pytest.mark.parametrize("name", part(4, NAMES))
 def test_chapters_change_where_a_figure_stands_and_nowhere_else(name: str) -> None:
     places, subject = of(name), made(name)
     found = {one.name: subject.follows(one) for one in subject.changes if one.name in places}

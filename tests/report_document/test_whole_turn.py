@@ -34,17 +34,17 @@ def rows_of(made: Document, title: str) -> list[list[Any]]:
     ("objective", "words"),
     [
         ({"bearing_weight": 1, "priorities": [{"goal": "external"}, {"goal": "bearings"}]}, "external, bearings"),
-        ({"bearing_ceiling_N": 1e3}, "the ceiling of the bearing loads"),
+        ({"bearing_ceiling_N": 1e-3}, "the ceiling of the bearing loads"),
     ],
 )
 def test_the_report_names_goals_and_ceilings(objective: dict[str, Any], words: str) -> None:
-    request = asked(inline_six(), **objective)
+    request = asked(one_throw(), **objective)
     assert words in html(report(of(request))).decode()
 
 
 def test_what_goals_came_to_and_their_allowance_stand_in_the_report() -> None:
     goals = [{"goal": "external", "allowance": 0.01}, {"goal": "bearings"}]
-    request = asked(inline_six(), bearing_weight=1, priorities=goals)
+    request = asked(one_throw(), bearing_weight=1, priorities=goals)
     document = html(report(of(request))).decode()
     assert "Goals in their order" in document
     assert "as the shaft sees them" in document

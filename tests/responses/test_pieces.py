@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from optimizer.responses.curve import TurnResponse, floor, floors, peaks
+from tests.night import by_day
 from tests.responses.fourier import FourierCurves
 
 TURN = 2.0 * np.pi
@@ -34,7 +35,7 @@ def test_a_magnitude_that_does_not_change_is_bracketed_as_well() -> None:
     assert 0 <= found.upper - found.lower <= 2e-10
 
 
-@settings(max_examples=40, deadline=None)
+@by_day(20, 40)
 @given(st.integers(0, 10**6), st.sampled_from([360.0, 720.0]))
 def test_brute_force_never_beats_the_bracket(seed: int, period_deg: float) -> None:
     # independent: 36,000 angles a turn, whose chords miss at most h^2/8 of the sum of |coefficient order^2|

@@ -5,13 +5,13 @@ from typing import Any
 import cvxpy as cp
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from optimizer.numerics.arrays import Real
 from optimizer.pins.contact import Contact, _gap, _Scaled, pin_contact
 from optimizer.pins.loads import elastic_loads, levers
-from tests.night import part
+from tests.night import by_day, part
 from tests.scroll.patterns import TABLE, TORQUE, ask, even_pins, given_pins, loads, random_pins, seeds
 
 TURN = np.arange(360.0)
@@ -39,7 +39,7 @@ def by_hand(case: dict[str, Any], found: Contact) -> Real:
     return case["stiffness"] * np.sign(strain) * np.maximum(np.abs(strain) - case["clearance"], 0.0)
 
 
-@settings(max_examples=300)
+@by_day(100, 300)
 @given(seed=seeds, count=st.integers(2, 9))
 def test_law_of_the_pins_and_equilibrium_analytic(seed: int, count: int) -> None:
     case = random_case(seed, count, angles=20)

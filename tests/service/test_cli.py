@@ -243,7 +243,7 @@ def test_a_closed_pipe_is_said_without_a_traceback() -> None:
     assert said.splitlines() == ["cannot write to standard output: Broken pipe"]
 
 
-@pytest.mark.parametrize("level", [None, "debug"])
+@pytest.mark.parametrize("level", part(2, [None, "debug"]))
 def test_a_fault_of_the_program_is_no_infeasible_answer(level: str | None) -> None:
     code = (
         "import sys, optimizer.optimize, service.cli\n"

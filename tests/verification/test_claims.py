@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from optimizer.optimize import optimize
 from schemas.request.requests import OptimizeRequest
 from service.verification import checker
+from tests.night import by_day, part
 from tests.pairs.asking import body_of
 from tests.verification.anything import JSON, judged, paths, replaced
 from tests.verification.checking import ALL, broken, is_broken, optimized, verdict
@@ -63,7 +64,7 @@ def test_what_is_fixed_is_no_choice_from_a_catalogue(most: int | None) -> None:
     assert not broken(body, answer)
 
 
-@pytest.mark.parametrize("goal", [{}, {"bending_weight": 2.0}])
+@pytest.mark.parametrize("goal", part(2, [{}, {"bending_weight": 2.0}]))
 def test_the_usual_gap_of_a_least_mass_is_wide(goal: dict[str, float]) -> None:
     """The gap that is asked for does not hang on whether a search was needed."""
     body = body_of("twin", ["least fitted", "least mass false"])
@@ -177,6 +178,7 @@ _ASKED_AND_ANSWERED = {"request": SINGLE["ceilings"], "answer": _ANSWER}
 _PLACES = [path for path in paths(_ASKED_AND_ANSWERED) if path]
 
 
+@by_day(8)
 @given(st.lists(st.tuples(st.sampled_from(_PLACES), JSON), min_size=1, max_size=3))
 def test_nothing_that_is_sent_raises(changes: list[tuple[tuple[str | int, ...], Any]]) -> None:
     """Any JSON in any place of request and answer is judged, or refused by name."""

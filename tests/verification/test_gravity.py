@@ -6,7 +6,7 @@ from math import cos, radians
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from service.verification import checker
@@ -49,7 +49,7 @@ def _pair(name: str) -> tuple[Any, Any]:
     return _body(*_KINDS[name]), json.loads(_text(name))
 
 
-@pytest.mark.parametrize("name", _KINDS)
+@pytest.mark.parametrize("name", night.part(2, _KINDS))
 def test_loads_are_held_entirely(name: str) -> None:
     request, answer = _pair(name)
     found = checker().verify(request, answer)
@@ -57,7 +57,7 @@ def test_loads_are_held_entirely(name: str) -> None:
     assert not [where for where in found["not_covered"] if "loads" in where]
 
 
-@pytest.mark.parametrize("name", night.part(2, _KINDS))
+@pytest.mark.parametrize("name", night.part(4, _KINDS))
 def test_weights_that_are_off_by_a_millionth_are_broken(name: str) -> None:
     request, answer = _pair(name)
     places = [("loads", *path) for path in numbers(answer["loads"]) if _OF_GRAVITY & {*path}]
@@ -100,7 +100,7 @@ def test_what_is_upright_presses_the_bearings_alone() -> None:
         assert (axis.conjugate() * down).real == pytest.approx(cos(radians(degrees)), abs=1e-15)
 
 
-@settings(max_examples=10, deadline=None)
+@night.by_day(5, 10)
 @given(
     st.sampled_from([0.0, 45.0, 90.0, 180.0, 270.0]) | st.integers(0, 3599).map(lambda number: number / 10.0),
     st.sampled_from(["ccw", "cw"]),

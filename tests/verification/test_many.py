@@ -127,7 +127,7 @@ def test_rows_over_the_turn_are_held_with_reference_values_and_loads(features: t
                 row[column] = right
 
 
-@pytest.mark.parametrize("more", part(2, [{"multipliers": True}, {}, {"details": True}]))
+@pytest.mark.parametrize("more", part(3, [{"multipliers": True}, {}, {"details": True}]))
 @pytest.mark.parametrize(
     "features", [("bearing weight",), ("plates, sectors",), ("ceilings out of reach",), ("priorities", "orders all")]
 )

@@ -14,6 +14,7 @@ from optimizer.pins.answer import pin_loads
 from schemas.scroll.pin_loads import PinLoadsRequest
 from service.documents.examples import bodies
 from service.verification import checker
+from tests.night import by_day
 from tests.verification.answers import answered
 from tests.verification.anything import JSON, judged, paths
 from tests.verification.anything import replaced as replaced_anywhere
@@ -273,7 +274,7 @@ _PIN = st.fixed_dictionaries(
 )
 
 
-@settings(max_examples=40, deadline=None)
+@by_day(20, 40)
 @given(
     st.lists(_PIN, min_size=1, max_size=5, unique_by=lambda pin: (pin["angle_deg"], pin["radius_m"])),
     st.sampled_from([12.0, -3.0, 0.0, _TABLE, {**_TABLE, "torque_Nm": [1.0, 2.0, 3.0]}]),

@@ -19,7 +19,7 @@ from tests.verification.test_curves import part
 @pytest.mark.parametrize(
     ("mode", "number", "seed", "claim"),
     night.part(
-        2,
+        4,
         [
             # weights of 8e19 N that leave 2e14 N, and of 1e-6 N that leave 5e-9 N
             ("balance shafts", 191, 77, "cuts"),
@@ -98,12 +98,12 @@ def test_a_yardstick_of_what_webs_are_implied_to_carry_is_named() -> None:
 @pytest.mark.parametrize(
     ("mode", "number", "seed", "share"),
     night.part(
-        2,
+        4,
         [
-            # other masses are the worst where counterweights are off
-            ("scenarios", 14, 85, 0.1),
             # a speed of 3e-7 rpm, at which what proves that no mass is below 0 is beyond all numbers
             ("plates", 32, 85, 0.001),
+            # other masses are the worst where counterweights are off
+            ("scenarios", 14, 85, 0.1),
             # a bound of the machine as it is that counts with less than its plates
             ("plates", 128, 85, 0.001),
             # no time to look for the worst masses of what was come to

@@ -93,7 +93,7 @@ def _judge(request: Any, answer: Any) -> Callable[[Any], bool]:
     return refuted
 
 
-@pytest.mark.parametrize("name", _MADE)
+@pytest.mark.parametrize("name", night.part(2, _MADE))
 def test_every_number_of_genuine_stages_is_held(name: str) -> None:
     request, text = _pair(name)
     found = checker().verify(request, json.loads(text))
@@ -287,7 +287,7 @@ _ANGLES = st.sampled_from([0.0, 45.0, 90.0, 120.0, 180.0]) | st.floats(0.0, 360.
 _MASSES = st.sampled_from([0.0, 4.0]) | st.floats(0.1, 20.0)
 
 
-@settings(max_examples=20, deadline=None)
+@night.by_day(10, 20)
 @given(
     st.lists(st.tuples(_ANGLES, _ANGLES, _MASSES, _MASSES), min_size=1, max_size=3),
     st.lists(st.tuples(st.floats(-1.0, 1.0), st.floats(0.0, 9.0)), max_size=3),

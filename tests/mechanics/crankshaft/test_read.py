@@ -12,6 +12,7 @@ from optimizer.mechanics.crankshaft.read import read_shaft
 from schemas.answer.shaft import ShaftAnswer
 from schemas.request.shaft import ShaftRequest
 from tests.mechanics.crankshaft.shafts import HALF, JOURNAL, RADIUS, Drawing, Json, cylinder, moved, plane
+from tests.night import by_day
 
 FRAME: Json = {"origin_m": [0, 0, 0], "z": [0, 0, 1], "x": [1, 0, 0]}
 DRAWINGS = st.builds(
@@ -28,7 +29,7 @@ def codes(found: ShaftAnswer) -> list[str]:
 
 
 @given(DRAWINGS)
-@settings(max_examples=30)
+@by_day(15, 30)
 def test_what_was_drawn_is_found(drawing: Drawing) -> None:
     """Analytic: the figures of the drawing, whatever its fillets."""
     found = read(drawing.faces())
@@ -104,7 +105,7 @@ def seen(found: ShaftAnswer, mirrored: bool = False) -> list[list[float]]:
 
 
 @given(DRAWINGS, TURNS, ORIGINS, SCALES)
-@settings(max_examples=30)
+@by_day(15, 30)
 def test_it_does_not_matter_where_the_shaft_is_and_how_large(
     drawing: Drawing, turn: Any, origin: Any, scale: float
 ) -> None:

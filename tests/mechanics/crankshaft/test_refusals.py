@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 from starlette.testclient import TestClient
@@ -16,6 +16,7 @@ from optimizer.errors import OutOfRange
 from optimizer.mechanics.crankshaft.read import read_shaft
 from schemas.request.shaft import ShaftRequest
 from tests.mechanics.crankshaft.shafts import RADIUS, Drawing, Json, cylinder, moved
+from tests.night import by_day
 
 FACES = Drawing().faces()
 BODY: Json = {"mass_kg": 352.0, "centre_m": [0, 0, 0]}
@@ -138,7 +139,7 @@ EXTREMES = st.sampled_from([0.0, 1e-12, 1e-9, 1e-300, 0.14, -0.245, 1e3, 1e6, 1e
 
 
 @given(st.lists(st.tuples(st.integers(0, len(FACES) - 1), st.integers(0, 20), EXTREMES), min_size=1, max_size=4))
-@settings(max_examples=150)
+@by_day(60, 150)
 def test_any_number_is_answered_refused_or_invalid(changes: list[tuple[int, int, float]]) -> None:
     """No number of a face leads to one that is none, nor to a fault."""
     faces = json.loads(json.dumps(FACES))

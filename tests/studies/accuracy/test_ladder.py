@@ -24,7 +24,7 @@ from tests.studies.accuracy.problems import body, random_task, request, single
 NAMES = ("single-horizontal", "2d12", "v8-cross-plane", "m-type-four")
 
 
-@pytest.fixture(scope="module", params=part(2, NAMES))
+@pytest.fixture(scope="module", params=part(4, NAMES))
 def answer(request: pytest.FixtureRequest) -> AccuracyAnswer:
     return accuracy(AccuracyRequest.model_validate({**body(request.param), "repeats": 1}))
 

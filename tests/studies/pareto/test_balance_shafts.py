@@ -15,7 +15,7 @@ from schemas.front.pareto import ParetoAnswer, ParetoRequest
 from schemas.front.trade import TradedFront
 from service.report.chapters.pareto import traded as chapters
 from service.verification import checker
-from tests.night import part
+from tests.night import by_day, part
 from tests.optimize.machines import throw, web
 from tests.optimize.shafts import WHOLE, at, in_line_four, rolled, shaft, single
 from tests.studies.pareto.cases import ask, below_a_corner, front
@@ -117,6 +117,7 @@ def test_points_are_what_masses_times_accelerations_come_to(rotation: str, goal:
         assert np.max(np.abs(turn[:, 0].real)) <= goal.get("force_ceiling_x_N", np.inf) * (1 + 1e-9)
 
 
+@by_day(5)
 @given(st.integers(0, 10**6))
 def test_nobody_is_below_a_corner(seed: int) -> None:
     """Property: whatever crankshaft and balance shafts carry within their limits."""

@@ -104,7 +104,7 @@ _DRIVES = drives()
 _VARIED: Axes = [("/machine/speed_rpm", [500, 900]), ("/machine/balance_shafts/0/x_m", [0.1, -0.3])]
 
 
-@pytest.mark.parametrize("name", night.part(2, list(_DRIVES)))
+@pytest.mark.parametrize("name", night.part(4, list(_DRIVES)))
 def test_all_columns_are_those_of_single_answers(name: str) -> None:
     base = {"machine": _DRIVES[name], **LATER}
     checked(base, _VARIED, details=True)

@@ -91,7 +91,7 @@ def assert_rows(request: SweepRequest, rng: np.random.Generator, most: int) -> s
 
 
 @pytest.mark.parametrize("task", ["optimize", "analyze"])
-@pytest.mark.parametrize("design", night.part(2, ["grid", "paired", "latin_hypercube"]))
+@pytest.mark.parametrize("design", night.part(3, ["grid", "paired", "latin_hypercube"]))
 @pytest.mark.parametrize("sweeps", [1, pytest.param(3, marks=pytest.mark.nightly)])
 def test_rows_are_the_single_answers(task: str, design: str, sweeps: int) -> None:
     # property: for every machine so many sweeps over random fields
