@@ -156,9 +156,13 @@ class OptimizeRequest(Scene, Ruled):
 
     def worst_case_rules(self, message: str) -> Iterator[Rule]:
         """Cases, tolerances and allowances that are given where only the machine as it is can be asked for."""
+        yield Rule(self.tolerances is not None, ("tolerances",), message)
+        yield from self.case_refusals(message)
+
+    def case_refusals(self, message: str) -> Iterator[Rule]:
+        """Cases and allowances that are given where one machine alone can be asked for."""
         for field in stated(self):
             yield Rule(True, (field,), message)
-        yield Rule(self.tolerances is not None, ("tolerances",), message)
         yield Rule(bool(self.alternatives), ("alternatives",), message)
 
     def _alternative_rules(self, choice: Choice | None) -> Iterator[Rule]:
