@@ -7,7 +7,7 @@ from functools import partial
 from typing import Any, Dict, Iterator, List, Sequence
 
 from verify_answer import MASS_GAP, before, touched
-from verify_cases import with_value
+from verify_cases import OFF, anything_off, with_value
 from verify_ceilings import LOADED
 from verify_claims import EVIDENCE, Claim, Claims, covered, near, same
 from verify_cuts import SHAFTS
@@ -22,6 +22,7 @@ from verify_shafts import geared
 from verify_single import single
 from verify_turn import unreachable
 from verify_weights import counterweights, listed, shafts, usual_gap
+from verify_worst_front import worst_curve
 
 STATUSES = ("optimal", "inaccurate", "infeasible")
 STRAIGHT = 1e-4  # a front that lies nearer to the line between its ends has no knee
@@ -36,7 +37,7 @@ OF_STATUS = {"objective", "lower_bound", "yardstick"}
 def front(request: Place, answer: Place) -> Claims:
     """Fronts of force and moment, one for each budget."""
     yield from form(answer, ("pareto",))
-    request.require_coverage(f"{ENTRY_FIELDS}{SHAFTS}")
+    request.require_coverage(f"{ENTRY_FIELDS}{SHAFTS}{OFF}")
     design, goal = request / "machine", request / "objective"
     plain = _machine(request, answer, design / "max_total_mass_kg")
     yield from before(request, plain, answer)
@@ -54,10 +55,15 @@ def front(request: Place, answer: Place) -> Claims:
             yield "max_total_mass", curve / "max_total_mass_kg", -ONE, ONE
         if (curve / "status").text(*STATUSES) == "infeasible":
             yield "status", curve / "status", ONE if curve / "infeasibility" else -ONE, ONE
-            no_weights = unreachable if list(design / "balance_shafts") else infeasible
+            of_all = list(design / "balance_shafts") or anything_off(request)
+            no_weights = unreachable if of_all else infeasible
             yield from no_weights(request, answer, budget, curve / "infeasibility")
             continue
         machine = _machine(request, answer, budget)
+        if anything_off(request):
+            yield from worst_curve(request, machine, curve)
+            yield from _shape(curve)
+            continue
         on_shafts = geared(design, machine, mirrored=True)
         statement = Statement(machine, goal, {name: {name: ONE} for name in NAMES}, geared=on_shafts)
         for name, unit in NAMES.items():
@@ -137,6 +143,9 @@ def point(statement: Statement, request: Place, scale: Place, answer: Place) -> 
         co, counter = after[name]
         yield near("after", answer / f"{name}_peak_{unit}", abs(co) + abs(counter))
         yield near("objective", answer / f"weighted_{name}_peak_{unit}", peaks[name])
+        if answer / "worst_case":
+            # of what nothing is said to be off
+            yield near("worst_case", answer / "worst_case" / f"{name}_peak_{unit}", abs(co) + abs(counter))
         corner, size = proof / f"{name}_{unit}", (scale / f"{name}_{unit}").number()
         yield near("yardstick", proof / "yardstick" / f"{name}_{unit}", size)
         if corner:
