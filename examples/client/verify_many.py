@@ -30,6 +30,13 @@ UNSURE = 1e-9
 ORDERED = "crank_orders"  # a design that varies the crank angles instead of axes
 #: of a certificate what no row has, and what it has with its multipliers alone
 NO_COLUMN, WITH_MULTIPLIERS = "objective_without_counterweights", "mass_objective_limit"
+#: columns of the worst case, and of what it costs by the fields of a single answer
+OF_WORST = ("worst_case_force_peak_N", "worst_case_moment_peak_Nm", "worst_case_bearing_peak_N")
+OF_PRICE = {
+    "nominal_objective": "nominal",
+    "nominal_optimum": "nominal_optimum",
+    "nominal_optimum_worst_case": "nominal_optimum_worst_case",
+}
 #: columns without which it is not told whether a row is optimal
 OF_STATUS = {"objective", "lower_bound", "yardstick"}
 
@@ -270,10 +277,25 @@ def _row(request: Place, row: Place, chosen: bool) -> Claims:
         "residual": {"after": peaks, "responses": list(_beside(row))} if status != "infeasible" else {"after": None},
         "certificate": proofs if status != "infeasible" else None,
         "infeasibility": {**proofs, "conflict": limits} if status == "infeasible" else None,
+        **_worst(row, status),
     }
     yield from _by_columns(single(request, Place(answer, *row.path), whole=False), row, answer, chosen)
     if row / "multipliers":
         yield EVIDENCE, row / "multipliers", None, ONE
+
+
+def _worst(row: Place, status: Any) -> Dict[str, Any]:
+    """The worst case and its price, where columns hold them; of several loads the largest alone is one."""
+    if status == "infeasible" or not row / OF_WORST[0]:
+        return {}
+    worst = {name[len("worst_case_") :]: (row / name).value for name in OF_WORST}
+    beside = [
+        {"response": name, "peak": (row / f"worst_case_{name}_peak_{response.unit}").value}
+        for name, response in ON_FRAME.items()
+        if name not in NAMES and row / f"worst_case_{name}_peak_{response.unit}"
+    ]
+    worst.update({"objective": (row / "objective").value, "responses": beside})
+    return {"worst_case": worst, "price_of_robustness": {of: (row / name).value for name, of in OF_PRICE.items()}}
 
 
 def _weights(shaft: Place, row: Place, status: Any) -> List[Dict[str, Any]]:
@@ -325,13 +347,31 @@ def _column(path: Path, start: int, answer: Any) -> Path:
         for step in inner[:-1]:
             weight = weight[step]
         return (*row, f"{inner[-1]}.{weight['web']}")
-    if inner[:2] == ("residual", "after") and len(inner) == 4:
-        return (*row, f"{inner[2]}_{inner[3]}")
-    if inner[:2] == ("residual", "responses") and len(inner) == 4:
-        name = answer["residual"]["responses"][inner[2]]["response"]
-        return (*row, f"{name}_peak_{ON_FRAME[name].unit}")
+    if inner[:1] == ("residual",) and len(inner) == 4:
+        return (*row, _of_residual(inner, answer))
+    if inner[:1] in (("worst_case",), ("price_of_robustness",)):
+        return (*row, _of_worst(inner, answer))
     if inner[:2] == ("infeasibility", "conflict"):
         return (*row, "status")
     if inner[:1] in (("certificate",), ("infeasibility",)):
         return (*row, *inner[1:2])
     return path
+
+
+def _of_residual(inner: Path, answer: Any) -> str:
+    """The same of what is left."""
+    if inner[1] == "after":
+        return f"{inner[2]}_{inner[3]}"
+    name = answer["residual"]["responses"][inner[2]]["response"]
+    return f"{name}_peak_{ON_FRAME[name].unit}"
+
+
+def _of_worst(inner: Path, answer: Any) -> str:
+    """The same of the worst case, and of what it costs."""
+    name = str(inner[1]) if len(inner) > 1 else "status"
+    if name == "responses" and len(inner) == 4:
+        response = answer["worst_case"]["responses"][inner[2]]["response"]
+        return f"worst_case_{response}_peak_{ON_FRAME[response].unit}"
+    if inner[0] == "worst_case":
+        return name if name in ("objective", "status") else f"worst_case_{name}"
+    return {of: column for column, of in OF_PRICE.items()}.get(name, name)

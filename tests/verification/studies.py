@@ -22,7 +22,7 @@ from service.common.validation import check
 Body = dict[str, Any]
 
 #: what is of one machine alone
-_ALONE = ("scenarios", "tolerances", "alternatives", "fitted")
+_ALONE = ("scenarios", "alternatives", "fitted")
 #: values of an axis
 _LEVELS = (1, 2, 2, 3)
 #: of so many studies one asks for no multipliers
@@ -62,7 +62,7 @@ def sweep_of(asked: Body, rng: random.Random) -> Body:
 
 def front_of(asked: Body, rng: random.Random) -> Body:
     """A front of force and moment of a request to optimise."""
-    kept = {name: value for name, value in asked.items() if name == "tolerances" or name not in _ALONE}
+    kept = {name: value for name, value in asked.items() if name not in _ALONE}
     found = kept | {"points": rng.choice([2, 3, 3, 5])}
     webs, machine = found["machine"].get("webs", ()), found["machine"]
     chosen = {"catalogue", "web_groups"} & machine.keys() or any(
