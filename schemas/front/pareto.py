@@ -81,7 +81,7 @@ class ParetoRequest(OptimizeRequest):
         yield from super().rules()
         yield from self.case_refusals("remove it: a front is of one machine")
         yield from self._trade_rules()
-        if self.tolerances is not None and self.machine.choice is not None:
+        if self.tolerances is not None and self.machine.choice == "semicontinuous":
             yield from self._scatter_rules(self.tolerances)
         if self.counts is not None:
             yield from self.envelope_rules("counts are of a catalogue, whose counterweights have a known radius")

@@ -198,7 +198,7 @@ def test_a_point_of_named_responses_is_the_best_worst_case_of_its_mass(
         ({}, {"tolerances": {"mass_relative": -0.1}}, "tolerances.mass_relative"),
         ({}, {"tolerances": OFF, "scenarios": [{"name": "as it is"}]}, "scenarios"),
         (
-            {"catalogue": {"masses_kg": [1.0], "angle_step_deg": 90.0}},
+            {"webs": [{**straight()["webs"][0], "min_fitted_mass_kg": 1.0}]},
             {"tolerances": {"angle_deg": 2.0}, "responses": ["bearings", "mass"]},
             "tolerances.angle_deg",
         ),
