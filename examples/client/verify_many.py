@@ -349,7 +349,7 @@ def _column(path: Path, start: int, answer: Any) -> Path:
         return (*row, f"{inner[-1]}.{weight['web']}")
     if inner[:1] == ("residual",) and len(inner) == 4:
         return (*row, _of_residual(inner, answer))
-    if inner[:1] in (("worst_case",), ("price_of_robustness",)):
+    if inner[:1] in (("worst_case",), ("price_of_robustness",)) and len(inner) > 1:
         return (*row, _of_worst(inner, answer))
     if inner[:2] == ("infeasibility", "conflict"):
         return (*row, "status")
@@ -368,10 +368,10 @@ def _of_residual(inner: Path, answer: Any) -> str:
 
 def _of_worst(inner: Path, answer: Any) -> str:
     """The same of the worst case, and of what it costs."""
-    name = str(inner[1]) if len(inner) > 1 else "status"
+    name = str(inner[1])
     if name == "responses" and len(inner) == 4:
         response = answer["worst_case"]["responses"][inner[2]]["response"]
         return f"worst_case_{response}_peak_{ON_FRAME[response].unit}"
     if inner[0] == "worst_case":
-        return name if name in ("objective", "status") else f"worst_case_{name}"
+        return name if name == "objective" else f"worst_case_{name}"
     return {of: column for column, of in OF_PRICE.items()}.get(name, name)

@@ -74,7 +74,8 @@ class Measures:
 
     def gross(self, u: Complex) -> Real:
         """What every counterweight by itself adds to each at most, summed (D,)."""
-        return np.array([self._most(group, np.abs(u)) for group in self.groups])
+        size = (1.0 + self.program.scatter.share) * np.abs(u)
+        return np.array([self._most(group, size) for group in self.groups])
 
     def _most(self, group: Group, size: Real) -> float:
         of_rows = [sum(np.sum(np.abs(peak.norms.influence) @ size) for peak in row.peaks) for row in group.rows]
