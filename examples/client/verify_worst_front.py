@@ -178,17 +178,21 @@ def _mass(front: WorstFront, scale: Place, answer: Place, peaks: Peaks, there: F
         return
     limits = {name: proof / f"mass_{name}_limit_{unit}" for name, unit in NAMES.items()}
     most = {name: limit.number(0.0) for name, limit in limits.items()}
-    for name, limit in limits.items():
-        if limit:
-            yield "mass_lower_bound", limit, most[name] - peaks[name], peaks[name]
     implied, least = proof / "implied_max_mass_kg", place.number() - fixed
+    rooms, open_ended = {name: most[name] - peaks[name] for name in most}, False
     if least.high <= 0:
         yield "mass_lower_bound", place, -least, ONE
         yield EVIDENCE, multipliers, None, ONE
     else:
         of = front.proven(front.both, multipliers, implied, most, ONE) if multipliers else None
         of = None if of is None else of._replace(beyond=of.beyond - least, worth=place.number())
+        open_ended = front.both.mixed and of is not None and of.beyond.high < 0
         yield from _claimed("mass_lower_bound", place, of, multipliers, implied, front.both.mixed)
+    for name, limit in limits.items():
+        if limit:
+            # where it is not told what is proven, nor is for which peaks
+            room = rooms[name]
+            yield "mass_lower_bound", limit, None if open_ended and room.high >= 0 else room, peaks[name]
     first, size = front.part, proof / "mass_yardstick_kg"
     if size and abs(size.number() - mass).low <= (mass * SPECK).high:
         yield near("yardstick", size, mass)
