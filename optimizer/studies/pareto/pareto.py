@@ -8,6 +8,7 @@ import numpy as np
 
 from optimizer.formulation.balance_shafts import chosen, design_space
 from optimizer.formulation.counterweights import masses_and_angles, unbalance
+from optimizer.formulation.goals import Goals
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import fixed_masses
@@ -147,8 +148,8 @@ def _solved(robust: Robust, points: int) -> Front | ConeSolution:
 
 
 def _certified(request: ParetoRequest, robust: Robust, curve: Front) -> ParetoFront:
-    machine = robust.task.machine
-    points = [_point(request, robust, curve, point) for point in curve.points]
+    machine, goals = robust.task.machine, robust.goals()
+    points = [_point(request, robust, goals, curve, point) for point in curve.points]
     # points that are nearer to each other than their gaps can be out of order; no tolerance is applied
     shown = undominated(points, weighted_peaks)
     square = robust.scene.omega_squared
@@ -184,8 +185,8 @@ def _certified(request: ParetoRequest, robust: Robust, curve: Front) -> ParetoFr
     )
 
 
-def _point(request: ParetoRequest, robust: Robust, curve: Front, point: FrontPoint) -> ParetoPoint:
-    machine, scene, goals = robust.task.machine, robust.scene, robust.goals()
+def _point(request: ParetoRequest, robust: Robust, goals: Goals, curve: Front, point: FrontPoint) -> ParetoPoint:
+    machine, scene = robust.task.machine, robust.scene
     square, traded = scene.omega_squared, curve.trade
     limits = traded.both.limits
     unbalance_there = point.solution.unbalance
@@ -213,7 +214,8 @@ def _point(request: ParetoRequest, robust: Robust, curve: Front, point: FrontPoi
     plain = scene.beside(shown.on_shafts).first_order(shown.on_crank)
     limit = (point.mass_limit * square).tolist() if point.mass_proof is not None else (None, None)
     there = np.array([counterweight.mass_kg for counterweight in shown.counterweights])
-    ceilings = touched_ceilings(robust.task, goals, goals.program.values(u, _CLOSE))
+    limited = goals.program.ceilings
+    ceilings = touched_ceilings(robust.task, goals, goals.program.values(u, _CLOSE)) if limited else ()
     weighted: Real = peaks * square
     proven: Real = judged.lower_bound * square
     return ParetoPoint(

@@ -51,6 +51,9 @@ class Trade:
 
     def _largest(self, rows: Real) -> Real:
         """The largest row of each peak (..., 2) of what rows have (..., rows)."""
+        if self.peak.size == len(PAIR):
+            # one of each, in their order
+            return rows
         return np.stack([np.max(rows[..., self.peak == n], axis=-1) for n in range(len(PAIR))], axis=-1)
 
     def rounding(self, u: Complex) -> Real:
