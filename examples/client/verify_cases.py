@@ -23,10 +23,10 @@ CASES: Dict[str, Stated] = {
     "scenarios": Stated("weight changes path value", lambda request: iter(request / "scenarios")),
     # beside this one
 }
+#: fields that say what may be off
+OFF = " tolerances mass_relative unbalance_kg_m reciprocating_mass_relative "
 #: fields of a request that are known here
-FIELDS = " tolerances mass_relative unbalance_kg_m reciprocating_mass_relative priorities goal allowance " + "".join(
-    f" {name} {case.fields} " for name, case in CASES.items()
-)
+FIELDS = f"{OFF}priorities goal allowance " + "".join(f" {name} {case.fields} " for name, case in CASES.items())
 #: rows whose masses are off one way or the other, all ways of them
 MOST_ROWS = 8
 #: fields that say where the plane of the moments is
@@ -43,6 +43,12 @@ def scenarios(request: Place) -> List[Place]:
 def without_cases(request: Place) -> Place:
     """A request about the machine as it is, nothing off."""
     return Place({**request.value, **dict.fromkeys(CASES), "tolerances": None}, *request.path)
+
+
+def anything_off(request: Place) -> bool:
+    """Whether anything may be off."""
+    stated = (request / "tolerances").value
+    return isinstance(stated, dict) and any((request / "tolerances" / name).value for name in stated)
 
 
 class Scatter(NamedTuple):

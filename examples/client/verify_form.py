@@ -67,8 +67,9 @@ warnings: code message pointer
 timing: total_ms solve_ms mechanics_ms certificate_ms report_ms
 pareto: version status fronts trades counts without_counterweights floor reference_plane_m effects timing
 fronts: max_total_mass_kg status points reason knee ends scale implied_max_mass_kg infeasibility
-points: status status_reason force_peak_N moment_peak_Nm weighted_force_peak_N weighted_moment_peak_Nm total_mass_kg
-  counterweights balance_shafts balance_shafts_mass_kg active_limits certificate multipliers
+points: status status_reason force_peak_N moment_peak_Nm weighted_force_peak_N weighted_moment_peak_Nm worst_case
+  total_mass_kg counterweights balance_shafts balance_shafts_mass_kg active_limits certificate multipliers
+points/worst_case: force_peak_N moment_peak_Nm
 points/certificate: force_N moment_Nm relative_gap yardstick mass_lower_bound_kg mass_relative_gap mass_yardstick_kg
   mass_force_limit_N mass_moment_limit_Nm implied_max_mass_kg method
 ends: smallest_force_N smallest_force_lower_bound_N moment_at_smallest_force_Nm smallest_moment_Nm

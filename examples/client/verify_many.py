@@ -7,7 +7,7 @@ from functools import partial
 from typing import Any, Dict, Iterator, List, Sequence
 
 from verify_answer import MASS_GAP, before, touched
-from verify_cases import with_value
+from verify_cases import OFF, anything_off, with_value
 from verify_ceilings import LOADED
 from verify_claims import EVIDENCE, Claim, Claims, covered, near, same
 from verify_cuts import SHAFTS
@@ -22,6 +22,7 @@ from verify_shafts import geared
 from verify_single import single
 from verify_turn import unreachable
 from verify_weights import counterweights, listed, shafts, usual_gap
+from verify_worst_front import worst_curve
 
 STATUSES = ("optimal", "inaccurate", "infeasible")
 STRAIGHT = 1e-4  # a front that lies nearer to the line between its ends has no knee
@@ -31,6 +32,13 @@ ORDERED = "crank_orders"  # a design that varies the crank angles instead of axe
 NO_COLUMN, WITH_MULTIPLIERS = "objective_without_counterweights", "mass_objective_limit"
 #: how columns begin that hold loads of bearings and bending moments
 LOADS = ("bearing_peak_N.", "peak_bearing_load_N", "peak_bending_Nm")
+#: columns of the worst case, and of what it costs by the fields of a single answer
+OF_WORST = ("worst_case_force_peak_N", "worst_case_moment_peak_Nm", "worst_case_bearing_peak_N")
+OF_PRICE = {
+    "nominal_objective": "nominal",
+    "nominal_optimum": "nominal_optimum",
+    "nominal_optimum_worst_case": "nominal_optimum_worst_case",
+}
 #: columns without which it is not told whether a row is optimal
 OF_STATUS = {"objective", "lower_bound", "yardstick"}
 
@@ -38,7 +46,7 @@ OF_STATUS = {"objective", "lower_bound", "yardstick"}
 def front(request: Place, answer: Place) -> Claims:
     """Fronts of force and moment, one for each budget."""
     yield from form(answer, ("pareto",))
-    request.require_coverage(f"{ENTRY_FIELDS}{SHAFTS}")
+    request.require_coverage(f"{ENTRY_FIELDS}{SHAFTS}{OFF}")
     design, goal = request / "machine", request / "objective"
     plain = _machine(request, answer, design / "max_total_mass_kg")
     yield from before(request, plain, answer)
@@ -56,10 +64,15 @@ def front(request: Place, answer: Place) -> Claims:
             yield "max_total_mass", curve / "max_total_mass_kg", -ONE, ONE
         if (curve / "status").text(*STATUSES) == "infeasible":
             yield "status", curve / "status", ONE if curve / "infeasibility" else -ONE, ONE
-            no_weights = unreachable if list(design / "balance_shafts") else infeasible
+            of_all = list(design / "balance_shafts") or anything_off(request)
+            no_weights = unreachable if of_all else infeasible
             yield from no_weights(request, answer, budget, curve / "infeasibility")
             continue
         machine = _machine(request, answer, budget)
+        if anything_off(request):
+            yield from worst_curve(request, machine, curve)
+            yield from _shape(curve)
+            continue
         on_shafts = geared(design, machine, mirrored=True)
         statement = Statement(machine, goal, {name: {name: ONE} for name in NAMES}, geared=on_shafts)
         for name, unit in NAMES.items():
@@ -139,6 +152,9 @@ def point(statement: Statement, request: Place, scale: Place, answer: Place) -> 
         co, counter = after[name]
         yield near("after", answer / f"{name}_peak_{unit}", abs(co) + abs(counter))
         yield near("objective", answer / f"weighted_{name}_peak_{unit}", peaks[name])
+        if answer / "worst_case":
+            # of what nothing is said to be off
+            yield near("worst_case", answer / "worst_case" / f"{name}_peak_{unit}", abs(co) + abs(counter))
         corner, size = proof / f"{name}_{unit}", (scale / f"{name}_{unit}").number()
         yield near("yardstick", proof / "yardstick" / f"{name}_{unit}", size)
         if corner:
@@ -264,10 +280,25 @@ def _row(request: Place, row: Place, chosen: bool) -> Claims:
         "bearing_columns": {name: row.value[name] for name in row.value if name.startswith(LOADS)},
         "certificate": proofs if status != "infeasible" else None,
         "infeasibility": {**proofs, "conflict": limits} if status == "infeasible" else None,
+        **_worst(row, status),
     }
     yield from _by_columns(single(request, Place(answer, *row.path), whole=False), row, answer, chosen)
     if row / "multipliers":
         yield EVIDENCE, row / "multipliers", None, ONE
+
+
+def _worst(row: Place, status: Any) -> Dict[str, Any]:
+    """The worst case and its price, where columns hold them; of several loads the largest alone is one."""
+    if status == "infeasible" or not row / OF_WORST[0]:
+        return {}
+    worst = {name[len("worst_case_") :]: (row / name).value for name in OF_WORST}
+    beside = [
+        {"response": name, "peak": (row / f"worst_case_{name}_peak_{response.unit}").value}
+        for name, response in ON_FRAME.items()
+        if name not in NAMES and row / f"worst_case_{name}_peak_{response.unit}"
+    ]
+    worst.update({"objective": (row / "objective").value, "responses": beside})
+    return {"worst_case": worst, "price_of_robustness": {of: (row / name).value for name, of in OF_PRICE.items()}}
 
 
 def _weights(shaft: Place, row: Place, status: Any) -> List[Dict[str, Any]]:
@@ -319,13 +350,31 @@ def _column(path: Path, start: int, answer: Any) -> Path:
         for step in inner[:-1]:
             weight = weight[step]
         return (*row, f"{inner[-1]}.{weight['web']}")
-    if inner[:2] == ("residual", "after") and len(inner) == 4:
-        return (*row, f"{inner[2]}_{inner[3]}")
-    if inner[:2] == ("residual", "responses") and len(inner) == 4:
-        name = answer["residual"]["responses"][inner[2]]["response"]
-        return (*row, f"{name}_peak_{ON_FRAME[name].unit}")
+    if inner[:1] == ("residual",) and len(inner) == 4:
+        return (*row, _of_residual(inner, answer))
+    if inner[:1] in (("worst_case",), ("price_of_robustness",)) and len(inner) > 1:
+        return (*row, _of_worst(inner, answer))
     if inner[:2] == ("infeasibility", "conflict"):
         return (*row, "status")
     if inner[:1] in (("certificate",), ("infeasibility",), ("bearing_columns",)):
         return (*row, *inner[1:2])
     return path
+
+
+def _of_residual(inner: Path, answer: Any) -> str:
+    """The same of what is left."""
+    if inner[1] == "after":
+        return f"{inner[2]}_{inner[3]}"
+    name = answer["residual"]["responses"][inner[2]]["response"]
+    return f"{name}_peak_{ON_FRAME[name].unit}"
+
+
+def _of_worst(inner: Path, answer: Any) -> str:
+    """The same of the worst case, and of what it costs."""
+    name = str(inner[1])
+    if name == "responses" and len(inner) == 4:
+        response = answer["worst_case"]["responses"][inner[2]]["response"]
+        return f"worst_case_{response}_peak_{ON_FRAME[response].unit}"
+    if inner[0] == "worst_case":
+        return name if name == "objective" else f"worst_case_{name}"
+    return {of: column for column, of in OF_PRICE.items()}.get(name, name)

@@ -148,11 +148,21 @@ def _places(groups: tuple[int, ...], rows: tuple[tuple[str, tuple[tuple[str, str
     )
 
 
-def total_mass(limits: Limits) -> Row:
-    """The total mass of the counterweights [kg], a term for each web; without webs one that is 0."""
+def total_mass(limits: Limits, share: float = 0.0, besides: float = 0.0) -> Row:
+    """The total mass of the counterweights [kg], a term for each web; without webs one that is 0.
+
+    Parameters
+    ----------
+    share, besides : by which all terms of the program scatter: by so much these are less, as no mass is meant that is
+        off.
+    """
     radius = limits.radius
-    of_web = np.eye(max(radius.size, 1), radius.size) / np.where(radius > 0, radius, 1.0)
+    of_web = np.eye(max(radius.size, 1), radius.size) / (np.where(radius > 0, radius, 1.0) * (1.0 + share))
     nothing = np.zeros(1, dtype=complex)
     return Row(
-        "mass", tuple(WeightedPeak("mass", np.zeros(()), Norms(nothing, influence[None])) for influence in of_web)
+        "mass",
+        tuple(
+            WeightedPeak("mass", np.asarray(-besides * np.sum(influence)), Norms(nothing, influence[None]))
+            for influence in of_web
+        ),
     )

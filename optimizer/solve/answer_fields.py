@@ -95,7 +95,7 @@ def solution_of(
     # what the last goal allows is for the mass, and for what castings cost, after it
     judged = verdict(claimed, wanted.relative_gap + program.goals[-1].allowance)
     gap, (there, _) = judged.gap.item(), beside(machine, mass, angle)
-    touched = tuple(dict.fromkeys((*touched_by_mass(machine, there), *_touched(task, goals, values))))
+    touched = tuple(dict.fromkeys((*touched_by_mass(machine, there), *touched_ceilings(task, goals, values))))
     proofs = Proofs.of(optimum, square, goals.speeds)
     prices, several = tuple[ShadowPrice, ...](), task.robust or task.objective.priorities
     if in_full and search is None and not (several or isnan(gap) or machine.web_groups):
@@ -277,8 +277,8 @@ def bound_beside(proof: Proof, excess: float) -> float:
     return proof.bound - float(ceiling_allowance(proof.statement, proof.multipliers, over))
 
 
-def _touched(task: Task, goals: Goals, values: Values) -> Iterator[MachineLimit]:
-    """Ceilings that are touched, in any case."""
+def touched_ceilings(task: Task, goals: Goals, values: Values) -> Iterator[MachineLimit]:
+    """Ceilings that are touched, in any case; as often as there are such cases."""
     program = goals.program
     if not values.over.size:
         return

@@ -59,8 +59,8 @@ def minimum_mass(task: Task, scene: Prepared) -> BestSet:
         where the options of a web cannot be told.
     """
     gap, robust = task.relative_gap, Robust(task, scene, task.demand)
-    program = robust.goals().program
-    weighed = program.changed(goals=(Goal("mass", (Group((total_mass(program.limits),)),)),))
+    program = robust.goals().anywhere
+    weighed = program.changed(goals=(Goal("mass", (Group((total_mass(program.limits, *program.scatter),)),)),))
     best = optimum(weighed, _SHARP, False, robust.left_s)
     if isinstance(best, Conflict):
         return none_of(task.machine, "infeasible", ended(None), 0, best.method)

@@ -5,12 +5,11 @@ from typing import NamedTuple, get_args
 
 import numpy as np
 
-from optimizer.formulation.formulate import RESPONSES, limited, objective_ceilings
+from optimizer.formulation.formulate import RESPONSES, objective_ceilings
 from optimizer.formulation.goals import Limited
-from optimizer.formulation.limits import MACHINE_LIMITS, TOUCHED, limit_sizes
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.formulation.limits import MACHINE_LIMITS, limit_sizes
+from optimizer.numerics.arrays import Real
 from optimizer.program.sensitivity import ShadowPrices
-from optimizer.responses.response import Response
 from schemas.answer.limits import CeilingField, MachineLimit, PriceUnit, ShadowPrice, WebLimit
 from schemas.base.responses import ceilings
 from schemas.machine.machine import Machine
@@ -36,28 +35,6 @@ class Priced(NamedTuple):
     price: float  # objective per unit of the limit
     size: float  # of the limit
     unit: str
-
-
-def touched_limits(
-    machine: Machine,
-    objective: Objective,
-    responses: Sequence[Response],
-    mass_kg: Real,
-    unbalance: Complex,
-    omega_squared: float,
-) -> tuple[MachineLimit, ...]:
-    """Limits of the whole machine, and ceilings, that are touched, in the order of the answer.
-
-    Parameters
-    ----------
-    mass_kg, unbalance : (K,) kg and kg m, of the counterweights.
-    """
-    peaks = (entry.to(unbalance).peak * omega_squared for entry, _ in limited(responses, objective))
-    pairs = zip(objective_ceilings(objective), peaks, strict=True)
-    return (
-        *touched_by_mass(machine, mass_kg),
-        *(entry.limit for (entry, allowed), peak in pairs if peak >= allowed * (1.0 - TOUCHED)),
-    )
 
 
 def touched_by_mass(machine: Machine, mass_kg: Real) -> tuple[MachineLimit, ...]:

@@ -25,7 +25,7 @@ from optimizer.solve.infeasibility import out_of_reach
 from optimizer.solve.solution import Infeasible, Solution, finite_or_null, multipliers_of
 from optimizer.solve.uncertain_program import MachineOfCase, Measure, Robust
 from schemas.answer.first_order import ResponsePeak
-from schemas.answer.robust import PriceOfRobustness, WorstCase
+from schemas.answer.robust import PriceOfRobustness, WorstCase, WorstPeaks
 from schemas.request.scene import Fidelity
 
 #: width of brackets of what is shown, relative; and of those that tell which of several peaks may be the largest
@@ -85,7 +85,7 @@ def _proof_of(
     }
     if len(best.goals) > 1:
         return fields
-    square, program = robust.scene.omega_squared, _nominal(robust).program
+    square, program = robust.scene.omega_squared, nominal(robust).program
     excess = program.values(u, _CLOSE).excess if program.ceilings or program.limited else 0.0
     return fields | {
         "nominal_lower_bound": finite_or_null(bound_beside(best.proof, excess) * square),
@@ -95,18 +95,18 @@ def _proof_of(
 
 
 def with_worst_case(
-    robust: Robust, solution: Solution, nominal: Complex | None, late: bool, proof: Mapping[str, object] = _NO_PROOF
+    robust: Robust, solution: Solution, best: Complex | None, late: bool, proof: Mapping[str, object] = _NO_PROOF
 ) -> Solution:
     """What is told of counterweights, with what the worst case costs.
 
     Parameters
     ----------
-    nominal : (K,) kg m, the best counterweights of the machine as it is given, if any are known.
+    best : (K,) kg m, the best counterweights of the machine as it is given, if any are known.
     late : the limit of time left them open.
     proof : fields of the price that prove the nominal optimum.
     """
     u = solution.unbalance
-    price = PriceOfRobustness.model_validate({**_price(robust, u, nominal), **proof})
+    price = PriceOfRobustness.model_validate({**_price(robust, u, best), **proof})
     worst = {"worst_case": _worst_case(robust, u, solution.certificate.objective), "price_of_robustness": price}
     return replace(
         solution, reason=f"{solution.reason}{_NO_PRICE if late else ''}", fields={**solution.fields, **worst}
@@ -123,13 +123,23 @@ def nothing_off(task: Task, scene: Prepared, u: Complex, objective: float) -> di
     }
 
 
+def worst_peaks(robust: Robust, u: Complex) -> WorstPeaks:
+    """Peaks of force and moment in the worst case, each by itself, with counterweights (K,) kg m."""
+    peaks = _peaks(robust, u)
+    return WorstPeaks(force_peak_N=peaks["force"], moment_peak_Nm=peaks["moment"])
+
+
+def _peaks(robust: Robust, u: Complex) -> dict[str, float]:
+    """Of every response on the frame that counts."""
+    return {
+        response.name: max(_external(robust, machine, k, u) for machine in robust.machines)
+        for k, response in enumerate(counted(robust.task.objective))
+    }
+
+
 def _worst_case(robust: Robust, u: Complex, objective: float) -> WorstCase:
     """Peaks in the worst case, each by itself, with counterweights (K,) kg m."""
-    on_frame = counted(robust.task.objective)
-    peaks = {
-        response.name: max(_external(robust, machine, k, u) for machine in robust.machines)
-        for k, response in enumerate(on_frame)
-    }
+    peaks = _peaks(robust, u)
     bearings = robust.machines if robust.task.objective.of_the_shaft else []
     loads = [_peak(robust, machine, list(_bearing_responses(machine, robust.task.fidelity)), u) for machine in bearings]
     return WorstCase(
@@ -182,10 +192,10 @@ def _bearing_responses(machine: MachineOfCase, fidelity: Fidelity) -> Iterator[T
 def _nominal_optimum(robust: Robust) -> tuple[CertifiedOptimum | None, bool]:
     """The best counterweights of the machine as it is given, if any keep its ceilings; whether the limit of time,
     of which the search has what is left, leaves that open."""
-    nominal, wanted, left = _nominal(robust), robust.wanted, robust.left_s
+    plain, wanted, left = nominal(robust), robust.wanted, robust.left_s
     if left == 0.0:
         return None, True
-    result = optimum(nominal.program, wanted.relative_gap, wanted.least_mass, left)
+    result = optimum(plain.program, wanted.relative_gap, wanted.least_mass, left)
     if isinstance(result, Conflict) or result.timed_out:
         return None, isinstance(result, CertifiedOptimum)
     # what is neither kept nor proven to be out of reach is no optimum
@@ -194,7 +204,7 @@ def _nominal_optimum(robust: Robust) -> tuple[CertifiedOptimum | None, bool]:
 
 def _price(robust: Robust, u: Complex, best: Complex | None) -> dict[str, float | None]:
     """What the worst case costs nominally, and the best of the machine as it is given in the worst case."""
-    program, square = _nominal(robust).program, robust.scene.omega_squared
+    program, square = nominal(robust).program, robust.scene.omega_squared
     return {
         "nominal": float(program.values(u, _CLOSE).goals[-1]) * square,
         "nominal_optimum": None if best is None else float(program.values(best, _CLOSE).goals[-1]) * square,
@@ -202,7 +212,7 @@ def _price(robust: Robust, u: Complex, best: Complex | None) -> dict[str, float 
     }
 
 
-def _nominal(robust: Robust) -> Goals:
+def nominal(robust: Robust) -> Goals:
     """The program of the machine as it is given, with nothing off."""
     task, scene = robust.task, robust.scene
     case = MachineOfCase(task.space, scene, None, 1.0, 0.0).case()

@@ -29,13 +29,18 @@ class Sensitivity(Model):
     )
 
 
-class WorstCase(Model):
-    """The worst of all scenarios, all that may be off being so; each figure by itself, no less than what is true."""
+class WorstPeaks(Model):
+    """Peaks in the worst of all scenarios, all that may be off being so; each by itself, no less than what is true."""
 
     force_peak_N: Newtons = Field(
         description="largest peak force; of the first order, or of all where orders are all", examples=[5120.4]
     )
     moment_peak_Nm: NewtonMetres = Field(description="largest peak moment, likewise", examples=[20110.0])
+
+
+class WorstCase(WorstPeaks):
+    """The worst of all scenarios, all that may be off being so; each figure by itself, no less than what is true."""
+
     responses: tuple[ResponsePeak, ...] = Field(
         (), description="responses that are weighed or limited beside them, likewise", examples=[[]]
     )

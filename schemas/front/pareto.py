@@ -11,6 +11,7 @@ from schemas.answer.first_order import FirstOrder, Floor
 from schemas.answer.infeasibility import Infeasibility
 from schemas.answer.limits import MachineLimit
 from schemas.answer.proof import EndMultipliers, Multipliers
+from schemas.answer.robust import WorstPeaks
 from schemas.base.model import Answer, Model, NotEmpty, Shown
 from schemas.base.quantities import Count, Flag, Kilograms, Mass, Metres, Name, NewtonMetres, Newtons
 from schemas.base.rules import Rule, first_of
@@ -19,6 +20,7 @@ from schemas.front.counts import CountFront, CountTrade
 from schemas.front.trade import MAX_TRADED_POINTS, TradedFront, TradedNames
 from schemas.machine.reciprocating import balance_shafts
 from schemas.request.requests import OptimizeRequest
+from schemas.request.scenarios import Tolerances
 
 MAX_POINTS = 201
 MAX_BUDGETS = 10
@@ -77,8 +79,10 @@ class ParetoRequest(OptimizeRequest):
 
     def rules(self) -> Iterator[Rule]:
         yield from super().rules()
-        yield from self.worst_case_rules("remove it: a front is of one machine as it is given")
+        yield from self.case_refusals("remove it: a front is of one machine")
         yield from self._trade_rules()
+        if self.tolerances is not None and self.machine.choice == "semicontinuous":
+            yield from self._scatter_rules(self.tolerances)
         if self.counts is not None:
             yield from self.envelope_rules("counts are of a catalogue, whose counterweights have a known radius")
             yield from self._count_rules(self.counts)
@@ -112,6 +116,15 @@ class ParetoRequest(OptimizeRequest):
         yield Rule(counts.least == "mass" and not limited, ("counts", "least"), message)
         ordered = bool(self.objective.priorities) and self.responses is None
         yield Rule(ordered, ("objective", "priorities"), _NO_ORDER)
+
+    def _scatter_rules(self, tolerances: Tolerances) -> Iterator[Rule]:
+        """What scatters with a choice is a term for each web of a response of the first order."""
+        over_turn = [name for name in self.responses or () if name in ("bearings", "bending", "roll")]
+        for name in ("mass_relative", "angle_deg") if over_turn else ():
+            message = (
+                f"not with choices and the response {over_turn[0]}: choose without, then ask with the choice fixed"
+            )
+            yield Rule(getattr(tolerances, name) > 0, ("tolerances", name), message)
 
     def _trade_rules(self) -> Iterator[Rule]:
         if self.responses is None:
@@ -217,15 +230,24 @@ class ParetoPoint(Model):
         description="why the status is what it is, in a sentence",
         examples=["The gap to the proven lower bound is within the asked one, and every limit is kept."],
     )
-    force_peak_N: Newtons = Field(description="first-order peak force", examples=[7504.6])
-    moment_peak_Nm: NewtonMetres = Field(description="first-order peak moment", examples=[20123.28])
+    force_peak_N: Newtons = Field(
+        description="first-order peak force of the machine as it is given, nothing off", examples=[7504.6]
+    )
+    moment_peak_Nm: NewtonMetres = Field(description="first-order peak moment, likewise", examples=[20123.28])
     weighted_force_peak_N: Newtons = Field(
-        description="peak of the force with direction weights, which is traded; the peak force where both are 1",
+        description="peak of the force with direction weights in the worst case, which is traded; the peak force where"
+        " both are 1 and nothing is off",
         examples=[7504.6],
     )
     weighted_moment_peak_Nm: NewtonMetres = Field(
-        description="peak of the moment with direction weights, which is traded; the peak moment where both are 1",
+        description="peak of the moment with direction weights in the worst case, which is traded; the peak moment"
+        " where both are 1 and nothing is off",
         examples=[20123.28],
+    )
+    worst_case: WorstPeaks | None = Field(
+        None,
+        description="both peaks without direction weights in the worst case; null without tolerances",
+        examples=[None],
     )
     total_mass_kg: Kilograms = Field(
         description="total mass of the counterweights on the crankshaft", examples=[236.35]

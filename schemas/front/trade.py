@@ -78,8 +78,14 @@ class TradedPoint(Model):
         examples=["The gap to the proven lower bound is within the asked one, and every limit is kept."],
     )
     values: tuple[float, ...] = Field(
-        description="one for each response, in their order; of what is known by a bracket its upper end",
+        description="one for each response, in their order, in the worst case; of what is known by a bracket its upper"
+        " end",
         examples=[[99000.0, 41.2]],
+    )
+    nominal_values: tuple[float, ...] | None = Field(
+        None,
+        description="the same of the machine as it is given, nothing off; null without tolerances",
+        examples=[None],
     )
     beaten_by: int | None = Field(
         None,
@@ -88,8 +94,10 @@ class TradedPoint(Model):
         " the triangle may lie behind the front",
         examples=[None],
     )
-    force_peak_N: Newtons = Field(description="first-order peak force", examples=[7504.6])
-    moment_peak_Nm: NewtonMetres = Field(description="first-order peak moment", examples=[20123.28])
+    force_peak_N: Newtons = Field(
+        description="first-order peak force of the machine as it is given, nothing off", examples=[7504.6]
+    )
+    moment_peak_Nm: NewtonMetres = Field(description="first-order peak moment, likewise", examples=[20123.28])
     total_mass_kg: Kilograms = Field(description="total mass of the counterweights on the crankshaft", examples=[41.2])
     counterweights: tuple[Counterweight, ...] = Field(
         description="one for each web, in the machine's order", examples=[[]]

@@ -156,9 +156,13 @@ class OptimizeRequest(Scene, Ruled):
 
     def worst_case_rules(self, message: str) -> Iterator[Rule]:
         """Cases, tolerances and allowances that are given where only the machine as it is can be asked for."""
+        yield Rule(self.tolerances is not None, ("tolerances",), message)
+        yield from self.case_refusals(message)
+
+    def case_refusals(self, message: str) -> Iterator[Rule]:
+        """Cases and allowances that are given where one machine alone can be asked for."""
         for field in stated(self):
             yield Rule(True, (field,), message)
-        yield Rule(self.tolerances is not None, ("tolerances",), message)
         yield Rule(bool(self.alternatives), ("alternatives",), message)
 
     def _alternative_rules(self, choice: Choice | None) -> Iterator[Rule]:
@@ -184,9 +188,11 @@ class OptimizeRequest(Scene, Ruled):
         if tolerances is None:
             return
         limited = any(getattr(goal, name) is not None for name in type(goal).model_fields if "_ceiling_" in name)
-        also = "a ceiling" if limited else f"objective.{(*goal.over_the_turn, '')[0]}"
+        # trees of masses that are continuous close too slowly with a term for every web at every angle
+        several = () if self.machine.choice == "discrete" else goal.over_the_turn
+        also = "a ceiling" if limited else f"objective.{(*several, '')[0]}"
         for name in ("mass_relative", "angle_deg"):
-            beyond = (getattr(tolerances, name) > 0) and (limited or bool(goal.over_the_turn))
+            beyond = (getattr(tolerances, name) > 0) and (limited or bool(several))
             message = f"not with {what} and {also}: {_FIX_THE_CHOICE}"
             yield Rule(beyond, ("tolerances", name), message)
 

@@ -1,4 +1,4 @@
-"""Designs that are certified each by itself: chosen from a catalogue, at least so heavy, cut from plates, or alike."""
+"""Designs that are certified each by itself: chosen from a catalogue, heavy enough, cut from plates, alike, or off."""
 
 from collections.abc import Iterator, Sequence
 from itertools import chain
@@ -23,8 +23,12 @@ def searched(base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target]) 
 
 def separate(base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target]) -> bool:
     """Whether designs are no batch of one program."""
+    if not isinstance(base, OptimizeRequest):
+        return False
     plates = any(web.envelope is not None for web in base.machine.webs)
-    return isinstance(base, OptimizeRequest) and bool(plates or base.machine.web_groups or searched(base, targets))
+    # cuts find what scatters
+    alone = plates or base.machine.web_groups or base.tolerances is not None
+    return bool(alone or searched(base, targets))
 
 
 def alone_problems(base: OptimizeRequest | AnalyzeRequest) -> Iterator[FieldProblem]:

@@ -39,6 +39,23 @@ _CERTIFICATE = (
         "mass_yardstick_kg", "number", "kg", "what that gap is relative to: the total mass, or the least that counts"
     ),
 )
+#: by the fields of the price of robustness
+PRICE = {
+    "nominal": Column(
+        "nominal_objective",
+        "number",
+        None,
+        "objective of the counterweights on the machine as it is given, nothing off",
+    ),
+    "nominal_optimum": Column(
+        "nominal_optimum", "number", None, "smallest objective of that machine, nothing off; null if it was not found"
+    ),
+    "nominal_optimum_worst_case": Column(
+        "nominal_optimum_worst_case", "number", None, "objective of that optimum in the worst case; null likewise"
+    ),
+}
+#: largest load of a main bearing in the worst case
+WORST_LOAD = "worst_case_bearing_peak_N"
 #: numbers of the certificate that a row holds, by the names of its fields
 CERTIFICATE = tuple(column.name for column in _CERTIFICATE if column.kind == "number")
 #: column of the proofs, which comes only if asked for
@@ -83,6 +100,23 @@ def goal_columns(objective: Objective) -> Iterator[Column]:
         yield Column(f"goal_limit.{goal}", "number", None, "what the goals after it may let it come to")
 
 
+def worst_peak(name: str) -> str:
+    """The column of a peak in the worst case, by that of the peak."""
+    return f"worst_case_{name}"
+
+
+def worst_columns(base: OptimizeRequest, targets: Sequence[Target]) -> Iterator[Column]:
+    """What counterweights come to where all is off that may be, and what that costs; none where nothing may be off."""
+    if base.tolerances is None:
+        return
+    for column in _residual(base, targets):
+        yield column._replace(name=worst_peak(column.name), meaning=f"{column.meaning}, in the worst case")
+    varied = {target.path[1:]: 1.0 for target in targets if target.path[0] == "objective"}
+    if with_fields(base.objective, varied).of_the_shaft:
+        yield Column(WORST_LOAD, "number", "N", "largest load of a main bearing in the worst case")
+    yield from PRICE.values()
+
+
 def _columns(
     base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target], always: Sequence[str], details: bool
 ) -> Iterator[Column]:
@@ -102,6 +136,7 @@ def _columns(
     if optimizes:
         yield from _CERTIFICATE
     if isinstance(base, OptimizeRequest):
+        yield from worst_columns(base, targets)
         yield from goal_columns(base.objective)
     for output in dict.fromkeys((*always, *base.outputs)):
         yield from OUTPUT_COLUMNS[output]

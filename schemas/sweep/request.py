@@ -24,7 +24,7 @@ from schemas.sweep.details import key
 
 MAX_AXES = 64
 #: parts of a request that an axis may vary
-_ROOTS = ("machine", "objective", "counterweights")
+_ROOTS = ("machine", "objective", "counterweights", "tolerances")
 
 ColumnName = Annotated[str, Field(max_length=512)]
 
@@ -208,7 +208,7 @@ class SweepRequest(Ruled):
             yield FieldProblem(("multipliers",), "serves only to optimize: what is analyzed has no certificate")
         yield from alone_problems(self.base)
         if isinstance(self.base, OptimizeRequest):
-            for broken, path, message in self.base.worst_case_rules("serves only to optimize one machine, not a sweep"):
+            for broken, path, message in self.base.case_refusals("serves only to optimize one machine, not a sweep"):
                 if broken:
                     yield FieldProblem(("base", *path), message)
         for j, output in enumerate(self.base.outputs):
@@ -262,7 +262,8 @@ class SweepRequest(Ruled):
                 yield FieldProblem(("axes", i, "path"), str(error))
                 continue
             if targets[i].path[0] not in _ROOTS:
-                yield FieldProblem(("axes", i, "path"), "only fields of machine, objective and counterweights can vary")
+                message = "only fields of machine, objective, counterweights and tolerances can vary"
+                yield FieldProblem(("axes", i, "path"), message)
             yield from _value_problems(i, axis, targets[i])
         for (_, first), (i, second) in combinations(targets.items(), 2):
             common = min(len(first.path), len(second.path))

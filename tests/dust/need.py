@@ -20,11 +20,11 @@ from optimizer.program.methods.optima import optima
 from optimizer.program.rows import Row
 from optimizer.program.verdict import MASS_GAP
 from optimizer.solve.whole_turn import whole_turn_of
-from optimizer.studies.pareto.trade import trade
 from schemas.answer.answers import OptimizeAnswer
 from schemas.front.pareto import ParetoFront, ParetoPoint, ParetoRequest
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.requests import OptimizeRequest
+from tests.studies.pareto.cases import trade_of
 
 #: shares of a turn: angles at first, and among those that are looked at for larger loads
 _COARSE, _FINE = 48, 3600
@@ -75,7 +75,7 @@ def is_needed_at(request: ParetoRequest, front: ParetoFront, point: ParetoPoint,
     if request.chosen or request.total_mass_budgets_kg is not None or not request.objective.least_mass:
         return False
     scene = prepare(request, ("residual",))
-    whole = trade(machine, request.objective, scene.responses, scene.omega_squared)
+    whole = trade_of(request)
     peaks = np.array([[each.weighted_force_peak_N, each.weighted_moment_peak_Nm] for each in front.points])
     unit = np.ptp(peaks, axis=0) / float(scene.omega_squared)
     if not np.all(unit > 0.0):

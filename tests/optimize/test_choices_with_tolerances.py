@@ -6,10 +6,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+from optimizer.analyze import analyze
 from optimizer.optimize import optimize
 from schemas.answer.answers import OptimizeAnswer
-from schemas.request.requests import OptimizeRequest
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from service.common.validation import InvalidRequest, check
+from tests.hard_turn.machines import twin
 from tests.night import at_night
 from tests.pairs.asking import body_of
 from tests.studies.pareto.test_counts import PLANES, RADIUS, SPEED, body
@@ -186,19 +188,71 @@ def test_at_least_so_heavy() -> None:
     assert all(one.mass_kg == 0 or one.mass_kg >= 15.0 for one in found.counterweights)
 
 
-@pytest.mark.parametrize(
-    ("goal", "path"),
-    [
-        ({"force_ceiling_N": 1e4}, ("tolerances", "mass_relative")),
-        ({"priorities": [{"goal": "external"}, {"goal": "mass"}]}, ("tolerances", "mass_relative")),
-    ],
-)
-def test_what_scatters_with_the_mass_is_of_one_goal_without_ceilings(
-    goal: dict[str, Any], path: tuple[str, ...]
-) -> None:
+def bearing_load(machine: dict[str, Any], chosen: list[tuple[str, float, float]], share: float) -> float:
+    """Independent: the largest load of three bearings on two spans, every weight off towards where the load grows."""
+    weights = [{"web": web, "mass_kg": mass, "angle_deg": angle} for web, mass, angle in chosen if mass]
+    found = analyze(
+        AnalyzeRequest.model_validate({"machine": machine, "counterweights": weights, "outputs": ["main_bearings"]})
+    )
+    assert found.main_bearings is not None
+    place = [bearing["position_m"] for bearing in machine["bearings"]]
+    square, grown = (machine["speed_rpm"] * np.pi / 30) ** 2, np.zeros(len(place))
+    webs = {web["name"]: web for web in machine["webs"]}
+    for name, mass, _ in chosen:
+        at, radius = webs[name]["position_m"], webs[name]["counterweight_radius_m"]
+        # a load within a span is carried by its ends, as by a simple beam
+        grown += [np.interp(at, place, row) * mass * radius * square * share for row in np.eye(len(place))]
+    peaks = [bearing.after.peak_N for bearing in found.main_bearings.bearings if bearing.after is not None]
+    return float(np.max(np.array(peaks) + grown))
+
+
+def test_a_choice_for_bearings_that_scatters_with_its_mass() -> None:
+    """Independent: of all sets of two webs none has a smaller largest load in the worst case."""
+    machine, share = twin(), 0.08
+    for web in machine["webs"][1:3]:
+        web["max_mass_kg"] = 0.0
+    alone = {"force_weight": 0.0, "moment_weight": 0.0, "bearing_weight": 1.0}
+    stock = {"masses_kg": [0.4, 0.9], "angle_step_deg": 90.0}
+    request = {"machine": {**machine, "catalogue": stock}, "objective": alone, "tolerances": {"mass_relative": share}}
+    found = optimize(OptimizeRequest.model_validate(request))
+    assert found.status == "optimal", found.status_reason
+    assert found.certificate is not None
+    options = [(0.0, 0.0), *itertools.product(stock["masses_kg"], (0.0, 90.0, 180.0, 270.0))]
+    ends = [machine["webs"][0]["name"], machine["webs"][3]["name"]]
+    loads = [
+        bearing_load(machine, [(name, *option) for name, option in zip(ends, pair, strict=True)], share)
+        for pair in itertools.product(options, options)
+    ]
+    assert found.certificate.objective == pytest.approx(min(loads), rel=1e-6)
+    assert found.certificate.lower_bound is not None
+    assert found.certificate.lower_bound <= min(loads) * (1 + 1e-9)
+
+
+def test_goals_in_their_order_of_choices_that_scatter() -> None:
+    """Independent: the least mass of all sets within a twentieth of the smallest worst case."""
+    order = [{"goal": "external", "allowance": 0.05}, {"goal": "mass"}]
+    tolerances = {"mass_relative": 0.05, "angle_deg": 3.0}
+    found = asked(tolerances, objective={"priorities": order})
+    assert found.status == "optimal", found.status_reason
+    assert found.certificate is not None
+    sets, unit = every_set(), found.certificate.objective_without_counterweights
+    values, masses = worst(sets, tolerances), np.sum(np.abs(sets), axis=0) / RADIUS
+    allowed = values <= np.min(values) + 0.05 * unit
+    assert found.total_mass_kg == pytest.approx(float(np.min(masses[allowed])))
+    assert found.certificate.objective <= (np.min(values) + 0.05 * unit) * (1 + 1e-9)
+
+
+@pytest.mark.parametrize("goal", [{"force_ceiling_N": 1e4}, {"bearing_weight": 1.0}])
+def test_what_scatters_with_a_mass_that_is_no_choice_of_few(goal: dict[str, Any]) -> None:
+    """A ceiling is on one term, and trees of continuous masses want one goal of the first order."""
+    request = body(STEP_DEG, MASSES, tolerances={"mass_relative": 0.02}, objective=goal)
+    if "bearing_weight" in goal:
+        del request["machine"]["catalogue"]
+        request["machine"]["webs"][0] |= {"min_fitted_mass_kg": 3.0}
+        request["machine"]["bearings"] = [{"name": "a", "position_m": -0.6}, {"name": "b", "position_m": 0.6}]
     with pytest.raises(InvalidRequest) as refused:
-        check(OptimizeRequest, body(STEP_DEG, MASSES, tolerances={"mass_relative": 0.02}, objective=goal))
-    assert [problem.path for problem in refused.value.problems] == [path]
+        check(OptimizeRequest, request)
+    assert [problem.path for problem in refused.value.problems] == [("tolerances", "mass_relative")]
 
 
 def test_a_bound_that_is_the_value_contradicts_nothing() -> None:

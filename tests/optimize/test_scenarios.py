@@ -179,15 +179,24 @@ def test_scenarios_that_are_none_are_refused_by_name(scenarios: list[dict[str, A
     assert any(f"scenarios/{pointer}" in each for each in found), found
 
 
-@pytest.mark.parametrize("asked", [{"scenarios": [{"name": "a"}]}, {"tolerances": {}}])
-def test_sweeps_fronts_and_the_ladder_refuse_them_by_name(asked: dict[str, Any]) -> None:
-    body = {"machine": crank(), **asked}
+def test_sweeps_fronts_and_the_ladder_refuse_them_by_name() -> None:
+    body = {"machine": crank(), "scenarios": [{"name": "a"}]}
     axis = {"path": "/machine/speed_rpm", "values": [100.0]}
     with pytest.raises(ValidationError, match="not a sweep"):
         SweepRequest.model_validate({"base": body, "axes": [axis]})
-    for model in (ParetoRequest, AccuracyRequest):
-        with pytest.raises(ValidationError, match="machine as it is given"):
-            model.model_validate(body)
+    with pytest.raises(ValidationError, match="a front is of one machine"):
+        ParetoRequest.model_validate(body)
+    with pytest.raises(ValidationError, match="machine as it is given"):
+        AccuracyRequest.model_validate(body)
+
+
+def test_tolerances_go_with_sweeps_and_fronts_and_not_with_the_ladder() -> None:
+    body = {"machine": crank(), "tolerances": {}}
+    axis = {"path": "/machine/speed_rpm", "values": [100.0]}
+    assert SweepRequest.model_validate({"base": body, "axes": [axis]}).separate
+    assert ParetoRequest.model_validate(body).tolerances is not None
+    with pytest.raises(ValidationError, match="machine as it is given"):
+        AccuracyRequest.model_validate(body)
 
 
 def test_what_a_scenario_lacks_is_asked_for_in_its_name() -> None:

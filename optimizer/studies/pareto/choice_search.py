@@ -22,6 +22,8 @@ from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
 from optimizer.solve.solution import Infeasible, Solution
 from optimizer.solve.solve import solve
+from optimizer.solve.uncertain_program import Robust
+from optimizer.solve.worst_case import nominal
 from optimizer.studies.pareto.measures import Measures, measures
 from schemas.base.variation import with_fields
 from schemas.front.trade import Traded
@@ -63,8 +65,13 @@ class ChoiceSearch:
 
     @cached_property
     def traded(self) -> Measures:
-        """What is traded."""
-        return measures(self.task, self.names, self.scene)
+        """What is traded, with all changes of masses that may be the worst."""
+        return measures(self.robust.goals().anywhere, self.names)
+
+    @cached_property
+    def robust(self) -> Robust:
+        """What may be off of what is traded."""
+        return Robust(self.task, self.scene, self.task.demand)
 
     @cached_property
     def at_rest(self) -> Real:
@@ -78,7 +85,16 @@ class ChoiceSearch:
 
     def values(self, u: Complex) -> Real:
         """What unbalances (K,) come to (D,)."""
-        result = self.traded.values(u) * self.square
+        return self._in_units(self.traded, u)
+
+    def nominal_values(self, u: Complex) -> Real | None:
+        """The same with nothing off, where anything may be."""
+        if self.task.tolerances is None:
+            return None
+        return self._in_units(measures(nominal(self.robust).program, self.names), u)
+
+    def _in_units(self, traded: Measures, u: Complex) -> Real:
+        result = traded.values(u) * self.square
         return np.where(self.is_mass, result + self.fixed, result)
 
     def gross(self, point: ChosenPoint) -> Real:
@@ -122,7 +138,8 @@ class ChoiceSearch:
             machine = with_fields(machine, {("max_total_mass_kg",): budget})
         goal = self._weighing(weights, ceilings)
         limit = min(max(seconds, _LEAST_TIME), self.seconds)
-        task = Task(machine, goal, self.task.fidelity, min(max(gap, _LEAST_GAP), 1.0), limit)
+        gap = min(max(gap, _LEAST_GAP), 1.0)
+        task = replace(self.task, machine=machine, objective=goal, relative_gap=gap, time_limit_s=limit)
         best = solve(task, replace(self.scene, machine=machine, objective=goal), in_full=False)
         if isinstance(best, Infeasible):
             return best

@@ -15,12 +15,15 @@ import numpy as np
 
 from optimizer.formulation.simulation import Prepared
 from optimizer.numerics.arrays import Real
-from optimizer.solve.prices import touched_limits
-from optimizer.solve.solution import Infeasible
+from optimizer.solve.answer_fields import touched_ceilings
+from optimizer.solve.prices import touched_by_mass
+from optimizer.solve.solution import Infeasible, Solution
+from optimizer.solve.worst_case import worst_peaks
 from optimizer.studies.pareto.choice_search import ChoiceSearch, ChosenPoint
 from optimizer.studies.pareto.measures import sizes
 from optimizer.studies.pareto.points import knee, undominated
 from optimizer.studies.pareto.trades import needed
+from schemas.answer.limits import MachineLimit
 from schemas.base.responses import PAIR
 from schemas.front.pareto import CornerCertificate, Ends, ParetoFront, ParetoPoint, ParetoRequest, Reason, Scale
 from schemas.machine.machine import Machine
@@ -33,6 +36,8 @@ _SLACK = 0.1
 _SEARCHES = 4
 #: an optimum no nearer to its box than this leaves it empty
 _INSIDE = 1e-12
+#: width of the brackets by which what is touched is told, as a share of ceilings
+_CLOSE = 1e-10
 #: of an optimum whose own yardstick is larger than the scale of the front
 _WIDE = "The gap to the bound is wider than requested, relative to the scale of the front."
 
@@ -111,8 +116,9 @@ class _Boxes(ChoiceSearch):
         objective, field = self.task.objective, ("force_ceiling_N", "moment_ceiling_Nm")[axis]
         across = objective.direction_weights
         backwards = any(response.counter_influence is not None for response in self.scene.responses)
-        if (across.x, across.y) != (1.0, 1.0) or backwards:
-            # a ceiling is of a whole vector, and of one length of it; the boxes find the corner
+        if (across.x, across.y) != (1.0, 1.0) or backwards or self.robust.scatter.share:
+            # a ceiling is of a whole vector, and of one length of it, which scatters with no choice; the boxes find the
+            # corner
             return end
         most = float(end.values[axis] + _SLACK * self.gap * size[axis])
         limit = getattr(objective, field)
@@ -166,16 +172,10 @@ class _Boxes(ChoiceSearch):
             moment_peak_Nm=float(plain.moment.peak),
             weighted_force_peak_N=float(optimum.values[0]),
             weighted_moment_peak_Nm=float(optimum.values[1]),
+            worst_case=None if self.task.tolerances is None else worst_peaks(self.robust, best.unbalance),
             **shown.fields,
             # of the request: a search has ceilings of its own
-            active_limits=touched_limits(
-                self.task.machine,
-                self.task.objective,
-                self.scene.responses,
-                np.array([counterweight.mass_kg for counterweight in shown.counterweights]),
-                best.unbalance,
-                self.scene.omega_squared,
-            ),
+            active_limits=self._touched(best),
             certificate=CornerCertificate(
                 force_N=float(optimum.corner[0]) if proven else None,
                 moment_Nm=float(optimum.corner[1]) if proven else None,
@@ -190,6 +190,15 @@ class _Boxes(ChoiceSearch):
                 method=best.certificate.method,
             ),
         )
+
+    def _touched(self, best: Solution) -> tuple[MachineLimit, ...]:
+        """Limits of the machine, and ceilings in the worst case."""
+        goals = self.robust.goals()
+        goals = replace(goals, program=goals.anywhere)
+        values = goals.program.values(best.unbalance, _CLOSE)
+        masses = np.array([counterweight.mass_kg for counterweight in best.shown.counterweights])
+        ceilings = touched_ceilings(self.task, goals, values)
+        return tuple(dict.fromkeys((*touched_by_mass(self.task.machine, masses), *ceilings)))
 
 
 def _undominated(optima: Sequence[ChosenPoint]) -> list[ChosenPoint]:

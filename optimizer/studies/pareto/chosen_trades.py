@@ -83,6 +83,7 @@ class ChosenTrades(ChoiceSearch):
             status="optimal" if exact else "inaccurate",
             status_reason=best.reason,
             values=tuple(point.values.tolist()),
+            nominal_values=self._nominal(point),
             force_peak_N=float(after.force.peak),
             moment_peak_Nm=float(after.moment.peak),
             **shown.fields,
@@ -96,6 +97,11 @@ class ChosenTrades(ChoiceSearch):
                 method=proof.method,
             ),
         )
+
+    def _nominal(self, point: ChosenPoint) -> tuple[float, ...] | None:
+        """What it comes to with nothing off, where anything may be."""
+        values = self.nominal_values(point.solution.unbalance)
+        return None if values is None else tuple(np.where(self.is_mass, point.values, values).tolist())
 
     def _lightest(self, choices: Sequence[ChosenPoint], size: float, seconds: float) -> tuple[Real, float]:
         """What the lightest that keep the ceilings come to (D,), and the mass that is proven to be needed."""

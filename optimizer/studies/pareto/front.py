@@ -15,7 +15,6 @@ from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, ceiling_allowance, normalised, nothing_proven
 from optimizer.program.methods.implied_bounds import within_reach
-from optimizer.program.methods.optima import Optima, optima
 from optimizer.program.methods.rounding import has_dust
 from optimizer.program.solution import OPTIMUM_SHARE, ConeSolution
 from optimizer.program.statement import Statement
@@ -35,6 +34,8 @@ _END_SHARE = 0.3
 _NEAR_END = 1e-3
 #: most lines that find an end
 _END_STEPS = 12
+#: share of the corner's last rise that is little gained by the next line, and by which lines are then steeper
+_SLOW, _STEEPER = 0.5, 0.25
 #: parts of the asked share of t, each tried where the least mass could not be certified with the one before
 _ALLOWANCES = (1.0, 0.5, 0.2)
 #: where webs have no limit, peaks are looked into up to so many times those at the ends
@@ -136,8 +137,8 @@ def _smallest(trade: Trade) -> tuple[Trade, list[ConeSolution]] | ConeSolution:
 
 def _alone(trade: Trade) -> tuple[Trade, list[ConeSolution]] | ConeSolution:
     results: list[ConeSolution] = []
-    for program in trade.alone:
-        solution = optima(program.alone(), _SHARPNESS, True).single()
+    for which in (0, 1):
+        solution = trade.smallest(which, _SHARPNESS, True)
         if solution.conflict is not None:
             return solution
         results.append(solution)
@@ -223,14 +224,13 @@ def _meets(trade: Trade, anchors: Real, unit: Real, least_mass: bool, share: flo
     """
     first, *more = _ALLOWANCES if least_mass else _ALLOWANCES[:1]
     programs = trade.along(anchors, unit)
-    optimum = _reached(optima(programs, first * share, least_mass))
     points = []
-    for n, anchor in enumerate(anchors):
-        program, best = programs.chosen(n), optimum.single(n)
+    for n, best in enumerate(_reached(trade.met(anchors, unit, first * share, least_mass))):
+        program, anchor = programs.chosen(n), anchors[n]
         for part in more:
             if _mass_gap(best) <= MASS_GAP:
                 break
-            best = min(best, _reached(optima(program.alone(), part * share, least_mass)).single(), key=_mass_gap)
+            best = min(best, *_reached(trade.met(anchors[n : n + 1], unit, part * share, least_mass)), key=_mass_gap)
         usable, _ = normalised(program, best.multipliers)
         of_mass = best.mass_multipliers if least_mass else None
         points.append(
@@ -245,11 +245,11 @@ def _meets(trade: Trade, anchors: Real, unit: Real, least_mass: bool, share: flo
     return tuple(points)
 
 
-def _reached(optimum: Optima) -> Optima:
+def _reached(optima: list[ConeSolution]) -> list[ConeSolution]:
     """Optima under ceilings that have been kept."""
-    if optimum.unreachable.any():
+    if any(optimum.conflict is not None for optimum in optima):
         raise _Undecided
-    return optimum
+    return optima
 
 
 def _bound(statement: Statement, solution: ConeSolution) -> float:
@@ -275,13 +275,14 @@ def _end(
     The line starts a little above the smallest value of the first peak, at a value of the other that is proven to be
     too small, and is so steep that the first hardly rises; the corner that is proven there starts the next line.
     Where the front falls like a square root, the first peak still rises by the square of the slope, so that is the
-    root of the asked gap; a steeper line costs digits.
+    root of the asked gap; a steeper line costs digits. Where counterweights scatter, the first peak may rise by next to
+    nothing along a straight front: there lines become steeper, as corners hardly move.
     """
     other = 1 - first
     unit = size * np.where(np.arange(2) == first, np.sqrt(share), 1.0)
     anchor = ideal + size * np.where(np.arange(2) == first, _END_SLACK * share, 0.0)
     # at the anchor it is the other peak alone that is too small
-    peaks, corners = [], [(anchor, proofs[other])]
+    peaks, corners, last = [], [(anchor, proofs[other])], np.inf
     for _ in range(_END_STEPS):
         point = _meet(trade, anchor, unit, False, share)
         peaks.append(trade.peaks(point.solution.unbalance))
@@ -291,6 +292,9 @@ def _end(
         if rise <= share * size[other]:
             break
         anchor = np.where(np.arange(2) == other, point.corner, anchor)
+        if trade.both.norms.scatter and rise > _SLOW * last:
+            unit = unit * np.where(np.arange(2) == first, _STEEPER, 1.0)
+        last = rise
     corner, proof = max(corners, key=lambda pair: float(pair[0][other]))
     # the end cannot be lower than this; the step that comes closest is it
     target = np.where(np.arange(2) == first, ideal, corner)
@@ -340,8 +344,8 @@ def _spread(trade: Trade, start: Real, step: Real, count: int, share: float) -> 
     # depth of the front below the chord, in units of the range
     depth = np.zeros(sounded.size)
     anchors = start + sounded[1:-1, None] * step
-    lines = trade.along(anchors, np.abs(step))
-    u = _reached(optima(lines, max(share, _SOUNDED), False)).unbalance
+    lines = _reached(trade.met(anchors, np.abs(step), max(share, _SOUNDED), False))
+    u = np.array([line.unbalance for line in lines])
     depth[1:-1] = np.min((anchors - trade.peaks(u)) / np.abs(step), axis=-1)
     curve = np.array([sounded - depth, 1.0 - sounded - depth])
     length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(curve, axis=1)))])

@@ -10,8 +10,6 @@ import numpy as np
 
 from optimizer.formulation.balance_shafts import chosen
 from optimizer.formulation.counterweights import masses_and_angles, unbalance
-from optimizer.formulation.simulation import Prepared
-from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import fixed_masses
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.certificate import ceiling_allowance
@@ -20,6 +18,8 @@ from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.program.verdict import Claim, mass_resolution, verdict
 from optimizer.solve.solution import Infeasible, Solution, finite_or_null
 from optimizer.solve.solve import solve
+from optimizer.solve.uncertain_program import Robust
+from optimizer.solve.worst_case import nominal
 from optimizer.studies.pareto.measures import measures, sizes
 from optimizer.studies.pareto.points import TradeEnds
 from schemas.front.trade import Traded, TradedCertificate, TradedPoint
@@ -36,9 +36,14 @@ class Lines:
     square, there : (D,) what figures are times and above in the units of the answer: the mass is above what is fixed.
     """
 
-    def __init__(self, task: Task, names: tuple[Traded, ...], scene: Prepared) -> None:
-        self.task, self.scene = task, scene
-        self.traded = measures(task, names, scene)
+    def __init__(self, robust: Robust, names: tuple[Traded, ...]) -> None:
+        self.task, self.scene, self.robust = robust.task, robust.scene, robust
+        task, scene = robust.task, robust.scene
+        self.traded = measures(robust.goals().program, names)
+        #: with nothing off, where anything may be
+        self.nominal = measures(nominal(robust).program, names) if task.tolerances is not None else None
+        #: whether counterweights have shown changes of masses that are worse than those known before
+        self.learnt = False
         self.square = np.array([1.0 if name == "mass" else scene.omega_squared for name in names])
         self.fixed = float(np.sum(fixed_masses(task.machine)))
         self.there = np.array([self.fixed if name == "mass" else 0.0 for name in names])
@@ -55,6 +60,7 @@ class Lines:
                 result = over_turn(traded.first(which, size, _END_SLACK), OPTIMUM_SHARE, False)
                 if isinstance(result, Conflict):
                     return solve(self.task, self.scene, in_full=False)
+                self.learnt |= self.robust.learnt(result.point.unbalance)
                 ends.append(traded.values(result.point.unbalance))
                 gross = np.maximum(gross, traded.gross(result.point.unbalance))
                 smallest.append((result.goals[0].value, result.goals[0].proof.bound))
@@ -82,6 +88,7 @@ class Lines:
         task = self.task
         masses, angles = masses_and_angles(task.space.machine, result.point.unbalance, result.limits)
         u = unbalance(masses, angles, result.limits.radius)
+        self.learnt |= self.robust.learnt(u)
         values, excess = self.traded.values(u), self.traded.excess(u)
         bound, rounding = _bound(result, u, excess)
         mass = float(np.sum(masses))
@@ -105,7 +112,8 @@ class Lines:
         return TradedPoint(
             status="optimal" if judged.status == "optimal" else "inaccurate",
             status_reason=str(judged.reason),
-            values=tuple((values * self.square + self.there).tolist()),
+            values=self._shown(values),
+            nominal_values=None if self.nominal is None else self._shown(self.nominal.values(u)),
             force_peak_N=float(plain.force.peak),
             moment_peak_Nm=float(plain.moment.peak),
             **shown.fields,
@@ -121,6 +129,10 @@ class Lines:
                 method=METHOD,
             ),
         )
+
+    def _shown(self, values: Real) -> tuple[float, ...]:
+        """What responses come to (D,) in the units of the answer."""
+        return tuple((values * self.square + self.there).tolist())
 
 
 def _bound(optimum: CertifiedOptimum, u: Complex, excess: float) -> tuple[float, float]:

@@ -1,16 +1,12 @@
 """Any two or three responses that are traded for one another, and the programs over the turn that stand on them."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 
-from optimizer.formulation.balance_shafts import design_space
 from optimizer.formulation.formulate import RESPONSES, weighing
-from optimizer.formulation.goals import Case, formulate
-from optimizer.formulation.simulation import Prepared
-from optimizer.formulation.task import Task
-from optimizer.mechanics.shapes import closed
 from optimizer.numerics.arrays import SMALLEST, Complex, Real, Reals
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
@@ -19,7 +15,6 @@ from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.norms import Norms
 from optimizer.program.rows import Row, total_mass
 from optimizer.program.solution import OPTIMUM_SHARE
-from optimizer.solve.whole_turn import whole_turn_of
 from schemas.base.variation import with_fields
 from schemas.front.trade import Traded
 from schemas.request.objective import Objective
@@ -79,7 +74,8 @@ class Measures:
 
     def gross(self, u: Complex) -> Real:
         """What every counterweight by itself adds to each at most, summed (D,)."""
-        return np.array([self._most(group, np.abs(u)) for group in self.groups])
+        size = (1.0 + self.program.scatter.share) * np.abs(u)
+        return np.array([self._most(group, size) for group in self.groups])
 
     def _most(self, group: Group, size: Real) -> float:
         of_rows = [sum(np.sum(np.abs(peak.norms.influence) @ size) for peak in row.peaks) for row in group.rows]
@@ -94,27 +90,25 @@ class Measures:
         ----------
         allowance : share of its size that the others may use.
         """
-        others = [_along(self.groups[i], 0.0, size[i]) for i in range(len(self.names)) if i != which]
+        others = [above(self.groups[i], 0.0, size[i]) for i in range(len(self.names)) if i != which]
         goal = Goal(self.names[which], (self.groups[which],), float(size[which]), allowance=allowance)
         return replace(self.program, goals=(goal, Goal("others", (_largest(others),), 1.0)))
 
     def along(self, anchor: Real, unit: Real) -> Problem:
         """min max_i (R_i - anchor_i)/unit_i: the first attainable point on the line anchor + t unit, (D,) both."""
-        rows = [_along(*arguments) for arguments in zip(self.groups, anchor.tolist(), unit.tolist(), strict=True)]
+        rows = [above(*arguments) for arguments in zip(self.groups, anchor.tolist(), unit.tolist(), strict=True)]
         return replace(self.program, goals=(Goal("trade", (_largest(rows),), 1.0),))
 
 
-def measures(task: Task, names: tuple[Traded, ...], scene: Prepared) -> Measures:
-    """The responses of a task by their names."""
-    machine, objective = design_space(task.machine, alone(task.objective, names))
-    turn = whole_turn_of(scene, objective) if objective.of_the_revolution else None
-    machine, square = closed(machine), scene.omega_squared
-    case = Case(machine, square, (scene.responses,), None if turn is None else (turn, scene.laden))
-    program = formulate(machine, objective, [case], square, task.fidelity).program
+def measures(program: Problem, names: tuple[Traded, ...]) -> Measures:
+    """The responses that a program weighs, by their names."""
     every = tuple(row for group in program.groups for row in group.rows)
-    groups = {"mass": Group((total_mass(program.limits),)), "objective": Group(every)} | {
+    groups = {
+        "mass": Group((total_mass(program.limits, *program.scatter),)),
+        "objective": Group(tuple(_summed(program.groups))),
+    } | {
         name: Group(
-            tuple(row for row in every if row.name == name),
+            tuple(row for row in every if row.peaks[0].name == name),
             tuple(
                 member
                 for group in program.groups
@@ -126,6 +120,15 @@ def measures(task: Task, names: tuple[Traded, ...], scene: Prepared) -> Measures
         if name not in ("mass", "objective")
     }
     return Measures(names, program, tuple(groups[name] for name in names))
+
+
+def _summed(groups: Sequence[Group]) -> Iterator[Row]:
+    """Rows of which the largest is the sum of the largest of every group: each with each."""
+    if len(groups) == 1:
+        yield from groups[0].rows
+        return
+    for rows in product(*(group.rows for group in groups)):
+        yield Row("sum", tuple(peak for row in rows for peak in row.peaks))
 
 
 def _traded(quantity: str) -> Traded:
@@ -155,14 +158,15 @@ def unit_of(name: Traded, objective: Objective) -> str:
     return (inside | {"mass": "kg", "objective": "as weighed"})[name]
 
 
-def _along(group: Group, anchor: float, unit: float) -> Group:
+def above(group: Group, anchor: float, unit: float) -> Group:
     """A response as a share of a unit above an anchor."""
-    rows = tuple(_scaled(row, anchor, unit) for row in group.rows)
+    rows = tuple(scaled(row, anchor, unit) for row in group.rows)
     weighed = tuple(Weighed(q, weight / unit, (offset - anchor) / unit) for q, weight, offset in group.weighed)
     return Group(rows, weighed)
 
 
-def _scaled(row: Row, anchor: float, unit: float) -> Row:
+def scaled(row: Row, anchor: float, unit: float) -> Row:
+    """A row as a share of a unit above an anchor."""
     peaks = [
         replace(peak, floor=peak.floor / unit, norms=Norms(peak.norms.constant / unit, peak.norms.influence / unit))
         for peak in row.peaks

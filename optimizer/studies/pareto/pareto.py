@@ -8,6 +8,7 @@ import numpy as np
 
 from optimizer.formulation.balance_shafts import chosen, design_space
 from optimizer.formulation.counterweights import masses_and_angles, unbalance
+from optimizer.formulation.goals import Goals
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import fixed_masses
@@ -18,10 +19,13 @@ from optimizer.outputs.registry import prepare
 from optimizer.program.methods.symmetry import symmetric
 from optimizer.program.solution import ConeSolution
 from optimizer.program.verdict import Claim, mass_resolution, verdict
-from optimizer.solve.prices import touched_limits
+from optimizer.solve.answer_fields import touched_ceilings
+from optimizer.solve.prices import touched_by_mass
 from optimizer.solve.proof import implied_max_mass, named, physical
 from optimizer.solve.solution import Infeasible, finite_or_null
 from optimizer.solve.solve import solve
+from optimizer.solve.uncertain_program import Robust
+from optimizer.solve.worst_case import worst_peaks
 from optimizer.studies.pareto.chosen_front import chosen_front
 from optimizer.studies.pareto.counts import count_front
 from optimizer.studies.pareto.front import Front, FrontPoint, front
@@ -31,6 +35,7 @@ from optimizer.studies.pareto.trades import needed, traded_front
 from schemas.answer.answers import Timing
 from schemas.answer.proof import EndMultipliers, Multipliers
 from schemas.base.mappings import or_mapping
+from schemas.base.responses import PAIR
 from schemas.base.variation import with_fields
 from schemas.front.pareto import (
     CornerCertificate,
@@ -45,6 +50,8 @@ from schemas.front.pareto import (
 )
 from schemas.machine.machine import Machine
 
+#: width of the brackets by which what is touched is told, as a share of ceilings
+_CLOSE = 1e-10
 _WORST: tuple[Status, ...] = ("optimal", "inaccurate", "infeasible")
 
 
@@ -117,20 +124,35 @@ def _front(request: ParetoRequest, machine: Machine, scene: Prepared) -> _Made:
     start = time.perf_counter()
     if request.chosen:
         return _Made(chosen_front(request, machine, scene), time.perf_counter() - start, 0.0)
-    traded = trade(*design_space(machine, request.objective), scene.responses, scene.omega_squared)
-    result = front(traded, request.points, request.accuracy.relative_gap, request.objective.least_mass)
+    task = needed(request, PAIR, machine)
+    robust = Robust(task, replace(scene, machine=machine, objective=task.objective), task.demand)
+    result = _solved(robust, request.points)
     solve_s = time.perf_counter() - start
     if isinstance(result, ConeSolution):
         return _Made(_infeasible(request, machine, scene), solve_s, result.certify_s)
     certify_s = sum(point.solution.certify_s for point in result.points)
-    return _Made(_certified(request, machine, scene, result), solve_s, certify_s)
+    return _Made(_certified(request, robust, result), solve_s, certify_s)
 
 
-def _certified(request: ParetoRequest, machine: Machine, scene: Prepared, curve: Front) -> ParetoFront:
-    points = [_point(request, machine, scene, curve, point) for point in curve.points]
+def _solved(robust: Robust, points: int) -> Front | ConeSolution:
+    """The front with all changes of masses that matter at any of its points; there are finitely many."""
+    wanted = robust.wanted
+    while True:
+        result = front(trade(robust.goals().program), points, wanted.relative_gap, wanted.least_mass)
+        if isinstance(result, ConeSolution):
+            return result
+        # every point may show some
+        learnt = [robust.learnt(point.solution.unbalance) for point in result.points]
+        if not any(learnt):
+            return result
+
+
+def _certified(request: ParetoRequest, robust: Robust, curve: Front) -> ParetoFront:
+    machine, goals = robust.task.machine, robust.goals()
+    points = [_point(request, robust, goals, curve, point) for point in curve.points]
     # points that are nearer to each other than their gaps can be out of order; no tolerance is applied
     shown = undominated(points, weighted_peaks)
-    square = scene.omega_squared
+    square = robust.scene.omega_squared
     ideal, scale = curve.ideal * square, curve.size * square
     first, last = shown[0], shown[-1]
     ends = Ends(
@@ -163,7 +185,8 @@ def _certified(request: ParetoRequest, machine: Machine, scene: Prepared, curve:
     )
 
 
-def _point(request: ParetoRequest, machine: Machine, scene: Prepared, curve: Front, point: FrontPoint) -> ParetoPoint:
+def _point(request: ParetoRequest, robust: Robust, goals: Goals, curve: Front, point: FrontPoint) -> ParetoPoint:
+    machine, scene = robust.task.machine, robust.scene
     square, traded = scene.omega_squared, curve.trade
     limits = traded.both.limits
     unbalance_there = point.solution.unbalance
@@ -183,13 +206,16 @@ def _point(request: ParetoRequest, machine: Machine, scene: Prepared, curve: Fro
             yardstick=curve.size,
             excess=np.max(traded.both.ceilings.excess(u), axis=-1, initial=-np.inf),
             mass=np.asarray(np.sum(masses)),
-            mass_resolution=mass_resolution(traded.both, curve.size),
+            mass_resolution=mass_resolution(traded.both, curve.size[traded.peak]),
             mass_lower_bound=np.asarray(point.solution.mass_lower_bound) if request.objective.least_mass else None,
         ),
         request.accuracy.relative_gap,
     )
     plain = scene.beside(shown.on_shafts).first_order(shown.on_crank)
     limit = (point.mass_limit * square).tolist() if point.mass_proof is not None else (None, None)
+    there = np.array([counterweight.mass_kg for counterweight in shown.counterweights])
+    limited = goals.program.ceilings
+    ceilings = touched_ceilings(robust.task, goals, goals.program.values(u, _CLOSE)) if limited else ()
     weighted: Real = peaks * square
     proven: Real = judged.lower_bound * square
     return ParetoPoint(
@@ -200,14 +226,8 @@ def _point(request: ParetoRequest, machine: Machine, scene: Prepared, curve: Fro
         weighted_force_peak_N=float(weighted[0]),
         weighted_moment_peak_Nm=float(weighted[1]),
         **shown.fields,
-        active_limits=touched_limits(
-            machine,
-            request.objective,
-            scene.responses,
-            np.array([counterweight.mass_kg for counterweight in shown.counterweights]),
-            u,
-            square,
-        ),
+        worst_case=worst_peaks(robust, u) if robust.task.tolerances is not None else None,
+        active_limits=tuple(dict.fromkeys((*touched_by_mass(machine, there), *ceilings))),
         certificate=CornerCertificate(
             force_N=finite_or_null(proven[0]),
             moment_Nm=finite_or_null(proven[1]),

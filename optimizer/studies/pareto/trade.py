@@ -5,43 +5,56 @@ from dataclasses import field, replace
 
 import numpy as np
 
-from optimizer.formulation.formulate import limited
-from optimizer.formulation.limits import limits
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.records import record
 from optimizer.program.certificate import Multipliers
+from optimizer.program.cuts.dominance import Group
+from optimizer.program.cuts.optimum import Conflict, over_turn
+from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.methods.implied_bounds import bounded, far_limits
-from optimizer.program.norms import Norms
-from optimizer.program.rows import combined, statement, weighted_peak
+from optimizer.program.methods.optima import optima
+from optimizer.program.rows import Row
+from optimizer.program.solution import ConeSolution, evaluated
 from optimizer.program.statement import Statement
-from optimizer.responses.response import Response
+from optimizer.studies.pareto.measures import scaled
 from schemas.base.responses import PAIR
-from schemas.machine.machine import Machine
-from schemas.request.objective import Objective
 
 
 @record(frozen=True)
 class Trade:
     """Weighted peak force (0) and weighted peak moment (1) under the limits and ceilings of a machine.
 
+    Each is the largest of its rows: one for every change of the masses that is known to count, in every case.
+
     both : the program min max(F, M), kg m and kg m^2 (over omega^2).
     alone : min F and min M.
+    peak : (rows,) to which of both peaks a row belongs.
+    program : of both, without limits of the webs that are nearer.
     cap : (2,) peaks up to which all that can be reached is reached within the limits, and no heavier; inf where these
         are the machine's own.
     """
 
     both: Statement
     alone: tuple[Statement, Statement]
+    peak: np.ndarray
+    program: Problem
     cap: Real = field(default_factory=lambda: np.full(2, np.inf))
 
     def peaks(self, u: Complex) -> Real:
         """Weighted peak force [kg m] and moment [kg m^2] with counterweights u (..., K), (..., 2)."""
-        return self.both.rows(np.abs(self.both.norms.at(u)))
+        return self._largest(self.both.rows(self.both.norms.sizes(u)))
 
     def gross(self, u: Complex) -> Real:
         """Sum of what every counterweight by itself adds to each peak at most, (..., 2)."""
         sizes = np.sum(np.abs(self.both.norms.influence) * np.abs(u)[..., None, :], axis=-1)
-        return np.sum(self.both.membership * sizes[..., None, :], axis=-1)
+        return self._largest(np.sum(self.both.membership * sizes[..., None, :], axis=-1))
+
+    def _largest(self, rows: Real) -> Real:
+        """The largest row of each peak (..., 2) of what rows have (..., rows)."""
+        if self.peak.size == len(PAIR):
+            # one of each, in their order
+            return rows
+        return np.stack([np.max(rows[..., self.peak == n], axis=-1) for n in range(len(PAIR))], axis=-1)
 
     def rounding(self, u: Complex) -> Real:
         """What each peak may change by where masses and angles are rounded (..., 2)."""
@@ -58,7 +71,8 @@ class Trade:
             replace(statement, limits=replace(statement.limits, max_mass=max_mass))
             for statement in (self.both, *self.alone)
         )
-        return Trade(both, (force, moment), cap)
+        program = self.program.changed(limits=both.limits)
+        return replace(self, both=both, alone=(force, moment), program=program, cap=cap)
 
     def reach(self, peaks: Real) -> Real:
         """Limits of the webs (K,) [kg] within which lies all that no peak of is above these (2,), all finite.
@@ -85,12 +99,38 @@ class Trade:
         unit : (2,) a direction with both components above 0.
         """
         both = self.both if anchor.ndim == 1 else self.both.alone().chosen(np.zeros(len(anchor), int))
-        norms, row = both.norms, both.row
+        norms, of_row = both.norms, unit[self.peak]
+        of_term = of_row[both.row]
         return replace(
             both,
-            norms=Norms(norms.constant / unit[row], norms.influence / unit[row, None]),
-            floor=(both.floor - anchor) / unit - self._shift(anchor, unit)[..., None],
+            norms=replace(norms, constant=norms.constant / of_term, influence=norms.influence / of_term[:, None]),
+            floor=(both.floor - anchor[..., self.peak]) / of_row - self._shift(anchor, unit)[..., None],
         )
+
+    def smallest(self, which: int, relative_gap: float, least_mass: bool) -> ConeSolution:
+        """The smallest value of one peak alone, or the proof that nothing keeps the ceilings."""
+        program, alone = self.alone[which], self.program.changed(goals=(self._goal(which),))
+        if alone.finite is not None:
+            return optima(program.alone(), relative_gap, least_mass).single()
+        return _by_cuts(program, alone, relative_gap, least_mass)
+
+    def met(self, anchors: Real, unit: Real, relative_gap: float, least_mass: bool) -> list[ConeSolution]:
+        """The first attainable points on the lines from anchors (N, 2), as :meth:`along` poses them."""
+        programs = self.along(anchors, unit)
+        if self.program.finite is not None:
+            together = optima(programs, relative_gap, least_mass)
+            return [together.single(n) for n in range(len(anchors))]
+        (group,), shift = self.program.groups, self._shift(anchors, unit)
+        results = []
+        for n, (anchor, off) in enumerate(zip(anchors, shift.tolist(), strict=True)):
+            start, edges = (anchor + off * unit).tolist(), unit.tolist()
+            rows = [scaled(row, start[of], edges[of]) for row, of in zip(group.rows, self.peak.tolist(), strict=True)]
+            line = self.program.changed(goals=(Goal("trade", (Group(tuple(rows)),), 1.0),))
+            results.append(_by_cuts(programs.chosen(n), line, relative_gap, least_mass))
+        return results
+
+    def _goal(self, which: int) -> Goal:
+        return _peak_goal(self.program.groups[0].rows, self.peak, which)
 
     def parameter(self, objective: float, anchor: Real, unit: Real) -> float:
         """t of an objective of :meth:`along`."""
@@ -98,28 +138,52 @@ class Trade:
 
     def per_peak(self, multipliers: Multipliers, unit: Real) -> Multipliers:
         """Multipliers of :meth:`along`, rows summing to 1 or in kg, as those of :attr:`both`, per unit of a peak."""
-        return Multipliers(multipliers.term / unit[self.both.row], multipliers.row / unit, multipliers.ceiling)
+        of_row = unit[self.peak]
+        return Multipliers(multipliers.term / of_row[self.both.row], multipliers.row / of_row, multipliers.ceiling)
 
     def widened(self, which: int, multipliers: Multipliers) -> Multipliers:
         """Admissible multipliers of the program of peak ``which`` alone as those of :attr:`both`."""
-        term = np.zeros_like(self.both.norms.constant)
-        term[self.both.row == which] = multipliers.term
-        return Multipliers(term, np.where(np.arange(2) == which, multipliers.row, 0.0), multipliers.ceiling)
+        own, term, row = self.peak == which, np.zeros_like(self.both.norms.constant), np.zeros(self.peak.shape)
+        term[own[self.both.row]], row[own] = multipliers.term, multipliers.row
+        return Multipliers(term, row, multipliers.ceiling)
 
     def _shift(self, anchor: Real, unit: Real) -> Real:
         return np.asarray(np.max((self.at_rest - anchor) / unit, axis=-1)) - 1.0
 
 
-def trade(machine: Machine, objective: Objective, responses: Sequence[Response], omega_squared: float) -> Trade:
-    """The trade of a machine: direction weights and ceilings count, the weights of force and moment do not."""
-    across = objective.direction_weights
-    caps = [(quantity, np.asarray(allowed / omega_squared)) for quantity, allowed in limited(responses, objective)]
-    pair = (response for response in responses if response.name in PAIR)
-    force, moment = (
-        weighted_peak(quantity, np.ones(()), np.asarray(across.x), np.asarray(across.y)) for quantity in pair
+def trade(program: Problem) -> Trade:
+    """The trade of a program of both peaks, each as it is weighed across the shaft."""
+    (rows,) = (group.rows for group in program.groups)
+    peak = np.array([PAIR.index(of.name) for row in rows for of in row.peaks])
+    force, moment = (program.changed(goals=(_peak_goal(rows, peak, n),)) for n in range(len(PAIR)))
+    return Trade(_finite(program), (_finite(force), _finite(moment)), peak, program)
+
+
+def _peak_goal(rows: Sequence[Row], peak: np.ndarray, which: int) -> Goal:
+    """One of both peaks by itself."""
+    return Goal(PAIR[which], (Group(tuple(row for row, of in zip(rows, peak.tolist(), strict=True) if of == which)),))
+
+
+def _by_cuts(statement: Statement, program: Problem, relative_gap: float, least_mass: bool) -> ConeSolution:
+    """The optimum of a program in which counterweights scatter, within the limits of the same as a statement."""
+    optimum = over_turn(program.changed(limits=statement.limits), relative_gap, least_mass)
+    u, of_mass = (optimum.closest if isinstance(optimum, Conflict) else optimum.point).unbalance, None
+    here = evaluated(statement, u)
+    if isinstance(optimum, Conflict):
+        return replace(here, method=optimum.method, certify_s=optimum.certify_s, conflict=optimum.proof.multipliers)
+    of_mass = optimum.mass_proof
+    return replace(
+        here,
+        lower_bound=optimum.proof.bound,
+        multipliers=optimum.proof.multipliers,
+        mass_lower_bound=0.0 if of_mass is None else of_mass.bound,
+        mass_multipliers=None if of_mass is None else of_mass.multipliers,
+        mass_target=optimum.mass_target,
+        method=optimum.method,
+        certify_s=optimum.certify_s,
     )
-    bounds = limits(machine)
-    return Trade(
-        both=statement(combined([force, moment], "max"), caps, bounds),
-        alone=(statement(combined([force], "sum"), caps, bounds), statement(combined([moment], "sum"), caps, bounds)),
-    )
+
+
+def _finite(program: Problem) -> Statement:
+    """A program without quantities, whatever scatters."""
+    return program.begun if program.finite is None else program.finite

@@ -4,7 +4,9 @@ Points are looked for from anchors that are evenly apart on the chord, or in the
 (normal-boundary intersection, Das and Dennis 1998): of any masses on lines, of choices as shares of the anchors.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,13 +16,14 @@ from optimizer.formulation.task import Task
 from optimizer.numerics.arrays import Real
 from optimizer.outputs.requirements import missing
 from optimizer.program.solution import OPTIMUM_SHARE
-from optimizer.solve.solution import Infeasible
+from optimizer.solve.solution import Infeasible, Solution
+from optimizer.solve.uncertain_program import Robust
 from optimizer.studies.pareto.chosen_trades import ChosenTrades
 from optimizer.studies.pareto.lines import Lines
 from optimizer.studies.pareto.measures import alone, unit_of
 from optimizer.studies.pareto.points import TradeEnds
 from schemas.front.pareto import ParetoRequest
-from schemas.front.trade import TradedFront, TradedNames, TradedResponse
+from schemas.front.trade import TradedFront, TradedNames, TradedPoint, TradedResponse
 from schemas.machine.machine import Machine
 
 
@@ -44,8 +47,10 @@ def traded_front(request: ParetoRequest, names: TradedNames, machine: Machine, s
     task = needed(request, names, machine)
     # what is traded counts, whatever the objective weighs
     scene = replace(scene, machine=machine, objective=task.objective)
-    search = (ChosenTrades if request.chosen else Lines)(task, names, scene)
-    ends = search.ends()
+    places = _places(len(names), request.points)
+    ends, points, decided = (
+        _chosen(task, names, scene, places) if request.chosen else _of_any_mass(task, names, scene, places)
+    )
     if not isinstance(ends, TradeEnds):
         return TradedFront(
             max_total_mass_kg=machine.max_total_mass_kg,
@@ -54,7 +59,6 @@ def traded_front(request: ParetoRequest, names: TradedNames, machine: Machine, s
             points=(),
             infeasibility=ends.infeasibility if isinstance(ends, Infeasible) else None,
         )
-    points, decided = search.points(_places(len(names), request.points), ends)
     close = np.all(ends.smallest - ends.lower_bound <= max(task.relative_gap, OPTIMUM_SHARE) * ends.size)
     exact = decided and close and all(point.status == "optimal" for point in points)
     figures = (ends.at_rest, ends.smallest, ends.lower_bound)
@@ -77,6 +81,31 @@ def traded_front(request: ParetoRequest, names: TradedNames, machine: Machine, s
         ),
         points=tuple(points),
     )
+
+
+class _Course(NamedTuple):
+    """Ends, and points between them; whether each was decided."""
+
+    ends: TradeEnds | Infeasible | Solution
+    points: Sequence[TradedPoint] = ()
+    decided: bool = False
+
+
+def _chosen(task: Task, names: TradedNames, scene: Prepared, places: Real) -> _Course:
+    search = ChosenTrades(task, names, scene)
+    ends = search.ends()
+    return _Course(ends, *search.points(places, ends)) if isinstance(ends, TradeEnds) else _Course(ends)
+
+
+def _of_any_mass(task: Task, names: TradedNames, scene: Prepared, places: Real) -> _Course:
+    """With all changes of masses that matter at any end or point; there are finitely many."""
+    robust = Robust(task, scene, task.demand)
+    while True:
+        lines = Lines(robust, names)
+        ends = lines.ends()
+        course = _Course(ends, *lines.points(places, ends)) if isinstance(ends, TradeEnds) else _Course(ends)
+        if not course.points or not lines.learnt:
+            return course
 
 
 def _places(count: int, points: int) -> Real:

@@ -1,20 +1,24 @@
 """Columns of counterweights of designs that are no batch of cone programs: every design is a problem of its own."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
+from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
 from optimizer.numerics.arrays import Complex
 from optimizer.outputs.registry import prepare
 from optimizer.solve.solution import Infeasible, Solution
 from optimizer.solve.solve import solve
+from optimizer.solve.worst_case import nothing_off
 from schemas.answer.answers import GoalReached
 from schemas.answer.proof import DesignMultipliers
+from schemas.base.responses import RESPONSES
 from schemas.machine.reciprocating import balance_shafts
 from schemas.request.requests import OptimizeRequest
-from schemas.sweep.columns import CERTIFICATE, MULTIPLIERS, goal_columns
+from schemas.sweep.columns import CERTIFICATE, MULTIPLIERS, PRICE, WORST_LOAD, goal_columns, worst_peak
 
 
 def single_optima(requests: Sequence[OptimizeRequest], multipliers: bool) -> tuple[dict[str, Any], Complex]:
@@ -27,7 +31,7 @@ def single_optima(requests: Sequence[OptimizeRequest], multipliers: bool) -> tup
     """
     alone = [prepare(request, ("residual",)) for request in requests]
     # a row has no column for prices and sensitivities
-    solutions = [solve(Task.of(request), scene, in_full=False) for request, scene in zip(requests, alone, strict=True)]
+    solutions = [_solved(Task.of(request), scene) for request, scene in zip(requests, alone, strict=True)]
     rows = [_row(request, solution, multipliers) for request, solution in zip(requests, solutions, strict=True)]
     columns = {
         name: np.array([row[name] for row in rows], dtype=object if isinstance(first, str | None) else float)
@@ -37,6 +41,30 @@ def single_optima(requests: Sequence[OptimizeRequest], multipliers: bool) -> tup
     return columns, np.array(
         [solution.shown.unbalance if isinstance(solution, Solution) else nothing for solution in solutions]
     )
+
+
+def _solved(task: Task, scene: Prepared) -> Solution | Infeasible:
+    """The optimum of one design; of tolerances that are all 0 too with what it comes to in the worst case."""
+    best = solve(task, scene, in_full=False)
+    if isinstance(best, Infeasible) or task.tolerances is None or task.robust:
+        return best
+    return replace(best, fields=best.fields | nothing_off(task, scene, best.unbalance, best.certificate.objective))
+
+
+def _worst(request: OptimizeRequest, best: Solution | Infeasible) -> dict[str, float]:
+    """What a design comes to in the worst case, and what that costs."""
+    fields: Mapping[str, Any] = best.fields if isinstance(best, Solution) else {}
+    worst, price = fields.get("worst_case"), fields.get("price_of_robustness")
+    peaks = {
+        "force_peak_N": getattr(worst, "force_peak_N", None),
+        "moment_peak_Nm": getattr(worst, "moment_peak_Nm", None),
+    }
+    for response in () if worst is None else worst.responses:
+        peaks[RESPONSES[response.response].peak] = response.peak
+    row = {worst_peak(name): _or_nan(peak) for name, peak in peaks.items()}
+    if request.objective.of_the_shaft:
+        row[WORST_LOAD] = _or_nan(getattr(worst, "bearing_peak_N", None))
+    return row | {column.name: _or_nan(getattr(price, field, None)) for field, column in PRICE.items()}
 
 
 def _row(request: OptimizeRequest, best: Solution | Infeasible, multipliers: bool) -> dict[str, str | float | None]:
@@ -52,6 +80,8 @@ def _row(request: OptimizeRequest, best: Solution | Infeasible, multipliers: boo
         row["balance_shafts_mass_kg"] = np.nan if shown is None else _or_nan(shown.fields["balance_shafts_mass_kg"])
     for name in CERTIFICATE:
         row[name] = _or_nan(getattr(certificate, name, None))
+    if request.tolerances is not None:
+        row |= _worst(request, best)
     goals = () if certificate is None else certificate.goals
     by_name: dict[str, GoalReached] = {goal.goal: goal for goal in goals}
     for column in goal_columns(request.objective):

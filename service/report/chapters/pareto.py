@@ -20,6 +20,11 @@ _REASONS: dict[Reason, str] = {
     "time": "The time limit ended the search: there may be further points between these.",
 }
 
+_WORST = (
+    "Weighted peaks are those of the worst case, with everything off that may be: they are traded. Peak force and"
+    " moment are those of the machine as it is given."
+)
+
 
 def traded(request: ParetoRequest, answer: ParetoAnswer) -> Iterator[Chapter]:
     """The points of every front, what is proven of its ends, and its knee; or why there are none."""
@@ -54,7 +59,10 @@ def _front(objective: Objective, front: ParetoFront) -> Iterator[Block]:
     if front.infeasibility is not None:
         yield from reachable(objective, front.infeasibility)
     if front.points:
-        yield _points(front, (objective.direction_weights.x, objective.direction_weights.y) != (1.0, 1.0))
+        across, off = objective.direction_weights, any(point.worst_case is not None for point in front.points)
+        yield _points(front, off or (across.x, across.y) != (1.0, 1.0))
+        if off:
+            yield Paragraph(_WORST)
     if front.reason is not None:
         yield Paragraph(_REASONS[front.reason])
     if front.ends is not None:
@@ -82,6 +90,12 @@ def _trade(objective: Objective, trade: TradedFront) -> Iterator[Block]:
         for index, (point, beaten) in enumerate((point, point.beaten_by) for point in trade.points)
     ]
     yield table("", ["point", *heads, *_mass_heads(geared), "#relative gap", ""], rows)
+    if any(point.nominal_values is not None for point in trade.points):
+        nominal: list[tuple[Cell | float | None, ...]] = [
+            (str(index), *(point.nominal_values or ())) for index, point in enumerate(trade.points)
+        ]
+        yield Paragraph("The values above are those of the worst case.")
+        yield table("As the machine is given, nothing off", ["point", *heads], nominal)
     if trade.reason is not None:
         yield Paragraph("All are smallest at the same counterweights: nothing has to be traded.")
 

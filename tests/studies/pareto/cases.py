@@ -1,8 +1,14 @@
 """Machines whose fronts are known in closed form, and short ways to ask for fronts."""
 
+from dataclasses import replace
 from typing import Any
 
+from optimizer.outputs.registry import prepare
+from optimizer.solve.uncertain_program import Robust
 from optimizer.studies.pareto.pareto import pareto
+from optimizer.studies.pareto.trade import Trade, trade
+from optimizer.studies.pareto.trades import needed
+from schemas.base.responses import PAIR
 from schemas.front.pareto import ParetoAnswer, ParetoFront, ParetoPoint, ParetoRequest
 from tests.optimize.machines import machine, row, throw, web
 
@@ -12,6 +18,12 @@ OMEGA_SQUARED = (RPM * 3.141592653589793 / 30.0) ** 2
 
 def ask(body: dict[str, Any], **more: Any) -> ParetoAnswer:
     return pareto(ParetoRequest.model_validate({"machine": body, "points": 9, **more}))
+
+
+def trade_of(request: ParetoRequest) -> Trade:
+    """What a request trades, within its own limits."""
+    scene, task = prepare(request, ("residual",)), needed(request, PAIR, request.machine)
+    return trade(Robust(task, replace(scene, objective=task.objective), task.demand).goals().program)
 
 
 def front(body: dict[str, Any], **more: Any) -> ParetoFront:

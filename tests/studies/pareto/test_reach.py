@@ -6,16 +6,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optimizer.outputs.registry import prepare
 from optimizer.program.methods.implied_bounds import LARGEST
 from optimizer.program.methods.optima import Optima, optima
 from optimizer.program.statement import Statement
 from optimizer.studies.pareto.front import Front, front
-from optimizer.studies.pareto.trade import Trade, trade
+from optimizer.studies.pareto.trade import Trade
 from schemas.front.pareto import ParetoRequest
 from tests.hard.cases.case import Body, machine, row, throw, web
 from tests.optimize import by_hand
-from tests.studies.pareto.cases import ask
+from tests.studies.pareto.cases import ask, trade_of
 
 POINTS = 3
 Sector = tuple[float, float]  # centre and half-angle, degrees
@@ -29,9 +28,7 @@ def without_limits(sector: Sector | None, radius: float = 0.2) -> Body:
 
 
 def traded(body: Body) -> Trade:
-    request = ParetoRequest.model_validate({"machine": body})
-    scene = prepare(request, ("residual",))
-    return trade(request.machine, request.objective, scene.responses, scene.omega_squared)
+    return trade_of(ParetoRequest.model_validate({"machine": body}))
 
 
 @pytest.mark.parametrize(("sector", "radius"), [(None, 0.2), ((180.0, 30.0), 1e-6)])
@@ -45,7 +42,7 @@ def test_all_lines_of_a_front_are_within_the_same_limits(
         limits.append(statement.limits.max_mass[0].tolist())
         return optima(statement, gap, least_mass)
 
-    monkeypatch.setattr(import_module(Front.__module__), "optima", recorded)
+    monkeypatch.setattr(import_module(Trade.__module__), "optima", recorded)
     found = front(traded(without_limits(sector, radius)), POINTS, 1e-6, True)
     assert isinstance(found, Front)
     # before the lines each peak is made smallest within what is known to hold that

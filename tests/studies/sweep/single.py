@@ -99,7 +99,9 @@ def assert_close(name: str, found: float | None, expected: float | None, size: f
 
 
 def _labels(request: SweepRequest) -> set[str]:
-    return {"index", "status", "message", *(pointer(target.path) for target in request.targets)}
+    labels = {"index", "status", "message", *(pointer(target.path) for target in request.targets)}
+    # what scatters is found by either method
+    return labels if getattr(request.base, "tolerances", None) is None else {*labels, "method"}
 
 
 def _size(answer: OptimizeAnswer | AnalyzeAnswer, name: str) -> float:
@@ -111,7 +113,7 @@ def _size(answer: OptimizeAnswer | AnalyzeAnswer, name: str) -> float:
     if (
         isinstance(answer, OptimizeAnswer)
         and answer.certificate is not None
-        and name in ("objective", "lower_bound", "yardstick")
+        and name in ("objective", "lower_bound", "yardstick", "nominal_objective", "nominal_optimum")
     ):
         return answer.certificate.objective_without_counterweights
     if answer.residual is None:
@@ -132,9 +134,12 @@ def _figures(request: SweepRequest, answer: OptimizeAnswer | AnalyzeAnswer) -> A
             # the reason of what is chosen says what proved that there is nothing
             by_search = {"all were compared.": EXHAUSTED, "a tree of bounds over all of them proves it.": TREE}
             of_choices = (name for ending, name in by_search.items() if answer.status_reason.endswith(ending))
-            yield "method", next(of_choices, usual)
+            if request.base.tolerances is None:
+                yield "method", next(of_choices, usual)
         else:
             yield from _certificate_figures(answer.certificate)
+        if request.base.tolerances is not None:
+            yield from _worst_figures(request, answer)
         on_shafts = (one for shaft in answer.balance_shafts or () for one in shaft.counterweights)
         for one in (*answer.counterweights, *on_shafts):
             yield f"mass_kg.{one.web}", one.mass_kg
@@ -152,6 +157,17 @@ def _figures(request: SweepRequest, answer: OptimizeAnswer | AnalyzeAnswer) -> A
         yield "moment_peak_Nm", None if after is None else after.moment.peak_Nm
     yield from _drive_figures(request, answer)
     yield from _balance_figures(request, answer)
+
+
+def _worst_figures(request: SweepRequest, answer: OptimizeAnswer) -> Any:
+    worst, price = answer.worst_case, answer.price_of_robustness
+    yield "worst_case_force_peak_N", None if worst is None else worst.force_peak_N
+    yield "worst_case_moment_peak_Nm", None if worst is None else worst.moment_peak_Nm
+    if "worst_case_bearing_peak_N" in {column.name for column in request.all_columns}:
+        yield "worst_case_bearing_peak_N", None if worst is None else worst.bearing_peak_N
+    yield "nominal_objective", None if price is None else price.nominal
+    yield "nominal_optimum", None if price is None else price.nominal_optimum
+    yield "nominal_optimum_worst_case", None if price is None else price.nominal_optimum_worst_case
 
 
 def _certificate_figures(certificate: Certificate) -> Any:

@@ -126,7 +126,7 @@ async function frontOf(traded, request, ask) {
     const [found] = answer.fronts;
     const bare = answer.without_counterweights;
     return { ...found, titles: ["peak force, N", "peak moment, N m"], bare: [bare.force.peak_N, bare.moment.peak_Nm],
-      points: found.points.map((one) => ({ ...one, values: [one.force_peak_N, one.moment_peak_Nm] })) };
+      points: found.points.map((one) => ({ ...one, values: [(one.worst_case ?? one).force_peak_N, (one.worst_case ?? one).moment_peak_Nm] })) };
   }
   const [found] = (await ask("v1/pareto", { ...asked, points: traded.length > 2 ? POINTS_OF_THREE : POINTS_OVER_THE_TURN, responses: traded })).trades;
   return { ...found, titles: found.responses.map((one) => `${WORDS[one.response] ?? one.response}, ${one.unit}`), bare: found.responses.map((one) => one.without_counterweights) };
