@@ -235,6 +235,26 @@ def _bending(loads: Loads, place: Place, fitted: Optional[Fitted]) -> Claims:
     yield within("main_bearings", place / "floor_Nm", low * (1 - FLOOR), high, off)
 
 
+def columns(request: Place, machine: Machine, place: Place, fitted: Fitted) -> Claims:
+    """Largest loads and moments in the shaft, nothing off, of which a row of a sweep has no curves."""
+    turn = Turn(request, machine, loads=True)
+    loads = Loads(request / "machine", machine, turn)
+    added = loads.of_weights("force", fitted.turning, [])
+
+    def claim(name: str, responses: Sequence[str], off: float) -> Claims:
+        if place / name:
+            peaks = [peak_of(loads.with_weights(response, fitted.turning), place / name) for response in responses]
+            low, high = max(peak.low for peak in peaks), max(peak.high for peak in peaks)
+            yield within("main_bearings", place / name, low * (1 - PEAK), high * (1 + PEAK), off)
+
+    every, off = [f"bearing:{name}" for name in turn.bearings], SAMPLE * (loads.size_of("bearing") + added)
+    for name, response in zip(turn.bearings, every):
+        yield from claim(f"bearing_peak_N.{name}", [response], off)
+    yield from claim("peak_bearing_load_N", every, off)
+    off = SAMPLE * (loads.size_of("bending") + added * (loads.planes[-1] - loads.planes[0]))
+    yield from claim("peak_bending_Nm", [f"bending:{plane!r}" for plane in loads.planes], off)
+
+
 def all_orders(loads: Loads, answer: Place, fitted: Optional[Fitted]) -> Claims:
     """Peaks of force and moment on the frame."""
     shown = answer / "residual" / "turn"

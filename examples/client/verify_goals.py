@@ -6,7 +6,7 @@ from typing import Dict, Generator, List, NamedTuple, Sequence
 
 from verify_alternatives import CLAIM, Worth, every
 from verify_answer import Fitted
-from verify_bearings import within
+from verify_bearings import columns, within
 from verify_cases import Scatter, nominal
 from verify_ceilings import margins
 from verify_claims import Claim, Claims, near
@@ -17,8 +17,6 @@ from verify_nominal import NO_SCATTER, fixed_alone, nominal_optimum, nominal_par
 from verify_numbers import ABOUT_ONE, ONE, ZERO, Number, Place, largest, real
 from verify_values import Value, most, off_sizes
 from verify_weights import listed
-
-LOADS = "main_bearings"
 
 
 class Program(NamedTuple):
@@ -42,7 +40,8 @@ def values(request: Place, answer: Place, program: Program, fitted: Fitted) -> C
         most_there = float(program.machine.budget)
         rooms["max_total_mass"] = 1 - float(fitted.mass) / most_there if most_there > 0 else 0.0
     yield from listed("active_limits", answer / "active_limits", rooms)
-    yield from _columns(answer / "bearing_columns", there[0])
+    if answer / "bearing_columns":
+        yield from columns(request, program.machine, answer / "bearing_columns", fitted)
     if list(request / "objective" / "priorities"):
         yield from levels(request, answer, program.named, there, rest, fitted)
     first = program.parts[0]
@@ -88,19 +87,6 @@ def _exact(program: Program, there: Fitted) -> Number:
     sizes = off_sizes(program.parts[0], there)
     placed = ((part, part.placed(there).first) for part in program.parts)
     return largest(ZERO, *(part.value(weights, program.off, sizes) for part, weights in placed))
-
-
-def _columns(place: Place, there: Value) -> Claims:
-    """Loads of bearings and bending moments, of which a row of a sweep has the largest."""
-    turn, loads = there.part.turn, there.part.loads if place.value else None
-    for name in turn.bearings if loads else ():
-        peak = there.response(f"bearing:{name}")
-        yield within(LOADS, place / f"bearing_peak_N.{name}", peak.low, peak.high, WIDE * peak.high)
-    if loads and turn.bearings:
-        peak, planes = there.bearings(), loads.planes
-        yield within(LOADS, place / "peak_bearing_load_N", peak.low, peak.high, WIDE * peak.high)
-        peak = most([there.response(f"bending:{plane!r}") for plane in planes])
-        yield within(LOADS, place / "peak_bending_Nm", peak.low, peak.high, WIDE * peak.high)
 
 
 def _worst_case(place: Place, objective: Place, there: Sequence[Value]) -> Claims:

@@ -268,6 +268,7 @@ def _row(request: Place, row: Place, chosen: bool) -> Claims:
         for shaft in request / "machine" / "balance_shafts"
     ]
     limits = [field for field in (*CEILINGS.values(), *LOADED) if request / "objective" / field]
+    loads = {name: value for name, value in row.value.items() if name.startswith(LOADS) and value is not None}
     peaks = {name: {f"peak_{unit}": (row / f"{name}_peak_{unit}").value} for name, unit in NAMES.items()}
     proofs = {**proof, **row.value, "multipliers": proof}
     answer = {
@@ -277,7 +278,7 @@ def _row(request: Place, row: Place, chosen: bool) -> Claims:
         "balance_shafts": shafts if status != "infeasible" else [],
         "balance_shafts_mass_kg": (row / "balance_shafts_mass_kg").value,
         "residual": {"after": peaks, "responses": list(_beside(row))} if status != "infeasible" else {"after": None},
-        "bearing_columns": {name: row.value[name] for name in row.value if name.startswith(LOADS)},
+        "bearing_columns": loads or None,
         "certificate": proofs if status != "infeasible" else None,
         "infeasibility": {**proofs, "conflict": limits} if status == "infeasible" else None,
         **_worst(row, status),
