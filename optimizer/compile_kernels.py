@@ -1,8 +1,8 @@
 """Compile the kernels, once for an installation: ``python -m optimizer.compile_kernels``.
 
 What budgets are spent by is compiled first, and with it what the compiler needs for any kernel. Three processes have
-that in common and do the rest beside one another. The first compiles the interior point for discs, what proves and
-settles, what is off, and what sums of options are compared by; the second what follows the turn and moves curves. The
+that in common and do the rest beside one another. The first compiles what follows the turn and moves curves; the
+second the interior point for discs, what proves and settles, what is off, and what sums of options are compared by. The
 third compiles the interior point for any limits, what parts are matched by, and what orders designs and sums forces.
 """
 
@@ -99,8 +99,8 @@ def near_sums() -> None:
 
 #: three at a time, the longest first: so that two cores are busy until the end
 PARTS: tuple[tuple[Callable[[], object], ...], ...] = (
-    (plain_discs, proofs, misplacements, near_sums),
     (follow_a_turn, moving_curves),
+    (plain_discs, proofs, misplacements, near_sums),
     (any_limits, match_parts, designs),
 )
 
