@@ -98,7 +98,7 @@ nightly: .venv/development $(kernels)
 	HYPOTHESIS_PROFILE=night CHECKED_ANSWERS=every $(bin)/python -m pytest --numprocesses 4 || failed=1; \
 	$(MAKE) image-check || failed=1; \
 	$(bin)/python -m tests.mutation --count 300 || failed=1; \
-	for each in $(long); do echo "$$each"; $(bin)/python -m $$each || failed=1; done; exit $$failed
+	for module in $(long); do echo "$$module"; $(bin)/python -m $$module || failed=1; done; exit $$failed
 
 # new versions into the hashed lists: names, versions and hashes only
 pinned := $(bin)/uv --quiet pip compile --upgrade --generate-hashes --no-header --no-annotate --no-emit-index-url
