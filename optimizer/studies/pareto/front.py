@@ -225,12 +225,13 @@ def _meets(trade: Trade, anchors: Real, unit: Real, least_mass: bool, share: flo
     first, *more = _ALLOWANCES if least_mass else _ALLOWANCES[:1]
     programs = trade.along(anchors, unit)
     points = []
-    for n, best in enumerate(_reached(trade.met(anchors, unit, first * share, least_mass))):
+    for n, best in enumerate(_reached(trade.met(programs, anchors, unit, first * share, least_mass))):
         program, anchor = programs.chosen(n), anchors[n]
         for part in more:
             if _mass_gap(best) <= MASS_GAP:
                 break
-            best = min(best, *_reached(trade.met(anchors[n : n + 1], unit, part * share, least_mass)), key=_mass_gap)
+            again = trade.met(program.alone(), anchors[n : n + 1], unit, part * share, least_mass)
+            best = min(best, *_reached(again), key=_mass_gap)
         usable, _ = normalised(program, best.multipliers)
         of_mass = best.mass_multipliers if least_mass else None
         points.append(
@@ -344,7 +345,8 @@ def _spread(trade: Trade, start: Real, step: Real, count: int, share: float) -> 
     # depth of the front below the chord, in units of the range
     depth = np.zeros(sounded.size)
     anchors = start + sounded[1:-1, None] * step
-    lines = _reached(trade.met(anchors, np.abs(step), max(share, _SOUNDED), False))
+    programs = trade.along(anchors, np.abs(step))
+    lines = _reached(trade.met(programs, anchors, np.abs(step), max(share, _SOUNDED), False))
     u = np.array([line.unbalance for line in lines])
     depth[1:-1] = np.min((anchors - trade.peaks(u)) / np.abs(step), axis=-1)
     curve = np.array([sounded - depth, 1.0 - sounded - depth])

@@ -114,9 +114,10 @@ class Trade:
             return optima(program.alone(), relative_gap, least_mass).single()
         return _by_cuts(program, alone, relative_gap, least_mass)
 
-    def met(self, anchors: Real, unit: Real, relative_gap: float, least_mass: bool) -> list[ConeSolution]:
-        """The first attainable points on the lines from anchors (N, 2), as :meth:`along` poses them."""
-        programs = self.along(anchors, unit)
+    def met(
+        self, programs: Statement, anchors: Real, unit: Real, relative_gap: float, least_mass: bool
+    ) -> list[ConeSolution]:
+        """The first attainable points on the lines from anchors (N, 2), of their programs by :meth:`along`."""
         if self.program.finite is not None:
             together = optima(programs, relative_gap, least_mass)
             return [together.single(n) for n in range(len(anchors))]
