@@ -9,6 +9,7 @@ is of two other coordinates, where there are as many, because a slab is narrow a
 import numpy as np
 
 from optimizer.numerics.compiling import inner, kernel
+from optimizer.numerics.kernel.rising import first_no_less
 
 #: the share that is all of them
 ALL = np.uint64(0xFFFFFFFFFFFFFFFF)
@@ -118,20 +119,7 @@ def near(first, sums, left, right, slab, axes, low, side, cells, share, start, s
 @inner
 def _reach(at, other, slab):  # type: ignore[no-untyped-def]
     """The part of a sorted list that leads into a slab: its first place, and the one after its last."""
-    return _place(other, slab[0] - at), _place(other, slab[1] - at)
-
-
-@inner
-def _place(other, value):  # type: ignore[no-untyped-def]
-    """The first place of a sorted list that is no less than a value."""
-    low, high = 0, len(other)
-    while low < high:
-        middle = (low + high) // 2
-        if other[middle, 0] < value:
-            low = middle + 1
-        else:
-            high = middle
-    return low
+    return first_no_less(other, slab[0] - at), first_no_less(other, slab[1] - at)
 
 
 @inner

@@ -6,6 +6,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.compiling import inner, kernel
+from optimizer.numerics.kernel.rising import first_no_less
 
 
 class Window(NamedTuple):
@@ -52,13 +53,7 @@ def best_below(window, peaks, mass, least, orders, sums, level):  # type: ignore
     best, put = np.zeros(mass.size), np.zeros(mass.size)
     for k in range(len(second)):
         there = window.start[0] - window.anchor[0] * level + second[k, 0]
-        lowest, at, end = -window.reach[0, 0] * slack - there, 0, len(first)
-        while at < end:
-            middle = (at + end) // 2
-            if first[middle, 0] < lowest:
-                at = middle + 1
-            else:
-                end = middle
+        at = first_no_less(first, -window.reach[0, 0] * slack - there)
         while at < len(first) and first[at, 0] + there <= window.reach[1, 0] * slack:
             i = at
             at += 1
