@@ -155,7 +155,9 @@ class Run:
     def _half(self) -> deque[int]:
         """Where no unit is left, the second half of the longest that another process has, lest that one ends last."""
         items = self._session.items
-        rests = [one.unit for one in self._workers.values() if one.unit and divides(items[one.unit[0]].nodeid)]
+        rests = [
+            worker.unit for worker in self._workers.values() if worker.unit and divides(items[worker.unit[0]].nodeid)
+        ]
         longest = max(rests, key=len, default=deque())
         if len(longest) < _LEFT:
             return deque()

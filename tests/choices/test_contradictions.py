@@ -31,16 +31,16 @@ def _bounds(method: str, at_least: float | None) -> tuple[float, float]:
     """What a search says that nothing is below, and what it found."""
     problem, size = _problem()
     any_mass = optima(problem.alone(), 1e-6, False)
-    relaxed, known = any_mass.unbalance[0], float(any_mass.lower_bound[0])
-    bound = known if at_least is None else at_least
+    relaxed, reference = any_mass.unbalance[0], float(any_mass.lower_bound[0])
+    bound = reference if at_least is None else at_least
     most = float(np.max(problem.limits.max_mass))
     if method in {"castings", "castings by a tree"}:
         options = options_of(problem, [0.3 * most, 0.7 * most], [0.0, 120.0, 240.0], None, None)
-        chosen, found = discrete.search(problem, options, relaxed, bound, 1e-6, size, 60.0)
+        chosen, result = discrete.search(problem, options, relaxed, bound, 1e-6, size, 60.0)
         u = options.of(options.unbalance, chosen)
     elif method == "minimum masses":
         least = 0.2 * problem.limits.reach
-        u, found = semicontinuous.search(problem, least, relaxed, bound, SearchGoal(1e-6 * size, size, 0.0, 60.0))
+        u, result = semicontinuous.search(problem, least, relaxed, bound, SearchGoal(1e-6 * size, size, 0.0, 60.0))
     else:
         first, others = np.arange(_WEBS) < 2, np.arange(_WEBS) >= 2
         webs = replace(problem, norms=problem.norms.only(first), limits=problem.limits.only(first))
@@ -49,9 +49,9 @@ def _bounds(method: str, at_least: float | None) -> tuple[float, float]:
         options = replace(options, beside=beside)
         goal = SearchGoal(1e-6 * size, size, 0.0, 60.0)
         choice = mixed.search(problem, options, beside, relaxed[None], bound, goal)
-        u, found = np.concatenate([options.carried(choice.chosen), choice.beside]), choice.result
-    assert found.feasible
-    return found.lower_bound, float(problem.objective(u))
+        u, result = np.concatenate([options.carried(choice.chosen), choice.beside]), choice.result
+    assert result.feasible
+    return result.lower_bound, float(problem.objective(u))
 
 
 def _through_a_tree(method: str, monkeypatch: pytest.MonkeyPatch) -> None:

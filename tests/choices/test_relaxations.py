@@ -16,10 +16,10 @@ _COUNT = 6
 
 def _turned() -> Statement:
     """Programs whose influences have a phase, which the compiled kernel does not take."""
-    one = random_statement(5, "sum", (1.0, 1.0), False, False, False, webs=3)
-    norms = one.norms
+    single = random_statement(5, "sum", (1.0, 1.0), False, False, False, webs=3)
+    norms = single.norms
     influence = norms.influence * np.exp(0.3j * np.arange(norms.influence.shape[0]))[:, None]
-    return stacked([replace(one, norms=replace(norms, influence=influence))] * _COUNT)
+    return stacked([replace(single, norms=replace(norms, influence=influence))] * _COUNT)
 
 
 @pytest.mark.parametrize("calls", [0, 2])
@@ -27,9 +27,9 @@ def test_the_time_ends_programs_that_are_solved_one_by_one(calls: int) -> None:
     # analytic: a clock that runs out after so many looks leaves so many programs
     ticks = iter([0.0] * (calls + 1) + [2.0] * _COUNT)
     programs = _turned()
-    found = solved(programs, None, np.full(_COUNT, 1e-6), np.zeros(_COUNT), False, Clock(1.0, lambda: next(ticks)))
-    bounds = objective_lower_bound(programs, found.multipliers)
+    result = solved(programs, None, np.full(_COUNT, 1e-6), np.zeros(_COUNT), False, Clock(1.0, lambda: next(ticks)))
+    bounds = objective_lower_bound(programs, result.multipliers)
     assert np.all(np.isfinite(bounds[:calls]))
     assert np.all(bounds[calls:] == -np.inf)
-    assert not np.any(found.unbalance[calls:])
-    assert not np.any(found.nowhere)
+    assert not np.any(result.unbalance[calls:])
+    assert not np.any(result.nowhere)

@@ -42,9 +42,9 @@ def _pair(name: str) -> tuple[Any, Any]:
 def test_all_but_the_search_is_held(name: str) -> None:
     request, answer = _pair(name)
     assert answer["alternatives"]
-    found = checker().verify(request, answer)
-    assert found["verdict"] != "broken"
-    left = [where for where in found["not_covered"] if "/alternatives" in where]
+    verdict = checker().verify(request, answer)
+    assert verdict["verdict"] != "broken"
+    left = [where for where in verdict["not_covered"] if "/alternatives" in where]
     assert all(where.endswith("lower_bound") for where in left), left
 
 

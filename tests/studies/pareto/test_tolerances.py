@@ -32,20 +32,20 @@ TOLERANCES = (
 
 
 def verdict(body: dict[str, Any], answer: Any) -> dict[str, Any]:
-    found: dict[str, Any] = checker().verify(body, json.loads(answer.model_dump_json()))
-    return found
+    verdict: dict[str, Any] = checker().verify(body, json.loads(answer.model_dump_json()))
+    return verdict
 
 
 def test_a_straight_front_with_an_error_of_its_counterweight() -> None:
     """Analytic: u = -x is off by rho x, so that F = 1 - x + rho x and M = 2 x (1 + rho)."""
-    found = front(straight(), points=6, tolerances=OFF)
-    assert (found.status, found.reason, found.knee, len(found.points)) == ("optimal", None, None, 6)
+    answer = front(straight(), points=6, tolerances=OFF)
+    assert (answer.status, answer.reason, answer.knee, len(answer.points)) == ("optimal", None, None, 6)
     share = np.linspace(0.0, 1.0, 6)
     x = 1.0 - share
-    peaks = np.array([traded(point) for point in found.points]) / OMEGA_SQUARED
+    peaks = np.array([traded(point) for point in answer.points]) / OMEGA_SQUARED
     assert peaks[:, 0] == pytest.approx(1.0 - x + RHO * x, abs=3e-6)
     assert peaks[:, 1] == pytest.approx(2.0 * x * (1.0 + RHO), abs=6e-6)
-    for point, there in zip(found.points, x, strict=True):
+    for point, there in zip(answer.points, x, strict=True):
         # the machine as it is given has nothing off
         assert point.force_peak_N / OMEGA_SQUARED == pytest.approx(1.0 - there, abs=3e-6)
         assert point.moment_peak_Nm / OMEGA_SQUARED == pytest.approx(2.0 * there, abs=6e-6)
@@ -56,8 +56,8 @@ def test_a_straight_front_with_an_error_of_its_counterweight() -> None:
 
 def test_a_straight_front_with_an_unbalance_besides() -> None:
     """Analytic: F = 1 - x + e and M = 2 x + 2 e with e = 0.01 kg m at the web, 2 m beside the plane."""
-    found = front(straight(), points=3, tolerances={"unbalance_kg_m": 0.01})
-    peaks = np.array([traded(point) for point in found.points]) / OMEGA_SQUARED
+    answer = front(straight(), points=3, tolerances={"unbalance_kg_m": 0.01})
+    peaks = np.array([traded(point) for point in answer.points]) / OMEGA_SQUARED
     assert peaks == pytest.approx(np.array([[0.01, 2.02], [0.51, 1.02], [1.01, 0.02]]), abs=6e-6)
 
 
@@ -72,13 +72,13 @@ def test_a_row_that_is_lighter_or_heavier() -> None:
 def test_a_ceiling_holds_in_the_worst_case() -> None:
     """Analytic: F = 1 - (1 - rho) x up to 0.4, and below rho there is nothing."""
     ceiling = 0.4 * OMEGA_SQUARED
-    found = front(straight(), points=4, tolerances=OFF, objective={"force_ceiling_N": ceiling})
-    assert found.status == "optimal"
-    assert [point.weighted_force_peak_N for point in found.points] == pytest.approx(
+    answer = front(straight(), points=4, tolerances=OFF, objective={"force_ceiling_N": ceiling})
+    assert answer.status == "optimal"
+    assert [point.weighted_force_peak_N for point in answer.points] == pytest.approx(
         np.linspace(RHO * OMEGA_SQUARED, ceiling, 4), abs=3e-6 * OMEGA_SQUARED
     )
-    assert found.points[-1].active_limits == ("force_ceiling",)
-    assert found.points[-1].force_peak_N < 0.99 * ceiling
+    assert answer.points[-1].active_limits == ("force_ceiling",)
+    assert answer.points[-1].force_peak_N < 0.99 * ceiling
     none = front(straight(), tolerances=OFF, objective={"force_ceiling_N": 0.9 * RHO * OMEGA_SQUARED})
     assert (none.status, none.points) == ("infeasible", ())
     assert none.infeasibility is not None
@@ -90,10 +90,10 @@ def test_a_ceiling_holds_in_the_worst_case() -> None:
 def test_tolerances_of_nothing_are_none() -> None:
     plain, stated = front(straight(), points=3), front(straight(), points=3, tolerances={})
     assert [point.worst_case for point in plain.points] == [None] * 3
-    for one, other in zip(plain.points, stated.points, strict=True):
+    for item, other in zip(plain.points, stated.points, strict=True):
         assert other.worst_case is not None
-        assert (other.worst_case.force_peak_N, other.worst_case.moment_peak_Nm) == traded(one)
-        assert other.model_copy(update={"worst_case": None}) == one
+        assert (other.worst_case.force_peak_N, other.worst_case.moment_peak_Nm) == traded(item)
+        assert other.model_copy(update={"worst_case": None}) == item
 
 
 @given(SEEDS, st.sampled_from(TOLERANCES), st.floats(-2, 2))
@@ -103,19 +103,19 @@ def test_no_best_worst_case_is_below_the_front(seed: int, tolerances: dict[str, 
     body = random_machine(seed)
     request = {"machine": body, "points": 4, "tolerances": tolerances, "multipliers": True}
     answer = ask(body, points=4, tolerances=tolerances, multipliers=True)
-    (found,) = answer.fronts
-    assert found.scale is not None
+    (result,) = answer.fronts
+    assert result.scale is not None
     assert verdict(request, answer)["verdict"] in ("held", "not covered")
     goal = {
         "combine": "max",
-        "force_weight": 1.0 / found.scale.force_N,
-        "moment_weight": 10.0**exponent / found.scale.moment_Nm,
+        "force_weight": 1.0 / result.scale.force_N,
+        "moment_weight": 10.0**exponent / result.scale.moment_Nm,
     }
     best = answered(body, objective=goal, tolerances=tolerances)
     assert best.worst_case is not None
     assert best.certificate is not None
-    assert not below_a_corner(best.worst_case.force_peak_N, best.worst_case.moment_peak_Nm, found, 1e-12)
-    for force, moment in map(traded, found.points):
+    assert not below_a_corner(best.worst_case.force_peak_N, best.worst_case.moment_peak_Nm, result, 1e-12)
+    for force, moment in map(traded, result.points):
         value = max(goal["force_weight"] * force, goal["moment_weight"] * moment)
         assert value >= best.certificate.lower_bound * (1 - 1e-12)
 
@@ -124,12 +124,12 @@ def test_no_best_worst_case_is_below_the_front(seed: int, tolerances: dict[str, 
 @MACHINES
 def test_the_ends_are_the_best_worst_cases_of_each_peak_alone(seed: int, tolerances: dict[str, float]) -> None:
     body = random_machine(seed)
-    found = front(body, points=2, tolerances=tolerances)
-    assert found.ends is not None
-    assert found.scale is not None
-    ends = (found.ends.smallest_force_N, found.ends.smallest_moment_Nm)
+    answer = front(body, points=2, tolerances=tolerances)
+    assert answer.ends is not None
+    assert answer.scale is not None
+    ends = (answer.ends.smallest_force_N, answer.ends.smallest_moment_Nm)
     for weights, smallest, size in zip(
-        ((1.0, 0.0), (0.0, 1.0)), ends, (found.scale.force_N, found.scale.moment_Nm), strict=True
+        ((1.0, 0.0), (0.0, 1.0)), ends, (answer.scale.force_N, answer.scale.moment_Nm), strict=True
     ):
         goal = dict(zip(("force_weight", "moment_weight"), weights, strict=True))
         best = answered(body, objective=goal, tolerances=tolerances)
@@ -143,8 +143,8 @@ def test_choices_are_those_that_no_other_beats_in_the_worst_case(tolerances: dic
     throws = [throw(0.0, 0.0, [], radius=0.1, rotating=30.0), throw(1.0, 90.0, [], radius=0.1, rotating=20.0)]
     body = machine(throws, webs, reference_plane_m=0.2)
     stock = {"masses_kg": [8.0, 14.0], "angle_step_deg": 90.0}
-    found = front({**body, "catalogue": stock}, points=200, tolerances=tolerances)
-    assert (found.status, found.reason) == ("optimal", "complete")
+    answer = front({**body, "catalogue": stock}, points=200, tolerances=tolerances)
+    assert (answer.status, answer.reason) == ("optimal", "complete")
     options = [(0.0, 0.0), *itertools.product((8.0, 14.0), (0.0, 90.0, 180.0, 270.0))]
     u = np.array([[0.2 * mass * np.exp(1j * np.deg2rad(angle)) for mass, angle in pair]
                   for pair in itertools.product(options, options)])  # fmt: skip
@@ -158,16 +158,16 @@ def test_choices_are_those_that_no_other_beats_in_the_worst_case(tolerances: dic
         for force, moment in peaks
         if not np.any((peaks[:, 0] <= force) & (peaks[:, 1] <= moment) & np.any(peaks < [force, moment], axis=-1))
     }
-    shown = np.array([traded(point) for point in found.points]) / OMEGA_SQUARED
+    shown = np.array([traded(point) for point in answer.points]) / OMEGA_SQUARED
     assert shown == pytest.approx(np.array(sorted(best)), abs=2e-3)
 
 
 def test_force_against_mass() -> None:
     """Analytic: x = 0.2 m times the mass, F = 1 - x + rho x in the worst case, and 1 - x as it is given."""
     answer = ask(straight(), points=3, tolerances=OFF, responses=["force", "mass"])
-    (found,) = answer.trades
-    assert (answer.status, found.status) == ("optimal", "optimal")
-    for point in found.points:
+    (result,) = answer.trades
+    assert (answer.status, result.status) == ("optimal", "optimal")
+    for point in result.points:
         force, mass = point.values
         assert force / OMEGA_SQUARED == pytest.approx(1.0 - (1.0 - RHO) * 0.2 * mass, abs=3e-6)
         assert point.nominal_values is not None
@@ -182,14 +182,14 @@ def test_a_point_of_named_responses_is_the_best_worst_case_of_its_mass(
     body = twin()
     alone = {"force_weight": 0.0, "moment_weight": 0.0, "bearing_weight": 1.0} if "bearings" in responses else {}
     answer = ask(body, points=3, tolerances=tolerances, responses=responses)
-    (found,) = answer.trades
-    assert found.status == "optimal"
-    value, mass = found.points[1].values
+    (result,) = answer.trades
+    assert result.status == "optimal"
+    value, mass = result.points[1].values
     best = answered({**body, "max_total_mass_kg": mass}, objective=alone, tolerances=tolerances)
     assert best.certificate is not None
-    assert value == pytest.approx(best.certificate.objective, abs=3e-6 * found.responses[0].yardstick)
-    assert found.points[1].nominal_values is not None
-    assert found.points[1].nominal_values[0] < value
+    assert value == pytest.approx(best.certificate.objective, abs=3e-6 * result.responses[0].yardstick)
+    assert result.points[1].nominal_values is not None
+    assert result.points[1].nominal_values[0] < value
 
 
 @pytest.mark.parametrize(
@@ -209,4 +209,4 @@ def test_what_does_not_go_together_is_refused_by_its_field(
 ) -> None:
     with pytest.raises(InvalidRequest) as refusal:
         check(ParetoRequest, {"machine": {**straight(), **body}, **more})
-    assert [".".join(map(str, each.path)) for each in refusal.value.problems] == [field]
+    assert [".".join(map(str, problem.path)) for problem in refusal.value.problems] == [field]

@@ -63,9 +63,9 @@ def test_a_row_is_the_answer_to_its_design_whatever_its_chunk(base: dict[str, An
         assert_row_is_the_single_answer(request, row)
     assert [row for k in range(len(rows)) for row in table(request, k, k + 1).to_pylist()] == rows
     proven = {"base": base, "axes": [axis], "multipliers": True}
-    found = checker().verify(proven, table(sweep(base, axis, multipliers=True)).to_pylist())
-    assert not [claim for claim in found["claims"] if claim["verdict"] == "broken"]
-    covered = {claim["claim"] for claim in found["claims"] if claim["verdict"] == "held"}
+    verdict = checker().verify(proven, table(sweep(base, axis, multipliers=True)).to_pylist())
+    assert not [claim for claim in verdict["claims"] if claim["verdict"] == "broken"]
+    covered = {claim["claim"] for claim in verdict["claims"] if claim["verdict"] == "held"}
     # reciprocating masses that are off are covered in the first order
     over_turn = base["tolerances"].keys() == {"reciprocating_mass_relative"} and "bearing_weight" in str(base)
     assert over_turn or covered >= {"worst_case", "price", "objective"}
@@ -76,8 +76,8 @@ def test_a_worst_case_that_is_falsified_is_broken() -> None:
     sent = {"base": base, "axes": [axis], "multipliers": True}
     (row,) = table(sweep(base, axis, multipliers=True)).to_pylist()
     for name in ("worst_case_force_peak_N", "worst_case_moment_peak_Nm", "nominal_objective", "objective"):
-        found = checker().verify(sent, json.loads(json.dumps([{**row, name: row[name] * 0.999}])))
-        assert found["verdict"] == "broken", name
+        verdict = checker().verify(sent, json.loads(json.dumps([{**row, name: row[name] * 0.999}])))
+        assert verdict["verdict"] == "broken", name
 
 
 @given(st.integers(0, 10_000), st.floats(0.001, 0.1))
@@ -108,7 +108,7 @@ def test_the_worst_case_grows_with_what_is_off(seed: int, share: float) -> None:
 def test_what_is_wrong_is_refused_by_its_field(base: dict[str, Any], axis: dict[str, Any], field: str) -> None:
     with pytest.raises(InvalidRequest) as refusal:
         sweep({"machine": crank(), **base}, axis)
-    assert [".".join(map(str, each.path)) for each in refusal.value.problems] == [field]
+    assert [".".join(map(str, problem.path)) for problem in refusal.value.problems] == [field]
 
 
 def test_a_design_beyond_what_may_be_off_is_a_row_that_says_so() -> None:
