@@ -118,6 +118,23 @@ def test_the_headline_says_what_rises_from_nothing(portal: Portal) -> None:
     assert "moment −" in headline
 
 
+def test_where_something_may_be_off_the_worst_case_is_traded(portal: Portal, url: str) -> None:
+    portal.open("two-rows-180")
+    portal.page.locator("#form").get_by_role("button", name="Add tolerances").click()
+    portal.unfold("/tolerances")
+    portal.input("/tolerances/mass_relative").fill("0.05")
+    portal.optimise()
+    panel = portal.open_panel("pareto")
+    panel.locator("[role=img][aria-label*='peak force in the worst case, N']").wait_for()
+    points = ask(url, "/v1/pareto", portal.bodies("/v1/pareto")[-1])["fronts"][0]["points"]
+    panel.locator("#pareto-point").press("Home")
+    panel.get_by_role("heading", name=f"Point 1 of {len(points)}").wait_for()
+    shown = [number(text) for text in cells(panel.locator(".picked table").first)[0][:2]]
+    worst = points[0]["worst_case"]
+    assert shown == pytest.approx([worst["force_peak_N"], worst["moment_peak_Nm"]], rel=1e-4)
+    assert worst["moment_peak_Nm"] > 1.001 * points[0]["moment_peak_Nm"]
+
+
 def test_points_show_what_balance_shafts_carry(portal: Portal, url: str) -> None:
     portal.open("single-balance-shaft")
     panel = portal.open_panel("pareto")

@@ -125,8 +125,11 @@ async function frontOf(traded, request, ask) {
     const answer = await ask("v1/pareto", { ...asked, points: POINTS });
     const [found] = answer.fronts;
     const bare = answer.without_counterweights;
-    return { ...found, titles: ["peak force, N", "peak moment, N m"], bare: [bare.force.peak_N, bare.moment.peak_Nm],
-      points: found.points.map((one) => ({ ...one, values: [(one.worst_case ?? one).force_peak_N, (one.worst_case ?? one).moment_peak_Nm] })) };
+    // where something may be off, the worst case is traded
+    const peaks = found.points.map((point) => point.worst_case ?? point);
+    const where = found.points.some((point) => point.worst_case) ? " in the worst case" : "";
+    return { ...found, titles: [`peak force${where}, N`, `peak moment${where}, N m`], bare: [bare.force.peak_N, bare.moment.peak_Nm],
+      points: found.points.map((point, n) => ({ ...point, values: [peaks[n].force_peak_N, peaks[n].moment_peak_Nm] })) };
   }
   const [found] = (await ask("v1/pareto", { ...asked, points: traded.length > 2 ? POINTS_OF_THREE : POINTS_OVER_THE_TURN, responses: traded })).trades;
   return { ...found, titles: found.responses.map((one) => `${WORDS[one.response] ?? one.response}, ${one.unit}`), bare: found.responses.map((one) => one.without_counterweights) };
