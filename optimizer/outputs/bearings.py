@@ -44,22 +44,22 @@ def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
     before = loads[0]
     after: Sequence[dict[str, Any] | None] = [None] * count if unbalance is None else loads[-1]
     moments = [peak.part(slice(count, None)) for peak in peaks]
-    shown = moments[-1]
-    worst = shown.lower.index(max(shown.lower))
+    bending = moments[-1]
+    worst = bending.lower.index(max(bending.lower))
     return MainBearings.of_figures(
         {
             "angle_deg": scene.angles,
             "shaft": scene.request.fidelity.shaft,
             "bearings": tuple(
-                {"name": bearing.name, "position_m": bearing.position_m, "before": bare, "after": loaded}
-                for bearing, bare, loaded in zip(machine.bearings, before, after, strict=True)
+                {"name": bearing.name, "position_m": bearing.position_m, "before": bare, "after": load}
+                for bearing, bare, load in zip(machine.bearings, before, after, strict=True)
             ),
             "bending": {
                 "position_m": planes,
                 "before_Nm": moments[0].lower,
-                "after_Nm": None if unbalance is None else shown.lower,
-                "peak_Nm": shown.lower[worst],
-                "peak_bracket_Nm": (shown.lower[worst], max(shown.upper)),
+                "after_Nm": None if unbalance is None else bending.lower,
+                "peak_Nm": bending.lower[worst],
+                "peak_bracket_Nm": (bending.lower[worst], max(bending.upper)),
                 "peak_position_m": planes[worst],
                 "floor_Nm": float(np.max(fixed.radius[count:])) * scene.omega_squared,
             },

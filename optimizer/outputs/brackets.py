@@ -19,10 +19,10 @@ def brackets(field: Any) -> list[tuple[str, tuple[float, float]]]:
         return [bracket for item in field for bracket in brackets(item)]
     if not isinstance(field, Model):
         return []
-    own, others = _fields(field.__class__)
+    own, holders = _fields(field.__class__)
     every = [(name, getattr(field, name)) for name in own]
     result = [(name, content) for name, content in every if content is not None]
-    for name in others:
+    for name in holders:
         result += brackets(getattr(field, name))
     return result
 
@@ -32,8 +32,8 @@ def _fields(model: type[Model]) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Fields of a model that are brackets, and those that hold some; most answers have none of both."""
     fields = model.model_fields
     own = tuple(name for name in fields if "_bracket_" in name)
-    others = (name for name in fields if any(any(_fields(model)) for model in _models(fields[name].annotation)))
-    return own, tuple(others)
+    holders = (name for name in fields if any(any(_fields(model)) for model in _models(fields[name].annotation)))
+    return own, tuple(holders)
 
 
 def _models(annotation: Any) -> Iterator[type[Model]]:

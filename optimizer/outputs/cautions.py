@@ -126,7 +126,7 @@ def _second_order(evidence: Evidence) -> Iterator[Caution]:
     first, second = (None, None) if residual is None or residual.orders.after is None else residual.orders.after
     if residual is None or first is None or second is None:
         return
-    for kind, (what, left, twice, unit) in enumerate(
+    for kind, (quantity, left, twice, unit) in enumerate(
         (
             ("force", first.force.peak_N, second.force.peak_N, "N"),
             ("moment", first.moment.peak_Nm, second.moment.peak_Nm, "N m"),
@@ -135,7 +135,7 @@ def _second_order(evidence: Evidence) -> Iterator[Caution]:
         if twice > left and twice > _NOTABLE * evidence.sizes[kind]:
             yield Caution(
                 code="second_order_remains",
-                message=f"A {what} of {_plain(twice)} {unit} remains at twice the shaft speed, more than the "
+                message=f"A {quantity} of {_plain(twice)} {unit} remains at twice the shaft speed, more than the "
                 f"{_plain(left)} {unit} at the speed itself: {remedy}",
                 pointer="/machine/throws",
             )
@@ -170,7 +170,7 @@ def _component_grows(evidence: Evidence) -> Iterator[Caution]:
         return
     force, force_now = residual.before.force, residual.after.force
     moment, moment_now = residual.before.moment, residual.after.moment
-    for what, unit, kind, axis, before, after in (
+    for quantity, unit, kind, axis, before, after in (
         ("force along x", "N", 0, "x", force.peak_x_N, force_now.peak_x_N),
         ("force along y", "N", 0, "y", force.peak_y_N, force_now.peak_y_N),
         (_COUPLES[0], "N m", 1, "x", moment.peak_x_Nm, moment_now.peak_x_Nm),
@@ -180,7 +180,7 @@ def _component_grows(evidence: Evidence) -> Iterator[Caution]:
             yield Caution.of_figures(
                 {
                     "code": "component_grows",
-                    "message": f"The {what} grows from {_plain(before)} to {_plain(after)} {unit}: weigh "
+                    "message": f"The {quantity} grows from {_plain(before)} to {_plain(after)} {unit}: weigh "
                     "that direction more if it matters.",
                     "pointer": f"/objective/direction_weights/{axis}",
                 }
@@ -210,33 +210,38 @@ def _far_web(evidence: Evidence) -> Iterator[Caution]:
 def _loads_grow(evidence: Evidence) -> Iterator[Caution]:
     """Bearing loads or bending moments above those of the bare or of the customary crank."""
     scene, machine = evidence.scene, evidence.scene.machine
-    shown: MainBearings | None = evidence.fields.get("main_bearings")
-    if shown is None or evidence.unbalance is None or not isinstance(machine, ReciprocatingMachine) or not machine.webs:
+    bearings: MainBearings | None = evidence.fields.get("main_bearings")
+    if (
+        bearings is None
+        or evidence.unbalance is None
+        or not isinstance(machine, ReciprocatingMachine)
+        or not machine.webs
+    ):
         return
-    loaded = [bearing.after.peak_N for bearing in shown.bearings if bearing.after]
+    peaks = [bearing.after.peak_N for bearing in bearings.bearings if bearing.after]
     kinds: tuple[tuple[CautionCode, str, str, float, float], ...] = (
         (
             "bearing_load_grows",
             "bearing load",
             "N",
-            max(loaded),
-            max(bearing.before.peak_N for bearing in shown.bearings),
+            max(peaks),
+            max(bearing.before.peak_N for bearing in bearings.bearings),
         ),
         (
             "bending_moment_grows",
             "bending moment",
             "N m",
-            max(shown.bending.after_Nm or ()),
-            max(shown.bending.before_Nm),
+            max(bearings.bending.after_Nm or ()),
+            max(bearings.bending.before_Nm),
         ),
     )
     usual = customary_peaks(scene, lambda: cranks(machine).customary)
-    for (code, what, unit, now, bare), of_usual in zip(kinds, usual, strict=True):
+    for (code, quantity, unit, now, bare), of_usual in zip(kinds, usual, strict=True):
         for than, of in ((bare, "without counterweights"), (of_usual, "of a crank balanced throw by throw")):
             if now > than * (1.0 + _ALIKE):
                 yield Caution(
                     code=code,
-                    message=f"The largest {what} is {_plain(now)} {unit}, above the {_plain(than)} {unit} {of}.",
+                    message=f"The largest {quantity} is {_plain(now)} {unit}, above the {_plain(than)} {unit} {of}.",
                     pointer="/objective" if isinstance(scene.request, OptimizeRequest) else "/counterweights",
                 )
 
@@ -292,14 +297,14 @@ def _fragile(evidence: Evidence) -> Iterator[Caution]:
     request = evidence.scene.request
     stated = isinstance(request, OptimizeRequest) and request.tolerances is not None
     gain = certificate.objective_without_counterweights - certificate.objective
-    for what, rise in (
+    for error, rise in (
         ("One degree", sensitivity.objective_rise_per_deg),
         ("One per cent of mass", sensitivity.objective_rise_per_percent),
     ):
         if gain > 0.0 and rise > _FRAGILE * gain:
             yield Caution(
                 code="fragile_optimum",
-                message=f"{what} on all counterweights together may cost {_plain(rise)} of the {_plain(gain)} that "
+                message=f"{error} on all counterweights together may cost {_plain(rise)} of the {_plain(gain)} that "
                 "they gain: large ones balance one another."
                 + ("" if stated else " State tolerances, and what is best in their worst case is found."),
                 pointer="/tolerances" if stated else "/objective",

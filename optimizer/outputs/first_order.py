@@ -62,7 +62,7 @@ def peaks(wrench: Wrench) -> dict[str, Real]:
     return {"force_peak_N": wrench.force.peak, "moment_peak_Nm": wrench.moment.peak}
 
 
-def added_peaks(scene: Prepared, wrench: Wrench) -> tuple[ResponsePeak, ...]:
+def response_peaks(scene: Prepared, wrench: Wrench) -> tuple[ResponsePeak, ...]:
     """Peaks of the responses of one machine that count beside force and moment."""
     return tuple(
         ResponsePeak(
@@ -82,11 +82,11 @@ def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
     }
 
 
-def _changes(scene: Prepared, shown: Sequence[Wrench]) -> tuple[ResponseChange, ...]:
+def _changes(scene: Prepared, wrenches: Sequence[Wrench]) -> tuple[ResponseChange, ...]:
     """The same before and after; the latter is missing where there are no counterweights to show."""
     if not scene.added:
         return ()
-    before, *after = (added_peaks(scene, wrench) for wrench in shown)
+    before, *after = (response_peaks(scene, wrench) for wrench in wrenches)
     return tuple(
         ResponseChange(
             response=was.response,
@@ -116,10 +116,10 @@ def smallest_proofs(proofs: Mapping[str, BoundMultipliers]) -> dict[str, BoundMu
 
 def residual(scene: Prepared, unbalance: Complex | None) -> Residual:
     """First order of one machine without and with counterweights, and the second beside it."""
-    shown = [scene.first_order()] if unbalance is None else [scene.first_order(), scene.first_order(unbalance)]
+    wrenches = [scene.first_order()] if unbalance is None else [scene.first_order(), scene.first_order(unbalance)]
     fitted = unbalance is not None
-    count, with_shafts = len(shown), [False, True] if fitted and scene.shafts is not None else [False]
-    polars = polar_wrenches([*map(PlainWrench.of, shown), *_second_order(scene, with_shafts)])
+    count, with_shafts = len(wrenches), [False, True] if fitted and scene.shafts is not None else [False]
+    polars = polar_wrenches([*map(PlainWrench.of, wrenches), *_second_order(scene, with_shafts)])
     first = [polar.order(1) for polar in polars[:count]]
     # mostly one, which stands without counterweights and with them
     twice = [Order.of_figures(polar.order(2)) for polar in polars[count:]]
@@ -133,7 +133,7 @@ def residual(scene: Prepared, unbalance: Complex | None) -> Residual:
                 "before": (first[0], twice[0] if twice else None),
                 "after": (first[1], twice[-1] if twice else None) if fitted else None,
             },
-            "responses": _changes(scene, shown),
+            "responses": _changes(scene, wrenches),
         }
     )
 
@@ -150,9 +150,9 @@ def _second_order(scene: Prepared, with_shafts: Sequence[bool]) -> list[PlainWre
 def hodographs(scene: Prepared, unbalance: Complex | None) -> Hodographs:
     """First order of one machine over the turn."""
     unit = turned(scene.layout.sense, scene.angle_rad)[: scene.first_turn_deg.size]
-    shown = [scene.first_order()] if unbalance is None else [scene.first_order(), scene.first_order(unbalance)]
+    wrenches = [scene.first_order()] if unbalance is None else [scene.first_order(), scene.first_order(unbalance)]
     # force and moment of each, all at once
-    vectors = vectors_of(shown)
+    vectors = vectors_of(wrenches)
     curves = Phasors(vectors[..., 0], vectors[..., 1]).of_turned(unit)
     return Hodographs.of_figures(
         {

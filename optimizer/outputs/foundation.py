@@ -32,9 +32,9 @@ def foundation_loads(scene: Prepared, unbalance: Complex | None) -> tuple[OrderO
     sets: dict[str, tuple[Prepared, Complex | None]] = {"before": (scene, None)}
     if unbalance is not None:
         sets["after"] = (scene, unbalance)
-    built = _as_built(scene)
-    if built is not None:
-        sets["as_built"] = built
+    actual = _as_built(scene)
+    if actual is not None:
+        sets["as_built"] = actual
     reference = dead_centre_deg(scene.machine)
     of_sets = dict(zip(sets, _loads(scene, list(sets.values()), reference), strict=True))
     return tuple(
@@ -60,8 +60,8 @@ def _as_built(scene: Prepared) -> tuple[Prepared, Complex] | None:
     if not isinstance(request, OptimizeRequest) or not request.fitted:
         return None
     mass, angle = mass_and_angle(request.machine, request.fitted)
-    built = fitted(fitted_masses(request.machine, mass), mass, angle)
-    return replace(scene, shafts=built.on_shafts), built.on_crank
+    placement = fitted(fitted_masses(request.machine, mass), mass, angle)
+    return replace(scene, shafts=placement.on_shafts), placement.on_crank
 
 
 def _loads(

@@ -72,7 +72,7 @@ def search(scene: Prepared, searches: Iterable[Search]) -> None:
     # what several outputs have in common stands there once
     curves = list({id(item.curves): item.curves for item in every}.values())
     batch = CurveBatch(tuple(curves))
-    first = {id(some): number for some, number in zip(curves, batch.first.tolist(), strict=False)}
+    first = {id(curve): number for curve, number in zip(curves, batch.first.tolist(), strict=False)}
     counts, sizes = [item.peak_count for item in every], [item.number.size for item in every]
     ends = [0, *accumulate(counts)]
     # of all at once: small arrays cost by their number
@@ -99,7 +99,7 @@ def rows_search(scene: Prepared, reading: Reading) -> Search:
     """Largest and smallest values of a force of every row; of the first of each kind alone, where there are kinds."""
     whole: WholeTurn = scene.results["whole_turn"]
     curves = whole.of_rows(reading)
-    return Search(_rows_name(reading), curves, *_both_ways(curves.weights.shape[0] * curves.weights.shape[1]))
+    return Search(_rows_name(reading), curves, *_extrema(curves.weights.shape[0] * curves.weights.shape[1]))
 
 
 @lru_cache(maxsize=64)
@@ -115,7 +115,7 @@ def _numbers(count: int) -> Index:
 
 
 @lru_cache(maxsize=16)
-def _both_ways(count: int) -> tuple[Index, Real, Real]:
+def _extrema(count: int) -> tuple[Index, Real, Real]:
     """Numbers of so many scalars, what is added to each, and signs: of their maxima and then of their minima."""
     number, sign = np.arange(2 * count), np.ones(2 * count)
     number[count:] -= count
@@ -143,8 +143,8 @@ def _of_every_row(kinds: RowKinds | None, peaks: Bracket) -> Bracket:
     """Peaks of the first row of each kind as those of all rows."""
     if kinds is None:
         return peaks
-    some = kinds.kind
-    return Bracket(peaks.angle[some] - kinds.ahead, peaks.value[some], peaks.lower[some], peaks.upper[some])
+    kind = kinds.kind
+    return Bracket(peaks.angle[kind] - kinds.ahead, peaks.value[kind], peaks.lower[kind], peaks.upper[kind])
 
 
 def row_peaks(scene: Prepared, reading: Reading) -> list[PeakList]:
@@ -250,7 +250,7 @@ def separate_groups(alone: int, together: int) -> Index:
 def _halves(peaks: Bracket) -> Iterator[Bracket]:
     """The first half and the second."""
     half = peaks.angle.size // 2
-    return (Bracket._make(part[some] for part in peaks) for some in (slice(half), slice(half, None)))
+    return (Bracket._make(part[section] for part in peaks) for section in (slice(half), slice(half, None)))
 
 
 def _times_square(scene: Prepared, peaks: Bracket) -> Bracket:

@@ -46,14 +46,14 @@ def _largest_product(angle_deg: Sequence[Any], values: Sequence[Any], pins: Real
     """max over the turn and the pins of |value(theta) sin(theta - g)| for tables and pin numbers (n,)."""
     entries = len(angle_deg)
     cases = stacked([*angle_deg, *values, pins])
-    distinct, which = np.unique(cases, axis=0, return_inverse=True)
+    distinct, inverse = np.unique(cases, axis=0, return_inverse=True)
     result = np.zeros(len(distinct))
     for k, case in enumerate(distinct):
         angles, torque, number = case[:entries], case[entries:-1], int(case[-1])
         inside = angles < 360.0
         shapes = LoadShapes.even(360.0 * np.arange(number) / number, 2.0 / number)
         result[k] = np.max(peaks(shapes, PeriodicTable(angles[inside], torque[inside]))[0])
-    return result[which.reshape(-1)]
+    return result[inverse.reshape(-1)]
 
 
 # a sweep needs the peaks alone, not what every pin carries over the turn

@@ -108,7 +108,7 @@ def fields(
     return results
 
 
-def columns(request: Scene, unbalance: Complex, always: tuple[str, ...], wanted: frozenset[str]) -> dict[str, Real]:
+def columns(request: Scene, unbalance: Complex, always: tuple[str, ...], selection: frozenset[str]) -> dict[str, Real]:
     """Columns (n,) of the outputs of many designs, as many as have any.
 
     Parameters
@@ -120,7 +120,7 @@ def columns(request: Scene, unbalance: Complex, always: tuple[str, ...], wanted:
     wanted : keys of the columns that are (:func:`schemas.sweep.details.key`); what comes along beside them costs
         little.
     """
-    groups = column_groups(request, always, wanted)
+    groups = column_groups(request, always, selection)
     samples = request.angles.count if any(group.sampled for group in groups) else 1
     needs = {str(k): group.needs or () for k, group in enumerate(groups)}
     readings = tuple(dict.fromkeys(reading for group in groups for reading in group.readings))
@@ -134,20 +134,20 @@ def columns(request: Scene, unbalance: Complex, always: tuple[str, ...], wanted:
     return results
 
 
-def column_groups(request: Scene, always: tuple[str, ...], wanted: frozenset[str]) -> tuple[Columns, ...]:
+def column_groups(request: Scene, always: tuple[str, ...], selection: frozenset[str]) -> tuple[Columns, ...]:
     """The columns of a request's outputs that are wanted, in the groups in which they are worked out."""
-    return _groups((*always, *request.outputs), wanted)
+    return _groups((*always, *request.outputs), selection)
 
 
 @lru_cache(maxsize=64)
-def _groups(names: tuple[str, ...], wanted: frozenset[str]) -> tuple[Columns, ...]:
+def _groups(names: tuple[str, ...], selection: frozenset[str]) -> tuple[Columns, ...]:
     results = list[Columns]()
     for name in dict.fromkeys(names):
         output = OUTPUTS[name]
         keys = usual_keys(name)
-        if output.columns is not None and (not keys or not wanted.isdisjoint(keys)):
+        if output.columns is not None and (not keys or not selection.isdisjoint(keys)):
             results.append(replace(output.columns, needs=output.column_needs))
-        results += [group for group in DETAILED.get(name, ()) if not wanted.isdisjoint(group.keys)]
+        results += [group for group in DETAILED.get(name, ()) if not selection.isdisjoint(group.keys)]
     return tuple(results)
 
 

@@ -86,10 +86,12 @@ def _figures(rule: Rule, first: Ellipse, square: float, iron: float) -> RuleOfTh
     )
 
 
-def _transfer(what: str, share: float, vertical: bool) -> Rule:
+def _transfer(quantity: str, share: float, vertical: bool) -> Rule:
     orientation = "vertical" if vertical else "horizontal"
-    layout = "single row" if what == "force" else "two rows in line, cranks 180 deg apart"
-    return Rule(f"transfer {100 * share:.0f} % of the first-order {what}", f"{_SOURCE}, {layout}, {orientation}", share)
+    layout = "single row" if quantity == "force" else "two rows in line, cranks 180 deg apart"
+    return Rule(
+        f"transfer {100 * share:.0f} % of the first-order {quantity}", f"{_SOURCE}, {layout}, {orientation}", share
+    )
 
 
 def _is_circle(pair: Ellipse) -> bool:

@@ -86,15 +86,15 @@ def stages(
     whole = rotating.plus(moving)
     lacking = missing(planes, centre, whole.force, whole.moment)
     in_units = [PlainWrench.of(part, square) for part in (turning, first, second)]
-    both = in_units[0].plus(in_units[1])
-    shown = [PlainWrench.of(first), both, *in_units]
+    primary = in_units[0].plus(in_units[1])
+    wrenches = [PlainWrench.of(first), primary, *in_units]
     if unbalance is not None:
         fitted = PlainWrench.of(_fitted(layout, unbalance, shafts), square)
-        shown += [both.plus(fitted), *superposed(in_units[0], in_units[1], fitted)]
+        wrenches += [primary.plus(fitted), *superposed(in_units[0], in_units[1], fitted)]
         whole = whole.plus(PlainWrench.of(_fitted(centred, unbalance, shafts)))
         if shafts is not None:
-            shown.append(in_units[2].plus(PlainWrench.of(_of_shafts(layout, shafts, 2), square)))
-    of_force, of_moment, *pairs = [pair.ellipse for wrench in polar_wrenches(shown) for pair in wrench]
+            wrenches.append(in_units[2].plus(PlainWrench.of(_of_shafts(layout, shafts, 2), square)))
+    of_force, of_moment, *pairs = [pair.ellipse for wrench in polar_wrenches(wrenches) for pair in wrench]
     of_all, was, with_fitted = [*pairs[:2], *pairs[6:8]], pairs[2:8], pairs[8:]
     value = [*(pair.peak for pair in was), lacking, of_all[0].peak + of_all[2].peak]
     now, all_left = was, of_all
@@ -107,7 +107,7 @@ def stages(
         remaining = [*(pair.peak for pair in now), lacking, all_left[0].peak + all_left[2].peak]
     scale = _scale(layout)
     noise = (_ROUNDING * scale[0], _ROUNDING * scale[1])
-    before, after, summed, what_is_left = (
+    before, after, summed, remainder = (
         actings(list(zip(pairs, orders, strict=True)), speed, noise)
         for pairs, orders in ((was, _ORDERS), (now, _ORDERS), (of_all, _OF_BOTH), (all_left, _OF_BOTH))
     )
@@ -130,7 +130,7 @@ def stages(
                     "value": value[k],
                     "remaining": remaining[k],
                     "acting": summed if heading is STAGE_VIII else before[k : k + 1],
-                    "left": None if unbalance is None else what_is_left if heading is STAGE_VIII else after[k : k + 1],
+                    "left": None if unbalance is None else remainder if heading is STAGE_VIII else after[k : k + 1],
                     "iron": in_planes if heading is STAGE_VII else (),
                     "rules_of_thumb": rules.get(heading, ()),
                 }
@@ -173,13 +173,13 @@ def amounts(
     if unbalance is not None and shafts is not None:
         second = second.plus(_of_shafts(layout, shafts, 2))
     turning, first, second = (part.times(square) for part in (turning, first, second))
-    both = turning.plus(first)
+    primary = turning.plus(first)
     if unbalance is not None:
         fitted = _fitted(layout, unbalance, shafts).times(square)
-        both = both.plus(fitted)
+        primary = primary.plus(fitted)
         turning, first = _superpose(turning, first, fitted)
     sizes = [pair.peak for part in (turning, first, second) for pair in part]
-    return np.stack([*sizes, missing, both.force.peak + second.force.peak], axis=-1)
+    return np.stack([*sizes, missing, primary.force.peak + second.force.peak], axis=-1)
 
 
 def _superpose(turning: Wrench, first: Wrench, fitted: Wrench) -> tuple[Wrench, Wrench]:
@@ -192,8 +192,8 @@ def _superpose(turning: Wrench, first: Wrench, fitted: Wrench) -> tuple[Wrench, 
 def _split(turning: Phasors, first: Phasors, fitted: Phasors) -> tuple[Phasors, Phasors]:
     size = np.abs(turning.co)
     # a denormal number has no direction that could be divided out
-    some = size > np.finfo(float).tiny
-    outward: Complex = np.where(some, turning.co / np.where(some, size, 1.0), 0j)
+    nonzero = size > np.finfo(float).tiny
+    outward: Complex = np.where(nonzero, turning.co / np.where(nonzero, size, 1.0), 0j)
     opposed = np.minimum(np.maximum(-(fitted.co * np.conj(outward)).real, 0.0), size)
     return (
         Phasors((size - opposed) * outward, turning.counter),

@@ -12,7 +12,7 @@ from optimizer.formulation.formulate import limited as limited_responses
 from optimizer.formulation.goals import Goals
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
-from optimizer.outputs.first_order import added_peaks, first_order, smallest_peaks, smallest_proofs
+from optimizer.outputs.first_order import first_order, response_peaks, smallest_peaks, smallest_proofs
 from optimizer.program.cuts.dominance import Group, Weighed
 from optimizer.program.cuts.optimum import METHOD, CertifiedOptimum, Conflict
 from optimizer.program.cuts.semi_infinite import Goal, Problem
@@ -112,7 +112,7 @@ def report(
             counterweights=shown.counterweights,
             balance_shafts=shown.balance_shafts,
             first_order=first_order(left),
-            responses=added_peaks(scene, left),
+            responses=response_peaks(scene, left),
         ),
         multipliers=InfeasibilityMultipliers(
             conflict=conflict, **smallest_proofs({name: entry.multipliers for name, entry in least.items()})

@@ -23,19 +23,19 @@ def _specific(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
     """Peaks over the area of the bearings that say how large they are."""
     sized = {k: area for k, bearing in enumerate(_bearings(scene)) if (area := _area(bearing)) is not None}
     peak = of_shaft(scene, _bearing_curves(scene, scene.results["whole_turn"]), unbalance).lower
-    return _named(scene, "specific_load_Pa", {k: peak[..., k] / area for k, area in sized.items()})
+    return _bearing_columns(scene, "specific_load_Pa", {k: peak[..., k] / area for k, area in sized.items()})
 
 
 def _root_mean_square(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
     # what bounds quadratures bounds the pieces too
     result = _bearing_curves(scene, variant(scene.results["whole_turn"], squared=True))
-    of_blocks = (result.curves.of_designs(some) for some in _blocks(result))
+    of_blocks = (result.curves.of_designs(block) for block in _blocks(result))
     mean, variance = (
         np.concatenate(values) for values in zip(*((curves.mean, curves.variance) for curves in of_blocks), strict=True)
     )
     rms = np.sqrt(variance + np.abs(mean + result.offsets(unbalance)) ** 2).reshape(result.webs.shape[:-1])
     square = scene.layout.omega[..., None] ** 2
-    return _named(scene, "bearing_rms_N", dict(enumerate(np.moveaxis(rms * square, -1, 0))))
+    return _bearing_columns(scene, "bearing_rms_N", dict(enumerate(np.moveaxis(rms * square, -1, 0))))
 
 
 def _floors(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
@@ -54,9 +54,9 @@ def _floors(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
     centre = (centre + result.offsets(unbalance).reshape(shape))[..., :count] * square
     return {
         "bending_floor_Nm": np.max(radius[..., count:], axis=-1),
-        **_named(scene, "bearing_floor_N", {k: radius[..., k] for k in range(count)}),
-        **_named(scene, "bearing_circle_x_N", {k: centre[..., k].real for k in range(count)}),
-        **_named(scene, "bearing_circle_y_N", {k: centre[..., k].imag for k in range(count)}),
+        **_bearing_columns(scene, "bearing_floor_N", {k: radius[..., k] for k in range(count)}),
+        **_bearing_columns(scene, "bearing_circle_x_N", {k: centre[..., k].real for k in range(count)}),
+        **_bearing_columns(scene, "bearing_circle_y_N", {k: centre[..., k].imag for k in range(count)}),
     }
 
 
@@ -75,10 +75,10 @@ def _alike(shaft: ShaftCurves) -> Iterator[Index]:
     _, kind = np.unique(shaft.curves.whole.half > 0.0, axis=0, return_inverse=True)
     for number in range(int(np.max(kind)) + 1):
         designs = np.flatnonzero(kind == number)
-        yield from (designs[some] for some in _blocks(shaft) if designs[some].size)
+        yield from (designs[block] for block in _blocks(shaft) if designs[block].size)
 
 
-def _named(scene: Prepared, name: str, by_bearing: dict[int, Real]) -> dict[str, Real]:
+def _bearing_columns(scene: Prepared, name: str, by_bearing: dict[int, Real]) -> dict[str, Real]:
     names = labels([bearing.name for bearing in _bearings(scene)])
     return {f"{name}.{names[k]}": values for k, values in by_bearing.items()}
 
