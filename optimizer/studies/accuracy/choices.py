@@ -56,7 +56,7 @@ _UNREACHABLE = "no counterweights keep the ceilings"
 _ROUNDING = 1e-12
 
 
-class Made(NamedTuple):
+class Candidate(NamedTuple):
     """Counterweights that one way comes to."""
 
     mass: Real  # (K + S,) kg, those on balance shafts behind those of the crankshaft, fixed weights apart
@@ -79,15 +79,15 @@ class Rung:
     method: Literal["service", "rounding"]
     setting: str
     aim: Aim
-    run: Callable[[float], Made | Nothing]  # of the seconds that are left
-    made: Made | None = None
+    run: Callable[[float], Candidate | Nothing]  # of the seconds that are left
+    candidate: Candidate | None = None
     times_s: list[float] = field(default_factory=list)
     skipped: str | None = None
 
     @property
     def feasible(self) -> bool:
         """Whether there are counterweights, and they keep the limits."""
-        return self.made is not None and self.made.feasible
+        return self.candidate is not None and self.candidate.feasible
 
 
 class Ladder(NamedTuple):
@@ -120,12 +120,12 @@ def choices_ladder(request: AccuracyRequest, scene: Prepared) -> Ladder:
         _first(rung, end - time.thread_time(), enough.get(rung.aim))
         if rung.skipped == _UNREACHABLE:
             return Ladder(None, (), True)
-        if rung.made is not None and rung.aim in _ENDS and rung.made.status == _ENDS[rung.aim]:
+        if rung.candidate is not None and rung.aim in _ENDS and rung.candidate.status == _ENDS[rung.aim]:
             enough.setdefault(rung.aim, _BEYOND[rung.aim].format(rung.setting))
     for _ in range(request.repeats - 1):
         for rung in rungs:
             left_s = end - time.thread_time()
-            if rung.made is not None and sum(rung.times_s) < ROUNDS_S and left_s > 0:
+            if rung.candidate is not None and sum(rung.times_s) < ROUNDS_S and left_s > 0:
                 _timed(rung, left_s)
     return ways.judged(rungs)
 
@@ -138,10 +138,10 @@ def _first(rung: Rung, left_s: float, enough: str | None) -> None:
     if isinstance(outcome, Nothing):
         rung.skipped = outcome.reason
     else:
-        rung.made = outcome
+        rung.candidate = outcome
 
 
-def _timed(rung: Rung, left_s: float) -> Made | Nothing:
+def _timed(rung: Rung, left_s: float) -> Candidate | Nothing:
     # of this thread alone, as limits of time are
     start = time.thread_time()
     outcome = rung.run(left_s)
@@ -189,21 +189,23 @@ class _Ways:
         """Compile what is compiled once; the widest gap ends every search at once."""
         self._service(1.0, self.request.accuracy.time_limit_s)(LADDER_S)
 
-    def _service(self, gap: float, limit_s: float) -> Callable[[float], Made | Nothing]:
-        def run(left_s: float) -> Made | Nothing:
+    def _service(self, gap: float, limit_s: float) -> Callable[[float], Candidate | Nothing]:
+        def run(left_s: float) -> Candidate | Nothing:
             limit = min(limit_s, max(left_s, _SHORTEST_S))
             return self._optimum(replace(self.task, relative_gap=gap, time_limit_s=limit))
 
         return run
 
-    def _optimum(self, task: Task) -> Made | Nothing:
+    def _optimum(self, task: Task) -> Candidate | Nothing:
         answer = solve(task, self.scene, in_full=False)
         if isinstance(answer, Infeasible):
             return Nothing(_UNREACHABLE if answer.status == "infeasible" else answer.reason)
         mass, proof = answer.mass, answer.certificate
-        return Made(mass, proof.objective, proof.lower_bound, self._keeps_limits(mass, answer.unbalance), answer.status)
+        return Candidate(
+            mass, proof.objective, proof.lower_bound, self._keeps_limits(mass, answer.unbalance), answer.status
+        )
 
-    def _rounded(self) -> Made | Nothing:
+    def _rounded(self) -> Candidate | Nothing:
         """The optimum of any masses, of a group the mean, each on what is nearest of its web."""
         free = solve(self.free, self.scene, in_full=False)
         if isinstance(free, Infeasible):
@@ -211,7 +213,7 @@ class _Ways:
         mass, angle = _nearest(self.task, free.unbalance)
         u = unbalance(mass, angle, _radius(self.request.machine))
         value = float(self.program.objective(u)) * self.scene.omega_squared
-        return Made(mass, value, None, self._keeps_limits(mass, u), None)
+        return Candidate(mass, value, None, self._keeps_limits(mass, u), None)
 
     def _keeps_limits(self, mass: Real, u: Complex) -> bool:
         """Whether masses (K + S,) kg of unbalances (K + S,) kg m keep ceilings, budget and numbers."""
@@ -220,7 +222,7 @@ class _Ways:
 
     def judged(self, rungs: Sequence[Rung]) -> Ladder:
         """What is known of all rows together, and each against it."""
-        results = [rung.made for rung in rungs if rung.made is not None]
+        results = [rung.candidate for rung in rungs if rung.candidate is not None]
         rest = float(self.program.at_rest) * self.scene.omega_squared
         objective = min((entry.objective for entry in results if entry.feasible), default=np.nan)
         bound = max((entry.bound for entry in results if entry.bound is not None), default=-np.inf)
@@ -233,7 +235,7 @@ class _Ways:
             objective=objective,
             lower_bound=bound,
             objective_without_counterweights=rest,
-            objective_of_any_mass=any_mass.objective if isinstance(any_mass, Made) else None,
+            objective_of_any_mass=any_mass.objective if isinstance(any_mass, Candidate) else None,
             resolution=max((objective - bound) / rest, EQUAL),
         )
         candidates = [
@@ -268,10 +270,10 @@ def _nearest(task: Task, u: Complex) -> tuple[Real, Real]:
     least = stacked([web.min_fitted_mass_kg or 0.0 for web in machine.every_web])
     mass = np.where(mass < 0.5 * least, 0.0, np.maximum(mass, least))
     if machine.discrete:
-        held, castings = options_of(task), takes_options(task)
-        units = held.options.alike
-        near = held.options.nearest(u[castings] if units is None else units.means(u[castings]))
-        mass[castings], angle[castings] = held.fitted(near)
+        catalogue, castings = options_of(task), takes_options(task)
+        units = catalogue.options.alike
+        near = catalogue.options.nearest(u[castings] if units is None else units.means(u[castings]))
+        mass[castings], angle[castings] = catalogue.fitted(near)
     return mass, np.where(mass > 0.0, np.mod(angle, 360.0), 0.0)
 
 
@@ -305,17 +307,17 @@ _NOTHING: Mapping[str, None] = dict.fromkeys(_ChoiceFigures._fields)
 
 
 def _figures(rung: Rung, bound: float, rest: float, task: Task) -> _ChoiceFigures | None:
-    made, time_ms = rung.made, median_ms(rung.times_s)
-    if made is None or time_ms is None:
+    candidate, time_ms = rung.candidate, median_ms(rung.times_s)
+    if candidate is None or time_ms is None:
         return None
-    castings = made.mass[_castings(task)]
+    castings = candidate.mass[_castings(task)]
     return _ChoiceFigures(
         time_ms,
-        made.objective,
-        made.bound,
-        (made.objective - bound) / rest,
-        None if made.bound is None else (made.objective - made.bound) / rest,
-        float(np.sum(made.mass)) + float(fixed_mass(task.machine)),
+        candidate.objective,
+        candidate.bound,
+        (candidate.objective - bound) / rest,
+        None if candidate.bound is None else (candidate.objective - candidate.bound) / rest,
+        float(np.sum(candidate.mass)) + float(fixed_mass(task.machine)),
         int(np.sum(castings > 0.0)),
         part_numbers(castings),
     )
@@ -325,10 +327,10 @@ def _row(rung: Rung, figures: _ChoiceFigures | None, on_frontier: bool) -> Choic
     return ChoiceRow(
         method=rung.method,
         setting=rung.setting,
-        status=None if rung.made is None else rung.made.status,
+        status=None if rung.candidate is None else rung.candidate.status,
         limits_kept=rung.feasible,
         on_frontier=on_frontier,
-        runs=0 if rung.made is None else len(rung.times_s),
+        runs=0 if rung.candidate is None else len(rung.times_s),
         skipped=rung.skipped,
         **(_NOTHING if figures is None else figures._asdict()),
     )

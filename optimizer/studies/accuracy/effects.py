@@ -153,12 +153,12 @@ def _by_search(torque: Torque, breaks: Real, turns: int = 1) -> Figures:
     turn = panels(breaks, _WIDEST_PANEL, halved=True, turns=turns)
     highest = np.max(np.abs(torque(turn.angle)).reshape(turn.start.size, -1), axis=-1)
     # of a torque that is 0 everywhere all panels hold the peak
-    held = (highest >= _NEARLY * np.max(highest)) & (turn.width > 0)
+    candidates = (highest >= _NEARLY * np.max(highest)) & (turn.width > 0)
     within = np.linspace(0.0, 1.0, _WITHIN)
-    angle = (turn.start[held, None] + turn.width[held, None] * within).ravel()
+    angle = (turn.start[candidates, None] + turn.width[candidates, None] * within).ravel()
     best = int(np.argmax(np.abs(torque(angle))))
     # smooth within a panel, so that there is one maximum beside the best of the fine samples
-    step = float(np.max(turn.width[held])) * within[1]
+    step = float(np.max(turn.width[candidates])) * within[1]
     inside = minimize_scalar(
         lambda at: -abs(float(torque(np.array([at]))[0])),
         bounds=(angle[best] - step, angle[best] + step),

@@ -74,7 +74,7 @@ class Clock:
 
 def survey(task: LadderProgram, methods: Iterable[Method], clock: Clock) -> list[Trial]:
     """Every method once at each position of its grid."""
-    return [_tried(task, method, clock) for method in methods]
+    return [_trial(task, method, clock) for method in methods]
 
 
 def time_rounds(task: LadderProgram, trials: Sequence[Trial], repeats: int, clock: Clock) -> None:
@@ -91,7 +91,7 @@ def time_rounds(task: LadderProgram, trials: Sequence[Trial], repeats: int, cloc
                 trial.times_s.append(elapsed)
 
 
-def _tried(task: LadderProgram, method: Method, clock: Clock) -> Trial:
+def _trial(task: LadderProgram, method: Method, clock: Clock) -> Trial:
     trial = Trial(method, method.prepare())
     entries = method.entries(task)
     if entries > MAX_ENTRIES:
@@ -139,10 +139,10 @@ def timed(ways: Sequence[Callable[[], Answer]], repeats: int) -> tuple[list[Answ
     for rounds in range(repeats):
         if rounds and clock.left_s <= 0:
             break
-        for taken, way in zip(times, ways, strict=True):
+        for series, way in zip(times, ways, strict=True):
             start = time.perf_counter()
             way()
-            taken.append(time.perf_counter() - start)
+            series.append(time.perf_counter() - start)
     return results, first, times
 
 
@@ -163,6 +163,6 @@ def frontier(points: Sequence[tuple[float, float] | None], resolution: float) ->
     candidates = [pair for pair in pairs if pair is not None]
 
     def beaten(point: tuple[float, float]) -> bool:
-        return any(other != point and other[0] <= point[0] and other[1] <= point[1] for other in candidates)
+        return any(rival != point and rival[0] <= point[0] and rival[1] <= point[1] for rival in candidates)
 
     return [pair is not None and not beaten(pair) for pair in pairs]

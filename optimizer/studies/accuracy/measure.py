@@ -53,9 +53,9 @@ def accuracy(request: AccuracyRequest) -> AccuracyAnswer:
     start = time.perf_counter()
     # outputs play no part: what they would miss must not refuse the ladder
     scene = prepare(request, ("residual",))
-    measured = (_as_made if request.as_made else _of_any_mass)(request, scene)
+    fields = (_choice_fields if request.as_made else _method_fields)(request, scene)
     return AccuracyAnswer(
-        **measured,
+        **fields,
         repeats=request.repeats,
         positions=len(POSITIONS),
         effects_ladder=effects_ladder(request.machine, scene.layout, request.repeats),
@@ -65,7 +65,7 @@ def accuracy(request: AccuracyRequest) -> AccuracyAnswer:
     )
 
 
-def _as_made(request: AccuracyRequest, scene: Prepared) -> dict[str, object]:
+def _choice_fields(request: AccuracyRequest, scene: Prepared) -> dict[str, object]:
     """Fields of the answer where counterweights are as a workshop makes them."""
     closed = at_rest(request, scene)
     usable = closed.limits.reach > 0
@@ -77,7 +77,7 @@ def _as_made(request: AccuracyRequest, scene: Prepared) -> dict[str, object]:
     return fields | {"status": status, "reference": result.reference, "choices_ladder": result.rows}
 
 
-def _of_any_mass(request: AccuracyRequest, scene: Prepared) -> dict[str, object]:
+def _method_fields(request: AccuracyRequest, scene: Prepared) -> dict[str, object]:
     """Fields of the answer where counterweights have any mass at any angle."""
     whole = within_reach(cone_program(*Task.of(request).space, scene.responses, scene.omega_squared))
     usable = whole.limits.reach > 0
@@ -103,12 +103,12 @@ def _of_any_mass(request: AccuracyRequest, scene: Prepared) -> dict[str, object]
 
 def _turn(request: AccuracyRequest, scene: Prepared) -> OverTheTurn:
     """The peaks and ceilings of :func:`optimizer.formulation.goals.cone_program`, as they pass over the turn."""
-    wanted, across = weights(request.machine, request.objective), request.objective.direction_weights
+    response_weights, across = weights(request.machine, request.objective), request.objective.direction_weights
     return OverTheTurn(
         peaks=tuple(
-            WeightedResponse(response, float(wanted[response.name]), across.x, across.y)
+            WeightedResponse(response, float(response_weights[response.name]), across.x, across.y)
             for response in scene.responses
-            if wanted[response.name] > 0
+            if response_weights[response.name] > 0
         ),
         combine=request.objective.combine,
         ceilings=tuple(

@@ -95,16 +95,16 @@ def peaks_ladder(machine: Machine, layout: Layout, repeats: int) -> tuple[PeakRo
 
 def _curves(machine: ReciprocatingMachine, layout: Layout) -> Mapping[Quantity, Curves]:
     """The curves behind every figure: loads over omega^2, the torque."""
-    made: dict[Quantity, Curves] = {}
+    curves: dict[Quantity, Curves] = {}
     if machine.bearings:
         influence, places = INFLUENCES[Fidelity().shaft], bearing_places(machine)
         loads = influence(places, planes(layout))
         stations = np.unique(np.concatenate([planes(layout), places]))
         moments = bending_influence(layout, places, loads, stations)
-        made["peak_bearing_load"] = lambda whole: shaft_curves(whole, layout, loads).curves
-        made["peak_bending_moment"] = lambda whole: shaft_curves(whole, layout, moments).curves
-    made["peak_torque"] = lambda whole: whole.torque
-    return made
+        curves["peak_bearing_load"] = lambda whole: shaft_curves(whole, layout, loads).curves
+        curves["peak_bending_moment"] = lambda whole: shaft_curves(whole, layout, moments).curves
+    curves["peak_torque"] = lambda whole: whole.torque
+    return curves
 
 
 def _ways(quantity: Quantity, whole: WholeTurn, curves: Curves, offset: complex) -> Iterator[PeakMethod]:
@@ -121,7 +121,7 @@ def _ways(quantity: Quantity, whole: WholeTurn, curves: Curves, offset: complex)
         return size * angles <= _MOST
 
     for tolerance in TOLERANCES:
-        peak = partial(_bracketed, fresh, offset, tolerance)
+        peak = partial(_bracket, fresh, offset, tolerance)
         yield PeakMethod(quantity, "bracket", f"tolerance {tolerance:.0e}", None, peak)
     for count in PLACES:
         if affordable(pieces * count):
@@ -134,7 +134,7 @@ def _ways(quantity: Quantity, whole: WholeTurn, curves: Curves, offset: complex)
             yield PeakMethod(quantity, "samples", f"{step:g} deg", angles, peak)
 
 
-def _bracketed(fresh: Callable[[], TurnCurves], offset: complex, tolerance: float) -> Peak:
+def _bracket(fresh: Callable[[], TurnCurves], offset: complex, tolerance: float) -> Peak:
     pieces = fresh().pieces
     count = len(pieces.half)
     group = np.zeros(count, dtype=np.intp)
@@ -149,9 +149,9 @@ def _in_pieces(fresh: Callable[[], TurnCurves], offset: complex, count: int) -> 
 
 
 def _sampled(fresh: Callable[[], TurnCurves], offset: complex, angles: int) -> Peak:
-    made = fresh()
-    turns = made.whole.turns
-    return _largest(made.at(np.linspace(0.0, TURN * turns, angles, endpoint=False)) + offset)
+    turn = fresh()
+    turns = turn.whole.turns
+    return _largest(turn.at(np.linspace(0.0, TURN * turns, angles, endpoint=False)) + offset)
 
 
 def _largest(values: Complex) -> Peak:

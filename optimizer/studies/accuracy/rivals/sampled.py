@@ -36,12 +36,12 @@ class WeightedResponse:
 
     def only(self, webs: np.ndarray) -> "WeightedResponse":
         against = self.response.counter_influence
-        chosen = replace(
+        response = replace(
             self.response,
             influence=self.response.influence[webs],
             counter_influence=None if against is None else against[webs],
         )
-        return replace(self, response=chosen)
+        return replace(self, response=response)
 
 
 @record(frozen=True)
@@ -127,13 +127,13 @@ def _vectors(
     F = f e^{ja} + b e^{-ja} with f affine in u, and conj(b) where shafts turn backwards. The sign of a, the sense of
     rotation, only changes the order of the samples.
     """
-    response, turned = peak.response, np.exp(1j * grid)
-    constant = response.baseline.co * turned + response.baseline.counter * np.conj(turned)
+    response, rotation = peak.response, np.exp(1j * grid)
+    constant = response.baseline.co * rotation + response.baseline.counter * np.conj(rotation)
     reach = scaling.reach * statement.limits.centre
-    along = turned[:, None] * (response.influence * reach)
+    along = rotation[:, None] * (response.influence * reach)
     across = 1j * along * statement.limits.half_angle_sin
     if response.counter_influence is not None:
-        back = np.conj(turned[:, None] * (response.counter_influence * reach))
+        back = np.conj(rotation[:, None] * (response.counter_influence * reach))
         along, across = along + back, across - 1j * back * statement.limits.half_angle_sin
     x, y = (peak.weight * factor / unit for factor in (peak.weight_x, peak.weight_y))
     matrix = np.block([[x * along.real, x * across.real], [y * along.imag, y * across.imag]])
@@ -149,5 +149,5 @@ def _terms(multiplier: Complex, grid: Real, peak: WeightedResponse) -> Complex:
     """
     back = np.exp(-1j * grid)
     alone = peak.weight_x == peak.weight_y and peak.response.counter_influence is None
-    both = (multiplier,) if alone else (multiplier, np.conj(multiplier))
-    return np.array([np.sum(part * back) for part in both])
+    parts = (multiplier,) if alone else (multiplier, np.conj(multiplier))
+    return np.array([np.sum(part * back) for part in parts])
