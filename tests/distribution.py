@@ -77,7 +77,7 @@ LONG = (
     "hard/test_battery.py",
     "verification/test_dynamics.py",
     "verification/test_turn.py",
-    "studies/pareto/test_chosen_trades.py",
+    "studies/pareto/test_choice_trades.py",
     "choices/test_quarters.py",
     "studies/pareto/test_reach.py",
     "report_document/test_pdf.py",

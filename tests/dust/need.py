@@ -81,7 +81,7 @@ def is_needed_at(request: ParetoRequest, front: ParetoFront, point: ParetoPoint,
     if not np.all(unit > 0.0):
         return False
     here = np.array([point.weighted_force_peak_N, point.weighted_moment_peak_Nm]) / float(scene.omega_squared)
-    most = np.where([each.name == web for each in machine.webs], 0.0, whole.both.limits.max_mass)
+    most = np.where([each.name == web for each in machine.webs], 0.0, whole.minimax.limits.max_mass)
     program = whole.within(most, whole.cap).along(here, unit)
     # t is nothing at the point
     target = _SHARPEST - whole.parameter(0.0, here, unit)

@@ -67,10 +67,10 @@ NAMED_IN = {
     "outputs/balance_quality.py": "what turns with the shaft of both",
     "studies/pareto/counts.py": "fields of the answer",
     "studies/pareto/pareto.py": "a front is of these two: fields of its answer",
-    "studies/pareto/chosen_front.py": "weighs and limits one of these two: fields of its answer",
+    "studies/pareto/choice_front.py": "weighs and limits one of these two: fields of its answer",
     "solve/worst_case.py": "fields of the answer",
     "studies/pareto/lines.py": "fields of the answer",
-    "studies/pareto/chosen_trades.py": "fields of the answer",
+    "studies/pareto/choice_trades.py": "fields of the answer",
     # another force or torque altogether
     "effects/dynamics.py": "friction",
     "outputs/dynamics.py": "of the piston",

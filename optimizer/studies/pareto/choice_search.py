@@ -38,7 +38,7 @@ _BESIDE: Mapping[Traded, str] = {"bearings": "bearing_weight", "bending": "bendi
 
 
 @record(frozen=True)
-class ChosenPoint:
+class ChoicePoint:
     """Counterweights that are chosen, beside what they come to in D responses, in the units of the answer."""
 
     solution: Solution
@@ -97,13 +97,13 @@ class ChoiceSearch:
         result = traded.values(u) * self.square
         return np.where(self.is_mass, result + self.fixed, result)
 
-    def gross(self, point: ChosenPoint) -> Real:
+    def gross(self, point: ChoicePoint) -> Real:
         """What every counterweight of a point by itself adds to each response at most, summed (D,)."""
         return self.traded.gross(point.solution.unbalance) * self.square
 
     def first_along(
         self, unit: Real, size: Real, seconds: float, budget: float | None = None
-    ) -> ChosenPoint | Infeasible:
+    ) -> ChoicePoint | Infeasible:
         """The best choice as shares of a unit (D,), under a budget where the mass is traded.
 
         Parameters
@@ -124,7 +124,7 @@ class ChoiceSearch:
         seconds: float,
         budget: float | None = None,
         **ceilings: float,
-    ) -> ChosenPoint | Infeasible:
+    ) -> ChoicePoint | Infeasible:
         """The best choice for the largest of some responses times their weights.
 
         Parameters
@@ -150,7 +150,7 @@ class ChoiceSearch:
             # a response that does not count is not below what it comes to here
             proven = [bound / weights[name] if name in weights else np.nan for name in self.names]
             corner = np.where(np.isnan(proven), values, proven)
-        return ChosenPoint(best, values, corner)
+        return ChoicePoint(best, values, corner)
 
     def _weighing(self, weights: Mapping[Traded, float], ceilings: Mapping[str, float]) -> Objective:
         """The largest of the responses times their weights; the objective itself times its own."""

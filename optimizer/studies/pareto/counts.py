@@ -73,9 +73,9 @@ def _point(task: Task, scene: Prepared, trade: CountTrade, number: int | None) -
     best = (_smallest if trade.least == "objective" else minimum_mass)(task, scene)
     result = best.status != "infeasible"
     machine = task.machine
-    shown = fitted(machine, best.mass_kg, best.angle_deg)
-    after = scene.beside(shown.on_shafts).first_order(shown.on_crank)
-    castings = best.mass_kg[_chosen(task)]
+    placement = fitted(machine, best.mass_kg, best.angle_deg)
+    after = scene.beside(placement.on_shafts).first_order(placement.on_crank)
+    castings = best.mass_kg[_free_webs(task)]
     weights = int(np.sum(castings > 0)) if result else None
     sizes = part_numbers(castings) if result else None
     if number is None:
@@ -93,13 +93,13 @@ def _point(task: Task, scene: Prepared, trade: CountTrade, number: int | None) -
         part_numbers=sizes,
         force_peak_N=float(after.force.peak) if result else None,
         moment_peak_Nm=float(after.moment.peak) if result else None,
-        **(shown.fields if result else {"total_mass_kg": None, "counterweights": ()}),
+        **(placement.fields if result else {"total_mass_kg": None, "counterweights": ()}),
         nodes=best.nodes,
         method=best.method,
     )
 
 
-def _chosen(task: Task) -> np.ndarray:
+def _free_webs(task: Task) -> np.ndarray:
     """Webs that take castings which are not fixed (K + S,)."""
     return takes_options(task) & np.array([web.fixed is None for web in task.space.machine.webs], dtype=bool)
 

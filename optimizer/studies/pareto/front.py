@@ -64,7 +64,7 @@ class FrontPoint:
         if self.mass_proof is None or np.all(peaks <= self.mass_limit + trade.rounding(u)):
             return self
         solution, limit = replace(self.solution, mass_lower_bound=0.0), np.maximum(self.mass_limit, peaks)
-        return replace(self, solution=solution, mass_proof=nothing_proven(trade.both), mass_limit=limit)
+        return replace(self, solution=solution, mass_proof=nothing_proven(trade.minimax), mass_limit=limit)
 
 
 @record(frozen=True)
@@ -131,14 +131,14 @@ def _smallest(trade: Trade) -> tuple[Trade, list[ConeSolution]] | ConeSolution:
         peaks = np.max([*trade.peaks(u), _size(trade, u)], axis=0)
         if np.all(peaks <= within.cap):
             break
-        within = trade.within(np.maximum(within.both.limits.max_mass, trade.reach(_ROOM * peaks)), _ROOM * peaks)
+        within = trade.within(np.maximum(within.minimax.limits.max_mass, trade.reach(_ROOM * peaks)), _ROOM * peaks)
     return result
 
 
 def _alone(trade: Trade) -> tuple[Trade, list[ConeSolution]] | ConeSolution:
     results: list[ConeSolution] = []
-    for which in (0, 1):
-        solution = trade.smallest(which, _SHARPNESS, True)
+    for index in (0, 1):
+        solution = trade.smallest(index, _SHARPNESS, True)
         if solution.conflict is not None:
             return solution
         results.append(solution)
@@ -156,14 +156,14 @@ def _closest(
     trade: Trade, alone: list[ConeSolution], ideal: Real, proofs: tuple[Multipliers, Multipliers], least_mass: bool
 ) -> FrontPoint:
     """Of the counterweights that make a peak smallest those that come closest to keeping the ceilings."""
-    which = min((0, 1), key=lambda peak: alone[peak].excess)
-    result = alone[which]
+    index = min((0, 1), key=lambda peak: alone[peak].excess)
+    result = alone[index]
     # its mass is the least of those that make this peak as small, whatever the other
-    limit = np.where(np.arange(2) == which, result.mass_target, trade.peaks(result.unbalance))
+    limit = np.where(np.arange(2) == index, result.mass_target, trade.peaks(result.unbalance))
     of_mass = None
     if least_mass and result.mass_multipliers is not None:
-        of_mass = trade.widened(which, result.mass_multipliers.admissible(trade.alone[which]))
-    return FrontPoint(result, ideal, proofs[which], of_mass, np.minimum(limit, trade.cap))
+        of_mass = trade.widened(index, result.mass_multipliers.admissible(trade.alone[index]))
+    return FrontPoint(result, ideal, proofs[index], of_mass, np.minimum(limit, trade.cap))
 
 
 def _between(
@@ -279,24 +279,24 @@ def _end(
     root of the asked gap; a steeper line costs digits. Where counterweights scatter, the first peak may rise by next to
     nothing along a straight front: there lines become steeper, as corners hardly move.
     """
-    other = 1 - first
+    second = 1 - first
     unit = size * np.where(np.arange(2) == first, np.sqrt(share), 1.0)
     anchor = ideal + size * np.where(np.arange(2) == first, _END_SLACK * share, 0.0)
     # at the anchor it is the other peak alone that is too small
-    peaks, corners, last = [], [(anchor, proofs[other])], np.inf
+    peaks, corners, last = [], [(anchor, proofs[second])], np.inf
     for _ in range(_END_STEPS):
         point = _meet(trade, anchor, unit, False, share)
         peaks.append(trade.peaks(point.solution.unbalance))
         if point.corner[first] > ideal[first]:
             corners.append((point.corner, point.proof))
-        rise = point.corner[other] - anchor[other]
-        if rise <= share * size[other]:
+        rise = point.corner[second] - anchor[second]
+        if rise <= share * size[second]:
             break
-        anchor = np.where(np.arange(2) == other, point.corner, anchor)
-        if trade.both.norms.scatter and rise > _SLOW * last:
+        anchor = np.where(np.arange(2) == second, point.corner, anchor)
+        if trade.minimax.norms.scatter and rise > _SLOW * last:
             unit = unit * np.where(np.arange(2) == first, _STEEPER, 1.0)
         last = rise
-    corner, proof = max(corners, key=lambda pair: float(pair[0][other]))
+    corner, proof = max(corners, key=lambda pair: float(pair[0][second]))
     # the end cannot be lower than this; the step that comes closest is it
     target = np.where(np.arange(2) == first, ideal, corner)
     return _End(min(peaks, key=lambda pair: float(np.max((pair - target) / size))), corner, proof)
@@ -323,7 +323,7 @@ def _points(
 
 def _at_end(trade: Trade, end: _End, span: Real, size: Real, share: float, least_mass: bool) -> FrontPoint:
     """The point at an end, whose gap is of the sizes: where a share of the range leaves dust, one of these may not."""
-    limits = trade.both.limits
+    limits = trade.minimax.limits
 
     def nearest(unit: Real) -> FrontPoint:
         result = _meet(trade, end.peaks, unit, least_mass, _END_SHARE * share)
@@ -332,10 +332,10 @@ def _at_end(trade: Trade, end: _End, span: Real, size: Real, share: float, least
     point = nearest(span)
     if not has_dust(limits, point.solution.unbalance):
         return point
-    other = nearest(size)
-    peaks = trade.peaks(other.solution.unbalance)
+    rival = nearest(size)
+    peaks = trade.peaks(rival.solution.unbalance)
     close = np.all(np.abs(peaks - end.peaks) <= _NEAR_END * span) and np.all(peaks - end.corner <= share * size)
-    return other if close and not has_dust(limits, other.solution.unbalance) else point
+    return rival if close and not has_dust(limits, rival.solution.unbalance) else point
 
 
 def _spread(trade: Trade, start: Real, step: Real, count: int, share: float) -> Real:

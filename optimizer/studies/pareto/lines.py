@@ -56,8 +56,8 @@ class Lines:
         size = np.where(traded.at_rest > 0, traded.at_rest, 1.0)
         for _ in range(2):
             ends, smallest, gross = [], [], np.zeros(size.shape)
-            for which in range(len(traded.names)):
-                result = over_turn(traded.first(which, size, _END_SLACK), OPTIMUM_SHARE, False)
+            for index in range(len(traded.names)):
+                result = over_turn(traded.first(index, size, _END_SLACK), OPTIMUM_SHARE, False)
                 if isinstance(result, Conflict):
                     return solve(self.task, self.scene, in_full=False)
                 self.learnt |= self.robust.learnt(result.point.unbalance)
@@ -81,10 +81,10 @@ class Lines:
 
     def _point(self, anchor: Real, unit: Real, size: Real) -> TradedPoint:
         """The first attainable point on a line."""
-        least, wanted = self.least_mass, self.task.relative_gap
+        least, gap = self.least_mass, self.task.relative_gap
         share = min(1.0, float(np.min(size / unit)))
         # the ends have kept the ceilings
-        result = over_turn(self.traded.along(anchor, unit), share * wanted, least).certain()
+        result = over_turn(self.traded.along(anchor, unit), share * gap, least).certain()
         task = self.task
         masses, angles = masses_and_angles(task.space.machine, result.point.unbalance, result.limits)
         u = unbalance(masses, angles, result.limits.radius)
@@ -105,18 +105,18 @@ class Lines:
                 mass_lower_bound=np.asarray(0.0 if proof is None else proof.bound) if least else None,
                 contradicted=result.contradicted,
             ),
-            wanted,
+            gap,
         )
-        shown = chosen(task.machine, task.objective, masses, angles, u)
-        plain = self.scene.beside(shown.on_shafts).first_order(shown.on_crank)
+        placement = chosen(task.machine, task.objective, masses, angles, u)
+        plain = self.scene.beside(placement.on_shafts).first_order(placement.on_crank)
         return TradedPoint(
             status="optimal" if judged.status == "optimal" else "inaccurate",
             status_reason=str(judged.reason),
-            values=self._shown(values),
-            nominal_values=None if self.nominal is None else self._shown(self.nominal.values(u)),
+            values=self._in_units(values),
+            nominal_values=None if self.nominal is None else self._in_units(self.nominal.values(u)),
             force_peak_N=float(plain.force.peak),
             moment_peak_Nm=float(plain.moment.peak),
-            **shown.fields,
+            **placement.fields,
             certificate=TradedCertificate(
                 corner=tuple(
                     finite_or_null(coordinate) for coordinate in judged.lower_bound * self.square + self.there
@@ -130,7 +130,7 @@ class Lines:
             ),
         )
 
-    def _shown(self, values: Real) -> tuple[float, ...]:
+    def _in_units(self, values: Real) -> tuple[float, ...]:
         """What responses come to (D,) in the units of the answer."""
         return tuple((values * self.square + self.there).tolist())
 

@@ -83,16 +83,16 @@ class Measures:
         of_weighed = [w * np.abs(quantities[q].response.influence) @ size for q, w, _ in group.weighed]
         return float(max([*of_rows, *of_weighed], default=0.0))
 
-    def first(self, which: int, size: Real, allowance: float) -> Problem:
+    def first(self, index: int, size: Real, allowance: float) -> Problem:
         """The program that makes one small, and after it the largest of the others by their sizes (D,).
 
         Parameters
         ----------
         allowance : share of its size that the others may use.
         """
-        others = [above(self.groups[i], 0.0, size[i]) for i in range(len(self.names)) if i != which]
-        goal = Goal(self.names[which], (self.groups[which],), float(size[which]), allowance=allowance)
-        return replace(self.program, goals=(goal, Goal("others", (_largest(others),), 1.0)))
+        rest = [above(self.groups[i], 0.0, size[i]) for i in range(len(self.names)) if i != index]
+        goal = Goal(self.names[index], (self.groups[index],), float(size[index]), allowance=allowance)
+        return replace(self.program, goals=(goal, Goal("others", (_largest(rest),), 1.0)))
 
     def along(self, anchor: Real, unit: Real) -> Problem:
         """min max_i (R_i - anchor_i)/unit_i: the first attainable point on the line anchor + t unit, (D,) both."""

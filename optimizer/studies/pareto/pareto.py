@@ -26,7 +26,7 @@ from optimizer.solve.solution import Infeasible, finite_or_null
 from optimizer.solve.solve import solve
 from optimizer.solve.uncertain_program import Robust
 from optimizer.solve.worst_case import worst_peaks
-from optimizer.studies.pareto.chosen_front import chosen_front
+from optimizer.studies.pareto.choice_front import choice_front
 from optimizer.studies.pareto.counts import count_front
 from optimizer.studies.pareto.front import Front, FrontPoint, front
 from optimizer.studies.pareto.points import knee, undominated, weighted_peaks
@@ -68,13 +68,15 @@ def pareto(request: ParetoRequest) -> ParetoAnswer:
     solving = time.perf_counter()
     machines = _machines(request)
     plain = request.responses is None and request.counts is None
-    made = [_front(request, machine, scene) for machine in machines if plain]
-    fronts = tuple(entry.front for entry in made)
-    solved, certified = sum(entry.solve_s for entry in made), sum(entry.certify_s for entry in made)
+    results = [_front(request, machine, scene) for machine in machines if plain]
+    fronts = tuple(entry.front for entry in results)
+    solved, certified = sum(entry.solve_s for entry in results), sum(entry.certify_s for entry in results)
     trading = time.perf_counter()
-    names, counted = request.responses, request.counts
+    names, count_trade = request.responses, request.counts
     trades = () if names is None else tuple(traded_front(request, names, machine, scene) for machine in machines)
-    counts = () if counted is None else tuple(count_front(request, counted, machine, scene) for machine in machines)
+    counts = (
+        () if count_trade is None else tuple(count_front(request, count_trade, machine, scene) for machine in machines)
+    )
     end = time.perf_counter()
     solved += end - trading
     worst = [
@@ -103,7 +105,7 @@ def pareto(request: ParetoRequest) -> ParetoAnswer:
 
 
 @record(frozen=True)
-class _Made:
+class _TimedFront:
     """A front, and the time spent on its programs and on their bounds."""
 
     front: ParetoFront
@@ -120,25 +122,25 @@ def _machines(request: ParetoRequest) -> tuple[Machine, ...]:
     )
 
 
-def _front(request: ParetoRequest, machine: Machine, scene: Prepared) -> _Made:
+def _front(request: ParetoRequest, machine: Machine, scene: Prepared) -> _TimedFront:
     start = time.perf_counter()
     if request.chosen:
-        return _Made(chosen_front(request, machine, scene), time.perf_counter() - start, 0.0)
+        return _TimedFront(choice_front(request, machine, scene), time.perf_counter() - start, 0.0)
     task = needed(request, PAIR, machine)
     robust = Robust(task, replace(scene, machine=machine, objective=task.objective), task.demand)
     result = _solved(robust, request.points)
     solve_s = time.perf_counter() - start
     if isinstance(result, ConeSolution):
-        return _Made(_infeasible(request, machine, scene), solve_s, result.certify_s)
+        return _TimedFront(_infeasible(request, machine, scene), solve_s, result.certify_s)
     certify_s = sum(point.solution.certify_s for point in result.points)
-    return _Made(_certified(request, robust, result), solve_s, certify_s)
+    return _TimedFront(_certified(request, robust, result), solve_s, certify_s)
 
 
 def _solved(robust: Robust, points: int) -> Front | ConeSolution:
     """The front with all changes of masses that matter at any of its points; there are finitely many."""
-    wanted = robust.wanted
+    demand = robust.wanted
     while True:
-        result = front(trade(robust.goals().program), points, wanted.relative_gap, wanted.least_mass)
+        result = front(trade(robust.goals().program), points, demand.relative_gap, demand.least_mass)
         if isinstance(result, ConeSolution):
             return result
         # every point may show some
@@ -151,10 +153,10 @@ def _certified(request: ParetoRequest, robust: Robust, curve: Front) -> ParetoFr
     machine, goals = robust.task.machine, robust.goals()
     points = [_point(request, robust, goals, curve, point) for point in curve.points]
     # points that are nearer to each other than their gaps can be out of order; no tolerance is applied
-    shown = undominated(points, weighted_peaks)
+    frontier = undominated(points, weighted_peaks)
     square = robust.scene.omega_squared
     ideal, scale = curve.ideal * square, curve.size * square
-    first, last = shown[0], shown[-1]
+    first, last = frontier[0], frontier[-1]
     ends = Ends(
         smallest_force_N=first.weighted_force_peak_N,
         smallest_force_lower_bound_N=float(ideal[0]),
@@ -171,14 +173,14 @@ def _certified(request: ParetoRequest, robust: Robust, curve: Front) -> ParetoFr
     exact = (
         not curve.undecided
         and excess <= request.accuracy.relative_gap
-        and all(point.status == "optimal" for point in shown)
+        and all(point.status == "optimal" for point in frontier)
     )
     return ParetoFront(
         max_total_mass_kg=machine.max_total_mass_kg,
         status="optimal" if exact else "inaccurate",
-        points=tuple(shown),
-        reason=_reason(request, curve, shown),
-        knee=knee(shown),
+        points=tuple(frontier),
+        reason=_reason(request, curve, frontier),
+        knee=knee(frontier),
         ends=ends,
         scale=Scale(force_N=float(scale[0]), moment_Nm=float(scale[1])),
         implied_max_mass_kg=_implied(request, machine, curve),
@@ -188,14 +190,14 @@ def _certified(request: ParetoRequest, robust: Robust, curve: Front) -> ParetoFr
 def _point(request: ParetoRequest, robust: Robust, goals: Goals, curve: Front, point: FrontPoint) -> ParetoPoint:
     machine, scene = robust.task.machine, robust.scene
     square, traded = scene.omega_squared, curve.trade
-    limits = traded.both.limits
+    limits = traded.minimax.limits
     unbalance_there = point.solution.unbalance
     if request.objective.symmetric:
-        unbalance_there = symmetric(traded.both.alone(), unbalance_there[None])[0]
+        unbalance_there = symmetric(traded.minimax.alone(), unbalance_there[None])[0]
     masses, angles = masses_and_angles(design_space(machine, request.objective).machine, unbalance_there, limits)
     u = unbalance(masses, angles, limits.radius)
     point = point.counting(traded, u)
-    shown = chosen(machine, request.objective, masses, angles, u)
+    placement = chosen(machine, request.objective, masses, angles, u)
     peaks = traded.peaks(u)
     fixed = float(np.sum(fixed_masses(machine)))
     judged = verdict(
@@ -204,16 +206,16 @@ def _point(request: ParetoRequest, robust: Robust, goals: Goals, curve: Front, p
             lower_bound=point.corner,
             rounding=traded.rounding(u),
             yardstick=curve.size,
-            excess=np.max(traded.both.ceilings.excess(u), axis=-1, initial=-np.inf),
+            excess=np.max(traded.minimax.ceilings.excess(u), axis=-1, initial=-np.inf),
             mass=np.asarray(np.sum(masses)),
-            mass_resolution=mass_resolution(traded.both, curve.size[traded.peak]),
+            mass_resolution=mass_resolution(traded.minimax, curve.size[traded.peak]),
             mass_lower_bound=np.asarray(point.solution.mass_lower_bound) if request.objective.least_mass else None,
         ),
         request.accuracy.relative_gap,
     )
-    plain = scene.beside(shown.on_shafts).first_order(shown.on_crank)
+    plain = scene.beside(placement.on_shafts).first_order(placement.on_crank)
     limit = (point.mass_limit * square).tolist() if point.mass_proof is not None else (None, None)
-    there = np.array([counterweight.mass_kg for counterweight in shown.counterweights])
+    there = np.array([counterweight.mass_kg for counterweight in placement.counterweights])
     limited = goals.program.ceilings
     ceilings = touched_ceilings(robust.task, goals, goals.program.values(u, _CLOSE)) if limited else ()
     weighted: Real = peaks * square
@@ -225,7 +227,7 @@ def _point(request: ParetoRequest, robust: Robust, goals: Goals, curve: Front, p
         moment_peak_Nm=float(plain.moment.peak),
         weighted_force_peak_N=float(weighted[0]),
         weighted_moment_peak_Nm=float(weighted[1]),
-        **shown.fields,
+        **placement.fields,
         worst_case=worst_peaks(robust, u) if robust.task.tolerances is not None else None,
         active_limits=tuple(dict.fromkeys((*touched_by_mass(machine, there), *ceilings))),
         certificate=CornerCertificate(
@@ -249,31 +251,35 @@ def _point(request: ParetoRequest, robust: Robust, goals: Goals, curve: Front, p
 
 def _implied(request: ParetoRequest, machine: Machine, curve: Front) -> dict[str, float]:
     """Largest masses by web, kg, that all proofs of a front count with in place of those of the machine."""
-    return implied_max_mass(design_space(machine, request.objective).machine, curve.trade.both.limits.max_mass[None])[0]
+    return implied_max_mass(
+        design_space(machine, request.objective).machine, curve.trade.minimax.limits.max_mass[None]
+    )[0]
 
 
 def _of_point(traded: Trade, point: FrontPoint, omega_squared: float) -> Multipliers:
     """The proofs of a point: of its corner, and of its mass."""
-    both, of_mass = traded.both, point.mass_proof
+    minimax, of_mass = traded.minimax, point.mass_proof
     return Multipliers(
-        objective=named(both, physical(both, point.proof, "parameter", omega_squared)),
-        mass=None if of_mass is None else named(both, physical(both, of_mass, "mass", omega_squared)),
+        objective=named(minimax, physical(minimax, point.proof, "parameter", omega_squared)),
+        mass=None if of_mass is None else named(minimax, physical(minimax, of_mass, "mass", omega_squared)),
     )
 
 
 def _of_ends(curve: Front, omega_squared: float) -> EndMultipliers:
     """The proofs of both smallest peaks."""
-    both = curve.trade.both
-    force, moment = (named(both, physical(both, proof, "objective", omega_squared)) for proof in curve.ideal_proofs)
+    minimax = curve.trade.minimax
+    force, moment = (
+        named(minimax, physical(minimax, proof, "objective", omega_squared)) for proof in curve.ideal_proofs
+    )
     return EndMultipliers(smallest_force=force, smallest_moment=moment)
 
 
-def _reason(request: ParetoRequest, curve: Front, shown: Sequence[ParetoPoint]) -> Reason | None:
+def _reason(request: ParetoRequest, curve: Front, frontier: Sequence[ParetoPoint]) -> Reason | None:
     if curve.undecided:
         return "undecided"
     if len(curve.points) == 1:
         return "reached_together"
-    return "resolution" if len(shown) < request.points else None
+    return "resolution" if len(frontier) < request.points else None
 
 
 def _infeasible(request: ParetoRequest, machine: Machine, scene: Prepared) -> ParetoFront:

@@ -34,7 +34,7 @@ class Trade:
         are the machine's own.
     """
 
-    both: Statement
+    minimax: Statement
     alone: tuple[Statement, Statement]
     peak: np.ndarray
     program: Problem
@@ -42,12 +42,12 @@ class Trade:
 
     def peaks(self, u: Complex) -> Real:
         """Weighted peak force [kg m] and moment [kg m^2] with counterweights u (..., K), (..., 2)."""
-        return self._largest(self.both.rows(self.both.norms.sizes(u)))
+        return self._largest(self.minimax.rows(self.minimax.norms.sizes(u)))
 
     def gross(self, u: Complex) -> Real:
         """Sum of what every counterweight by itself adds to each peak at most, (..., 2)."""
-        sizes = np.sum(np.abs(self.both.norms.influence) * np.abs(u)[..., None, :], axis=-1)
-        return self._largest(np.sum(self.both.membership * sizes[..., None, :], axis=-1))
+        sizes = np.sum(np.abs(self.minimax.norms.influence) * np.abs(u)[..., None, :], axis=-1)
+        return self._largest(np.sum(self.minimax.membership * sizes[..., None, :], axis=-1))
 
     def _largest(self, rows: Real) -> Real:
         """The largest row of each peak (..., 2) of what rows have (..., rows)."""
@@ -63,16 +63,16 @@ class Trade:
     @property
     def at_rest(self) -> Real:
         """Peaks without counterweights (2,)."""
-        return self.peaks(np.zeros(self.both.limits.radius.shape, complex))
+        return self.peaks(np.zeros(self.minimax.limits.radius.shape, complex))
 
     def within(self, max_mass: Real, cap: Real) -> "Trade":
         """The same with other limits of the webs (K,), kg."""
-        both, force, moment = (
+        minimax, force, moment = (
             replace(statement, limits=replace(statement.limits, max_mass=max_mass))
-            for statement in (self.both, *self.alone)
+            for statement in (self.minimax, *self.alone)
         )
-        program = self.program.changed(limits=both.limits)
-        return replace(self, both=both, alone=(force, moment), program=program, cap=cap)
+        program = self.program.changed(limits=minimax.limits)
+        return replace(self, minimax=minimax, alone=(force, moment), program=program, cap=cap)
 
     def reach(self, peaks: Real) -> Real:
         """Limits of the webs (K,) [kg] within which lies all that no peak of is above these (2,), all finite.
@@ -85,7 +85,7 @@ class Trade:
     @property
     def far(self) -> bool:
         """Whether a web has no limit, or one beyond any need, for a peak alone or for both."""
-        return any(np.any(far_limits(program)) for program in (*self.alone, self.both))
+        return any(np.any(far_limits(program)) for program in (*self.alone, self.minimax))
 
     def along(self, anchor: Real, unit: Real) -> Statement:
         """min max_i (P_i - anchor_i)/unit_i: the first attainable point on the line anchor + t unit.
@@ -98,18 +98,18 @@ class Trade:
         anchor : (2,) a point of the plane of peaks, or (N, 2) for N programs.
         unit : (2,) a direction with both components above 0.
         """
-        both = self.both if anchor.ndim == 1 else self.both.alone().chosen(np.zeros(len(anchor), int))
-        norms, of_row = both.norms, unit[self.peak]
-        of_term = of_row[both.row]
+        minimax = self.minimax if anchor.ndim == 1 else self.minimax.alone().chosen(np.zeros(len(anchor), int))
+        norms, of_row = minimax.norms, unit[self.peak]
+        of_term = of_row[minimax.row]
         return replace(
-            both,
+            minimax,
             norms=replace(norms, constant=norms.constant / of_term, influence=norms.influence / of_term[:, None]),
-            floor=(both.floor - anchor[..., self.peak]) / of_row - self._shift(anchor, unit)[..., None],
+            floor=(minimax.floor - anchor[..., self.peak]) / of_row - self._shift(anchor, unit)[..., None],
         )
 
-    def smallest(self, which: int, relative_gap: float, least_mass: bool) -> ConeSolution:
+    def smallest(self, index: int, relative_gap: float, least_mass: bool) -> ConeSolution:
         """The smallest value of one peak alone, or the proof that nothing keeps the ceilings."""
-        program, alone = self.alone[which], self.program.changed(goals=(self._goal(which),))
+        program, alone = self.alone[index], self.program.changed(goals=(self._goal(index),))
         if alone.finite is not None:
             return optima(program.alone(), relative_gap, least_mass).single()
         return _by_cuts(program, alone, relative_gap, least_mass)
@@ -130,22 +130,22 @@ class Trade:
             results.append(_by_cuts(programs.chosen(n), line, relative_gap, least_mass))
         return results
 
-    def _goal(self, which: int) -> Goal:
-        return _peak_goal(self.program.groups[0].rows, self.peak, which)
+    def _goal(self, index: int) -> Goal:
+        return _peak_goal(self.program.groups[0].rows, self.peak, index)
 
     def parameter(self, objective: float, anchor: Real, unit: Real) -> float:
         """t of an objective of :meth:`along`."""
         return objective + float(self._shift(anchor, unit))
 
     def per_peak(self, multipliers: Multipliers, unit: Real) -> Multipliers:
-        """Multipliers of :meth:`along`, rows summing to 1 or in kg, as those of :attr:`both`, per unit of a peak."""
+        """Multipliers of :meth:`along`, rows summing to 1 or in kg, as those of :attr:`minimax`, per unit of a peak."""
         of_row = unit[self.peak]
-        return Multipliers(multipliers.term / of_row[self.both.row], multipliers.row / of_row, multipliers.ceiling)
+        return Multipliers(multipliers.term / of_row[self.minimax.row], multipliers.row / of_row, multipliers.ceiling)
 
-    def widened(self, which: int, multipliers: Multipliers) -> Multipliers:
-        """Admissible multipliers of the program of peak ``which`` alone as those of :attr:`both`."""
-        own, term, row = self.peak == which, np.zeros_like(self.both.norms.constant), np.zeros(self.peak.shape)
-        term[own[self.both.row]], row[own] = multipliers.term, multipliers.row
+    def widened(self, index: int, multipliers: Multipliers) -> Multipliers:
+        """Admissible multipliers of the program of peak ``index`` alone as those of :attr:`minimax`."""
+        own, term, row = self.peak == index, np.zeros_like(self.minimax.norms.constant), np.zeros(self.peak.shape)
+        term[own[self.minimax.row]], row[own] = multipliers.term, multipliers.row
         return Multipliers(term, row, multipliers.ceiling)
 
     def _shift(self, anchor: Real, unit: Real) -> Real:
@@ -160,9 +160,9 @@ def trade(program: Problem) -> Trade:
     return Trade(_finite(program), (_finite(force), _finite(moment)), peak, program)
 
 
-def _peak_goal(rows: Sequence[Row], peak: np.ndarray, which: int) -> Goal:
+def _peak_goal(rows: Sequence[Row], peak: np.ndarray, index: int) -> Goal:
     """One of both peaks by itself."""
-    return Goal(PAIR[which], (Group(tuple(row for row, of in zip(rows, peak.tolist(), strict=True) if of == which)),))
+    return Goal(PAIR[index], (Group(tuple(row for row, of in zip(rows, peak.tolist(), strict=True) if of == index)),))
 
 
 def _by_cuts(statement: Statement, program: Problem, relative_gap: float, least_mass: bool) -> ConeSolution:

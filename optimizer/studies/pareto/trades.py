@@ -18,7 +18,7 @@ from optimizer.outputs.requirements import missing
 from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.solve.solution import Infeasible, Solution
 from optimizer.solve.uncertain_program import Robust
-from optimizer.studies.pareto.chosen_trades import ChosenTrades
+from optimizer.studies.pareto.choice_trades import ChoiceTrades
 from optimizer.studies.pareto.lines import Lines
 from optimizer.studies.pareto.measures import alone, unit_of
 from optimizer.studies.pareto.points import TradeEnds
@@ -49,7 +49,7 @@ def traded_front(request: ParetoRequest, names: TradedNames, machine: Machine, s
     scene = replace(scene, machine=machine, objective=task.objective)
     places = _places(len(names), request.points)
     ends, points, decided = (
-        _chosen(task, names, scene, places) if request.chosen else _of_any_mass(task, names, scene, places)
+        _choice_course(task, names, scene, places) if request.chosen else _continuous_course(task, names, scene, places)
     )
     if not isinstance(ends, TradeEnds):
         return TradedFront(
@@ -91,13 +91,13 @@ class _Course(NamedTuple):
     decided: bool = False
 
 
-def _chosen(task: Task, names: TradedNames, scene: Prepared, places: Real) -> _Course:
-    search = ChosenTrades(task, names, scene)
+def _choice_course(task: Task, names: TradedNames, scene: Prepared, places: Real) -> _Course:
+    search = ChoiceTrades(task, names, scene)
     ends = search.ends()
     return _Course(ends, *search.points(places, ends)) if isinstance(ends, TradeEnds) else _Course(ends)
 
 
-def _of_any_mass(task: Task, names: TradedNames, scene: Prepared, places: Real) -> _Course:
+def _continuous_course(task: Task, names: TradedNames, scene: Prepared, places: Real) -> _Course:
     """With all changes of masses that matter at any end or point; there are finitely many."""
     robust = Robust(task, scene, task.demand)
     while True:

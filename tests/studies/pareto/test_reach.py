@@ -47,7 +47,7 @@ def test_all_lines_of_a_front_are_within_the_same_limits(
     assert isinstance(found, Front)
     # before the lines each peak is made smallest within what is known to hold that
     lines = limits[2:]
-    within = found.trade.both.limits.max_mass.tolist()
+    within = found.trade.minimax.limits.max_mass.tolist()
     assert len(lines) > POINTS
     assert all(one == within for one in lines)
     assert all(first <= other for one in limits for first, other in zip(one, within, strict=True))

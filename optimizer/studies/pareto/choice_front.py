@@ -19,7 +19,7 @@ from optimizer.solve.answer_fields import touched_ceilings
 from optimizer.solve.prices import touched_by_mass
 from optimizer.solve.solution import Infeasible, Solution
 from optimizer.solve.worst_case import worst_peaks
-from optimizer.studies.pareto.choice_search import ChoiceSearch, ChosenPoint
+from optimizer.studies.pareto.choice_search import ChoicePoint, ChoiceSearch
 from optimizer.studies.pareto.measures import sizes
 from optimizer.studies.pareto.points import knee, undominated
 from optimizer.studies.pareto.trades import needed
@@ -45,8 +45,8 @@ _WIDE = "The gap to the bound is wider than requested, relative to the scale of 
 class _Box(NamedTuple):
     """What neither of two neighbours beats: force below that of ``right``, moment below that of ``left``."""
 
-    left: ChosenPoint
-    right: ChosenPoint
+    left: ChoicePoint
+    right: ChoicePoint
 
     @property
     def edges(self) -> Real:
@@ -59,7 +59,7 @@ class _Box(NamedTuple):
         return np.array([self.right.values[0] - self.left.values[0], self.left.values[1] - self.right.values[1]])
 
 
-def chosen_front(request: ParetoRequest, machine: Machine, scene: Prepared) -> ParetoFront:
+def choice_front(request: ParetoRequest, machine: Machine, scene: Prepared) -> ParetoFront:
     """The front of what can be chosen; all its searches together end at the time asked.
 
     Parameters
@@ -111,7 +111,7 @@ class _Boxes(ChoiceSearch):
             scale=Scale(force_N=float(size[0]), moment_Nm=float(size[1])),
         )
 
-    def _corner(self, end: ChosenPoint, axis: int, size: Real) -> ChosenPoint:
+    def _corner(self, end: ChoicePoint, axis: int, size: Real) -> ChoicePoint:
         """Of all whose peak ``axis`` is the smallest, but for a share of the gap, the least of the other peak."""
         objective, field = self.task.objective, ("force_ceiling_N", "moment_ceiling_Nm")[axis]
         across = objective.direction_weights
@@ -132,8 +132,8 @@ class _Boxes(ChoiceSearch):
         return replace(corner, corner=proven)
 
     def _between(
-        self, force: ChosenPoint, moment: ChosenPoint, size: Real, points: int
-    ) -> tuple[list[ChosenPoint], Reason | None]:
+        self, force: ChoicePoint, moment: ChoicePoint, size: Real, points: int
+    ) -> tuple[list[ChoicePoint], Reason | None]:
         """Points in the order of rising force, and why there are no more of them."""
         optima, boxes = _undominated([force, moment]), [_Box(force, moment)]
         if len(optima) == 1:
@@ -146,7 +146,7 @@ class _Boxes(ChoiceSearch):
                 break
             box = boxes.pop(int(np.argmax([np.prod(candidate.size / size) for candidate in boxes])))
             inside = self.first_along(box.edges, size, left_s / (points - len(optima)))
-            if isinstance(inside, ChosenPoint) and np.all(inside.values < box.edges * (1.0 - _INSIDE)):
+            if isinstance(inside, ChoicePoint) and np.all(inside.values < box.edges * (1.0 - _INSIDE)):
                 optima = _undominated([*optima, inside])
                 boxes += [_Box(box.left, inside), _Box(inside, box.right)]
             else:
@@ -158,10 +158,10 @@ class _Boxes(ChoiceSearch):
             return optima, None
         return optima, "time" if boxes or undecided else "complete"
 
-    def _point(self, optimum: ChosenPoint, size: Real) -> ParetoPoint:
+    def _point(self, optimum: ChoicePoint, size: Real) -> ParetoPoint:
         best, proven = optimum.solution, bool(np.all(np.isfinite(optimum.corner)))
-        shown = best.shown
-        plain = self.scene.beside(shown.on_shafts).first_order(shown.on_crank)
+        placement = best.shown
+        plain = self.scene.beside(placement.on_shafts).first_order(placement.on_crank)
         # of the peak that the optimum leaves room in nothing is claimed
         gap = float(np.max((optimum.values - optimum.corner) / size))
         wide = best.status == "optimal" and gap > self.gap
@@ -173,7 +173,7 @@ class _Boxes(ChoiceSearch):
             weighted_force_peak_N=float(optimum.values[0]),
             weighted_moment_peak_Nm=float(optimum.values[1]),
             worst_case=None if self.task.tolerances is None else worst_peaks(self.robust, best.unbalance),
-            **shown.fields,
+            **placement.fields,
             # of the request: a search has ceilings of its own
             active_limits=self._touched(best),
             certificate=CornerCertificate(
@@ -201,5 +201,5 @@ class _Boxes(ChoiceSearch):
         return tuple(dict.fromkeys((*touched_by_mass(self.task.machine, masses), *ceilings)))
 
 
-def _undominated(optima: Sequence[ChosenPoint]) -> list[ChosenPoint]:
+def _undominated(optima: Sequence[ChoicePoint]) -> list[ChoicePoint]:
     return undominated(optima, lambda optimum: (float(optimum.values[0]), float(optimum.values[1])))

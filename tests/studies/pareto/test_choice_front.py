@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from optimizer.studies.pareto.choice_search import ChoiceSearch, ChosenPoint
+from optimizer.studies.pareto.choice_search import ChoicePoint, ChoiceSearch
 from optimizer.studies.pareto.pareto import pareto
 from schemas.front.pareto import ParetoFront, ParetoRequest
 from tests.hard.cases.case import Body
@@ -236,7 +236,7 @@ def test_a_gap_wider_than_requested_on_the_scale_of_the_front_is_no_optimum(monk
 
     def wide(self: ChoiceSearch, *args: Any, **ceilings: float) -> Any:
         best = search(self, *args, **ceilings)
-        return replace(best, corner=best.values - 0.1 * self.at_rest) if isinstance(best, ChosenPoint) else best
+        return replace(best, corner=best.values - 0.1 * self.at_rest) if isinstance(best, ChoicePoint) else best
 
     assert front(body(STEP_DEG, MASSES)).status == "optimal"
     monkeypatch.setattr(ChoiceSearch, "optimum", wide)

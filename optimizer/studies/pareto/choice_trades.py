@@ -8,7 +8,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Real
 from optimizer.solve.solution import Infeasible, finite_or_null
-from optimizer.studies.pareto.choice_search import ChoiceSearch, ChosenPoint
+from optimizer.studies.pareto.choice_search import ChoicePoint, ChoiceSearch
 from optimizer.studies.pareto.measures import sizes
 from optimizer.studies.pareto.points import TradeEnds
 from schemas.front.trade import TradedCertificate, TradedPoint
@@ -23,13 +23,13 @@ _BUDGETS = 24
 _ROUNDED = 1.0 + 1e-12
 
 
-class ChosenTrades(ChoiceSearch):
+class ChoiceTrades(ChoiceSearch):
     """The searches of one front; all figures are in the units of the answer."""
 
     def ends(self) -> TradeEnds | Infeasible:
         """What all come to where each is smallest by itself."""
         seconds = _ENDS * self.seconds / len(self.names)
-        alone: dict[int, ChosenPoint] = {}
+        alone: dict[int, ChoicePoint] = {}
         for i, name in enumerate(self.names):
             if name != "mass":
                 result = self.optimum({name: 1.0}, self.gap, seconds)
@@ -56,11 +56,11 @@ class ChosenTrades(ChoiceSearch):
             self._along(share @ ends.values, ends.size, max(self.left_s, 0.0) / (len(shares) - n))
             for n, share in enumerate(shares)
         ]
-        decided = all(isinstance(result, ChosenPoint) or _none_proven(result) for result in results)
-        best = _best([result for result in results if isinstance(result, ChosenPoint)])
-        return [self._shown(point, ends.size) for point in best], decided
+        decided = all(isinstance(result, ChoicePoint) or _none_proven(result) for result in results)
+        best = _best([result for result in results if isinstance(result, ChoicePoint)])
+        return [self._traded_point(point, ends.size) for point in best], decided
 
-    def _along(self, anchor: Real, size: Real, seconds: float) -> ChosenPoint | Infeasible:
+    def _along(self, anchor: Real, size: Real, seconds: float) -> ChoicePoint | Infeasible:
         """The best choice as shares of an anchor (D,), with no more mass than that where it is traded."""
         budget = float(anchor[self.is_mass][0]) * _ROUNDED if np.any(self.is_mass) else None
         anchor = np.maximum(anchor, _NARROW * size)
@@ -71,11 +71,11 @@ class ChosenTrades(ChoiceSearch):
         lowest = np.nan if bound is None else bound
         return replace(result, corner=np.where(self.is_mass, np.nan if budget is None else budget, lowest * anchor))
 
-    def _shown(self, point: ChosenPoint, size: Real) -> TradedPoint:
+    def _traded_point(self, point: ChoicePoint, size: Real) -> TradedPoint:
         """A point with its proof."""
         best = point.solution
-        shown, proof = best.shown, best.certificate
-        after = self.scene.beside(shown.on_shafts).first_order(shown.on_crank)
+        placement, proof = best.shown, best.certificate
+        after = self.scene.beside(placement.on_shafts).first_order(placement.on_crank)
         gap = float(np.max((point.values - point.corner) / size))
         proven = bool(np.isfinite(gap))
         exact = proven and best.status == "optimal" and gap <= self.gap
@@ -86,7 +86,7 @@ class ChosenTrades(ChoiceSearch):
             nominal_values=self._nominal(point),
             force_peak_N=float(after.force.peak),
             moment_peak_Nm=float(after.moment.peak),
-            **shown.fields,
+            **placement.fields,
             certificate=TradedCertificate(
                 corner=tuple(finite_or_null(value) if proven else None for value in point.corner),
                 relative_gap=max(gap, 0.0) if proven else None,
@@ -98,12 +98,12 @@ class ChosenTrades(ChoiceSearch):
             ),
         )
 
-    def _nominal(self, point: ChosenPoint) -> tuple[float, ...] | None:
+    def _nominal(self, point: ChoicePoint) -> tuple[float, ...] | None:
         """What it comes to with nothing off, where anything may be."""
         values = self.nominal_values(point.solution.unbalance)
         return None if values is None else tuple(np.where(self.is_mass, point.values, values).tolist())
 
-    def _lightest(self, choices: Sequence[ChosenPoint], size: float, seconds: float) -> tuple[Real, float]:
+    def _lightest(self, choices: Sequence[ChoicePoint], size: float, seconds: float) -> tuple[Real, float]:
         """What the lightest that keep the ceilings come to (D,), and the mass that is proven to be needed."""
         if self.traded.excess(self.nothing) <= 0.0:
             return self.at_rest, self.fixed
@@ -117,7 +117,7 @@ class ChosenTrades(ChoiceSearch):
                 break
             middle = 0.5 * (least + most)
             result = self.optimum({first: 1.0}, 1.0, until - thread_time(), middle)
-            if isinstance(result, ChosenPoint):
+            if isinstance(result, ChoicePoint):
                 best = result
             elif _none_proven(result):
                 least = middle
@@ -131,12 +131,12 @@ def _none_proven(none: Infeasible) -> bool:
     return none.status == "infeasible"
 
 
-def _best(choices: Sequence[ChosenPoint]) -> list[ChosenPoint]:
+def _best(choices: Sequence[ChoicePoint]) -> list[ChoicePoint]:
     """Those that no other equals or beats in every response, of two responses in the order of the rising first."""
-    front: list[ChosenPoint] = []
+    front: list[ChoicePoint] = []
     for n, choice in enumerate(choices):
-        others = [rival.values for k, rival in enumerate(choices) if k != n]
-        beaten = any(np.all(values <= choice.values) and np.any(values < choice.values) for values in others)
+        rest = [rival.values for k, rival in enumerate(choices) if k != n]
+        beaten = any(np.all(values <= choice.values) and np.any(values < choice.values) for values in rest)
         # of several that are the same, the one of which most is proven
         same = [rival for rival in choices if np.all(rival.values == choice.values)]
         sharpest = max(
