@@ -117,7 +117,7 @@ def columns(request: Scene, unbalance: Complex, always: tuple[str, ...], selecti
     unbalance : (n, places) kg m, the counterweights, those on balance shafts behind those on the crankshaft; nan where
         there are none.
     always : outputs whose columns are needed whether they were asked for or not.
-    wanted : keys of the columns that are (:func:`schemas.sweep.details.key`); what comes along beside them costs
+    selection : keys of the columns that are (:func:`schemas.sweep.details.key`); what comes along beside them costs
         little.
     """
     groups = column_groups(request, always, selection)

@@ -160,7 +160,7 @@ class _Boxes(ChoiceSearch):
 
     def _point(self, optimum: ChoicePoint, size: Real) -> ParetoPoint:
         best, proven = optimum.solution, bool(np.all(np.isfinite(optimum.corner)))
-        placement = best.shown
+        placement = best.placement
         plain = self.scene.beside(placement.on_shafts).first_order(placement.on_crank)
         # of the peak that the optimum leaves room in nothing is claimed
         gap = float(np.max((optimum.values - optimum.corner) / size))
@@ -196,7 +196,7 @@ class _Boxes(ChoiceSearch):
         goals = self.robust.goals()
         goals = replace(goals, program=goals.anywhere)
         values = goals.program.values(best.unbalance, _CLOSE)
-        masses = np.array([counterweight.mass_kg for counterweight in best.shown.counterweights])
+        masses = np.array([counterweight.mass_kg for counterweight in best.placement.counterweights])
         ceilings = touched_ceilings(self.task, goals, values)
         return tuple(dict.fromkeys((*touched_by_mass(self.task.machine, masses), *ceilings)))
 

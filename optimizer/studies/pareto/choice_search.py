@@ -143,7 +143,7 @@ class ChoiceSearch:
         best = solve(task, replace(self.scene, machine=machine, objective=goal), in_full=False)
         if isinstance(best, Infeasible):
             return best
-        values = np.where(self.is_mass, best.shown.mass_kg, self.values(best.unbalance))
+        values = np.where(self.is_mass, best.placement.mass_kg, self.values(best.unbalance))
         bound = best.certificate.lower_bound
         corner = np.full(values.shape, np.nan)
         if bound is not None:

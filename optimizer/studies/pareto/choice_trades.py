@@ -74,7 +74,7 @@ class ChoiceTrades(ChoiceSearch):
     def _traded_point(self, point: ChoicePoint, size: Real) -> TradedPoint:
         """A point with its proof."""
         best = point.solution
-        placement, proof = best.shown, best.certificate
+        placement, proof = best.placement, best.certificate
         after = self.scene.beside(placement.on_shafts).first_order(placement.on_crank)
         gap = float(np.max((point.values - point.corner) / size))
         proven = bool(np.isfinite(gap))

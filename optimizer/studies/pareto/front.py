@@ -226,7 +226,7 @@ def _meets(trade: Trade, anchors: Real, unit: Real, least_mass: bool, share: flo
     programs = trade.along(anchors, unit)
     points = []
     for n, best in enumerate(_reached(trade.met(programs, anchors, unit, first * share, least_mass))):
-        program, anchor = programs.chosen(n), anchors[n]
+        program, anchor = programs.subset(n), anchors[n]
         for part in more:
             if _mass_gap(best) <= MASS_GAP:
                 break

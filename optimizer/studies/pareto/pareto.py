@@ -124,7 +124,7 @@ def _machines(request: ParetoRequest) -> tuple[Machine, ...]:
 
 def _front(request: ParetoRequest, machine: Machine, scene: Prepared) -> _TimedFront:
     start = time.perf_counter()
-    if request.chosen:
+    if request.is_nonconvex:
         return _TimedFront(choice_front(request, machine, scene), time.perf_counter() - start, 0.0)
     task = needed(request, PAIR, machine)
     robust = Robust(task, replace(scene, machine=machine, objective=task.objective), task.demand)

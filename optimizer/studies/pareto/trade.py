@@ -26,7 +26,7 @@ class Trade:
 
     Each is the largest of its rows: one for every change of the masses that is known to count, in every case.
 
-    both : the program min max(F, M), kg m and kg m^2 (over omega^2).
+    minimax : the program min max(F, M), kg m and kg m^2 (over omega^2).
     alone : min F and min M.
     peak : (rows,) to which of both peaks a row belongs.
     program : of both, without limits of the webs that are nearer.
@@ -98,7 +98,7 @@ class Trade:
         anchor : (2,) a point of the plane of peaks, or (N, 2) for N programs.
         unit : (2,) a direction with both components above 0.
         """
-        minimax = self.minimax if anchor.ndim == 1 else self.minimax.alone().chosen(np.zeros(len(anchor), int))
+        minimax = self.minimax if anchor.ndim == 1 else self.minimax.alone().subset(np.zeros(len(anchor), int))
         norms, of_row = minimax.norms, unit[self.peak]
         of_term = of_row[minimax.row]
         return replace(
@@ -127,7 +127,7 @@ class Trade:
             start, edges = (anchor + off * unit).tolist(), unit.tolist()
             rows = [scaled(row, start[of], edges[of]) for row, of in zip(group.rows, self.peak.tolist(), strict=True)]
             line = self.program.changed(goals=(Goal("trade", (Group(tuple(rows)),), 1.0),))
-            results.append(_by_cuts(programs.chosen(n), line, relative_gap, least_mass))
+            results.append(_by_cuts(programs.subset(n), line, relative_gap, least_mass))
         return results
 
     def _goal(self, index: int) -> Goal:

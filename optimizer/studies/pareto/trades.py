@@ -49,7 +49,9 @@ def traded_front(request: ParetoRequest, names: TradedNames, machine: Machine, s
     scene = replace(scene, machine=machine, objective=task.objective)
     places = _places(len(names), request.points)
     ends, points, decided = (
-        _choice_course(task, names, scene, places) if request.chosen else _continuous_course(task, names, scene, places)
+        _choice_course(task, names, scene, places)
+        if request.is_nonconvex
+        else _continuous_course(task, names, scene, places)
     )
     if not isinstance(ends, TradeEnds):
         return TradedFront(
