@@ -59,7 +59,7 @@ def optimize(request: OptimizeRequest, outputs: Sequence[str] | None = None) -> 
     reporting = time.perf_counter()
     there, on_crank, answer, u, report_s = best.cut or scene, None, best.answer, None, 0.0
     if isinstance(best, Solution):
-        there, on_crank = there.beside(best.shown.on_shafts), best.shown.on_crank
+        there, on_crank = there.beside(best.placement.on_shafts), best.placement.on_crank
         u, report_s = best.unbalance, best.report_s
         if task.tolerances is not None and not task.robust:
             answer |= nothing_off(task, scene, u, best.certificate.objective)

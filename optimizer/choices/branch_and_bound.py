@@ -18,12 +18,12 @@ class Tree(NamedTuple):
     lower_bound: float  # of all that was not offered, inf where there is nothing, -inf where nothing is proven
     nodes: int
     full: bool  # it ended because it had grown too large
-    done: bool  # nothing was left to divide
+    is_complete: bool  # nothing was left to divide
 
     @property
     def ended(self) -> str:
         """Why it has left a gap."""
-        return "size" if self.full else "rounding" if self.done else "time"
+        return "size" if self.full else "rounding" if self.is_complete else "time"
 
 
 class Termination(NamedTuple):
@@ -69,9 +69,9 @@ def branch_and_bound(
             pace.took(len(fresh))
         lowest = min(closed, heap[0][0] if heap else np.inf)
         full = len(heap) > most_open
-        done = not heap or lowest >= target()
-        if done or full or enough(lowest) or nodes >= most_nodes or clock.spent():
-            return Tree(lowest, nodes, full and not done, done)
+        is_complete = not heap or lowest >= target()
+        if is_complete or full or enough(lowest) or nodes >= most_nodes or clock.spent():
+            return Tree(lowest, nodes, full and not is_complete, is_complete)
         fresh, bounds, most = [], [], pace.most(at_once)
         while heap and len(fresh) < most:
             bound, _, node = heapq.heappop(heap)

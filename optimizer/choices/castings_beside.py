@@ -6,7 +6,7 @@ import numpy as np
 
 from optimizer.choices.catalogue_options import Stock
 from optimizer.choices.feasible_set import Choice, Subproblem
-from optimizer.choices.mixed.others import Others
+from optimizer.choices.mixed.free_webs import FreeWebs
 from optimizer.choices.mixed.search import search
 from optimizer.choices.semicontinuous.search import SearchGoal
 from optimizer.formulation.counterweights import masses_and_angles, unbalance
@@ -45,16 +45,16 @@ class CastingsBeside:
     def holds(self, mass_kg: Real) -> bool:
         return False
 
-    def posed(self, statement: Statement) -> Statement:
+    def relaxation(self, statement: Statement) -> Statement:
         limits = with_castings(self.limits, self.stock, self.castings)
         # what no optimum of any masses needs, those beside castings may
         return within_semicontinuous_reach(replace(statement, limits=limits), self.least)
 
     def best(self, subproblem: Subproblem) -> Choice:
-        size, limits, others = subproblem.yardstick, subproblem.statement.limits, ~self.castings
+        size, limits, free = subproblem.yardstick, subproblem.statement.limits, ~self.castings
         most = np.minimum(limits.max_mass, self.limits.max_mass)
-        own = replace(limits, max_mass=most, alike=None, max_total_mass=np.asarray(np.inf)).only(others)
-        beside = Others(own, self.least[others] * own.radius)
+        own = replace(limits, max_mass=most, alike=None, max_total_mass=np.asarray(np.inf)).only(free)
+        beside = FreeWebs(own, self.least[free] * own.radius)
         goal = SearchGoal(
             subproblem.relative_gap * size,
             size,
@@ -63,9 +63,9 @@ class CastingsBeside:
         )
         options = replace(self.stock.options, beside=beside)
         # those that take options come first
-        order = np.concatenate([np.flatnonzero(self.castings), np.flatnonzero(others)])
+        order = np.concatenate([np.flatnonzero(self.castings), np.flatnonzero(free)])
         below = subproblem.below
-        chosen, on_others, result = search(
+        selection, free_unbalance, result = search(
             subproblem.statement.ordered(order),
             options,
             beside,
@@ -75,10 +75,10 @@ class CastingsBeside:
             None if below is None else below.ordered(order),
         )
         u = np.zeros(limits.radius.shape, complex)
-        u[order] = np.concatenate([options.carried(chosen), on_others])
+        u[order] = np.concatenate([options.carried(selection), free_unbalance])
         mass, angle = masses_and_angles(self.machine, u, replace(limits, alike=None))
         mass = np.where(np.abs(mass - self.least) <= _ROUNDING * self.least, self.least, mass)
-        mass[self.castings], angle[self.castings] = self.stock.fitted(chosen)
+        mass[self.castings], angle[self.castings] = self.stock.fitted(selection)
         return Choice(mass, angle, unbalance(mass, angle, limits.radius), result, self.castings)
 
 

@@ -27,12 +27,12 @@ class Catalogue:
     def holds(self, mass_kg: Real) -> bool:
         return False
 
-    def posed(self, statement: Statement) -> Statement:
+    def relaxation(self, statement: Statement) -> Statement:
         return statement
 
     def best(self, subproblem: Subproblem) -> Choice:
         relaxed, *points = subproblem.points
-        chosen, result = search(
+        selection, result = search(
             subproblem.statement,
             self.stock.options,
             relaxed,
@@ -42,9 +42,9 @@ class Catalogue:
             subproblem.time_limit_s,
             Prior(points, subproblem.below),
         )
-        return self.picked(chosen, result)
+        return self.picked(selection, result)
 
-    def picked(self, chosen: np.ndarray, result: SearchResult) -> Choice:
+    def picked(self, selection: np.ndarray, result: SearchResult) -> Choice:
         """Options (K,) as a choice."""
-        mass, angle = self.stock.fitted(chosen)
+        mass, angle = self.stock.fitted(selection)
         return Choice(mass, angle, unbalance(mass, angle, self.radius), result)

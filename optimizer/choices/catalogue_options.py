@@ -31,9 +31,9 @@ class Stock(NamedTuple):
     mass_kg: Real  # (K, O)
     angle_deg: Real  # (K, O), 0 where there is nothing
 
-    def fitted(self, chosen: np.ndarray) -> tuple[Real, Real]:
+    def fitted(self, selection: np.ndarray) -> tuple[Real, Real]:
         """Masses [kg] and angles [deg] of all webs (W,) with options chosen (K,)."""
-        mass, angle = self.options.of(self.mass_kg, chosen), self.options.of(self.angle_deg, chosen)
+        mass, angle = self.options.of(self.mass_kg, selection), self.options.of(self.angle_deg, selection)
         alike = self.options.alike
         return (mass, angle) if alike is None else alike.fitted(mass[alike.owner], angle[alike.owner])
 
@@ -49,10 +49,10 @@ class Castings(NamedTuple):
     @classmethod
     def of(cls, machine: Machine, objective: Objective) -> "Castings":
         """Those of a machine as it is given."""
-        chosen = {path for path, _ in machine.catalogue_webs()}
+        paths = {path for path, _ in machine.catalogue_webs()}
         every = [(*place, k) for place, webs in machine.web_lists() for k in range(len(webs))]
         return cls(
-            np.array([path in chosen for path in every], bool),
+            np.array([path in paths for path in every], bool),
             mirror_images(machine, objective),
             len(machine.webs),
             tuple(("machine", *path) for path in every),
@@ -72,29 +72,31 @@ def stock(machine: Machine, castings: Castings | None = None) -> Stock:
     alike = alike_webs(machine)
     catalogue = machine.catalogue or Catalogue()
     problems: list[FieldProblem] = []
-    held: list[tuple[Real, Real]] = []
+    entries: list[tuple[Real, Real]] = []
     cranks = crank_angles(machine)
     free, centre, half_angle = sectors(machine)
     limit = largest_mass(machine).tolist()
-    some = np.arange(len(machine.webs))
+    webs = np.arange(len(machine.webs))
     if castings is not None:
-        some = np.flatnonzero(castings.webs)
+        webs = np.flatnonzero(castings.webs)
         cranks = [*cranks[: castings.own], *(0.0 for _ in cranks[castings.own :])]
         alike = None if alike is None or not np.any(castings.webs[: castings.own]) else alike.only(castings.webs)
-    for k in (some if alike is None else some[alike.first]).tolist():
+    for k in (webs if alike is None else webs[alike.first]).tolist():
         web, most = machine.webs[k], limit[k]
         own, path = own_options(web), ("machine", "webs", k) if castings is None else castings.paths[k]
         # the mirror image of what is drawn
         sign = -1.0 if castings is not None and castings.mirrored[k] else 1.0
         if web.fixed is not None:
-            held.append((np.zeros(1), np.zeros(1)))
+            entries.append((np.zeros(1), np.zeros(1)))
             continue
         least = web.min_fitted_mass_kg or 0.0
         if own.pairs is not None:
             pairs = sorted(
                 (weight, sign * at % 360.0) for weight, at in own.pairs if 0.0 < weight <= most and weight >= least
             )
-            held.append((np.array([0.0, *(weight for weight, _ in pairs)]), np.array([0.0, *(at for _, at in pairs)])))
+            entries.append(
+                (np.array([0.0, *(weight for weight, _ in pairs)]), np.array([0.0, *(at for _, at in pairs)]))
+            )
             continue
         angles = np.mod(sign * np.array(own.angles or (), dtype=float), 360.0)
         if own.angles is None:
@@ -112,18 +114,18 @@ def stock(machine: Machine, castings: Castings | None = None) -> Stock:
             [mass for mass in _masses(own.masses, catalogue, most) if 0.0 < mass <= most and mass >= least]
         )
         weight, at = np.meshgrid(masses, np.sort(angles), indexing="ij")
-        held.append((np.append(0.0, weight), np.append(0.0, at)))
+        entries.append((np.append(0.0, weight), np.append(0.0, at)))
     refuse(problems)
-    most_options = max((mass.size for mass, _ in held), default=1)
-    mass, angle = (np.array([np.pad(entry[n], (0, most_options - entry[n].size)) for entry in held]) for n in (0, 1))
-    mass, angle = mass.reshape(len(held), most_options), angle.reshape(len(held), most_options)
-    radius = np.array([machine.webs[k].radius_m for k in some.tolist()]).reshape(-1, 1)
+    most_options = max((mass.size for mass, _ in entries), default=1)
+    mass, angle = (np.array([np.pad(entry[n], (0, most_options - entry[n].size)) for entry in entries]) for n in (0, 1))
+    mass, angle = mass.reshape(len(entries), most_options), angle.reshape(len(entries), most_options)
+    radius = np.array([machine.webs[k].radius_m for k in webs.tolist()]).reshape(-1, 1)
     radius = radius if alike is None else radius[alike.first]
     options = Options(
         unbalance=mass * radius * direction(angle),
         mass=mass if alike is None else mass * alike.count[:, None],
         part=_parts(mass),
-        exists=np.arange(most_options) < np.array([entry.size for entry, _ in held]).reshape(-1, 1),
+        exists=np.arange(most_options) < np.array([entry.size for entry, _ in entries]).reshape(-1, 1),
         most_fitted=machine.max_counterweights,
         most_parts=catalogue.max_part_numbers,
         alike=alike,
@@ -132,9 +134,9 @@ def stock(machine: Machine, castings: Castings | None = None) -> Stock:
 
 
 def _masses(own: Sequence[float] | None, catalogue: Catalogue, most: float) -> Iterator[float]:
-    listed = own if own is not None else catalogue.masses_kg
-    if listed is not None:
-        yield from sorted(listed)
+    masses = own if own is not None else catalogue.masses_kg
+    if masses is not None:
+        yield from sorted(masses)
     elif catalogue.mass_step_kg is not None:
         # a hair more, because a quotient of decimals is no whole number
         for n in range(1, int(most / catalogue.mass_step_kg * (1.0 + 1e-12)) + 1):

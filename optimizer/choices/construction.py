@@ -35,11 +35,11 @@ def feasible_set(task: Task, limits: Limits) -> FeasibleSet:
     if machine is task.machine:
         return Catalogue(stock(machine), limits.radius)
     castings = Castings.of(task.machine, task.objective)
-    held = stock(machine, castings)
+    inventory = stock(machine, castings)
     if np.all(castings.webs):
-        return Catalogue(held, limits.radius)
+        return Catalogue(inventory, limits.radius)
     least = np.where(castings.webs, 0.0, least_fitted(machine))
-    return CastingsBeside(machine, held, castings.webs, least, limits, lightest)
+    return CastingsBeside(machine, inventory, castings.webs, least, limits, lightest)
 
 
 def options_of(task: Task) -> Stock:
@@ -70,6 +70,6 @@ def limits_beside_castings(task: Task, program: Problem, most: Real) -> Limits:
     most : (goals,) what the goals of some choice that keeps the ceilings come to; inf where none is known.
     """
     castings, machine = Castings.of(task.machine, task.objective), task.space.machine
-    held = with_castings(program.limits, stock(machine, castings), castings.webs)
+    limits = with_castings(program.limits, stock(machine, castings), castings.webs)
     least = np.where(castings.webs, 0.0, least_fitted(machine))
-    return semicontinuous_limits(program.changed(limits=held), least, most)
+    return semicontinuous_limits(program.changed(limits=limits), least, most)

@@ -55,25 +55,25 @@ def alike(
         result = _opened(whole, plates, nodes, cut, every, apart, admitted)
         if result is not None:
             return result
-    weights, held, left = cut, empty.copy(), False
+    weights, is_fixed, left = cut, empty.copy(), False
     for cluster in clusters:
-        held[plates.webs[cluster.places]] = True
+        is_fixed[plates.webs[cluster.places]] = True
         if cluster.high - cluster.low > SAME_SIZE * cluster.high:
-            result = _opened(whole, plates, nodes, weights, held, [cluster], admitted)
+            result = _opened(whole, plates, nodes, weights, is_fixed, [cluster], admitted)
             weights, left = result or weights, left or result is None
     if not left:
         return weights
     # an optimum may be nearer to the smallest objective, and is then turned as that is
-    turned = _turned(whole, plates, nodes, cut, empty, admitted)
-    return _opened(whole, plates, nodes, turned, every, apart, admitted) or weights
+    alternative = _with_smallest_directions(whole, plates, nodes, cut, empty, admitted)
+    return _opened(whole, plates, nodes, alternative, every, apart, admitted) or weights
 
 
 def emptied(whole: Statement, plates: Plates, cut: CutWeights, empty: np.ndarray) -> CutWeights:
     """The same with some webs (K,) bool left empty, for which counterweights between their limits make up."""
-    limits, put = whole.limits, np.where(empty, 0.0, cut.unbalance)
+    limits, base = whole.limits, np.where(empty, 0.0, cut.unbalance)
     room = np.where(empty | at_limits(whole, cut), 0.0, np.abs(cut.unbalance))
-    new = balanced(limits, whole.every_influence, cut.unbalance[None], put[None], room[None])[0]
-    u = np.where(room > 0, new, put)
+    new = balanced(limits, whole.every_influence, cut.unbalance[None], base[None], room[None])[0]
+    u = np.where(room > 0, new, base)
     angle = np.where(room[plates.webs] > 0, plates.opened(np.abs(u[plates.webs])), cut.angle)
     angle = np.where(empty[plates.webs], 0.0, angle)
     return CutWeights(u, angle, float(total_mass(whole, plates, u, angle)))
@@ -96,11 +96,11 @@ def _clusters(plates: Plates, cut: CutWeights) -> Iterator[_Cluster]:
         places = np.flatnonzero((plates.kinds == kind) & (size > 0))
         places = places[np.argsort(size[places], kind="stable")]
         apart = np.flatnonzero(np.diff(size[places]) > NEARLY * size[places][1:]) + 1
-        for some in np.split(places, apart):
-            if some.size > 1 or np.any(full[some]):
-                angle, to_the_end = cut.angle[some], bool(np.any(full[some]))
-                high = plates.most[some[0]] if to_the_end else np.max(angle)
-                yield _Cluster(some, float(np.min(angle)), float(high), to_the_end)
+        for group in np.split(places, apart):
+            if group.size > 1 or np.any(full[group]):
+                angle, to_the_end = cut.angle[group], bool(np.any(full[group]))
+                high = plates.most[group[0]] if to_the_end else np.max(angle)
+                yield _Cluster(group, float(np.min(angle)), float(high), to_the_end)
 
 
 class _Admitted(NamedTuple):
@@ -125,15 +125,15 @@ def _admitted(whole: Statement, cut: CutWeights, optimum: tuple[float, float], l
     )
 
 
-def _turned(
+def _with_smallest_directions(
     whole: Statement, plates: Plates, nodes: Real, cut: CutWeights, empty: np.ndarray, admitted: _Admitted
 ) -> CutWeights:
     """The same with every counterweight turned to where it is for the smallest objective, and no heavier."""
     share = _OF_OBJECTIVE * (admitted.objective - admitted.bound)
-    smallest = _others(whole, plates, nodes, empty, np.zeros_like(cut.unbalance)[None], share, False)[0]
+    smallest = _completion(whole, plates, nodes, empty, np.zeros_like(cut.unbalance)[None], share, False)[0]
     size = np.abs(smallest)
-    turned = np.abs(cut.unbalance) * smallest / np.where(size > 0, size, 1.0)
-    return cut._replace(unbalance=np.where(size > 0, turned, cut.unbalance))
+    u = np.abs(cut.unbalance) * smallest / np.where(size > 0, size, 1.0)
+    return cut._replace(unbalance=np.where(size > 0, u, cut.unbalance))
 
 
 def _opened(
@@ -141,7 +141,7 @@ def _opened(
     plates: Plates,
     nodes: Real,
     before: CutWeights,
-    held: np.ndarray,
+    is_fixed: np.ndarray,
     clusters: Sequence[_Cluster],
     admitted: _Admitted,
 ) -> CutWeights | None:
@@ -149,27 +149,27 @@ def _opened(
 
     Parameters
     ----------
-    held : (K,) bool, webs that stay as they are or are opened so; the others are chosen anew.
+    is_fixed : (K,) bool, webs that stay as they are or are opened so; the others are chosen anew.
     """
-    many, places = whole.chosen(np.zeros(_TRIED, int)), np.concatenate([cluster.places for cluster in clusters])
+    many, places = whole.subset(np.zeros(_TRIED, int)), np.concatenate([cluster.places for cluster in clusters])
     webs, size = plates.webs[places], [cluster.places.size for cluster in clusters]
     low, high = (np.repeat([getattr(cluster, name) for cluster in clusters], size) for name in ("low", "high"))
     full, u = any(cluster.full for cluster in clusters), before.unbalance
     for _ in range(_ROUNDS):
         openings = np.repeat(before.angle[None], _TRIED, axis=0)
         openings[:, places] = np.linspace(low, high, _TRIED)
-        tried = np.repeat(u[None], _TRIED, axis=0)
-        tried[:, webs] = plates.unbalance(openings)[:, places] * (u[webs] / np.abs(u[webs]))
+        trials = np.repeat(u[None], _TRIED, axis=0)
+        trials[:, webs] = plates.unbalance(openings)[:, places] * (u[webs] / np.abs(u[webs]))
         share = _OF_OBJECTIVE * (admitted.objective - admitted.bound)
-        tried = _others(many, plates, nodes, held, tried, share, admitted.least_mass)
-        close = many.objective(tried) <= admitted.objective + many.rounding(tried)
-        close &= points_at(many, tried).excess <= admitted.excess
-        opened = plates.opened(np.abs(tried[:, plates.webs]))
-        mass = total_mass(whole, plates, tried, opened)
+        trials = _completion(many, plates, nodes, is_fixed, trials, share, admitted.least_mass)
+        close = many.objective(trials) <= admitted.objective + many.rounding(trials)
+        close &= points_at(many, trials).excess <= admitted.excess
+        opened = plates.opened(np.abs(trials[:, plates.webs]))
+        mass = total_mass(whole, plates, trials, opened)
         light = mass <= admitted.mass
         if np.any(close & light):
             best = -1 if full and close[-1] & light[-1] else int(np.argmax(close & light))
-            return CutWeights(tried[best], opened[best], float(mass[best]))
+            return CutWeights(trials[best], opened[best], float(mass[best]))
         # the lightest that is an optimum is between two of them
         first = int(np.argmax(close))
         if not first or not light[first - 1]:
@@ -178,17 +178,17 @@ def _opened(
     return None
 
 
-def _others(
-    many: Statement, plates: Plates, nodes: Real, held: np.ndarray, u: Complex, share: float, least_mass: bool
+def _completion(
+    many: Statement, plates: Plates, nodes: Real, is_fixed: np.ndarray, u: Complex, share: float, least_mass: bool
 ) -> Complex:
     """Unbalances (N, K) with those that are not held chosen anew.
 
     Parameters
     ----------
-    held : (K,) bool.
+    is_fixed : (K,) bool.
     share : by which the objective may be above the smallest.
     """
-    left, fixed = ~held & np.all(many.limits.reach > 0, axis=0), np.where(held, u, 0.0)
+    left, fixed = ~is_fixed & np.all(many.limits.reach > 0, axis=0), np.where(is_fixed, u, 0.0)
     if not left.any():
         return fixed
     laid = pieces(many.about(fixed), plates, tangents(plates, nodes), left)

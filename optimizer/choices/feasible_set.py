@@ -62,7 +62,7 @@ class FeasibleSet(Protocol):
         """Whether counterweights of any mass (K,) happen to be choices, so that nothing is to be searched."""
         ...
 
-    def posed(self, statement: Statement) -> Statement:
+    def relaxation(self, statement: Statement) -> Statement:
         """A program of any masses as it is searched, with limits that hold every choice."""
         ...
 

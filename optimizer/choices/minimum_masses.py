@@ -37,7 +37,7 @@ class MinimumMasses:
     def holds(self, mass_kg: Real) -> bool:
         return bool(np.all((mass_kg == 0) | (mass_kg >= self.least)))
 
-    def posed(self, statement: Statement) -> Statement:
+    def relaxation(self, statement: Statement) -> Statement:
         # what no optimum of any masses needs, those of a least mass may
         return within_semicontinuous_reach(replace(statement, limits=self.limits), self.least)
 

@@ -100,12 +100,12 @@ class _Dual:
     first: np.ndarray  # (n,) places of these
     count: Real  # (n,) how many are alike
     influence: Real  # (J, n)
-    wanted: Complex  # (J,)
+    target: Complex  # (J,)
     towards: Complex  # (n,) the direction of one that has a sector; 0 where every direction is free
 
     def opened(self, price: Complex) -> Real:
         """Half-angles (P,) from the price (J,) of tangents."""
-        here, enough = self._at(price), _ENOUGH * float(np.max(np.abs(self.wanted)))
+        here, enough = self._at(price), _ENOUGH * float(np.max(np.abs(self.target)))
         for _ in range(_STEPS):
             if here.size <= enough:
                 break
@@ -131,10 +131,10 @@ class _Dual:
         angle = np.minimum(np.arccos(cosine), self.most)[:, self.owner]
         size = self.plates.unbalance(angle)[:, self.first] * self.count
         worth = np.where(worth > 0, worth, 1.0)
-        turned, left = self.influence * towards, self.wanted - self.influence @ (size[0] * towards)
-        (terms, webs), rows = turned.shape, np.empty((2 * turned.shape[0], 2 * turned.shape[1]))
-        rows[:terms, :webs], rows[:terms, webs:] = turned.real, -turned.imag
-        rows[terms:, :webs], rows[terms:, webs:] = turned.imag, turned.real
+        effect, left = self.influence * towards, self.target - self.influence @ (size[0] * towards)
+        (terms, webs), rows = effect.shape, np.empty((2 * effect.shape[0], 2 * effect.shape[1]))
+        rows[:terms, :webs], rows[:terms, webs:] = effect.real, -effect.imag
+        rows[terms:, :webs], rows[terms:, webs:] = effect.imag, effect.real
         return _At(
             price,
             left,

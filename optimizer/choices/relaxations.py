@@ -49,7 +49,7 @@ def solved(
     for n in range(len(points)):
         if clock is not None and clock.spent():
             break
-        statement = program.chosen(n)
+        statement = program.subset(n)
         statement = replace(statement, limits=replace(statement.limits, alike=alike))
         near = max(float(share[n]), _CLOSE * float(statement.at_rest))
         target = Target(near, max(float(gap[n]), near), least_mass)

@@ -41,7 +41,7 @@ class Multipliers:
         factor = np.asarray(factor)[..., None]
         return Multipliers(self.term * factor, self.row * factor, self.ceiling * factor)
 
-    def chosen(self, programs: "int | np.ndarray | tuple[np.ndarray, ...]") -> "Multipliers":
+    def subset(self, programs: "int | np.ndarray | tuple[np.ndarray, ...]") -> "Multipliers":
         """Those of some of the programs by their leading axes."""
         return Multipliers(self.term[programs], self.row[programs], self.ceiling[programs])
 
@@ -106,7 +106,7 @@ def best_proof(statement: Statement, proofs: Iterable[Multipliers]) -> tuple[Rea
     if not np.count_nonzero(best):
         return bound[0], candidates[0]
     taken = (best, *np.indices(best.shape))
-    return bound[taken], every.chosen(taken)
+    return bound[taken], every.subset(taken)
 
 
 def together(several: Iterable[Multipliers]) -> Multipliers:

@@ -65,12 +65,12 @@ def solution(
     over = statement.ceilings.excess(u) if program.ceilings else np.zeros(0)
     point = Point(u, Values(optima.objective, over, ()), float(optima.mass[0]))
     if optima.unreachable[0]:
-        excess, conflict = statement.excess(), optima.conflict.chosen(0)
+        excess, conflict = statement.excess(), optima.conflict.subset(0)
         proof = Proof(float(objective_lower_bound(excess, conflict)), excess, conflict)
         return Conflict(point, proof, statement.limits, spent, method)
     value, of_mass, target = float(point.values.goals[-1]), None, float(optima.mass_target[0])
     if least_mass:
-        of_mass = Proof(float(optima.mass_lower_bound[0]), statement, optima.mass_multipliers.chosen(0))
-    of_goal = Proof(float(optima.lower_bound[0]), statement, optima.multipliers.chosen(0))
+        of_mass = Proof(float(optima.mass_lower_bound[0]), statement, optima.mass_multipliers.subset(0))
+    of_goal = Proof(float(optima.lower_bound[0]), statement, optima.multipliers.subset(0))
     goals = (GoalLevel(program.goals[-1].name, value, of_goal, value),)
     return CertifiedOptimum(point, goals, of_mass, target, statement.limits, spent, method)

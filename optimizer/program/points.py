@@ -17,7 +17,7 @@ class Points(NamedTuple):
     excess: Real  # (N,) largest relative excess over a ceiling, -inf without ceilings
     rounding: Real  # (N,) of the objective
 
-    def chosen(self, programs: np.ndarray) -> "Points":
+    def subset(self, programs: np.ndarray) -> "Points":
         """Those of some of the programs."""
         return Points(*(values[programs] for values in self))
 

@@ -97,7 +97,7 @@ class Solutions:
     certify_s: Real  # (N,) time spent on bounds
     clean: np.ndarray  # (N,) bool: no counterweight is next to nothing beside the largest; False where nobody looked
 
-    def chosen(self: Some, programs: np.ndarray) -> Some:
+    def subset(self: Some, programs: np.ndarray) -> Some:
         """Those of some of the programs."""
         return mapped(self, lambda array: array[programs])
 

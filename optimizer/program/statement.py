@@ -268,7 +268,7 @@ class Statement:
         attributes["flat"] = Flat((1,), self.flat.programs)
         return program
 
-    def chosen(self, programs: "int | tuple[int, ...] | np.ndarray") -> "Statement":
+    def subset(self, programs: "int | tuple[int, ...] | np.ndarray") -> "Statement":
         """Some of the programs by their leading axes."""
         return self._mapped(lambda array: array[programs])
 

@@ -115,8 +115,8 @@ def _allowance(statement: Statement, u: Complex, multipliers: Multipliers, exces
     if excess.ndim != 1 or statement.flat.leading != excess.shape:
         return ceiling_allowance(statement, multipliers, statement.ceilings.excess(u))
     (over,) = (excess > 0).nonzero()
-    some, allowance = statement.chosen(over), np.zeros(excess.shape)
-    allowance[over] = ceiling_allowance(some, multipliers.chosen(over), some.ceilings.excess(u[over]))
+    some, allowance = statement.subset(over), np.zeros(excess.shape)
+    allowance[over] = ceiling_allowance(some, multipliers.subset(over), some.ceilings.excess(u[over]))
     return allowance
 
 

@@ -35,13 +35,13 @@ class Cells(NamedTuple):
     width: Real  # rad, half of their range
     signs: Real  # (n, R) of masses that are decided, whose parts are in the cubic; 0 of the others
 
-    def chosen(self, keep: NDArray[np.bool_] | Index) -> "Cells":
+    def subset(self, keep: NDArray[np.bool_] | Index) -> "Cells":
         return Cells._make(array[keep] for array in self)
 
     def cut(self, count: int) -> "Cells":
         """Each in so many parts of its angles, by the same polynomials."""
         places, shift = shifts(count)
-        again = self.chosen(np.repeat(np.arange(self.member.size), count))
+        again = self.subset(np.repeat(np.arange(self.member.size), count))
         return again._replace(
             centre=(self.centre[:, None] + self.half[:, None] * places).reshape(-1),
             half=again.half / count,
@@ -51,7 +51,7 @@ class Cells(NamedTuple):
 
     def turned(self) -> "Cells":
         """Each in halves of its directions."""
-        again = self.chosen(np.repeat(np.arange(self.member.size), _DIRECTIONS))
+        again = self.subset(np.repeat(np.arange(self.member.size), _DIRECTIONS))
         width = 0.5 * again.width
         side = np.tile([-1.0, 1.0], self.member.size)
         return again._replace(towards=again.towards + side * width, width=width)
@@ -59,7 +59,7 @@ class Cells(NamedTuple):
     def decided(self, seen: "Seen") -> "Cells":
         """With every sign of the masses that are still open, each for all directions."""
         count = np.count_nonzero(seen.open, axis=-1)
-        again = self.chosen(np.repeat(np.arange(self.member.size), 2**count))
+        again = self.subset(np.repeat(np.arange(self.member.size), 2**count))
         first = np.cumsum(2**count) - 2**count
         # the numbers from 0 of the ways, as signs of the rows that are open
         way = (np.arange(again.member.size) - np.repeat(first, 2**count))[:, None]

@@ -97,8 +97,8 @@ class _Boxes(NamedTuple):
     cells: Cells
     seen: Seen
 
-    def chosen(self, keep: NDArray[np.bool_]) -> "_Boxes":
-        return _Boxes(self.cells.chosen(keep), Seen._make(boxes[keep] for boxes in self.seen))
+    def subset(self, keep: NDArray[np.bool_]) -> "_Boxes":
+        return _Boxes(self.cells.subset(keep), Seen._make(boxes[keep] for boxes in self.seen))
 
 
 class _Search:
@@ -149,8 +149,8 @@ class _Search:
         least = seen.most - seen.rounding
         now, ever = (least > self._above(level)[cells.member] for level in (self.level, 0.0))
         np.maximum.at(self.best.upper, cells.member[~ever], seen.most[~ever])
-        self.later.append(boxes.chosen(ever & ~now))
-        return boxes.chosen(now)
+        self.later.append(boxes.subset(ever & ~now))
+        return boxes.subset(now)
 
     def _ways(self, boxes: _Boxes) -> tuple[NDArray[np.bool_], ...]:
         """Which cells are expanded anew, have few signs that are tried, and are cut by direction and by angle."""
@@ -173,10 +173,10 @@ class _Search:
 
     def _finer(self, boxes: _Boxes) -> Cells:
         cells, (coarse, few, turn, cut) = boxes.cells, self._ways(boxes)
-        finer = self._still_open(cells.chosen(coarse).cut(_FINER)).cells
-        decided = cells.chosen(few).decided(boxes.chosen(few).seen)
-        turned = cells.chosen(turn).turned()
-        return _together([self._expanded(finer), decided, turned, cells.chosen(cut).cut(_PARTS)])
+        finer = self._still_open(cells.subset(coarse).cut(_FINER)).cells
+        decided = cells.subset(few).decided(boxes.subset(few).seen)
+        turned = cells.subset(turn).turned()
+        return _together([self._expanded(finer), decided, turned, cells.subset(cut).cut(_PARTS)])
 
     def _expanded(self, cells: Cells) -> Cells:
         """By polynomials of their own."""

@@ -236,10 +236,10 @@ class Costs:
         about = self.best.point.unbalance
         about = about if options.alike is None else options.alike.means(about)
         start(incumbent, about[None])
-        if incumbent.chosen is not None:
+        if incumbent.selection is not None:
             sizes = light_sizes(statement, options, about) if np.isfinite(level) else None
             offer_light_sets(incumbent, statement, about, lambda: incumbent.least <= level, clock, sizes, level)
-            self.offer(choices.picked(incumbent.chosen, COMPARED))
+            self.offer(choices.picked(incumbent.selection, COMPARED))
 
     def _lightest(self, level: float, seconds: float) -> float:
         """Look for the lightest: what none is lighter than, kg."""
@@ -309,8 +309,8 @@ class Costs:
         options = choices.stock.options
         every, above = [np.flatnonzero(some) for some in options.exists], cost(incumbent, "mass")
         result = lightest(statement, options, every, level, (least, above), clock)
-        if result.chosen is not None:
-            self.offer(choices.picked(result.chosen, COMPARED))
+        if result.selection is not None:
+            self.offer(choices.picked(result.selection, COMPARED))
         elif result.lower_bound < above:
             about = relaxed if options.alike is None else options.alike.means(relaxed)
             for near, many in _COUNTS:
@@ -318,7 +318,7 @@ class Costs:
                     cheapest = self.cheapest("mass", level) or incumbent
                     chosen = None
                     if not clock.spent():
-                        chosen = lighter(statement, options, which, level, cost(cheapest, "mass"), clock).chosen
+                        chosen = lighter(statement, options, which, level, cost(cheapest, "mass"), clock).selection
                     if chosen is not None:
                         self.offer(choices.picked(chosen, COMPARED))
         return options.next_mass(result.lower_bound)

@@ -79,7 +79,7 @@ def in_rounds(
     kinds = program.goal_of_case
     if program.finite is not None and incumbent is None:
         # all is known of it
-        whole = choices.posed(replace(program.finite, limits=best.limits))
+        whole = choices.relaxation(replace(program.finite, limits=best.limits))
         last = choices.best(Subproblem(whole, points, relaxation_bound, relative_gap, size, left_s()))
         result = last.result
         bound = np.inf if result.lower_bound == np.inf else max(relaxation_bound, result.lower_bound)

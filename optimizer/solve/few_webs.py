@@ -55,7 +55,7 @@ def few_webs(program: Problem, limits: Limits, number: int) -> FewWebs:
     subsets = np.zeros((math.comb(webs, number), webs), bool)
     for n, some in enumerate(combinations(range(webs), number)):
         subsets[n, list(some)] = True
-    programs = replace(statement, limits=limits).alone().chosen(np.zeros(len(subsets), int))
+    programs = replace(statement, limits=limits).alone().subset(np.zeros(len(subsets), int))
     programs = replace(programs, limits=replace(programs.limits, max_mass=subsets * limits.max_mass))
     answer = optima(programs, _GAP, False)
     lower_bound = np.where(answer.unreachable, np.inf, answer.lower_bound)
@@ -95,13 +95,13 @@ def compare_on_few_webs(
         for k in webs:
             own = int(np.sum(options.exists[k])) if every else count
             which[k] = near_options(options, k, complex(few.points[n, k]), own)
-        before = incumbent.chosen
+        before = incumbent.selection
         above &= exhaust(options, which, incumbent, _SUMS, _PAIRS, clock) and every
-        if incumbent.chosen is not before and incumbent.chosen is not None:
+        if incumbent.selection is not before and incumbent.selection is not None:
             above = False
-            offer(incumbent.chosen)
-            mass = float(np.sum(options.of(options.mass, incumbent.chosen)))
-            light = lighter(statement, options, which, min(level, float(statement.at_rest)), mass, clock).chosen
+            offer(incumbent.selection)
+            mass = float(np.sum(options.of(options.mass, incumbent.selection)))
+            light = lighter(statement, options, which, min(level, float(statement.at_rest)), mass, clock).selection
             if light is not None:
                 offer(light)
     # all that are no more than the level would have been found
@@ -118,7 +118,7 @@ def lightened(statement: Statement, options: Options, chosen: np.ndarray, level:
             which[k] = near_options(options, k, complex(options.unbalance[k, chosen[k]]), count)
         mass = float(np.sum(options.of(options.mass, chosen)))
         result = lighter(statement, options, which, level, mass, clock, most_pairs=_PAIRS)
-        if result.chosen is None:
+        if result.selection is None:
             break
-        chosen = result.chosen
+        chosen = result.selection
     return chosen

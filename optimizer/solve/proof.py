@@ -45,7 +45,7 @@ class PhysicalMultipliers:
         of_row = scale[statement.group]
         return PhysicalMultipliers(self.term * of_row[statement.row], self.row * of_row, self.ceiling, self.budget)
 
-    def chosen(self, program: int) -> "PhysicalMultipliers":
+    def subset(self, program: int) -> "PhysicalMultipliers":
         """Those of one program of one leading axis."""
         return PhysicalMultipliers(self.term[program], self.row[program], self.ceiling[program], self.budget[program])
 
@@ -95,7 +95,7 @@ def physical_bounds(
         if not spent:
             budget = nothing
         elif name == "objective":
-            budget = budget_price(statement, stack.chosen(n), 0.0) * omega_squared
+            budget = budget_price(statement, stack.subset(n), 0.0) * omega_squared
         else:
             budget = budget_price(statement, multipliers, 1.0 if name == "mass" else 0.0)
         ceiling = stack.ceiling[n] if over is None else stack.ceiling[n] * over

@@ -37,7 +37,7 @@ class Solution:
     mass: Real  # (K + S,) kg, of the webs that are chosen, those of balance shafts behind those of the crankshaft
     angle: Real  # (K + S,) degrees
     unbalance: Complex  # (K + S,) kg m
-    shown: Fitted
+    placement: Fitted
     certificate: Certificate
     fields: dict[str, object]  # of the answer beside these
     certify_s: float  # time spent on bounds
@@ -49,7 +49,7 @@ class Solution:
     @property
     def answer(self) -> dict[str, object]:
         """All fields of the answer."""
-        return {**self.shown.fields, "certificate": self.certificate, **self.fields}
+        return {**self.placement.fields, "certificate": self.certificate, **self.fields}
 
     def certain(self) -> "Solution":
         """This one, where there has to be one."""

@@ -72,7 +72,7 @@ class ParetoRequest(OptimizeRequest):
     )
 
     @property
-    def chosen(self) -> bool:
+    def is_nonconvex(self) -> bool:
         """Whether counterweights are chosen, heavy enough where they are fitted, or cut from plates."""
         machine = self.machine
         return machine.choice is not None or any(web.envelope is not None for web in machine.webs)
@@ -86,7 +86,7 @@ class ParetoRequest(OptimizeRequest):
         if self.counts is not None:
             yield from self.envelope_rules("counts are of a catalogue, whose counterweights have a known radius")
             yield from self._count_rules(self.counts)
-        elif self.chosen:
+        elif self.is_nonconvex:
             message = "remove it: it proves what free masses at free angles reach, and these counterweights are chosen"
             yield Rule(self.multipliers, ("multipliers",), message)
         budgets, shafts = self.total_mass_budgets_kg or (), balance_shafts(self.machine)

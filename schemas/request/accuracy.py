@@ -22,7 +22,7 @@ class AccuracyRequest(OptimizeRequest):
     )
 
     @property
-    def as_made(self) -> bool:
+    def has_production_limits(self) -> bool:
         """Whether counterweights are as a workshop makes them: chosen, at least so heavy, alike, or cut from plates."""
         machine = self.machine
         cut = any(web.envelope is not None for web in machine.webs)

@@ -188,20 +188,20 @@ class SweepRequest(Ruled):
         return result_columns(self.base, self.targets, self.multipliers, self.always, True)
 
     @property
-    def chosen_columns(self) -> tuple[Column, ...]:
+    def column_selection(self) -> tuple[Column, ...]:
         """The columns of the result, in their usual order."""
         usual = [column.name for column in self.all_columns] if self.columns is None else self.columns
-        wanted = {"index", "status", *usual, *(self.pareto or ())}
+        names = {"index", "status", *usual, *(self.pareto or ())}
         if self.top is not None:
-            wanted.add(self.top.by)
+            names.add(self.top.by)
         if self.multipliers:
-            wanted.add(MULTIPLIERS)
-        return tuple(column for column in self.possible_columns if column.name in wanted)
+            names.add(MULTIPLIERS)
+        return tuple(column for column in self.possible_columns if column.name in names)
 
     @property
-    def wanted(self) -> frozenset[str]:
+    def column_keys(self) -> frozenset[str]:
         """Names of these, without the parts that they are about: what rows need hold."""
-        return frozenset(key(column.name) for column in self.chosen_columns)
+        return frozenset(key(column.name) for column in self.column_selection)
 
     def _output_problems(self) -> Iterator[FieldProblem]:
         if self.multipliers and self.task != "optimize":

@@ -125,7 +125,7 @@ def _require_fits(output: Path, request: "SweepRequest") -> None:
     if output.suffix == ".xlsx" and request.pareto is None:
         rows = request.total if request.top is None else min(request.total, request.top.count)
         try:
-            require_fits(rows, len(request.chosen_columns))
+            require_fits(rows, len(request.column_selection))
         except TooLargeForWorksheet as error:
             fail(f"{output}: {error}")
 

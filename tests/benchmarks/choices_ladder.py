@@ -81,20 +81,20 @@ def theirs(request: AccuracyRequest) -> Iterator[Row]:
     """What others find in the time, on the same options."""
     relaxed, size = of_any_mass(request)
     square = float(relaxed.certificate["yardstick"][0]) / size
-    program, held = relaxed.program.chosen(0), stock(request.machine)
+    program, held = relaxed.program.subset(0), stock(request.machine)
     for name, rival in _RIVALS.items():
         for limit in RIVAL_LIMITS_S:
             found, seconds = _timed(
                 lambda wall, each=rival: each(program, held.options, _GAP, size, wall), limit, _GAP * size
             )
             bound = found.lower_bound * square if np.isfinite(found.lower_bound) else None
-            if found.chosen is None:
+            if found.selection is None:
                 yield Row(name, f"{limit:g} s", seconds, None, bound, None, None)
                 continue
-            mass, _ = held.fitted(found.chosen)
+            mass, _ = held.fitted(found.selection)
             pieces = int(np.sum(mass > 0.0))
             assert part_numbers(mass) <= pieces
-            value = float(program.objective(held.options.carried(found.chosen))) * square
+            value = float(program.objective(held.options.carried(found.selection))) * square
             yield Row(name, f"{limit:g} s", seconds, value, bound, float(np.sum(mass)), pieces)
             if bound is not None and value - bound <= _GAP * size * square:
                 break
@@ -107,7 +107,7 @@ def _timed(run: Callable[[float], Chosen], limit_s: float, near: float) -> tuple
         start = time.process_time()
         found = run(wall)
         seconds = time.process_time() - start
-        if seconds >= _NEARLY * limit_s or (found.chosen is not None and found.lower_bound >= found.objective):
+        if seconds >= _NEARLY * limit_s or (found.selection is not None and found.lower_bound >= found.objective):
             break
         wall *= min(limit_s / seconds, _LONGEST)
     return found, seconds

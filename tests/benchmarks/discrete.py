@@ -86,7 +86,7 @@ def beside(body: dict[str, Any], repeats: int, time_limit_s: float) -> Beside:
     assert proof.nodes is not None
     relaxed, size = of_any_mass(request)
     began = time.process_time()
-    theirs = scip(relaxed.program.chosen(0), stock(request.machine).options, _GAP, size, time_limit_s)
+    theirs = scip(relaxed.program.subset(0), stock(request.machine).options, _GAP, size, time_limit_s)
     theirs_s = time.process_time() - began
     return Beside(
         median_s(lambda: optimize(request), repeats),

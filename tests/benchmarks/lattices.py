@@ -120,7 +120,7 @@ def main(limit_s: float) -> None:
         print(name)
         request = OptimizeRequest.model_validate(body)
         free, size = of_any_mass(request)
-        program, options = free.program.chosen(0), stock(request.machine).options
+        program, options = free.program.subset(0), stock(request.machine).options
         ours(body, GAPS[0], limit_s)
         for gap in GAPS:
             here, value, mass = ours(body, gap, limit_s)

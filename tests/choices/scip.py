@@ -20,7 +20,7 @@ class Chosen(NamedTuple):
     objective: float  # nan where nothing keeps the limits
     lower_bound: float
     nodes: int
-    chosen: np.ndarray | None = None  # (K,) the options that it took, where those are asked for
+    selection: np.ndarray | None = None  # (K,) the options that it took, where those are asked for
 
 
 def scip(statement: Statement, options: Options, relative_gap: float, yardstick: float, time_limit_s: float) -> Chosen:
@@ -58,7 +58,7 @@ def scip(statement: Statement, options: Options, relative_gap: float, yardstick:
     found = _solved(model, quicksum(groups), unit_of_all)
     if not model.getNSols():
         return found
-    return found._replace(chosen=np.array([np.argmax([model.getVal(one) for one in some]) for some in taken]))
+    return found._replace(selection=np.array([np.argmax([model.getVal(one) for one in some]) for some in taken]))
 
 
 def scip_matched(problem: Problem, relative_gap: float, yardstick: float, time_limit_s: float) -> Chosen:

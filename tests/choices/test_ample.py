@@ -119,13 +119,13 @@ def test_no_slots_are_searched_twice_for_what_is_lighter_than_a_set(monkeypatch:
 def test_no_sums_are_listed_that_are_given_up_in_the_end(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of two webs with 2,251 options there are five millions: a limit of 30 s is no reason to make them."""
     listed: list[int] = []
-    merged = sums._merged
+    merged = sums._distinct
 
     def counted(several: sums.Sums) -> sums.Sums:
         listed.append(several.code.size)
         return merged(several)
 
-    monkeypatch.setattr(sums, "_merged", counted)
+    monkeypatch.setattr(sums, "_distinct", counted)
     catalogue = {"mass_step_kg": 0.5, "angle_step_deg": 5}
     request = {"machine": machine() | {"catalogue": catalogue}, "objective": {"moment_weight": WEIGHT}}
     short, long = (optimized({**request, "accuracy": {"time_limit_s": limit_s}}) for limit_s in (5, 30))

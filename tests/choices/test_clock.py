@@ -87,7 +87,7 @@ def test_sums_of_halves_that_there_is_no_time_for_are_not_made(monkeypatch: pyte
     """Analytic: 37 options on two slots of the first half, so 37 sums and then 1369; a second each."""
     problem, options = problem_of(4)
     every = [np.flatnonzero(some) for some in options.exists]
-    made = sums._merged
+    made = sums._distinct
     for limit_s, asked in ((1_000.0, [37]), (1e6, [37, 1369, 37])):
         seconds, sizes = Seconds(), list[int]()
 
@@ -96,7 +96,7 @@ def test_sums_of_halves_that_there_is_no_time_for_are_not_made(monkeypatch: pyte
             seconds.now += some.code.size
             return made(some)
 
-        monkeypatch.setattr(sums, "_merged", slowly)
+        monkeypatch.setattr(sums, "_distinct", slowly)
         pairs = halves.exhaust(options, every, begun(problem, options), 300_000, 3_000_000, Clock(limit_s, seconds))
         assert sizes[: len(asked)] == asked
         assert pairs == (limit_s > 1_000.0)

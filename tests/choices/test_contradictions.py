@@ -7,7 +7,7 @@ import pytest
 
 from optimizer.choices.discrete import search as discrete
 from optimizer.choices.mixed import search as mixed
-from optimizer.choices.mixed.others import Others
+from optimizer.choices.mixed.free_webs import FreeWebs
 from optimizer.choices.semicontinuous import search as semicontinuous
 from optimizer.choices.semicontinuous.search import SearchGoal
 from optimizer.program.methods.optima import optima
@@ -45,11 +45,11 @@ def _bounds(method: str, at_least: float | None) -> tuple[float, float]:
         first, others = np.arange(_WEBS) < 2, np.arange(_WEBS) >= 2
         webs = replace(problem, norms=problem.norms.only(first), limits=problem.limits.only(first))
         options = options_of(webs, [0.3 * most, 0.7 * most], [0.0, 120.0, 240.0], None, None)
-        beside = Others(problem.limits.only(others), np.zeros(1))
+        beside = FreeWebs(problem.limits.only(others), np.zeros(1))
         options = replace(options, beside=beside)
         goal = SearchGoal(1e-6 * size, size, 0.0, 60.0)
         choice = mixed.search(problem, options, beside, relaxed[None], bound, goal)
-        u, result = np.concatenate([options.carried(choice.chosen), choice.beside]), choice.result
+        u, result = np.concatenate([options.carried(choice.selection), choice.beside]), choice.result
     assert result.feasible
     return result.lower_bound, float(problem.objective(u))
 

@@ -37,16 +37,16 @@ def test_the_lightest_of_all_sets(seed: int, webs: int, fitted: int | None, part
     every = [np.flatnonzero(some) for some in options.exists]
     largest = 2.0 * float(np.sum(np.max(options.mass, axis=-1)))
     found = lightest(problem, options, every, level, (0.0, largest), Clock(_LONG))
-    near = lighter(problem, options, every, level, largest, Clock(_LONG)).chosen
-    assert found.chosen is not None
+    near = lighter(problem, options, every, level, largest, Clock(_LONG)).selection
+    assert found.selection is not None
     assert near is not None
-    for chosen in (found.chosen, near):
+    for chosen in (found.selection, near):
         assert abs(float(np.sum(options.of(options.mass, chosen))) - mass) <= 1e-9 * most
         assert float(problem.objective(options.carried(chosen))) <= level
     assert abs(found.lower_bound - mass) <= 1e-9 * most
     # nothing is lighter than the lightest
     none = lighter(problem, options, every, level, mass, Clock(_LONG))
-    assert (none.chosen, none.whole) == (None, True)
+    assert (none.selection, none.whole) == (None, True)
     assert lightest(problem, options, every, level, (0.0, mass), Clock(_LONG)).lower_bound >= mass * (1.0 - 1e-9)
 
 
@@ -56,7 +56,7 @@ def test_without_time_nothing_is_claimed() -> None:
     options = options_of(problem, [0.2 * float(np.max(problem.limits.max_mass))], [0.0, 180.0])
     every = [np.flatnonzero(some) for some in options.exists]
     found = lightest(problem, options, every, np.inf, (0.25, 10.0), Clock(0.0))
-    assert (found.chosen, found.lower_bound) == (None, 0.25)
+    assert (found.selection, found.lower_bound) == (None, 0.25)
 
 
 def test_masses_in_steps_are_whole_multiples() -> None:

@@ -39,7 +39,7 @@ def test_it_keeps_the_limits_and_is_never_worse(limits: dict[str, float]) -> Non
     body["machine"] |= limits
     request = OptimizeRequest.model_validate(body)
     best, _ = of_any_mass(request)
-    problem, options = best.program.chosen(0), stock(request.machine).options
+    problem, options = best.program.subset(0), stock(request.machine).options
 
     def found() -> tuple[float, Incumbent]:
         incumbent = Incumbent(problem, options, EQUAL * float(problem.at_rest))
@@ -51,8 +51,8 @@ def test_it_keeps_the_limits_and_is_never_worse(limits: dict[str, float]) -> Non
         return before, incumbent
 
     before, incumbent = found()
-    assert incumbent.chosen is not None
+    assert incumbent.selection is not None
     assert incumbent.least < before if not limits else incumbent.least <= before
-    assert incumbent.least == float(problem.objective(options.carried(incumbent.chosen)))
-    assert bool(options.counts(problem, incumbent.chosen))
-    assert np.array_equal(incumbent.chosen, found()[1].chosen)
+    assert incumbent.least == float(problem.objective(options.carried(incumbent.selection)))
+    assert bool(options.counts(problem, incumbent.selection))
+    assert np.array_equal(incumbent.selection, found()[1].selection)

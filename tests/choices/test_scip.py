@@ -54,6 +54,6 @@ def test_two_solvers_of_others_agree() -> None:
     assert others.objective <= value + 5.0 / SIDES**2 * size
     assert others.lower_bound <= value + _CLOSE * size
     for each in (theirs, others):
-        assert each.chosen is not None
-        judged = float(problem.objective(options.of(options.unbalance, each.chosen)))
+        assert each.selection is not None
+        judged = float(problem.objective(options.of(options.unbalance, each.selection)))
         assert judged == pytest.approx(each.objective, abs=_CLOSE * size)

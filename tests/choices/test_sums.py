@@ -31,4 +31,4 @@ def test_one_of_each_kind_is_left(count: int, odd: np.uint64, monkeypatch: pytes
         m = best.setdefault(kind, n)
         if (several.mass[n], several.square[n], n) < (several.mass[m], several.square[m], m):
             best[kind] = n
-    assert sums._merged(several).code.tolist() == sorted(best.values())
+    assert sums._distinct(several).code.tolist() == sorted(best.values())

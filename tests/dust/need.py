@@ -72,7 +72,7 @@ def is_needed_at(request: ParetoRequest, front: ParetoFront, point: ParetoPoint,
     and budgets to vary.
     """
     machine = request.machine
-    if request.chosen or request.total_mass_budgets_kg is not None or not request.objective.least_mass:
+    if request.is_nonconvex or request.total_mass_budgets_kg is not None or not request.objective.least_mass:
         return False
     scene = prepare(request, ("residual",))
     whole = trade_of(request)

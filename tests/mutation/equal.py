@@ -55,8 +55,8 @@ _PROGRAM: dict[str, str] = {
     "methods/compiled.py _solve: statement.limits.radius.shape[-1] -> statement.limits.radius.shape[-2]": "without webs"
     " the same is found by solving",
     "methods/polish.py lightened: statement.limits.radius.size == 0 -> statement.limits.radius.size == 1": _STEERS,
-    "methods/compiled.py _in_any_limits: points_at(statement.chosen(left), nearest).excess < 0"
-    " -> points_at(statement.chosen(left), nearest).excess < 1": _STEERS,
+    "methods/compiled.py _in_any_limits: points_at(statement.subset(left), nearest).excess < 0"
+    " -> points_at(statement.subset(left), nearest).excess < 1": _STEERS,
     "methods/discs.py in_discs: np.argmax(np.abs(lines), axis=-1) -> np.argmax(np.abs(lines), axis=+1)": "it has two"
     " axes",
     "methods/feasibility_phase.py at_rest: rest.gap + float(allowance) <= target.share"

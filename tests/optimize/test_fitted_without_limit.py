@@ -80,7 +80,7 @@ def test_the_reach_holds_whatever_the_webs_are_for(seed: int) -> None:
     """Property: what some webs can carry, each at least its mass, is found again within the reach of all."""
     request = OptimizeRequest.model_validate(fitted(seed, None, sectors=0.0))
     scene = prepare(request, request.outputs)
-    program = cone_program(request.machine, request.objective, scene.responses, np.array([1.0])).chosen(0)
+    program = cone_program(request.machine, request.objective, scene.responses, np.array([1.0])).subset(0)
     least = np.array([web.min_fitted_mass_kg or 0.0 for web in request.machine.webs])
     bounded = within_semicontinuous_reach(program, least)
     assert np.all(np.isfinite(bounded.limits.max_mass))

@@ -170,6 +170,6 @@ def test_multipliers_of_some_programs_are_put_in_the_place_of_others() -> None:
     every = Multipliers(*(np.stack(parts) for parts in zip(
         *(vars(_multipliers(n, one)).values() for n, one in enumerate(programs)), strict=True)))  # fmt: skip
     wanted = [np.copy(part) for part in vars(every).values()]
-    every.put(np.array([0, 2]), every.chosen(np.array([1, 1])))
+    every.put(np.array([0, 2]), every.subset(np.array([1, 1])))
     for part, before in zip(vars(every).values(), wanted, strict=True):
         np.testing.assert_array_equal(part, before[[1, 1, 1]])

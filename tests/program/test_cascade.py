@@ -57,7 +57,7 @@ def test_ceilings_out_of_reach_are_proven_together_as_by_the_cascade(least_mass:
     assert 2 <= np.count_nonzero(found.unreachable) <= 8
     assert not found.unreachable[::3].any()
     for n in found.unreachable.nonzero()[0].tolist():
-        alone, target = program.chosen(n), Target(1e-6, 1e-6, least_mass)
+        alone, target = program.subset(n), Target(1e-6, 1e-6, least_mass)
         own = cascade(alone, target, interior_point(alone, target))
         assert own.conflict is not None
         assert np.array_equal(own.unbalance, found.unbalance[n])

@@ -65,7 +65,7 @@ def test_a_program_is_solved_the_same_alone_in_a_batch_and_in_any_order(case: tu
     """Property, to the last bit: neighbours play no part, whatever the limits, ceilings and weights."""
     problems = [random_statement(seed, *case, webs=WEBS) for seed in range(6)]
     together, order = stacked(problems), np.array([3, 1, 5, 0, 4, 2])
-    batch, shuffled = run(together), run(together.chosen(order))
+    batch, shuffled = run(together), run(together.subset(order))
     for place, n in enumerate(order):
         assert same(batch, n, shuffled, place)
         assert same(batch, n, run(problems[n]), 0)
@@ -248,7 +248,7 @@ def _pair(seed: int = 3) -> Statement:
 
 
 def test_no_programs_at_all() -> None:
-    nothing = _pair().chosen(np.zeros(0, int))
+    nothing = _pair().subset(np.zeros(0, int))
     assert optima(nothing, 1e-6, True).method.shape == (0,)
     assert run(nothing).certified.shape == (0,)
 

@@ -69,7 +69,7 @@ def test_without_dust_a_point_is_as_heavy_as_may_be_claimed(least_mass: bool, mo
 
 def test_webs_are_left_empty_in_many_programs_at_once_as_in_each_alone() -> None:
     """Programs with dust on one web, on another and on two, and one with none: to the last bit as each by itself."""
-    program = in_planes([-1.0, 1.0, 0.3, 0.7]).alone().chosen(np.zeros(4, np.int64))
+    program = in_planes([-1.0, 1.0, 0.3, 0.7]).alone().subset(np.zeros(4, np.int64))
     found, share = optima(program, 1e-6, True), np.full(4, 0.5)
     dust = np.array([[1e-9, 0, 0, 0], [0, 0, 1e-9, 0], [0, 1e-9, 1e-9, 0], [0, 0, 0, 0]])
     dusty = np.array([-2.0, -2.5, -1.0, -1.5]) * (dust == 0) + dust + 0j
@@ -77,10 +77,10 @@ def test_webs_are_left_empty_in_many_programs_at_once_as_in_each_alone() -> None
     mass, clean = program.mass(dusty), np.zeros(4, bool)
     found = replace(found, unbalance=dusty, objective=objective, mass=mass, clean=clean)
     found.lower_bound[:], found.mass_lower_bound[:], found.mass_target[:] = objective, 1e-3, objective + 1.0
-    alone = [found.chosen(np.array([n])) for n in range(4)]
+    alone = [found.subset(np.array([n])) for n in range(4)]
     leave_empty(program, found, share, True)
     for n, each in enumerate(alone):
-        leave_empty(program.chosen(np.array([n])), each, share[[n]], True)
+        leave_empty(program.subset(np.array([n])), each, share[[n]], True)
         assert np.array_equal(each.unbalance[0], found.unbalance[n])
         assert each.objective[0] == found.objective[n]
         assert each.mass[0] == found.mass[n]

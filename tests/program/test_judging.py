@@ -98,7 +98,7 @@ def test_what_is_judged_together_is_what_is_judged_one_by_one(seeds: list[int], 
 
 
 def _alone(several: Multipliers, n: int) -> Multipliers:
-    return several.chosen(np.array([n]))
+    return several.subset(np.array([n]))
 
 
 @pytest.mark.parametrize("least", [False, True])

@@ -242,7 +242,7 @@ def test_one_program_is_the_only_one_of_an_axis() -> None:
     alone, u = program.alone(), random_point(np.random.default_rng(8), program.limits)
     assert (alone.at_rest.tolist(), alone.single_reach.tolist()) == ([program.at_rest], [program.single_reach])
     assert alone.objective(u[None]).tolist() == [program.objective(u)]
-    assert alone.chosen(0).objective(u) == program.objective(u)
+    assert alone.subset(0).objective(u) == program.objective(u)
 
 
 def test_some_webs_make_a_program_of_their_own() -> None:

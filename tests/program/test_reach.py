@@ -329,4 +329,4 @@ def test_many_programs_reach_as_far_as_each_alone(seed: int) -> None:
     program = statement(combined(peaks, str(rng.choice(["sum", "max"]))), [], many)
     together = within_reach(program).limits.max_mass
     for n in range(count):
-        assert within_reach(program.chosen(n)).limits.max_mass.tolist() == together[n].tolist()
+        assert within_reach(program.subset(n)).limits.max_mass.tolist() == together[n].tolist()

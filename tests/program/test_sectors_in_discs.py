@@ -46,7 +46,7 @@ def test_both_methods_and_clarabel_find_the_same_optimum(seed: int, case: tuple)
     assert suits_discs(problem).all()
     part, unit = share(problem), float(yardstick(problem)[0])
     quick, other = in_discs(problem), compiled._in_any_limits(problem, part, part, True, np.zeros(1))
-    reference = smallest_objective(problem.chosen(0), 1e-10 * unit)
+    reference = smallest_objective(problem.subset(0), 1e-10 * unit)
     room = (1e-12 + 2e-8 * bool(problem.ceilings.names)) * unit
     assert quick.lower_bound[0] <= reference.objective + room
     if quick.certified[0]:
@@ -57,7 +57,7 @@ def test_both_methods_and_clarabel_find_the_same_optimum(seed: int, case: tuple)
                 1 + 1e-5
             ) + 1e-9 * float(problem.limits.most.sum())
     u = quick.unbalance[0]
-    np.testing.assert_allclose(problem.chosen(0).limits.into(u), u, rtol=1e-12, atol=1e-15)
+    np.testing.assert_allclose(problem.subset(0).limits.into(u), u, rtol=1e-12, atol=1e-15)
 
 
 def test_most_random_programs_need_no_other_method() -> None:
@@ -235,7 +235,7 @@ def test_programs_of_different_form_are_solved_apart() -> None:
     forms = discs_of(batch, reach, unit, 0.0)
     assert [np.ravel(which).tolist() for which, _, _ in forms] == [[1], [3], [2], [0, 4]]
     assert [budgeted for _, budgeted, _ in forms] == [False, True, False, True]
-    ((which, budgeted, _),) = discs_of(batch.chosen(np.array([0, 4])), reach[:2], unit[:2], 0.0)
+    ((which, budgeted, _),) = discs_of(batch.subset(np.array([0, 4])), reach[:2], unit[:2], 0.0)
     assert which is None
     assert budgeted
     together = in_discs(batch)

@@ -111,7 +111,7 @@ def test_many_programs_are_each_as_if_alone() -> None:
     alike, unlike = two_throws(0.0, 180.0, four_webs()), two_throws(0.0, 90.0, four_webs(), (9.0, 5.0))
     u = some(4)
     for programs in (alike, unlike):
-        both = programs.chosen(np.array([0, 0]))
+        both = programs.subset(np.array([0, 0]))
         other = np.stack([u[0], 2 * u[0]])
         assert np.array_equal(symmetric(both, other)[:1], symmetric(programs, u))
 

@@ -33,7 +33,7 @@ class Pass(NamedTuple):
 
     near: int  # options of each of two slots that are near to the optimum
     many: int  # light options of each other one
-    others: int  # of those
+    trims: int  # of those
     several: int  # sets of others that are looked at
     sums: int  # of a half, at most
 
@@ -80,23 +80,23 @@ def offer_light_sets(
     if not used:
         return
     if incumbent.options.limits_parts:
-        chosen = None if sizes is None else sizes.below(None, limit, Clock(_FIRST * clock.left_s))
-        if chosen is not None:
-            incumbent.offer(chosen[None])
+        selection = None if sizes is None else sizes.below(None, limit, Clock(_FIRST * clock.left_s))
+        if selection is not None:
+            incumbent.offer(selection[None])
         PartSizes(incumbent, light, used, incumbent.options.most_parts or 0, enough, clock).run()
         return
     for stage in _PASSES:
-        for which in neighbourhoods(incumbent.options, light, stage.near, stage.many, stage.others, stage.several):
+        for candidates in neighbourhoods(incumbent.options, light, stage.near, stage.many, stage.trims, stage.several):
             if enough() or clock.spent():
                 return
-            exhaust(incumbent.options, which, incumbent, stage.sums, PAIRS, clock)
+            exhaust(incumbent.options, candidates, incumbent, stage.sums, PAIRS, clock)
 
     # few sizes are few sums, and where any may be used they are among them
     PartSizes(incumbent, light, used, _SIZES, enough, Clock(_OF_SIZES * clock.left_s)).run()
 
-    def close(slot: int, chosen: np.ndarray) -> np.ndarray:
+    def close(slot: int, selection: np.ndarray) -> np.ndarray:
         options = incumbent.options
-        about = (options.unbalance[slot, chosen[slot]], light[slot])
+        about = (options.unbalance[slot, selection[slot]], light[slot])
         near = [near_options(options, slot, complex(point), CLOSE) for point in about]
         return np.unique(np.concatenate([*near, light_options(options, slot, CLOSE // 2)]))
 

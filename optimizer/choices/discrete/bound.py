@@ -49,8 +49,8 @@ def proven(statement: Statement, options: Options, left: np.ndarray, multipliers
         sums, masses = np.sum(minimum, axis=-1) - price * charged, np.sum(mass, axis=-1)
         if beside is None:
             return sums, masses
-        more, of_others = beside.lowest(price)
-        return sums + more, masses + of_others
+        more, free_masses = beside.lowest(price)
+        return sums + more, masses + free_masses
 
     def high() -> Real:
         """What every option could gain, by the lightest of all."""
@@ -60,21 +60,23 @@ def proven(statement: Statement, options: Options, left: np.ndarray, multipliers
         step = np.where(np.isfinite(step), 2.0 * step, 0.0)
         return step if beside is None else np.maximum(step, beside.high)
 
-    taken, best = price_of_budget(least, budget, left.shape[0], high)
+    budget_price, best = price_of_budget(least, budget, left.shape[0], high)
     magnitude = np.abs(constant) + np.sum(np.max(np.where(left, np.abs(value), 0.0), axis=-1), axis=-1)
     if beside is not None:
         magnitude = magnitude + beside.magnitude
-    constant = constant - 1e-14 * (magnitude + options.slots * taken * charged)
+    constant = constant - 1e-14 * (magnitude + options.slots * budget_price * charged)
     bound = constant + best
     # of one option in place of the best of its slot, whatever number of counterweights
-    priced = value + taken[:, None, None] * options.mass
+    priced = value + budget_price[:, None, None] * options.mass
     lowest = np.min(priced, axis=-1, keepdims=True)
-    apart = constant + np.sum(lowest[..., 0], axis=-1) - taken * charged
+    apart = constant + np.sum(lowest[..., 0], axis=-1) - budget_price * charged
     if beside is not None:
-        apart = apart + beside.lowest(taken)[0]
+        apart = apart + beside.lowest(budget_price)[0]
     with np.errstate(invalid="ignore"):
         forced = apart[:, None, None] + (priced - lowest)
-    return NodeBounds(np.where(np.isnan(bound), -np.inf, bound), np.where(np.isnan(forced), -np.inf, forced), taken)
+    return NodeBounds(
+        np.where(np.isnan(bound), -np.inf, bound), np.where(np.isnan(forced), -np.inf, forced), budget_price
+    )
 
 
 def uphill(
@@ -92,14 +94,14 @@ def uphill(
     def lowest(slope: Complex) -> tuple[Real, Complex]:
         webs = slope.shape[-1] if options.beside is None else slope.shape[-1] - options.beside.most.size
         total = _along(options.of_first(slope[..., :webs]), u) + cost
-        taken = np.argmin(total, axis=-1)[..., None]
-        there = np.take_along_axis(u, taken, axis=-1)[..., 0]
+        choice = np.argmin(total, axis=-1)[..., None]
+        there = np.take_along_axis(u, choice, axis=-1)[..., 0]
         carried = there if options.alike is None else options.alike.carried(there)
-        sums = np.sum(np.take_along_axis(total, taken, axis=-1)[..., 0], axis=-1)
+        sums = np.sum(np.take_along_axis(total, choice, axis=-1)[..., 0], axis=-1)
         if options.beside is None:
             return sums, carried
-        more, others = options.beside.lowest(slope[..., webs:], price[:, None] / options.beside.radius)
-        return sums + np.sum(more, axis=-1), np.concatenate([carried, others], axis=-1)
+        more, free = options.beside.lowest(slope[..., webs:], price[:, None] / options.beside.radius)
+        return sums + np.sum(more, axis=-1), np.concatenate([carried, free], axis=-1)
 
     charge = price * budget if np.isfinite(budget) else np.zeros_like(price)
     return uphill_by(statement, multipliers, charge, lowest, target)

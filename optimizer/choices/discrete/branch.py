@@ -77,7 +77,7 @@ def tree_of(
 ) -> Tree:
     """The same, of what is done with its nodes."""
     options, incumbent = work.options, work.incumbent
-    root = work.settled(options.exists, frozenset())
+    root = work.propagation(options.exists, frozenset())
     if root is None:
         return Tree(np.inf, 0, False, True)
     size = max(1, min(_BATCH, _BATCH_OPTIONS // max(options.exists.size, 1)))
@@ -105,13 +105,13 @@ class Work:
         return apart(self.statement, self.options)
 
     @property
-    def counted(self) -> bool:
+    def is_coupled(self) -> bool:
         """Whether counts or the budget couple what the slots may take."""
         options = self.options
         budget = np.isfinite(self.incumbent.statement.limits.max_total_mass)
         return bool(budget or options.limits_fitted or options.limits_parts)
 
-    def settled(self, left: np.ndarray, parts: frozenset[int]) -> Node | None:
+    def propagation(self, left: np.ndarray, parts: frozenset[int]) -> Node | None:
         """A node with all that counts and budget rule out taken away (K, O); None where nothing is left."""
         options, left = self.options, left.copy()
         budget = options.budget(self.incumbent.statement)
@@ -151,16 +151,16 @@ class Work:
         """What is proven of all that nodes lose here, and those that stay open with their bounds."""
         options, statement = self.options, self.statement
         left, bound, closed = self.left(np.array([node.bits for node in nodes])), np.array(inherited), np.inf
-        which = np.arange(len(nodes))
+        rows = np.arange(len(nodes))
 
         def pruning(left: np.ndarray, multipliers: Multipliers) -> tuple[np.ndarray, np.ndarray, Real]:
-            """Nodes of ``which`` that stay open, what is left of all, and what is proven of each option."""
+            """Nodes of ``rows`` that stay open, what is left of all, and what is proven of each option."""
             nonlocal closed
             proof, target = proven(statement, options, left, multipliers), self.incumbent.least - self.gap
-            bound[which] = np.maximum(bound[which], proof.bound)
-            out = left & (np.maximum(proof.forced, bound[which][:, None, None]) >= target)
+            bound[rows] = np.maximum(bound[rows], proof.bound)
+            out = left & (np.maximum(proof.forced, bound[rows][:, None, None]) >= target)
             if np.any(out):
-                closed = min(closed, float(np.min(np.maximum(proof.forced, bound[which][:, None, None])[out])))
+                closed = min(closed, float(np.min(np.maximum(proof.forced, bound[rows][:, None, None])[out])))
             left = left & ~out
             stays = np.all(np.any(left, axis=-1), axis=-1)
             return stays, left, proof.forced
@@ -169,18 +169,18 @@ class Work:
             multipliers = _side_by_side([node.multipliers for node in nodes if node.multipliers is not None])
             multipliers = self._raised(left, multipliers)
             stays, left, _ = pruning(left, multipliers)
-            which, left = which[stays], left[stays]
-        if not which.size:
+            rows, left = rows[stays], left[stays]
+        if not rows.size:
             return closed, []
         near, multipliers, nowhere = self.relaxation(left, clock)
-        bound[which[nowhere]] = np.inf
+        bound[rows[nowhere]] = np.inf
         self.incumbent.offer(np.argmin(np.where(left, np.abs(options.unbalance - near[..., None]), np.inf), axis=-1))
         multipliers = self._raised(left, multipliers)
         stays, left, forced = pruning(left, multipliers)
-        which, left, near, multipliers = which[stays], left[stays], near[stays], multipliers.chosen(stays)
-        few, lowest = self.enumeration(left, forced[stays], bound[which], clock)
+        rows, left, near, multipliers = rows[stays], left[stays], near[stays], multipliers.subset(stays)
+        few, lowest = self.enumeration(left, forced[stays], bound[rows], clock)
         closed = min(closed, lowest)
-        return closed, self._splits(nodes, which[~few], bound, left[~few], near[~few], multipliers.chosen(~few))
+        return closed, self._splits(nodes, rows[~few], bound, left[~few], near[~few], multipliers.subset(~few))
 
     def relaxation(self, left: np.ndarray, clock: Clock) -> tuple[Complex, Multipliers, np.ndarray]:
         """Of nodes (N, K, O) the optima within discs, segments and sectors: unbalances of first webs (N, K) kg m, the
@@ -211,19 +211,19 @@ class Work:
             if clock.spent():
                 closed = min(closed, float(bound[n]))
                 continue
-            others = offer_few(self.statement, incumbent, cost[n], incumbent.least - self.gap - float(lowest[n]))
-            closed = min(closed, float(lowest[n]) + others)
+            rest = offer_few(self.statement, incumbent, cost[n], incumbent.least - self.gap - float(lowest[n]))
+            closed = min(closed, float(lowest[n]) + rest)
         return few, closed
 
     def _raised(self, left: np.ndarray, multipliers: Multipliers) -> Multipliers:
         statement, options = self.statement, self.options
-        price = proven(statement, options, left, multipliers).price if self.counted else np.zeros(left.shape[0])
+        price = proven(statement, options, left, multipliers).price if self.is_coupled else np.zeros(left.shape[0])
         return uphill(statement, options, left, multipliers, price, self.incumbent.least - self.gap)
 
     def _splits(
         self,
         nodes: list[Node],
-        which: np.ndarray,
+        rows: np.ndarray,
         bound: Real,
         left: np.ndarray,
         near: Complex,
@@ -235,13 +235,13 @@ class Work:
         ----------
         left, near : (M, K, O) and (M, K) kg m, what is left of those, and their relaxed unbalances.
         """
-        if not which.size:
+        if not rows.size:
             return []
         off = np.where(left, np.abs(self.options.unbalance - near[..., None]), np.inf)
         first, bits = np.packbits(self._first(left, near, off), axis=-1), np.packbits(left, axis=-1)
         splits = []
-        for n, node in enumerate(which.tolist()):
-            own = Node(bits[n], nodes[node].parts, multipliers.chosen(n))
+        for n, node in enumerate(rows.tolist()):
+            own = Node(bits[n], nodes[node].parts, multipliers.subset(n))
             by_part = self._by_part(own, left[n], off[n]) if self.options.limits_parts else None
             splits.append((float(bound[node]), by_part or Split(own, first[n])))
         return splits
@@ -253,8 +253,8 @@ class Work:
         if len(free) + len(node.parts) <= (options.most_parts or 0):
             return None
         # the one that most of the relaxed unbalances are nearest to
-        wanted = options.of(options.part, np.argmin(off, axis=-1))
-        part = max(sorted(free), key=lambda number: int(np.sum(wanted == number)))
+        nearest = options.of(options.part, np.argmin(off, axis=-1))
+        part = max(sorted(free), key=lambda number: int(np.sum(nearest == number)))
         return Split(node, np.packbits(left & (options.part != part), axis=-1), part)
 
     def _first(self, left: np.ndarray, near: Complex, off: Real) -> np.ndarray:
@@ -270,20 +270,20 @@ class Work:
         several, room = np.sum(left, axis=-1) > 1, np.max(np.where(left, off, 0.0), axis=-1)
         k = np.argmax(np.where(several, (np.min(off, axis=-1) + 1e-6 * room) * does, -1.0), axis=-1)
         node = np.arange(k.size)
-        some, at = left[node, k], options.unbalance[k]
-        mean = np.sum(np.where(some, at, 0.0), axis=-1) / np.sum(some, axis=-1)
-        about = np.where(some, at - mean[:, None], 0.0)
+        mask, at = left[node, k], options.unbalance[k]
+        mean = np.sum(np.where(mask, at, 0.0), axis=-1) / np.sum(mask, axis=-1)
+        about = np.where(mask, at - mean[:, None], 0.0)
         # along the longest axis of what is left
         axis = np.exp(-0.5j * np.angle(np.sum(about**2, axis=-1)))
         along = (about * axis[:, None]).real
         here = ((near[node, k] - mean) * axis).real
-        low = np.min(np.where(some, along, np.inf), axis=-1)
-        high = np.max(np.where(some, along, -np.inf), axis=-1)
+        low = np.min(np.where(mask, along, np.inf), axis=-1)
+        high = np.max(np.where(mask, along, -np.inf), axis=-1)
         here = np.where((low <= here) & (here < high), here, 0.5 * (low + high))
-        first = some & (along <= here[:, None])
+        first = mask & (along <= here[:, None])
         count = np.sum(first, axis=-1)
-        level = (count == 0) | (count == np.sum(some, axis=-1))
-        half = some & (np.cumsum(some, axis=-1) <= np.sum(some, axis=-1, keepdims=True) // 2)
+        level = (count == 0) | (count == np.sum(mask, axis=-1))
+        half = mask & (np.cumsum(mask, axis=-1) <= np.sum(mask, axis=-1, keepdims=True) // 2)
         remainder = left.copy()
         remainder[node, k] = np.where(level[:, None], half, first)
         return remainder
@@ -295,7 +295,7 @@ class Work:
         changed = np.any(rest, axis=-1, keepdims=True)
         second = node.bits if part >= 0 else np.where(changed, rest, node.bits)
         for bits, parts in ((split.first, node.parts), (second, node.parts | {part} if part >= 0 else node.parts)):
-            child = self.settled(self.left(bits), parts) if self.counted else Node(bits, parts)
+            child = self.propagation(self.left(bits), parts) if self.is_coupled else Node(bits, parts)
             if child is not None:
                 yield child._replace(multipliers=node.multipliers)
 

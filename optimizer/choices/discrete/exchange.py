@@ -40,23 +40,23 @@ def neighbourhoods(incumbent: Incumbent, u: Complex, patience: int, enough: Call
     options, chance = incumbent.options, np.random.default_rng(_SEED)
     useful = np.flatnonzero(np.sum(options.exists, axis=-1) > 1)
     left = patience * useful.size
-    while left > 0 and incumbent.chosen is not None and not enough() and not clock.spent():
+    while left > 0 and incumbent.selection is not None and not enough() and not clock.spent():
         size = min(int(chance.choice(_SIZES)), useful.size)
-        some = chance.choice(useful, size, replace=False)
-        before, target = (incumbent.least, tuple(incumbent.chosen)), u if chance.random() < 0.5 else None
-        which = [np.array([taken]) for taken in incumbent.chosen]
+        slots = chance.choice(useful, size, replace=False)
+        before, target = (incumbent.least, tuple(incumbent.selection)), u if chance.random() < 0.5 else None
+        candidates = [np.array([option]) for option in incumbent.selection]
         most = max(2, int(_SUMS ** (1.0 / (-(-size // 2)))))
-        for k in some:
-            about = options.unbalance[k, incumbent.chosen[k]] if target is None else target[k]
-            which[k] = _about(options, k, about, int(incumbent.chosen[k]), most)
-        exhaust(options, which, incumbent, _SUMS, _PAIRS, clock)
-        left = left - 1 if (incumbent.least, tuple(incumbent.chosen)) == before else patience * useful.size
+        for k in slots:
+            about = options.unbalance[k, incumbent.selection[k]] if target is None else target[k]
+            candidates[k] = _about(options, k, about, int(incumbent.selection[k]), most)
+        exhaust(options, candidates, incumbent, _SUMS, _PAIRS, clock)
+        left = left - 1 if (incumbent.least, tuple(incumbent.selection)) == before else patience * useful.size
 
 
-def _about(options: Options, slot: int, about: complex, taken: int, most: int) -> np.ndarray:
+def _about(options: Options, slot: int, about: complex, current: int, most: int) -> np.ndarray:
     """Nothing, what is taken, and the options of a slot that are nearest to an unbalance: at most so many."""
     count = int(np.sum(options.exists[slot]))
     if count <= most:
         return np.arange(count)
     nearest = np.argsort(np.abs(options.unbalance[slot, :count] - about), kind="stable")[: max(most - 2, 1)]
-    return np.unique(np.concatenate([[0, taken], nearest]))
+    return np.unique(np.concatenate([[0, current], nearest]))

@@ -52,7 +52,7 @@ def offer_few(statement: Statement, incumbent: Incumbent, cost: Real, may_cost: 
     cost : (K, O), infinite where an option is not left.
     """
     options = incumbent.options
-    left, norms, others = np.isfinite(cost), statement.norms, np.inf
+    left, norms, least_outside = np.isfinite(cost), statement.norms, np.inf
     count = np.sum(left, axis=-1)
     # the widest first: the last ones hardly make more of what is at hand
     several = [k for k in np.argsort(-count, kind="stable").tolist() if count[k] > 1]
@@ -61,16 +61,16 @@ def offer_few(statement: Statement, incumbent: Incumbent, cost: Real, may_cost: 
     rest = fixed.copy()
     rest[several] = 0
     terms: Complex = norms.at(options.carried(rest))[None]
-    taken, steps = np.zeros(1), []
+    totals, steps = np.zeros(1), []
     for k in several:
-        some = np.flatnonzero(left[k])
-        sums = taken[:, None] + cost[k, some]
+        numbers = np.flatnonzero(left[k])
+        sums = totals[:, None] + cost[k, numbers]
         within = sums <= may_cost
-        others = min(others, float(np.min(sums, where=~within, initial=np.inf)))
+        least_outside = min(least_outside, float(np.min(sums, where=~within, initial=np.inf)))
         before, digit = np.nonzero(within)
-        taken = sums[before, digit]
-        terms = terms[before] + options.effect(k, some, norms.influence)[digit]
-        steps.append((k, before, some[digit]))
+        totals = sums[before, digit]
+        terms = terms[before] + options.effect(k, numbers, norms.influence)[digit]
+        steps.append((k, before, numbers[digit]))
     value = statement.objective_of(np.abs(terms))
     rounding = _ROUNDING * float(np.max(np.sum(np.abs(terms), axis=-1), initial=0.0) + np.max(statement.floor))
     near = np.flatnonzero(value <= incumbent.level + rounding)
@@ -83,4 +83,4 @@ def offer_few(statement: Statement, incumbent: Incumbent, cost: Real, may_cost: 
             sets[:, k], place = option[place], before[place]
         incumbent.offer(sets)
         near = near[value[near] <= incumbent.level + rounding]
-    return others
+    return least_outside

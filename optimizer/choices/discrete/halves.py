@@ -31,7 +31,7 @@ class Halves(NamedTuple):
     terms: Complex  # (J,) of slots that take one option
     fixed: np.ndarray  # (K,) the first option of every slot
     sides: tuple[Sides, Sides]  # slots of either half, of more options than one
-    which: Sequence[np.ndarray]  # (K) options of every slot
+    candidates: Sequence[np.ndarray]  # (K) options of every slot
 
     def sets(self, i: np.ndarray, j: np.ndarray) -> np.ndarray:
         """The options (M, K) of pairs of sums, by their places (M,) in either half."""
@@ -40,33 +40,33 @@ class Halves(NamedTuple):
             for side, codes in zip(sides, half.codes(place), strict=True):
                 code = codes
                 for k in reversed(side):
-                    code, digit = np.divmod(code, len(self.which[k]))
-                    sets[:, k] = self.which[k][digit]
+                    code, digit = np.divmod(code, len(self.candidates[k]))
+                    sets[:, k] = self.candidates[k][digit]
         return sets
 
 
 def halves(
     options: Options,
-    which: Sequence[np.ndarray],
+    candidates: Sequence[np.ndarray],
     incumbent: Incumbent,
     most_sums: int,
     clock: Clock,
     most_kg: float = np.inf,
-    listed: bool = True,
+    with_lists: bool = True,
 ) -> Halves | None:
     """The sums of either half; None where they are more than so many, or than there is time for.
 
     Parameters
     ----------
-    which : (K) options of every slot, at least one each.
+    candidates : (K) options of every slot, at least one each.
     most_kg : mass of a half, kg, beyond which its sums are left out.
-    listed : sums of a half are listed, each once and without those that counts leave out; else those of its quarters.
+    with_lists : sums of a half are listed, once each, without those that counts leave out; else those of its quarters.
     """
     if options.limits_parts and np.max(options.part) > _BITS:
         return None
-    many = sorted((k for k, some in enumerate(which) if len(some) > 1), key=lambda k: -len(which[k]))
+    many = sorted((k for k, entry in enumerate(candidates) if len(entry) > 1), key=lambda k: -len(candidates[k]))
     lever, effect = incumbent.coordinates
-    fixed = np.array([some[0] for some in which], dtype=int)
+    fixed = np.array([entry[0] for entry in candidates], dtype=int)
     single = np.ones(options.slots, bool)
     single[many] = False
     rest = np.sum(options.of(effect, fixed)[single], axis=0)
@@ -74,26 +74,26 @@ def halves(
     split_sides = many[::2], many[1::2]
     if not np.isfinite(most_kg):
         # what is given up in the end is not begun: lists are shorter by equal sums, but not by more
-        lists = 1 if listed else 2
-        if any(np.prod([float(len(which[k])) for k in side]) > SHORTER**lists * most_sums for side in split_sides):
+        lists = 1 if with_lists else 2
+        if any(np.prod([float(len(candidates[k])) for k in side]) > SHORTER**lists * most_sums for side in split_sides):
             return None
     for side in split_sides:
         # those of a half are not listed where there is nothing to be left out
-        apart = not listed and len(side) > 1
+        apart = not with_lists and len(side) > 1
         split: Sides = (side[::2], side[1::2]) if apart else (side, [])
-        outer = sums_of(options, effect, which, split[0], pace, most_sums, most_kg)
-        inner = None if outer is None else sums_of(options, effect, which, split[1], pace, most_sums, most_kg)
+        outer = sums_of(options, effect, candidates, split[0], pace, most_sums, most_kg)
+        inner = None if outer is None else sums_of(options, effect, candidates, split[1], pace, most_sums, most_kg)
         if outer is None or inner is None or outer.code.size * inner.code.size > most_sums:
             return None
         results.append(Half(outer, inner))
         sides.append(split)
     terms = incumbent.statement.norms.constant + lever @ rest
-    return Halves(results[0], results[1], lever, terms, fixed, (sides[0], sides[1]), which)
+    return Halves(results[0], results[1], lever, terms, fixed, (sides[0], sides[1]), candidates)
 
 
 def exhaust(
     options: Options,
-    which: Sequence[np.ndarray],
+    candidates: Sequence[np.ndarray],
     incumbent: Incumbent,
     most_sums: int,
     most_pairs: int,
@@ -103,18 +103,18 @@ def exhaust(
 
     Parameters
     ----------
-    which : (K) options of every slot that are to be tried, at least one each.
+    candidates : (K) options of every slot that are to be tried, at least one each.
     most_sums, most_pairs : sums of a half, and pairs of them, beyond which it is given up.
     clock : what is left of the time; what there is not enough for is given up.
     """
-    counted = options.limits_fitted or options.limits_parts
-    several = np.sort([float(len(some)) for some in which])[::-1]
-    if not counted and np.prod(several[::2]) > _LISTED and np.isfinite(incumbent.level):
-        split = halves(options, which, incumbent, most_sums, clock, listed=False)
+    has_counts = options.limits_fitted or options.limits_parts
+    several = np.sort([float(len(entry)) for entry in candidates])[::-1]
+    if not has_counts and np.prod(several[::2]) > _LISTED and np.isfinite(incumbent.level):
+        split = halves(options, candidates, incumbent, most_sums, clock, with_lists=False)
         if split is not None and _compared(split, incumbent, most_pairs, clock):
             return True
     # sums that are the same are listed once
-    split = halves(options, which, incumbent, min(most_sums, _LISTED_AT_MOST), clock)
+    split = halves(options, candidates, incumbent, min(most_sums, _LISTED_AT_MOST), clock)
     return split is not None and _compared(split, incumbent, most_pairs, clock)
 
 

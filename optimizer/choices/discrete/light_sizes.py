@@ -57,24 +57,24 @@ class LightSizes:
         near = options.nearest(light)
         self.own = np.sort([float(options.mass[k, near[k]]) for k in used])
         self.limit, self.clock = -np.inf, Clock(0.0)
-        self.chosen: np.ndarray | None = None
-        self.tried = set[Sizes]()
+        self.selection: np.ndarray | None = None
+        self.history = set[Sizes]()
 
-    def below(self, chosen: np.ndarray | None, limit: float, clock: Clock) -> np.ndarray | None:
+    def below(self, selection: np.ndarray | None, limit: float, clock: Clock) -> np.ndarray | None:
         """The lightest set (K,) that is known; None where none is.
 
         Parameters
         ----------
-        chosen : one that keeps the limit, if it is known.
+        selection : one that keeps the limit, if it is known.
         limit : of the objective. Sizes that were tried for no less are not tried again.
         """
-        if self.chosen is not None and self._value(self.chosen) > limit:
-            self.chosen = None
-        if limit > self.limit or self.chosen is None:
-            self.tried.clear()
+        if self.selection is not None and self._value(self.selection) > limit:
+            self.selection = None
+        if limit > self.limit or self.selection is None:
+            self.history.clear()
         self.limit, self.clock = limit, clock
-        if self.chosen is None or (chosen is not None and self._mass(chosen) < self._mass(self.chosen)):
-            self.chosen = chosen
+        if self.selection is None or (selection is not None and self._mass(selection) < self._mass(self.selection)):
+            self.selection = selection
         first = self._middles()
         middles, step = first, 1
         while not clock.spent():
@@ -88,23 +88,23 @@ class LightSizes:
                 middles = first
             else:
                 break
-        return self.chosen
+        return self.selection
 
     def _better(self, several: list[Sizes]) -> np.ndarray | None:
         """A lighter set (K,) of some sizes, what is likely to be lightest first; None where there is none."""
         better: np.ndarray | None = None
-        mass = np.inf if self.chosen is None else self._mass(self.chosen)
-        for sizes in sorted((candidate for candidate in several if candidate not in self.tried), key=self._likely):
+        mass = np.inf if self.selection is None else self._mass(self.selection)
+        for sizes in sorted((candidate for candidate in several if candidate not in self.history), key=self._likely):
             least = len(self.used) * float(self.mass[sizes.main[0]]) + _FEWEST * float(self.mass[sizes.small])
-            for which in self._options(sizes) if least < mass else ():
+            for candidates in self._options(sizes) if least < mass else ():
                 if self.clock.spent():
                     return better
                 light = lighter(
-                    self.statement, self.loose, which, self.limit, mass, self.clock, most_pairs=_PAIRS
-                ).chosen
+                    self.statement, self.loose, candidates, self.limit, mass, self.clock, most_pairs=_PAIRS
+                ).selection
                 if light is not None:
-                    self.chosen, better, mass = light, light, self._mass(light)
-            self.tried.add(sizes)
+                    self.selection, better, mass = light, light, self._mass(light)
+            self.history.add(sizes)
             if better is not None:
                 break
         return better
@@ -124,9 +124,9 @@ class LightSizes:
                 middles.add(tuple(sorted({self._nearest(float(np.mean(heap))) for heap in _heaps(self.own, number)})))
         return middles
 
-    def _of(self, chosen: np.ndarray) -> tuple[int, ...]:
+    def _of(self, selection: np.ndarray) -> tuple[int, ...]:
         """Sizes of a set."""
-        parts = self.options.of(self.options.part, chosen)
+        parts = self.options.of(self.options.part, selection)
         return tuple(np.flatnonzero(np.isin(self.parts, parts)).tolist())
 
     def _about(self, middles: set[tuple[int, ...]], far: int) -> list[Sizes]:
@@ -153,33 +153,33 @@ class LightSizes:
         small = {k: self._of_sizes(k, {sizes.small}) for k in rest}
         # every second first: trims on either end
         for order in (rest[::2] + rest[1::2], rest[1::2] + rest[::2]):
-            which = [main.get(k, np.array([0])) for k in range(self.options.slots)]
+            candidates = [main.get(k, np.array([0])) for k in range(self.options.slots)]
             whole = True
             for k in order:
-                if np.prod([float(some.size) for some in which]) * small[k].size <= float(_SUMS) ** 2:
-                    which[k] = small[k]
+                if np.prod([float(entry.size) for entry in candidates]) * small[k].size <= float(_SUMS) ** 2:
+                    candidates[k] = small[k]
                 else:
                     whole = False
-            yield which
+            yield candidates
             if whole:
                 break
 
     def _close(self, slot: int, sizes: set[int]) -> np.ndarray:
         """Nothing, and of the options of a slot that have some sizes those nearest to the optimum."""
-        some = self._of_sizes(slot, sizes)
-        off = np.abs(self.options.unbalance[slot, some] - self.light[slot])
-        return np.union1d([0], some[np.argsort(off, kind="stable")[:_NEAR]])
+        places = self._of_sizes(slot, sizes)
+        off = np.abs(self.options.unbalance[slot, places] - self.light[slot])
+        return np.union1d([0], places[np.argsort(off, kind="stable")[:_NEAR]])
 
     def _of_sizes(self, slot: int, sizes: set[int]) -> np.ndarray:
         """Nothing, and the options of a slot that have some sizes."""
         options, parts = self.options, self.parts[list(sizes)]
         return np.union1d([0], np.flatnonzero(options.exists[slot] & np.isin(options.part[slot], parts)))
 
-    def _mass(self, chosen: np.ndarray) -> float:
-        return float(np.sum(self.options.of(self.options.mass, chosen)))
+    def _mass(self, selection: np.ndarray) -> float:
+        return float(np.sum(self.options.of(self.options.mass, selection)))
 
-    def _value(self, chosen: np.ndarray) -> float:
-        return float(self.statement.objective(self.options.carried(chosen)))
+    def _value(self, selection: np.ndarray) -> float:
+        return float(self.statement.objective(self.options.carried(selection)))
 
     def _nearest(self, mass: float) -> int:
         masses: Real = self.mass

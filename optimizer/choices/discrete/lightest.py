@@ -30,7 +30,7 @@ _ROUNDING = 1e-12
 class Lightest(NamedTuple):
     """The lightest set that was found, and what is proven."""
 
-    chosen: np.ndarray | None  # (K,); None where none of less than the largest mass was found
+    selection: np.ndarray | None  # (K,); None where none of less than the largest mass was found
     lower_bound: float  # kg, no set that keeps the level is lighter; inf where none can be
 
     @property
@@ -42,7 +42,7 @@ class Lightest(NamedTuple):
 def lightest(
     statement: Statement,
     options: Options,
-    which: Sequence[np.ndarray],
+    candidates: Sequence[np.ndarray],
     level: float,
     masses_kg: tuple[float, float],
     clock: Clock,
@@ -51,7 +51,7 @@ def lightest(
 
     Parameters
     ----------
-    which : (K) options of every slot that are compared, at least one each.
+    candidates : (K) options of every slot that are compared, at least one each.
     masses_kg : what no set that keeps the level is lighter than, and the mass from which on none is wanted.
     """
     least, most = masses_kg
@@ -60,12 +60,12 @@ def lightest(
     cap = least
     while least < most and not clock.spent():
         cap = min(max(_STEP * cap, _next_mass(options, least)), most)
-        split = halves(options, which, within, _SUMS, clock, cap * (1.0 + _ROUNDING))
+        split = halves(options, candidates, within, _SUMS, clock, cap * (1.0 + _ROUNDING))
         best = _LightestSet(statement, options, level)
         if split is None or not _compared(split, within, cap, best.offer, clock):
-            return Lightest(best.chosen, least)
-        if best.chosen is not None:
-            return Lightest(best.chosen, max(least, best.mass))
+            return Lightest(best.selection, least)
+        if best.selection is not None:
+            return Lightest(best.selection, max(least, best.mass))
         least = cap
     return Lightest(None, least)
 
@@ -73,7 +73,7 @@ def lightest(
 def lighter(
     statement: Statement,
     options: Options,
-    which: Sequence[np.ndarray],
+    candidates: Sequence[np.ndarray],
     level: float,
     below_kg: float,
     clock: Clock,
@@ -84,7 +84,7 @@ def lighter(
 
     Parameters
     ----------
-    which : (K) options of every slot that are compared.
+    candidates : (K) options of every slot that are compared.
     fewer_than : or as heavy, on fewer slots than these.
     most_pairs : near enough to the level, after which it is given up.
     """
@@ -94,11 +94,11 @@ def lighter(
     best = _LightestSet(statement, options, level, cap, fewer_than or options.slots + 1)
     if cap <= 0:
         return Lightest(None, np.inf)
-    counted = options.limits_fitted or options.limits_parts
-    split = None if counted else halves(options, which, within, _UNLISTED, clock, cap, listed=False)
-    split = split or halves(options, which, within, _SUMS, clock, cap)
+    has_counts = options.limits_fitted or options.limits_parts
+    split = None if has_counts else halves(options, candidates, within, _UNLISTED, clock, cap, with_lists=False)
+    split = split or halves(options, candidates, within, _SUMS, clock, cap)
     whole = split is not None and _compared(split, within, cap, best.offer, clock, most_pairs)
-    return Lightest(best.chosen, min(best.mass, below_kg) if whole else 0.0)
+    return Lightest(best.selection, min(best.mass, below_kg) if whole else 0.0)
 
 
 def _next_mass(options: Options, least: float) -> float:
@@ -115,7 +115,7 @@ class _LightestSet:
     ) -> None:
         """``mass``, ``slots``: kg, and how many slots, of what it is to be better than."""
         self.statement, self.options, self.level = statement, options, level
-        self.chosen: np.ndarray | None = None
+        self.selection: np.ndarray | None = None
         self.mass, self.slots, self.value = mass, slots, -np.inf
 
     def offer(self, sets: np.ndarray) -> None:
@@ -138,7 +138,7 @@ class _LightestSet:
         n = int(np.lexsort((value, slots, steps))[0])
         lighter = mass[n] < self.mass * (1.0 - _ROUNDING)
         if lighter or (slots[n], value[n]) < (self.slots, self.value):
-            self.chosen, self.mass, self.slots, self.value = sets[n], float(mass[n]), int(slots[n]), float(value[n])
+            self.selection, self.mass, self.slots, self.value = sets[n], float(mass[n]), int(slots[n]), float(value[n])
 
 
 def _compared(
@@ -150,14 +150,14 @@ def _compared(
     most_pairs: int = _PAIRS,
 ) -> bool:
     """Whether all pairs of sums that are no heavier than so much were offered where they are near the level."""
-    half, other = split.first, split.second
-    if not half.size or not other.size:
+    half, second = split.first, split.second
+    if not half.size or not second.size:
         return True
 
     def offered(i: np.ndarray, j: np.ndarray) -> None:
-        light = half.mass(i) + other.mass(j) <= cap * (1.0 + _ROUNDING)
+        light = half.mass(i) + second.mass(j) <= cap * (1.0 + _ROUNDING)
         if np.any(light):
             offer(split.sets(i[light], j[light]))
 
-    pairs = Pairs(within.statement, half, other, split.lever, split.terms, within, offered)
+    pairs = Pairs(within.statement, half, second, split.lever, split.terms, within, offered)
     return pairs.near(most_pairs, clock)

@@ -43,15 +43,15 @@ def neighbourhoods(
     largest = sorted(used, key=lambda k: -abs(light[k]))
     moving: list[tuple[int, ...]] = list(islice(combinations(largest, 2), _MOVING)) or [tuple(largest)]
     rest = [k for k in range(options.slots) if k not in used]
-    others: list[tuple[int, ...]] = list(islice(combinations(rest, beside), several)) or [tuple(rest)]
+    trim_sets: list[tuple[int, ...]] = list(islice(combinations(rest, beside), several)) or [tuple(rest)]
     for slots in moving:
-        for trims in others:
-            which = [np.array([option]) for option in base]
+        for trims in trim_sets:
+            candidates = [np.array([option]) for option in base]
             for k in slots:
-                which[k] = near_options(options, k, light[k], near)
+                candidates[k] = near_options(options, k, light[k], near)
             for k in trims:
-                which[k] = light_options(options, k, many)
-            yield which
+                candidates[k] = light_options(options, k, many)
+            yield candidates
 
 
 def used_slots(light: Complex) -> list[int]:

@@ -89,9 +89,9 @@ class Options:
         unit = self.unit_kg
         return max(least, float(np.ceil(least / unit * (1.0 - _WHOLE) - _WHOLE)) * unit) if unit > 0 else least
 
-    def of(self, array: np.ndarray, chosen: np.ndarray) -> np.ndarray:
+    def of(self, array: np.ndarray, selection: np.ndarray) -> np.ndarray:
         """What an array (K, O) holds for the options chosen (..., K)."""
-        values: np.ndarray = array[np.arange(self.slots), chosen]
+        values: np.ndarray = array[np.arange(self.slots), selection]
         return values
 
     @cached_property
@@ -99,9 +99,9 @@ class Options:
         """What every option puts on each of the webs (W, O) of its slot, kg m."""
         return self.unbalance if self.alike is None else self.alike.carried(self.unbalance.T).T
 
-    def carried(self, chosen: np.ndarray) -> Complex:
+    def carried(self, selection: np.ndarray) -> Complex:
         """Unbalances of all webs (..., W) with options chosen (..., K), kg m."""
-        u = self.of(self.unbalance, chosen)
+        u = self.of(self.unbalance, selection)
         return u if self.alike is None else self.alike.carried(u)
 
     def of_first(self, slope: Complex) -> Complex:
@@ -113,20 +113,20 @@ class Options:
         summed: Real = of_webs if self.alike is None else self.alike.summed(of_webs)
         return summed
 
-    def effect(self, slot: int, some: np.ndarray | slice, influence: Real | Complex) -> Complex:
+    def effect(self, slot: int, choices: np.ndarray | slice, influence: Real | Complex) -> Complex:
         """What some options of a slot do to J terms (some, J), of influences of the webs (J, W)."""
         webs = np.array([slot]) if self.alike is None else np.flatnonzero(self.alike.owner == slot)
-        result: Complex = self.on_webs[webs][:, some].T @ influence[:, webs].T
+        result: Complex = self.on_webs[webs][:, choices].T @ influence[:, webs].T
         return result
 
-    def counts(self, statement: Statement, chosen: np.ndarray) -> np.ndarray:
+    def counts(self, statement: Statement, sets: np.ndarray) -> np.ndarray:
         """Whether sets (..., K) keep budget and counts."""
-        mass = self.of(self.mass, chosen)
+        mass = self.of(self.mass, sets)
         mask = np.sum(mass, axis=-1) <= self.budget(statement)
         if self.limits_fitted:
-            mask &= (chosen > 0) @ self.webs <= self.most_fitted
+            mask &= (sets > 0) @ self.webs <= self.most_fitted
         if self.limits_parts:
-            parts = np.sort(self.of(self.part, chosen), axis=-1)
+            parts = np.sort(self.of(self.part, sets), axis=-1)
             new = np.concatenate([parts[..., :1] >= 0, (np.diff(parts, axis=-1) > 0)], axis=-1)
             mask &= np.sum(new, axis=-1) <= self.most_parts
         return mask
@@ -144,7 +144,7 @@ class Incumbent:
         """``resolution``: objectives that differ by no more are equal."""
         self.statement, self.options, self.resolution = statement, options, resolution
         self.least = np.inf  # smallest objective of a set within all limits
-        self.chosen: np.ndarray | None = None  # (K,)
+        self.selection: np.ndarray | None = None  # (K,)
 
     @cached_property
     def coordinates(self) -> tuple[Real, Complex]:
@@ -171,35 +171,35 @@ class Incumbent:
         """What the terms of every row (rows,) may come to where the objective is no more than the level and more."""
         statement = self.statement
         highest = statement.largest(statement.floor)
-        others = np.sum(highest) - highest
-        room: Real = self.level + more - others[statement.group] - statement.floor
+        rest = np.sum(highest) - highest
+        room: Real = self.level + more - rest[statement.group] - statement.floor
         return room
 
-    def offer(self, chosen: np.ndarray) -> None:
+    def offer(self, sets: np.ndarray) -> None:
         """Take the best of sets (M, K), or stay."""
         statement, options = self.statement, self.options
-        chosen = chosen[options.counts(statement, chosen)]
-        if not len(chosen):
+        sets = sets[options.counts(statement, sets)]
+        if not len(sets):
             return
-        u = options.carried(chosen)
+        u = options.carried(sets)
         mask = np.all(statement.ceilings.excess(u) <= statement.ceilings.tolerance, axis=-1)
         value = np.where(mask, statement.objective(u), np.inf)
         near = value <= min(float(np.min(value)), self.least) + self.resolution
         if not np.any(near & np.isfinite(value)):
             return
         self.least = min(self.least, float(np.min(value)))
-        candidates = chosen[near]
-        if self.chosen is not None and self._value(self.chosen) <= self.level:
-            candidates = np.concatenate([self.chosen[None], candidates])
-        self.chosen = candidates[self._first(candidates)]
+        candidates = sets[near]
+        if self.selection is not None and self._value(self.selection) <= self.level:
+            candidates = np.concatenate([self.selection[None], candidates])
+        self.selection = candidates[self._first(candidates)]
 
-    def _value(self, chosen: np.ndarray) -> float:
-        return float(self.statement.objective(self.options.carried(chosen)))
+    def _value(self, selection: np.ndarray) -> float:
+        return float(self.statement.objective(self.options.carried(selection)))
 
-    def _first(self, chosen: np.ndarray) -> int:
+    def _first(self, sets: np.ndarray) -> int:
         """Place of the first in the order among equals."""
-        mass = np.sum(self.options.of(self.options.mass, chosen), axis=-1)
-        square = np.sum(np.abs(self.options.carried(chosen)) ** 2, axis=-1)
+        mass = np.sum(self.options.of(self.options.mass, sets), axis=-1)
+        square = np.sum(np.abs(self.options.carried(sets)) ** 2, axis=-1)
         # in steps, so that sums in another order do not differ
         steps = [np.round(measure / (1e-9 * (np.max(measure) or 1.0))) for measure in (mass, square)]
-        return int(np.lexsort((*chosen.T[::-1], steps[1], steps[0]))[0])
+        return int(np.lexsort((*sets.T[::-1], steps[1], steps[0]))[0])

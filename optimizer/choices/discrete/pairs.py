@@ -114,7 +114,7 @@ class Pairs:
         from optimizer.choices.discrete.kernel.near_sums import ALL, gridded, near
 
         count, hits, at_once = share * self.first.size, 0, min(_FIRST, self.at_once)
-        taken = ALL if share == 1.0 else np.uint64(int(share * 2**64))
+        threshold = ALL if share == 1.0 else np.uint64(int(share * 2**64))
         reach = self._radius(ball)
         for slab in ball.slabs(count, reach):
             start = np.array([0, 0, -1, -1])
@@ -122,13 +122,13 @@ class Pairs:
             if reach is None:
                 return True
             grid = ball.grid(slab, reach, count)
-            first, sums, places = gridded(*ball.first.lists, grid.wide, *grid.cut, taken)
+            first, sums, places = gridded(*ball.first.lists, grid.wide, *grid.cut, threshold)
             while start[0] < len(ball.second.outer):
                 reach = self._radius(ball)
                 if reach is None:
                     return True
                 met, start, effort = near(
-                    first, sums, *ball.second.lists, grid.slab, *grid.cut, taken, start, reach**2,
+                    first, sums, *ball.second.lists, grid.slab, *grid.cut, threshold, start, reach**2,
                     np.array([at_once, _SUMS_A_LOOK]),
                 )  # fmt: skip
                 looks, hits, at_once = looks - effort, hits + met.shape[1], min(2 * at_once, self.at_once)
@@ -176,12 +176,12 @@ class Pairs:
             return _real((_real(z) if apart else z) @ scale.T)
 
         half = [points(sums.z) for sums in self.first]
-        other = [-points(sums.z) for sums in self.second]
-        other[0] = other[0] - _real(centre)
+        second = [-points(sums.z) for sums in self.second]
+        second[0] = second[0] - _real(centre)
         # the widest first, by which they are told apart best
-        wide = sum(np.ptp(part, axis=0) for part in (*half, *other))
+        wide = sum(np.ptp(part, axis=0) for part in (*half, *second))
         order = np.argsort(-wide, kind="stable")
-        return _Ball(_Points.of(*(p[:, order] for p in half)), _Points.of(*(p[:, order] for p in other)), unit, beside)
+        return _Ball(_Points.of(*(p[:, order] for p in half)), _Points.of(*(p[:, order] for p in second)), unit, beside)
 
 
 class _Points(NamedTuple):

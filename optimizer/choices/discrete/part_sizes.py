@@ -22,9 +22,9 @@ _SHARES, _STEPS = (0.025, 0.05, 0.075, 0.1, 0.15, 0.2, 0.3, 0.5), (1, -1, 2, -2,
 Sizes = tuple[int, ...]
 
 
-def _half_of(which: Sequence[np.ndarray]) -> float:
+def _half_of(candidates: Sequence[np.ndarray]) -> float:
     """Sums of a half, about."""
-    return float(np.sqrt(np.prod([float(options.size) for options in which])))
+    return float(np.sqrt(np.prod([float(options.size) for options in candidates])))
 
 
 class PartSizes:
@@ -75,7 +75,7 @@ class PartSizes:
         """Move sizes until no move is better. What is known of other sizes ends no climb."""
         own = Incumbent(self.incumbent.statement, self.incumbent.options, self.incumbent.resolution)
         own.offer(np.zeros((1, own.options.slots), int))
-        self.better, self.climb = Nearer(self.incumbent if own.chosen is None else own, clock), clock
+        self.better, self.climb = Nearer(self.incumbent if own.selection is None else own, clock), clock
         small = sizes[0] if len(sizes) == self.most else sizes[-1]
         self._better(sizes, small)
         if len(sizes) < self.most:
@@ -83,56 +83,56 @@ class PartSizes:
                 small = size if self._better(sizes, size) else small
         for trims, sums in ((_TRIMS, _TRIED), (self.incumbent.options.slots, _WIDE)):
             self._better(sizes, small, trims, sums)
-            moved: tuple[Sizes, int] | None = (sizes, small)
-            while moved is not None and not self._over():
-                sizes, small = moved
-                moved = self._moved(sizes, small, trims, sums)
+            move: tuple[Sizes, int] | None = (sizes, small)
+            while move is not None and not self._over():
+                sizes, small = move
+                move = self._move(sizes, small, trims, sums)
 
-    def _in_use(self, slot: int, chosen: np.ndarray) -> np.ndarray:
+    def _in_use(self, slot: int, selection: np.ndarray) -> np.ndarray:
         """Nothing, and the options of a slot of the sizes that a set (K,) has."""
         options = self.incumbent.options
-        parts = options.of(options.part, chosen)
+        parts = options.of(options.part, selection)
         return np.union1d([0], np.flatnonzero(options.exists[slot] & np.isin(options.part[slot], parts[parts >= 0])))
 
     def _over(self) -> bool:
         return self.enough() or self.climb.spent()
 
-    def _moved(self, main: Sizes, small: int, trims: int, sums: int) -> tuple[Sizes, int] | None:
+    def _move(self, main: Sizes, small: int, trims: int, sums: int) -> tuple[Sizes, int] | None:
         """Sizes of which one is some steps up or down, with which a better set was found; None where there are none."""
         for step in _STEPS:
             for n in range(len(main) + 1):
-                moved = main if n == len(main) else (*main[:n], main[n] + step, *main[n + 1 :])
-                other = small + step if n == len(main) else small
-                inside = all(0 <= size < self.mass.size for size in (*moved, other))
-                if inside and not self._over() and self._better(moved, other, trims, sums):
-                    return moved, other
+                sizes = main if n == len(main) else (*main[:n], main[n] + step, *main[n + 1 :])
+                trim_size = small + step if n == len(main) else small
+                inside = all(0 <= size < self.mass.size for size in (*sizes, trim_size))
+                if inside and not self._over() and self._better(sizes, trim_size, trims, sums):
+                    return sizes, trim_size
         return None
 
     def _better(self, main: Sizes, small: int, most_trims: int = _TRIMS, sums: int = _TRIED) -> bool:
         """Whether slots of the optimum with the main sizes, and others with the small one, make a better set."""
         better = False
         for trims in self.trims:
-            which = [np.array([0]) for _ in range(self.incumbent.options.slots)]
+            candidates = [np.array([0]) for _ in range(self.incumbent.options.slots)]
             for k in self.used:
-                which[k] = self._of_sizes(k, main)
+                candidates[k] = self._of_sizes(k, main)
             for k in self.used[_MAIN:]:
-                which[k] = self._closest(k, which[k])
+                candidates[k] = self._closest(k, candidates[k])
             for k in trims[:most_trims]:
-                some = self._of_sizes(k, (small,))
-                if _half_of(which) * np.sqrt(some.size) <= sums:
-                    which[k] = some
+                choices = self._of_sizes(k, (small,))
+                if _half_of(candidates) * np.sqrt(choices.size) <= sums:
+                    candidates[k] = choices
             if not self._over():
-                better |= self.better.improves(self.loose, which, max(SUMS, sums))
-        best = self.better.incumbent.chosen
+                better |= self.better.improves(self.loose, candidates, max(SUMS, sums))
+        best = self.better.incumbent.selection
         if better and best is not None:
             self.incumbent.offer(best[None])
         return better
 
-    def _closest(self, slot: int, some: np.ndarray) -> np.ndarray:
+    def _closest(self, slot: int, choices: np.ndarray) -> np.ndarray:
         """Of some options of a slot the one nearest to the optimum."""
         options = self.incumbent.options
-        off = np.abs(options.unbalance[slot, some] - self.light[slot])
-        return some[[int(np.argmin(off))]]
+        off = np.abs(options.unbalance[slot, choices] - self.light[slot])
+        return choices[[int(np.argmin(off))]]
 
     def _of_sizes(self, slot: int, sizes: Sizes) -> np.ndarray:
         """Nothing, and the options of a slot that have these sizes."""

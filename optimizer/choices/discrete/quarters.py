@@ -31,7 +31,7 @@ class _Quarter(NamedTuple):
     """All sums of some slots, as changes of what is on them."""
 
     slots: list[int]
-    some: list[np.ndarray]  # (slots) their options
+    options: list[np.ndarray]  # (slots) their options
     points: Real  # (n, d)
 
 
@@ -43,19 +43,19 @@ def quarters(incumbent: Incumbent, enough: Callable[[], bool], clock: Clock) -> 
     if few or not 0 < incumbent.coordinates[0].shape[-1] < _MANY:
         return
     left = _PATIENCE
-    while left > 0 and incumbent.chosen is not None and not enough() and not clock.spent():
-        before, chosen, measure = incumbent.least, incumbent.chosen, _Measure(incumbent, incumbent.chosen)
-        some = _near(options, chosen, _SUMS)
-        dealt = [_quarter(measure, chosen, slots, some) for slots in _dealt(some, _SUMS, chance)]
+    while left > 0 and incumbent.selection is not None and not enough() and not clock.spent():
+        before, selection, measure = incumbent.least, incumbent.selection, _Measure(incumbent, incumbent.selection)
+        near = _near(options, selection, _SUMS)
+        dealt = [_quarter(measure, selection, slots, near) for slots in _dealt(near, _SUMS, chance)]
         middle = [np.mean(entry.points, axis=0) for entry in dealt]
-        about = chance.random() * _MOVED * (middle[0] + middle[1] + 0.5 * (measure.wanted - sum(middle)))
-        which = nearest_sums([entry.points for entry in dealt], about, measure.wanted)
+        about = chance.random() * _MOVED * (middle[0] + middle[1] + 0.5 * (measure.target - sum(middle)))
+        orders = nearest_sums([entry.points for entry in dealt], about, measure.target)
         left -= 1
-        if which.size:
-            sets = np.tile(chosen, (which.shape[1], 1))
-            for quarter, place in zip(dealt, which, strict=True):
-                digits = np.unravel_index(place, [entry.size for entry in quarter.some])
-                for slot, entry, digit in zip(quarter.slots, quarter.some, digits, strict=True):
+        if orders.size:
+            sets = np.tile(selection, (orders.shape[1], 1))
+            for quarter, place in zip(dealt, orders, strict=True):
+                digits = np.unravel_index(place, [entry.size for entry in quarter.options])
+                for slot, entry, digit in zip(quarter.slots, quarter.options, digits, strict=True):
                     sets[:, slot] = entry[digit]
             incumbent.offer(sets)
         if incumbent.least < before:
@@ -65,47 +65,47 @@ def quarters(incumbent: Incumbent, enough: Callable[[], bool], clock: Clock) -> 
 class _Measure:
     """What the slots do to the terms, in real coordinates whose unit is what a row may still come to."""
 
-    def __init__(self, incumbent: Incumbent, chosen: np.ndarray) -> None:
+    def __init__(self, incumbent: Incumbent, selection: np.ndarray) -> None:
         statement, self._options = incumbent.statement, incumbent.options
         lever, self._effect = incumbent.coordinates
         left = np.maximum(incumbent.left(0.0), SMALLEST)[statement.row]
         turn, self._scale = np.linalg.qr(lever / left[:, None])
-        terms = statement.norms.at(self._options.carried(chosen)) / left
+        terms = statement.norms.at(self._options.carried(selection)) / left
         #: what the changes have to come to
-        self.wanted = -_real(np.conj(turn.T) @ terms)
+        self.target = -_real(np.conj(turn.T) @ terms)
 
-    def change(self, slot: int, some: np.ndarray, now: int) -> Real:
+    def change(self, slot: int, choices: np.ndarray, now: int) -> Real:
         """What some options of a slot change in place of the one that is there (n, d)."""
-        return _real((self._effect[slot, some] - self._effect[slot, now]) @ self._scale.T)
+        return _real((self._effect[slot, choices] - self._effect[slot, now]) @ self._scale.T)
 
 
-def _dealt(some: list[np.ndarray], most: int, chance: np.random.Generator) -> list[list[int]]:
+def _dealt(near: list[np.ndarray], most: int, chance: np.random.Generator) -> list[list[int]]:
     """Four lists of slots with a choice, each of at most so many sums."""
     dealt: list[list[int]] = [[], [], [], []]
     size = np.ones(4)
-    for slot in chance.permutation([k for k, options in enumerate(some) if options.size > 1]).tolist():
+    for slot in chance.permutation([k for k, options in enumerate(near) if options.size > 1]).tolist():
         smallest = int(np.argmin(size))
-        if size[smallest] * some[slot].size <= most:
+        if size[smallest] * near[slot].size <= most:
             dealt[smallest].append(slot)
-            size[smallest] *= some[slot].size
+            size[smallest] *= near[slot].size
     return dealt
 
 
-def _near(options: Options, chosen: np.ndarray, most: int) -> list[np.ndarray]:
+def _near(options: Options, selection: np.ndarray, most: int) -> list[np.ndarray]:
     """Of every slot what is there and what is nearest to it, so few that quarters of all slots have so many sums."""
     useful = int(np.sum(np.sum(options.exists, axis=-1) > 1))
     count = max(int(most ** (4.0 / useful)), _FEWEST_OPTIONS)
-    off = np.abs(options.unbalance - options.of(options.unbalance, chosen)[:, None])
+    off = np.abs(options.unbalance - options.of(options.unbalance, selection)[:, None])
     order = np.argsort(np.where(options.exists, off, np.inf), axis=-1, kind="stable")[:, :count]
-    return [some[exists[some]] for some, exists in zip(order, options.exists, strict=True)]
+    return [row[exists[row]] for row, exists in zip(order, options.exists, strict=True)]
 
 
-def _quarter(measure: _Measure, chosen: np.ndarray, slots: list[int], some: list[np.ndarray]) -> _Quarter:
-    points = np.zeros((1, measure.wanted.size))
+def _quarter(measure: _Measure, selection: np.ndarray, slots: list[int], near: list[np.ndarray]) -> _Quarter:
+    points = np.zeros((1, measure.target.size))
     for slot in slots:
-        change = measure.change(slot, some[slot], int(chosen[slot]))
+        change = measure.change(slot, near[slot], int(selection[slot]))
         points = (points[:, None] + change).reshape(-1, points.shape[1])
-    return _Quarter(slots, [some[slot] for slot in slots], points)
+    return _Quarter(slots, [near[slot] for slot in slots], points)
 
 
 def _real(vectors: Complex) -> Real:

@@ -83,11 +83,11 @@ def hulls(options: Options, left: np.ndarray) -> Hull:
     """Of the options left (N, K, O) of N nodes, every slot an unknown."""
     u, size = options.unbalance, np.abs(options.unbalance)
     angle = np.angle(u)
-    some = left & (size > 0)
-    mean = np.angle(np.sum(np.where(some, np.exp(1j * angle), 0.0), axis=-1))
+    nonzero = left & (size > 0)
+    mean = np.angle(np.sum(np.where(nonzero, np.exp(1j * angle), 0.0), axis=-1))
     off = np.mod(angle - mean[..., None] + np.pi, 2.0 * np.pi) - np.pi
-    low = np.min(np.where(some, off, np.inf), axis=-1)
-    low, high = np.where(np.isinf(low), 0.0, low), np.max(np.where(some, off, -np.inf), axis=-1)
+    low = np.min(np.where(nonzero, off, np.inf), axis=-1)
+    low, high = np.where(np.isinf(low), 0.0, low), np.max(np.where(nonzero, off, -np.inf), axis=-1)
     high = np.maximum(high, low)
     half, centre = 0.5 * (high - low), np.exp(1j * (mean + 0.5 * (low + high)))
     far = np.max(np.where(left, size, 0.0), axis=-1)
@@ -103,7 +103,7 @@ def hulls(options: Options, left: np.ndarray) -> Hull:
     reach = np.maximum(reach, _SPECK * float(np.max(size, initial=0.0)))
     free = np.where(from_zero, half > 0.5 * np.pi, ~ray)
     half = np.where(free, 0.5 * np.pi, np.where(ray, 0.0, half))
-    held = np.sum(np.min(np.where(left, options.mass, np.inf), axis=-1), axis=-1)
+    mass = np.sum(np.min(np.where(left, options.mass, np.inf), axis=-1), axis=-1)
     return Hull(
         base,
         reach,
@@ -111,5 +111,5 @@ def hulls(options: Options, left: np.ndarray) -> Hull:
         np.where(free, 1.0, centre),
         np.where(free, 0.0, np.cos(half)),
         np.where(free, 1.0, np.sin(half)),
-        held,
+        mass,
     )

@@ -73,15 +73,15 @@ def search(
     relaxed, resolution = points[0], EQUAL * yardstick
     incumbent = Incumbent(statement, options, resolution)
     start(incumbent, points)
-    every = [np.flatnonzero(some) for some in options.exists]
-    if incumbent.chosen is None:
+    every = [np.flatnonzero(row) for row in options.exists]
+    if incumbent.selection is None:
         # first of all a set that keeps the ceilings
-        chosen, result = _within(statement, options, relaxed, every, clock, below)
+        selection, result = _within(statement, options, relaxed, every, clock, below)
         if not result.feasible:
-            return chosen, result
-        incumbent.offer(chosen[None])
+            return selection, result
+        incumbent.offer(selection[None])
     if exhaust(options, every, incumbent, _most_sums(incumbent), _PAIRS, clock):
-        return _chosen(incumbent), SearchResult(True, max(at_least, incumbent.least), 0, EXHAUSTED, True)
+        return _selection(incumbent), SearchResult(True, max(at_least, incumbent.least), 0, EXHAUSTED, True)
     gap = relative_gap * yardstick if relative_gap > EQUAL else -resolution
     nodes, floor = 0, at_least
 
@@ -112,18 +112,18 @@ def search(
         # all within the asked gap are as good, and what is light is cheap
         share = _LIGHTER_OF_PARTS if options.limits_parts else _LIGHTER
         light = Clock(min(clock.left_s, share * time_limit_s))
-        return lightest_near(incumbent, _chosen(incumbent), (bound, bound + gap), light, sizes), result
-    return _chosen(incumbent), result
+        return lightest_near(incumbent, _selection(incumbent), (bound, bound + gap), light, sizes), result
+    return _selection(incumbent), result
 
 
 def _most_sums(incumbent: Incumbent) -> int:
     return _SUMS if incumbent.coordinates[0].shape[-1] < _COORDINATES else min(_SUMS, _FEW_SUMS)
 
 
-def _chosen(incumbent: Incumbent) -> np.ndarray:
-    if incumbent.chosen is None:
+def _selection(incumbent: Incumbent) -> np.ndarray:
+    if incumbent.selection is None:
         raise AssertionError("nothing on any slot keeps budget and counts")
-    return incumbent.chosen
+    return incumbent.selection
 
 
 def _within(
@@ -159,5 +159,5 @@ def _within(
             bound, nodes, method = tree.lower_bound, tree.nodes, TREE
             ended = tree.ended
     if not feasible() and min(bound, incumbent.least) > CEILING_TOLERANCE:
-        return _chosen(incumbent), SearchResult(False, np.inf, nodes, method)
-    return _chosen(incumbent), SearchResult(feasible(), -np.inf, nodes, method, False, ended)
+        return _selection(incumbent), SearchResult(False, np.inf, nodes, method)
+    return _selection(incumbent), SearchResult(feasible(), -np.inf, nodes, method, False, ended)

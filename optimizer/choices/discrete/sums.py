@@ -65,7 +65,7 @@ class Half(NamedTuple):
 def sums_of(
     options: Options,
     effect: Complex,
-    which: Sequence[np.ndarray],
+    candidates: Sequence[np.ndarray],
     side: Sequence[int],
     pace: Pace,
     most: float = np.inf,
@@ -79,34 +79,34 @@ def sums_of(
     ----------
     most_kg : mass of a sum, kg, beyond which it is left out.
     """
-    if not np.isfinite(most_kg) and np.prod([float(len(which[k])) for k in side]) > SHORTER * most:
+    if not np.isfinite(most_kg) and np.prod([float(len(candidates[k])) for k in side]) > SHORTER * most:
         return None
     sums = Sums(np.zeros((1, effect.shape[-1]), complex), *np.zeros((2, 1)), *np.zeros((3, 1), np.int64))
     for k in side:
-        some = which[k]
-        count = sums.code.size * some.size
+        choices = candidates[k]
+        count = sums.code.size * choices.size
         # more than the next ones are still to come: pairs, and of the first half the other one
         if pace.most(2 * count) < 2 * count or count > _WIDEST * most:
             return None
-        fitted = options.webs[k] * (some > 0) if options.limits_fitted else np.zeros(some.size, np.int64)
-        bits = np.where(options.part[k, some] >= 0, 1 << np.maximum(options.part[k, some], 0), 0)
+        fitted = options.webs[k] * (choices > 0) if options.limits_fitted else np.zeros(choices.size, np.int64)
+        bits = np.where(options.part[k, choices] >= 0, 1 << np.maximum(options.part[k, choices], 0), 0)
         bits = bits if options.limits_parts else np.zeros_like(bits)
         longer = Sums(
             # of no coordinates, where nothing changes the objective, no number of rows follows
-            (sums.z[:, None] + effect[k, some]).reshape(count, effect.shape[-1]),
-            (sums.mass[:, None] + options.mass[k, some]).ravel(),
-            (sums.square[:, None] + options.webs[k] * np.abs(options.unbalance[k, some]) ** 2).ravel(),
+            (sums.z[:, None] + effect[k, choices]).reshape(count, effect.shape[-1]),
+            (sums.mass[:, None] + options.mass[k, choices]).ravel(),
+            (sums.square[:, None] + options.webs[k] * np.abs(options.unbalance[k, choices]) ** 2).ravel(),
             (sums.fitted[:, None] + fitted).ravel(),
             (sums.parts[:, None] | bits).ravel(),
-            (sums.code[:, None] * some.size + np.arange(some.size)).ravel(),
+            (sums.code[:, None] * choices.size + np.arange(choices.size)).ravel(),
         )
-        within: np.ndarray = _counted(options, longer) & (longer.mass <= most_kg)
-        sums = _merged(Sums(*(column[within] for column in longer)))
+        within: np.ndarray = _within_counts(options, longer) & (longer.mass <= most_kg)
+        sums = _distinct(Sums(*(column[within] for column in longer)))
         pace.took(max(count, 1))
     return None if sums.code.size > most else sums
 
 
-def _counted(options: Options, sums: Sums) -> np.ndarray:
+def _within_counts(options: Options, sums: Sums) -> np.ndarray:
     """Which sums (n,) take no more counterweights and part numbers than all slots together may."""
     within = np.ones(sums.code.size, bool)
     if options.limits_fitted:
@@ -116,15 +116,15 @@ def _counted(options: Options, sums: Sums) -> np.ndarray:
     return within
 
 
-def _merged(sums: Sums) -> Sums:
+def _distinct(sums: Sums) -> Sums:
     """Of sums that do the same with the same parts the first in the order among equals."""
     size = float(np.max(np.abs(sums.z), initial=0.0)) or 1.0
     parts = np.concatenate([sums.z.real, sums.z.imag], axis=-1) / (_SAME * size)
     keys = np.column_stack([np.round(parts).astype(np.int64), sums.fitted, sums.parts])
     # few have an equal, which numbers made of the keys tell sooner than to sort by all keys
     number = (keys.astype(np.uint64) * _ODD ** np.arange(1, keys.shape[-1] + 1, dtype=np.uint64)).sum(axis=-1)
-    ordered = np.sort(number)
-    equal = np.unique(ordered[1:][ordered[1:] == ordered[:-1]])
+    rising = np.sort(number)
+    equal = np.unique(rising[1:][rising[1:] == rising[:-1]])
     if not equal.size:
         return sums
     alike = np.flatnonzero(np.isin(number, equal))

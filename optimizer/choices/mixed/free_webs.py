@@ -27,7 +27,7 @@ _TRIED = 4
 
 
 @record(frozen=True)
-class Others:
+class FreeWebs:
     """S webs behind those of the slots."""
 
     limits: Limits  # (S,), finite and without a budget of their own
@@ -81,8 +81,8 @@ class Others:
         level = np.full(count, _SHARE) if share is None else share
         result = solved(programs, None, level, np.zeros(count), share is not None, clock)
         # what is a speck is nothing
-        some = (self.most > 0) & (programs.limits.max_total_mass > self._speck)[:, None]
-        return result._replace(unbalance=np.where(some, result.unbalance, 0.0))
+        has_room = (self.most > 0) & (programs.limits.max_total_mass > self._speck)[:, None]
+        return result._replace(unbalance=np.where(has_room, result.unbalance, 0.0))
 
     @property
     def _speck(self) -> float:
@@ -104,7 +104,7 @@ class Others:
         for place, n in enumerate(np.argsort(value, kind="stable").tolist()):
             if not light[n]:
                 break
-            incumbent = BestPoint(programs.chosen(n), self.places, 0.0)
+            incumbent = BestPoint(programs.subset(n), self.places, 0.0)
             nothing = np.where(np.abs(points[n]) >= self.least, points[n], 0.0)
             incumbent.offer(np.stack([nothing, np.zeros(self.least.size, complex)]))
             if place < _TRIED and value[n] < below and not clock.spent():

@@ -12,8 +12,8 @@ from optimizer.choices.discrete.exchange import neighbourhoods, start
 from optimizer.choices.discrete.options import EQUAL, Incumbent, Options
 from optimizer.choices.discrete.search import TREE
 from optimizer.choices.feasible_set import SearchResult
+from optimizer.choices.mixed.free_webs import FreeWebs
 from optimizer.choices.mixed.incumbent import MixedIncumbent
-from optimizer.choices.mixed.others import Others
 from optimizer.choices.mixed.tree import MixedWork
 from optimizer.choices.semicontinuous.search import SearchGoal
 from optimizer.choices.semicontinuous.search import search as search_others
@@ -32,7 +32,7 @@ _LIGHTER, _LIGHTENING = 200, 0.1
 class MixedChoice(NamedTuple):
     """What is chosen."""
 
-    chosen: np.ndarray  # (K,) options
+    selection: np.ndarray  # (K,) options
     beside: Complex  # (S,) kg m, of the other webs
     result: SearchResult
 
@@ -40,7 +40,7 @@ class MixedChoice(NamedTuple):
 def search(
     statement: Statement,
     options: Options,
-    others: Others,
+    free_webs: FreeWebs,
     points: Complex,
     at_least: float,
     goal: SearchGoal,
@@ -58,18 +58,18 @@ def search(
     """
     if not options.slots:
         # nothing but the other webs
-        u, alone = search_others(statement, others.least, points[0], at_least, goal, list(points[1:]), below)
+        u, alone = search_others(statement, free_webs.least, points[0], at_least, goal, list(points[1:]), below)
         return MixedChoice(np.zeros(0, int), u, alone)
     clock, gap, below = Clock(goal.time_limit_s), goal.gap, below or statement
-    incumbent = MixedIncumbent(statement, options, others, EQUAL * goal.yardstick, clock)
+    incumbent = MixedIncumbent(statement, options, free_webs, EQUAL * goal.yardstick, clock)
     _begin(incumbent, points)
-    if incumbent.chosen is None:
+    if incumbent.selection is None:
         # first of all one that keeps the ceilings
-        first = _within(statement, options, others, points, clock, below, goal.yardstick)
+        first = _within(statement, options, free_webs, points, clock, below, goal.yardstick)
         if not first.result.feasible:
             return first
-        incumbent.offer_beside(first.chosen[None], first.beside[None])
-        incumbent.offer(first.chosen[None])
+        incumbent.offer_beside(first.selection[None], first.beside[None])
+        incumbent.offer(first.selection[None])
     _alternate(incumbent, points[0], Clock(_ALTERNATING * goal.time_limit_s), lambda: incumbent.least - at_least <= gap)
     work = MixedWork(options, incumbent, gap, below, goal.yardstick)
     tree = tree_of(work, at_least, lambda bound: False, clock)
@@ -83,7 +83,7 @@ def search(
 
 def _begin(incumbent: MixedIncumbent, points: Complex) -> None:
     """Offer nothing, and the nearest options to points (M, W + S) as they are and partly."""
-    start(incumbent, _first_webs(incumbent.options, points[:, : -incumbent.others.least.size]))
+    start(incumbent, _first_webs(incumbent.options, points[:, : -incumbent.free_webs.least.size]))
 
 
 def _first_webs(options: Options, u: Complex) -> Complex:
@@ -93,14 +93,14 @@ def _first_webs(options: Options, u: Complex) -> Complex:
 def _within(
     statement: Statement,
     options: Options,
-    others: Others,
+    free_webs: FreeWebs,
     points: Complex,
     clock: Clock,
     below: Statement,
     yardstick: float,
 ) -> MixedChoice:
     """The first choice that keeps the ceilings, or the proof that there is none."""
-    incumbent = MixedIncumbent(statement.excess(), options, others, 0.0, clock)
+    incumbent = MixedIncumbent(statement.excess(), options, free_webs, 0.0, clock)
 
     def feasible() -> bool:
         return incumbent.least <= CEILING_TOLERANCE
@@ -112,30 +112,30 @@ def _within(
         work = MixedWork(options, incumbent, 0.0, below.excess(), 1.0)
         tree = tree_of(work, -np.inf, lambda bound: feasible() or bound > CEILING_TOLERANCE, clock)
         bound, nodes, ended = tree.lower_bound, tree.nodes, tree.ended
-    if incumbent.chosen is None:
+    if incumbent.selection is None:
         raise AssertionError("nothing on any slot keeps budget and counts")
     none = not feasible() and min(bound, incumbent.least) > CEILING_TOLERANCE
     ended = None if feasible() or none else ended
     result = SearchResult(feasible(), np.inf if none else -np.inf, nodes, TREE, ended=ended)
-    return MixedChoice(incumbent.chosen, incumbent.beside, result)
+    return MixedChoice(incumbent.selection, incumbent.beside, result)
 
 
 def _alternate(incumbent: MixedIncumbent, relaxed: Complex, clock: Clock, enough: Callable[[], bool]) -> None:
     """Choose options beside what the other webs carry, and these anew beside the options, until nothing is better."""
-    options, webs = incumbent.options, relaxed.size - incumbent.others.least.size
+    options, webs = incumbent.options, relaxed.size - incumbent.free_webs.least.size
     mask = np.arange(relaxed.size) < webs
     about = _first_webs(options, relaxed[:webs])
     alone = replace(options, beside=None)
     for _ in range(_TURNS):
-        if enough() or clock.spent() or incumbent.chosen is None:
+        if enough() or clock.spent() or incumbent.selection is None:
             return
         before = incumbent.least
         there = np.concatenate([np.zeros(webs), incumbent.beside])
         sub = Incumbent(incumbent.statement.about(there).only(mask), alone, incumbent.resolution)
-        sub.offer(incumbent.chosen[None])
+        sub.offer(incumbent.selection[None])
         neighbourhoods(sub, about, _PATIENCE, enough, clock)
-        if sub.chosen is not None:
-            incumbent.offer(sub.chosen[None])
+        if sub.selection is not None:
+            incumbent.offer(sub.selection[None])
         if incumbent.least >= before - incumbent.resolution:
             return
 
@@ -145,30 +145,30 @@ def _lightened(
 ) -> MixedChoice:
     """The best choice, and as long as one is there a lighter one that differs on one slot, no worse than a limit; then
     the lightest of the other webs, worse by a share at most."""
-    chosen, beside, others = incumbent.chosen, incumbent.beside, incumbent.others
-    assert chosen is not None  # there is a choice
+    selection, beside, free_webs = incumbent.selection, incumbent.beside, incumbent.free_webs
+    assert selection is not None  # there is a choice
     while share > 0.0 and not clock.spent():
-        sets = _lighter_sets(incumbent, chosen)
+        sets = _lighter_sets(incumbent, selection)
         if not len(sets):
             break
-        there = others.best(incumbent.programs(sets), np.inf, clock)
+        there = free_webs.best(incumbent.programs(sets), np.inf, clock)
         mass = np.where(incumbent.values(sets, there) <= limit, incumbent.masses(sets, there), np.inf)
         n = int(np.argmin(mass))
-        if mass[n] >= incumbent.masses(chosen[None], beside[None])[0] * (1.0 - EQUAL):
+        if mass[n] >= incumbent.masses(selection[None], beside[None])[0] * (1.0 - EQUAL):
             break
-        chosen, beside = sets[n], there[n]
-    program = incumbent.programs(chosen[None]).chosen(0)
-    return MixedChoice(chosen, others.lightened(program, beside, share, clock), result)
+        selection, beside = sets[n], there[n]
+    program = incumbent.programs(selection[None]).subset(0)
+    return MixedChoice(selection, free_webs.lightened(program, beside, share, clock), result)
 
 
-def _lighter_sets(incumbent: MixedIncumbent, chosen: np.ndarray) -> np.ndarray:
+def _lighter_sets(incumbent: MixedIncumbent, selection: np.ndarray) -> np.ndarray:
     """Sets (M, K) that differ from one on one slot, whose casting is lighter there, and keep the counts."""
     options = incumbent.options
     sets: list[np.ndarray] = []
     for k in range(options.slots):
         mass = np.where(options.exists[k], options.mass[k], np.inf)
-        lighter = np.flatnonzero(mass < mass[chosen[k]])
+        lighter = np.flatnonzero(mass < mass[selection[k]])
         order = lighter[np.argsort(-mass[lighter], kind="stable")].tolist()
-        sets += [np.where(np.arange(options.slots) == k, option, chosen) for option in order]
+        sets += [np.where(np.arange(options.slots) == k, option, selection) for option in order]
     every = np.array(sets, int).reshape(-1, options.slots)
     return every[options.counts(incumbent.statement, every)][:_LIGHTER] if len(every) else every

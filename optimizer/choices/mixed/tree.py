@@ -71,7 +71,7 @@ class MixedWork(Work):
         webs : whose every slot is a web.
         left : (N, W, O) options of N nodes.
         """
-        hull, others, own = hulls(webs, left), self.best.others.limits, self.statement.limits
+        hull, free_limits, own = hulls(webs, left), self.best.free_webs.limits, self.statement.limits
         radius = own.radius[: left.shape[1]]
         of_slots = {
             "radius": spread(radius, hull.reach.shape),
@@ -81,36 +81,37 @@ class MixedWork(Work):
             "half_angle_cos": hull.half_angle_cos,
             "half_angle_sin": hull.half_angle_sin,
         }
-        shape = (len(left), others.radius.size)
-        joined: dict[str, Any] = {
-            name: np.concatenate([of_slots[name], spread(getattr(others, name), shape)], axis=-1) for name in OF_WEBS
+        shape = (len(left), free_limits.radius.size)
+        arrays: dict[str, Any] = {
+            name: np.concatenate([of_slots[name], spread(getattr(free_limits, name), shape)], axis=-1)
+            for name in OF_WEBS
         }
-        largest = float(np.max(joined["radius"] * joined["max_mass"]))
-        joined["max_mass"] = np.maximum(joined["max_mass"], _SPECK * largest / joined["radius"])
+        largest = float(np.max(arrays["radius"] * arrays["max_mass"]))
+        arrays["max_mass"] = np.maximum(arrays["max_mass"], _SPECK * largest / arrays["radius"])
         budget = np.maximum(own.max_total_mass - hull.mass, _SPECK * (hull.mass + 1e-300))
         base = np.concatenate([hull.base, np.zeros(shape)], axis=-1)
-        return base, replace(own, **joined, max_total_mass=budget, alike=None)
+        return base, replace(own, **arrays, max_total_mass=budget, alike=None)
 
     def enumeration(self, left: np.ndarray, forced: Real, bound: Real, clock: Clock) -> tuple[np.ndarray, float]:
         decided = np.all(np.sum(left, axis=-1) == 1, axis=-1)
         if not np.any(decided):
             return decided, np.inf
-        chosen = np.argmax(left[decided], axis=-1)
-        self.best.offer(chosen)
-        below = self.best.programs(chosen, self.statement)
-        relaxations = self.best.others.optima(below, clock=clock)
+        sets = np.argmax(left[decided], axis=-1)
+        self.best.offer(sets)
+        below = self.best.programs(sets, self.statement)
+        relaxations = self.best.free_webs.optima(below, clock=clock)
         least = np.maximum(objective_lower_bound(below, relaxations.multipliers), bound[decided])
         least = np.where(relaxations.nowhere, np.inf, least)
         open_sets = np.flatnonzero(least < self.incumbent.least - self.gap).tolist()
-        for n in open_sets if self.best.others.semicontinuous else ():
+        for n in open_sets if self.best.free_webs.semicontinuous else ():
             if not clock.spent():
-                least[n] = self._of_set(chosen[n], below.chosen(n), float(least[n]), clock)
+                least[n] = self._of_set(sets[n], below.subset(n), float(least[n]), clock)
         return decided, float(np.min(least))
 
-    def _of_set(self, chosen: np.ndarray, below: Statement, at_least: float, clock: Clock) -> float:
+    def _of_set(self, selection: np.ndarray, below: Statement, at_least: float, clock: Clock) -> float:
         """What a set (K,) comes to at least, whatever the other webs carry; the best of it is offered."""
         best = self.best
         goal = SearchGoal(max(0.5 * self.gap, 0.0), self.yardstick, 0.0, clock.left_s)
-        u, least = best.others.proven(best.programs(chosen[None]).chosen(0), below, at_least, goal)
-        best.offer_beside(chosen[None], u[None])
+        u, least = best.free_webs.proven(best.programs(selection[None]).subset(0), below, at_least, goal)
+        best.offer_beside(selection[None], u[None])
         return least

@@ -11,7 +11,7 @@ import numpy as np
 
 from optimizer.choices.clock import Clock
 from optimizer.choices.relaxations import Relaxations, solved
-from optimizer.choices.semicontinuous.places import Places, wrapped
+from optimizer.choices.semicontinuous.places import Places, principal_angle
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.limits import Limits
 from optimizer.program.statement import Statement
@@ -51,7 +51,7 @@ class BestPoint:
         mask &= statement.mass(u) <= statement.limits.max_total_mass * (1.0 + _ROUNDING)
         places = self.places
         within = (size >= places.least * (1.0 - _ROUNDING)) & (size <= places.most * (1.0 + _ROUNDING))
-        within &= np.abs(wrapped(np.angle(u) - places.centre)) <= places.half + _ROUNDING
+        within &= np.abs(principal_angle(np.angle(u) - places.centre)) <= places.half + _ROUNDING
         mask &= np.all((size == 0) | (within & ~places.out), axis=-1)
         value = np.where(mask, statement.objective(u), np.inf)
         near = np.flatnonzero(value <= min(float(np.min(value, initial=np.inf)), self.least) + self.resolution)
@@ -89,8 +89,8 @@ def _tangent(incumbent: BestPoint, u: Complex, fitted: np.ndarray, clock: Clock)
     for first in range(0, len(u), _AT_ONCE):
         if points and clock.spent():
             break
-        some = slice(first, first + _AT_ONCE)
-        base, room, program = _beyond(incumbent, u[some], fitted[some])
+        block = slice(first, first + _AT_ONCE)
+        base, room, program = _beyond(incumbent, u[block], fitted[block])
         share, gap = np.full(len(base), 1e-9), np.zeros(len(base))
         # what is a speck is nothing
         points.append(base + np.where(room, incumbent.solved(program, share, gap, False).unbalance, 0.0))
@@ -130,7 +130,7 @@ def _beyond(incumbent: BestPoint, u: Complex, fitted: np.ndarray) -> tuple[Compl
     base = np.where(fitted, least * np.exp(1j * angle), 0.0)
     # of the directions of a sector those that go no way back
     turn, opened, quarter = places.centre, places.half, 0.5 * np.pi
-    off = wrapped(angle - turn)
+    off = principal_angle(angle - turn)
     low = np.where(limits.free, angle - quarter, turn + np.maximum(-opened, off - quarter))
     high = np.where(limits.free, angle + quarter, turn + np.minimum(opened, off + quarter))
     centre, half = np.where(fitted, 0.5 * (low + high), turn), np.where(fitted, 0.5 * (high - low), opened)
@@ -141,8 +141,8 @@ def _beyond(incumbent: BestPoint, u: Complex, fitted: np.ndarray) -> tuple[Compl
 
 def cones(limits: Limits, reach: Real, centre: Real, half: Real, budget: Real) -> Limits:
     """Limits (N, K) of what is within reach [kg m] in sectors [rad], with a little room where there is none."""
-    some = np.max(np.minimum(limits.reach, 1e300), initial=0.0)
-    reach = np.maximum(reach, SPECK * some)
+    largest = np.max(np.minimum(limits.reach, 1e300), initial=0.0)
+    reach = np.maximum(reach, SPECK * largest)
     free, shape = half > 0.5 * np.pi, reach.shape
     half = np.where(free, 0.5 * np.pi, half)
     return Limits(

@@ -35,26 +35,26 @@ class Places:
         """Webs that may be left out or not (N, K)."""
         return (self.least > 0) & ~self.out & ~self.fitted
 
-    def chosen(self, nodes: "np.ndarray | list[int]") -> "Places":
+    def subset(self, nodes: "np.ndarray | list[int]") -> "Places":
         return self._mapped(lambda array: array[nodes])
 
-    def beside(self, *others: "Places") -> "Places":
+    def beside(self, *more: "Places") -> "Places":
         """All nodes in one."""
         per_node: dict[str, Any] = {
-            name: np.concatenate([getattr(self, name), *(getattr(places, name) for places in others)])
+            name: np.concatenate([getattr(self, name), *(getattr(places, name) for places in more)])
             for name in _OF_NODES
         }
         return replace(self, **per_node)
 
     def without(self, node: int, web: int) -> "Places":
         """A node alone (1, K), nothing on a web."""
-        places = self.chosen([node])
+        places = self.subset([node])
         places.out[0, self.beside_web(web)] = True
         return places
 
     def within(self, node: int, web: int, centre: float, half: float) -> "Places":
         """A node alone (1, K), something on a web, in a piece of its sector."""
-        places, webs = self.chosen([node]), self.beside_web(web)
+        places, webs = self.subset([node]), self.beside_web(web)
         places.fitted[0, webs], places.half[0, webs] = True, half
         places.centre[0, webs] = centre if self.alike is None else self.alike.angles(web, centre)[webs]
         return places
@@ -74,7 +74,7 @@ class Places:
 
     def nearest(self, angle: Real) -> Real:
         """Angles (..., N, K) [rad] within the sectors, nearest to others."""
-        off = wrapped(angle - self.centre)
+        off = principal_angle(angle - self.centre)
         return self.centre + np.clip(off, -self.half, self.half)
 
     def lowest(self, slope: Complex, price: Real) -> tuple[Real, Complex]:
@@ -82,21 +82,21 @@ class Places:
 
         Along a ray it is linear, so it is at its ends; the ray is the one nearest to against the slope.
         """
-        wanted = np.angle(-slope)
-        angle = self.nearest(wanted)
-        rate = price - np.abs(slope) * np.cos(wanted - angle)
+        direction = np.angle(-slope)
+        angle = self.nearest(direction)
+        rate = price - np.abs(slope) * np.cos(direction - angle)
         size = np.where(self.out, 0.0, np.where(rate < 0, self.most, np.where(self.fitted, self.least, 0.0)))
         return rate * size, size * np.exp(1j * angle)
 
     def when_fitted(self, slope: Complex, price: Real) -> Real:
         """The same of webs that are undecided, if something is fitted (N, K)."""
-        wanted = np.angle(-slope)
-        rate = price - np.abs(slope) * np.cos(wanted - self.nearest(wanted))
+        direction = np.angle(-slope)
+        rate = price - np.abs(slope) * np.cos(direction - self.nearest(direction))
         return rate * np.where(rate < 0, self.most, self.least)
 
-    def whole(self, some: np.ndarray) -> np.ndarray:
+    def whole(self, webs: np.ndarray) -> np.ndarray:
         """Webs (N, K) bool, with all that are alike with one of them."""
-        return some if self.alike is None else self.together(some) > 0
+        return webs if self.alike is None else self.together(webs) > 0
 
     def towards(self, u: Complex) -> Real:
         """Directions (N, K) [rad] within the sectors nearest to unbalances, alike where webs are."""
@@ -125,6 +125,6 @@ def root(least: Real, limits: Limits) -> Places:
     return Places(least, most, (least > most)[None], none, np.angle(limits.centre)[None], half[None], limits.alike)
 
 
-def wrapped(angle: Real) -> Real:
+def principal_angle(angle: Real) -> Real:
     """Angles from -pi to pi."""
     return np.mod(angle + np.pi, 2.0 * np.pi) - np.pi

@@ -55,8 +55,8 @@ def branch(
     """
 
     def bounded(nodes: list[Places], bounds: list[float]) -> tuple[float, list[tuple[float, _Open]]]:
-        first, *others = nodes
-        return _bounded(incumbent, below, first.beside(*others), np.array(bounds), gap, clock)
+        first, *rest = nodes
+        return _bounded(incumbent, below, first.beside(*rest), np.array(bounds), gap, clock)
 
     ends = Termination(lambda: incumbent.least - gap, enough, _OPEN)
     return branch_and_bound(incumbent.places, at_least, bounded, _children, ends, clock, _BATCH)
@@ -105,10 +105,10 @@ def _bounded(
             continue
         if must[n, web]:
             # it is split into pieces alone
-            node = places.chosen([n])
+            node = places.subset([n])
             node.fitted[0, places.beside_web(web)] = True
         else:
-            node = places.chosen([n])
+            node = places.subset([n])
         stays.append((float(bound[n]), _Open(node, web, float(np.angle(near[n, web])))))
     return closed, stays
 
@@ -119,8 +119,8 @@ def _offer(incumbent: BestPoint, places: Places, near: Complex, bounds: Real, cl
     incumbent.offer(np.where((least > 0) & (np.abs(near) <= _MISSES * least), 0.0, near))
     # one after the other where the kernel may not take them
     best = np.argsort(bounds, kind="stable")[: _TRIED if places.alike is None else 1]
-    some = near[best]
-    improved(incumbent, some, places.whole(places.fitted[best] | (np.abs(some) >= 0.5 * least)), clock)
+    points = near[best]
+    improved(incumbent, points, places.whole(places.fitted[best] | (np.abs(points) >= 0.5 * least)), clock)
 
 
 def relaxed(statement: Statement, places: Places) -> Statement:

@@ -70,7 +70,7 @@ class Cylinders:
             points=tuple(frame.points(point) for point in self.points),
         )
 
-    def chosen(self, which: NDArray[np.bool_]) -> Self:
+    def subset(self, which: NDArray[np.bool_]) -> Self:
         """Some of them."""
         return replace(
             self,

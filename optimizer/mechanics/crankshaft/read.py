@@ -68,7 +68,7 @@ def _seen(
 ) -> tuple[Cylinders, Flanks, Stretches]:
     """Faces along the shaft, flanks across it, and the round stretches that they show."""
     seen = cylinders.seen_from(frame)
-    along = seen.chosen(lean(seen.direction, np.array([0.0, 0.0, 1.0])) <= parallel(cylinders, tolerance))
+    along = seen.subset(lean(seen.direction, np.array([0.0, 0.0, 1.0])) <= parallel(cylinders, tolerance))
     if not len(along.number):
         refuse([FieldProblem(("frame", "z"), "no outer cylinder is along it")])
     flanks = Flanks.of(planes_of(request).seen_from(frame), tolerance)

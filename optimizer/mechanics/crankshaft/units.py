@@ -16,7 +16,7 @@ _ROUND_DEG = 300.0
 
 def unit_problems(cylinders: Cylinders) -> Iterator[FieldProblem]:
     """What is wrong with whole round faces (n,), against the medians of all."""
-    whole = cylinders.chosen(cylinders.angle_deg >= _ROUND_DEG)
+    whole = cylinders.subset(cylinders.angle_deg >= _ROUND_DEG)
     if not len(whole.number):
         return
     middle = np.mean(whole.tips, axis=1)

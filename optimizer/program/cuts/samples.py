@@ -54,7 +54,7 @@ class _Maxima(NamedTuple):
     angle: Real  # rad
     value: Complex  # about that of the curve
 
-    def chosen(self, some: Index) -> "_Maxima":
+    def subset(self, some: Index) -> "_Maxima":
         return _Maxima._make(field[some] for field in self)
 
 
@@ -132,9 +132,9 @@ class _Curves:
             every = self.maxima(_about(centre), least)
             still: list[int] = []
             for k in open_:
-                points = _joined([held[k], every.chosen(every.curve == k)])
+                points = _joined([held[k], every.subset(every.curve == k)])
                 circle = smallest_circle(points.value)
-                held[k] = points.chosen(circle.support)
+                held[k] = points.subset(circle.support)
                 before, circles[k] = circles[k].radius, circle
                 if abs(circle.radius - before) > _STEADY * circle.radius:
                     still.append(k)

@@ -100,16 +100,16 @@ def both_stages(
         if not all_true(quick.certified):
             left = np.flatnonzero(~quick.certified)
             if statement.ceilings.names:
-                left = left[~_out_of_reach(statement.chosen(left))]
+                left = left[~_out_of_reach(statement.subset(left))]
             if left.size:
-                part = statement.chosen(left)
+                part = statement.subset(left)
                 quick.put(left, _in_any_limits(part, share[left], demand[left], least_mass, level[left]))
         return quick
-    quick = _as_discs(statement.chosen(discs), share[discs], demand[discs], least_mass, level[discs])
+    quick = _as_discs(statement.subset(discs), share[discs], demand[discs], least_mass, level[discs])
     done = discs[quick.certified]
     left = np.setdiff1d(np.arange(share.size), done)
-    rest = _in_any_limits(statement.chosen(left), share[left], demand[left], least_mass, level[left])
-    return joined([quick.chosen(quick.certified), rest], np.argsort(np.concatenate([done, left])))
+    rest = _in_any_limits(statement.subset(left), share[left], demand[left], least_mass, level[left])
+    return joined([quick.subset(quick.certified), rest], np.argsort(np.concatenate([done, left])))
 
 
 def _as_discs(statement: Statement, share: Real, demand: Real, least_mass: bool, at_least: Real) -> BothStages:
@@ -129,7 +129,7 @@ def _as_discs(statement: Statement, share: Real, demand: Real, least_mass: bool,
     stages = _judged(statement, share, demand, least_mass, solved)
     left = np.flatnonzero(below & ~stages.certified)
     if left.size:
-        part = statement.chosen(left)
+        part = statement.subset(left)
         solved = _solve(part, share[left], least_mass, _DOUBLE, disc_stages, at_least[left])
         stages.put(left, _judged(part, share[left], demand[left], least_mass, solved))
     return stages
@@ -171,7 +171,7 @@ def _guess(statement: Statement, share: Real, least_mass: bool) -> "_Solved":
     last = guess.mass_proof if least_mass else guess.proof
     left = np.flatnonzero(np.minimum(guess.proof.row, last.row)[:, 0] <= 0.0)
     if left.size:
-        guess.put(left, _solve(statement.chosen(left), share[left], least_mass, _DOUBLE))
+        guess.put(left, _solve(statement.subset(left), share[left], least_mass, _DOUBLE))
     return guess
 
 
@@ -182,19 +182,19 @@ def _in_any_limits(statement: Statement, share: Real, demand: Real, least_mass: 
     if not statement.ceilings.names or stages.certified.all():
         return stages
     left = np.flatnonzero(~stages.certified)
-    nearest = _solve(statement.chosen(left).excess(), np.full(left.size, CEILING_TOLERANCE), False, _DOUBLE).smallest
-    room = points_at(statement.chosen(left), nearest).excess < 0
+    nearest = _solve(statement.subset(left).excess(), np.full(left.size, CEILING_TOLERANCE), False, _DOUBLE).smallest
+    room = points_at(statement.subset(left), nearest).excess < 0
     left, inside = left[room], nearest[room]
     for tolerances in (_DOUBLE, _ELSEWHERE):
         if not left.size:
             break
-        part = statement.chosen(left)
+        part = statement.subset(left)
         if tolerances is _DOUBLE:
-            points = solved.chosen(left)
+            points = solved.subset(left)
         else:
             points = _solve(part, share[left], least_mass, tolerances, at_least=part.objective(inside))
         again = _judged(part, share[left], demand[left], least_mass, points.pulled(part, inside))
-        stages.put(left[again.certified], again.chosen(again.certified))
+        stages.put(left[again.certified], again.subset(again.certified))
         left, inside = left[~again.certified], inside[~again.certified]
     return stages
 
@@ -240,7 +240,7 @@ class _Solved:
     proof: Multipliers  # (N, ...), of the objective
     mass_proof: Multipliers  # (N, ...), of the mass
 
-    def chosen(self, programs: np.ndarray) -> "_Solved":
+    def subset(self, programs: np.ndarray) -> "_Solved":
         return mapped(self, lambda array: array[programs])
 
     def put(self, programs: np.ndarray, others: "_Solved") -> None:

@@ -39,7 +39,7 @@ class Optimum(NamedTuple):
         close = points.objective <= self.objective + points.rounding
         return np.asarray(close & (points.mass <= self.mass) & (points.excess <= self.excess))
 
-    def chosen(self, programs: np.ndarray) -> "Optimum":
+    def subset(self, programs: np.ndarray) -> "Optimum":
         bound = None if self.mass_bound is None else self.mass_bound[programs]
         return Optimum(self.objective[programs], self.mass[programs], self.excess[programs], bound)
 
@@ -65,7 +65,7 @@ def leave_empty(
     programs = unclean[np.logical_or.reduce(dust(masses), axis=-1)]
     if not programs.size:
         return
-    some, part = statement.chosen(programs), share[programs]
+    some, part = statement.subset(programs), share[programs]
     old = points_at(some, solutions.unbalance[programs])
     close = solutions.lower_bound[programs] + TARGET * part - old.rounding
     bound = solutions.mass_lower_bound[programs]
@@ -81,15 +81,15 @@ def leave_empty(
     own = np.flatnonzero(np.logical_or.reduce(empty, axis=-1))
     if not own.size:
         return
-    subset = some if own.size == programs.size else some.chosen(own)
-    new, success = _without(subset, empty[own], optimum.chosen(own), part[own], least_mass)
+    subset = some if own.size == programs.size else some.subset(own)
+    new, success = _without(subset, empty[own], optimum.subset(own), part[own], least_mass)
     done = success & ~has_dust(subset.limits, new.unbalance)
-    _put(solutions, programs[own[done]], new.chosen(done))
+    _put(solutions, programs[own[done]], new.subset(done))
     for k in (~done).nonzero()[0].tolist():
         place, n = np.array([k]), own[[k]]
         best = _emptied(
-            subset.chosen(place), old.chosen(n), new.chosen(place) if success[k] else None, empty[n],
-            optimum.chosen(n), part[n], least_mass,
+            subset.subset(place), old.subset(n), new.subset(place) if success[k] else None, empty[n],
+            optimum.subset(n), part[n], least_mass,
         )  # fmt: skip
         _put(solutions, programs[n], best)
 
@@ -177,5 +177,5 @@ def _without(
         tried, left = tried[again], room[again]
         if not tried.size:
             break
-        some, wanted, whole = part.chosen(tried), optimum.chosen(tried), programs.chosen(tried)
+        some, wanted, whole = part.subset(tried), optimum.subset(tried), programs.subset(tried)
     return best, success

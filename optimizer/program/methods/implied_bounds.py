@@ -58,11 +58,11 @@ def within_reach(statement: Statement) -> Statement:
     reached = far & np.all(statement.ceilings.excess(nothing) <= 0, axis=-1)
     if statement.limits.alike is None and np.any(reached):
         # all those together that nothing need be found out about
-        some = statement.chosen(reached)
+        some = statement.subset(reached)
         most[reached] = _finite(some, level_above(some, nothing))
         far = far & ~reached
     for place in np.argwhere(far).tolist():
-        most[tuple(place)] = _within_reach(statement.chosen(tuple(place))).limits.max_mass
+        most[tuple(place)] = _within_reach(statement.subset(tuple(place))).limits.max_mass
     return replace(statement, limits=replace(statement.limits, max_mass=most))
 
 
@@ -118,7 +118,7 @@ def _finite(statement: Statement, level: Real) -> Real:
         for webs, programs in _alike(far):
             if not np.any(webs):
                 continue
-            some = statement.chosen(programs)
+            some = statement.subset(programs)
             mass = np.minimum(_masses(some, webs, level[programs]), some.limits.max_total_mass[:, None])
             near = webs & (some.limits.max_mass < mass)
             done = ~np.any(near, axis=-1)
@@ -145,7 +145,7 @@ def _masses(statement: Statement, far: np.ndarray, level: Real) -> Real:
         masses[:, far] = _scattered(statement, far, level)[:, None]
         return masses
     for some in responses(statement, far, level):
-        limits = statement.chosen(some.programs).limits.only(far)
+        limits = statement.subset(some.programs).limits.only(far)
         influence, most, scalar = some.influence * limits.radius[:, None, :], some.most, some.scalar
         together = carrying_mass(influence, limits, most, scalar)
         by_inverse = _masses_by_inverse(influence[:, ~scalar], most[:, ~scalar])

@@ -34,7 +34,7 @@ def settle_without_slack_rows(
     left = np.flatnonzero(~stages.certified)
     if not left.size:
         return
-    rows = statement.chosen(left).rows(statement.chosen(left).norms.sizes(stages.smallest[left]))
+    rows = statement.subset(left).rows(statement.subset(left).norms.sizes(stages.smallest[left]))
     largest = np.max(rows, axis=-1, keepdims=True)
     # never the largest itself, which may be below 0
     far = largest - rows > _FAR * np.abs(largest)
@@ -42,7 +42,7 @@ def settle_without_slack_rows(
         programs = left[np.all(far == pattern, axis=-1)]
         if not np.any(pattern):
             continue
-        whole, terms = statement.chosen(programs), ~pattern[statement.row]
+        whole, terms = statement.subset(programs), ~pattern[statement.row]
         part = both_stages(_of_rows(whole, ~pattern, terms), share[programs], demand[programs], least_mass)
         objective = points_at(whole, part.unbalance).objective
         # no row that was left out has become the largest
@@ -52,7 +52,7 @@ def settle_without_slack_rows(
             multipliers=_over_all(whole, ~pattern, terms, part.multipliers),
             mass_multipliers=_over_all(whole, ~pattern, terms, part.mass_multipliers),
         )
-        stages.put(programs[success], part.chosen(success))
+        stages.put(programs[success], part.subset(success))
 
 
 def _of_rows(statement: Statement, rows: np.ndarray, terms: np.ndarray) -> Statement:

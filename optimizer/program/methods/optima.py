@@ -67,12 +67,12 @@ class Optima(Solutions):
             float(self.mass[n]),
             float(self.mass_lower_bound[n]),
             float(self.excess[n]),
-            self.multipliers.chosen(n),
+            self.multipliers.subset(n),
             str(self.method[n]),
             float(self.certify_s[n]),
-            self.mass_multipliers.chosen(n),
+            self.mass_multipliers.subset(n),
             float(self.mass_target[n]),
-            self.conflict.chosen(n) if self.unreachable[n] else None,
+            self.conflict.subset(n) if self.unreachable[n] else None,
         )
 
 
@@ -98,7 +98,7 @@ def optima(statement: Statement, relative_gap: float, least_mass: bool) -> Optim
     parts, places = [], []
     for k, webs in enumerate(patterns):
         programs = np.flatnonzero(which.reshape(-1) == k)
-        part = _optima(statement.chosen(programs).only(webs), relative_gap, least_mass)
+        part = _optima(statement.subset(programs).only(webs), relative_gap, least_mass)
         everywhere = np.zeros((programs.size, webs.size), complex)
         everywhere[:, webs] = part.unbalance
         parts.append(replace(part, unbalance=everywhere))
@@ -118,9 +118,9 @@ def _optima(statement: Statement, relative_gap: float, least_mass: bool) -> Opti
     if stages is not None and left.size and statement.ceilings.names:
         left = _without_unreachable(statement, answer, left)
     for n in left.tolist():
-        program, target = statement.chosen(n), Target(float(share[n]), float(demand[n]), least_mass)
+        program, target = statement.subset(n), Target(float(share[n]), float(demand[n]), least_mass)
         quick = (
-            interior_point(program, target) if stages is None else only(program, target, stages.chosen(np.array([n])))
+            interior_point(program, target) if stages is None else only(program, target, stages.subset(np.array([n])))
         )
         _put(answer, n, cascade(program, target, quick))
     leave_empty(statement, answer, share, least_mass, answer.unreachable if any_true(answer.unreachable) else None)
@@ -138,13 +138,13 @@ def _without_unreachable(statement: Statement, answer: Optima, programs: np.ndar
 
     As :func:`optimizer.program.methods.cascade.cascade` answers one of them.
     """
-    some = statement.chosen(programs)
+    some = statement.subset(programs)
     nearest = smallest_excesses(some)
     over = nearest.lower_bound > CEILING_ROUNDING
-    proven, at, points = nearest.chosen(over), programs[over], points_at(some, nearest.smallest).chosen(over)
+    proven, at, points = nearest.subset(over), programs[over], points_at(some, nearest.smallest).subset(over)
     answer.unbalance[at], answer.objective[at], answer.mass[at] = points.unbalance, points.objective, points.mass
     answer.excess[at], answer.lower_bound[at], answer.mass_lower_bound[at] = points.excess, -np.inf, 0.0
-    answer.multipliers.put(at, nothing_proven(some.chosen(over)))
+    answer.multipliers.put(at, nothing_proven(some.subset(over)))
     answer.mass_target[at], answer.certify_s[at] = np.inf, proven.certify_s
     answer.unreachable[at], answer.method[at], answer.clean[at] = True, CONE_PROGRAM, False
     answer.conflict.put(at, proven.multipliers)

@@ -59,7 +59,7 @@ def only(statement: Statement, target: Target, stages: BothStages, method: str =
         np.inf,
         0.0,
         np.inf,
-        stages.multipliers.chosen(0),
+        stages.multipliers.subset(0),
         method,
         float(stages.certify_s[0]),
     )
@@ -70,7 +70,7 @@ def only(statement: Statement, target: Target, stages: BothStages, method: str =
             smallest,
             # what exceeds the ceilings has an objective below the smallest: too few would count as optima
             mass_lower_bound=float(stages.mass_lower_bound[0]) if smallest.below_ceilings else 0.0,
-            mass_multipliers=stages.mass_multipliers.chosen(0),
+            mass_multipliers=stages.mass_multipliers.subset(0),
             mass_target=float(stages.mass_target[0]),
         )
     return StagePair(smallest, lightest.moved_to(statement, stages.unbalance[0]), bool(stages.certified[0]))

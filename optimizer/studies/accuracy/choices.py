@@ -101,7 +101,7 @@ class Ladder(NamedTuple):
 def at_rest(request: AccuracyRequest, scene: Prepared) -> Statement:
     """The program of any masses; plates are not opened yet, and reach as far as they can."""
     (machine, objective), square = Task.of(request).space, np.array([scene.omega_squared])
-    return cone_program(closed(machine), objective, scene.responses, square).chosen(0)
+    return cone_program(closed(machine), objective, scene.responses, square).subset(0)
 
 
 def choices_ladder(request: AccuracyRequest, scene: Prepared) -> Ladder:

@@ -53,7 +53,7 @@ def accuracy(request: AccuracyRequest) -> AccuracyAnswer:
     start = time.perf_counter()
     # outputs play no part: what they would miss must not refuse the ladder
     scene = prepare(request, ("residual",))
-    fields = (_choice_fields if request.as_made else _method_fields)(request, scene)
+    fields = (_choice_fields if request.has_production_limits else _method_fields)(request, scene)
     return AccuracyAnswer(
         **fields,
         repeats=request.repeats,

@@ -145,7 +145,7 @@ def _batch(relative_gap: float) -> Run:
 
 def _lighter(statement: Statement, share: Real) -> Statement:
     """The program with these shares (N,) of the machine's masses and ceilings, within the same limits."""
-    batch = statement.alone().chosen(np.zeros(share.size, int))
+    batch = statement.alone().subset(np.zeros(share.size, int))
     norms, ceilings, column = batch.norms, batch.ceilings, share[:, None]
     return replace(
         batch,

@@ -8,7 +8,7 @@ import numpy as np
 from optimizer.numerics.arrays import Real
 from optimizer.solve.solution import Solution
 from optimizer.studies.matching.bound import best_plane
-from optimizer.studies.matching.chosen import Chosen
+from optimizer.studies.matching.counterweight_optima import CounterweightOptima
 from optimizer.studies.matching.exhaustion import candidates
 from optimizer.studies.matching.fitted import BestAssignment, few
 from optimizer.studies.matching.problem import Minorants, Problem
@@ -31,21 +31,21 @@ class _Assignment(NamedTuple):
     fitted: Solution | None  # its counterweights, where they are no optimum of any masses
 
 
-class WithChosen(NamedTuple):
+class SearchOutcome(NamedTuple):
     """Where the search ended, and the counterweights of the best assignment and of the parts as they are listed."""
 
     best: BestAssignment
     fitted: Solution | None
-    listed: Solution | None
+    input_order: Solution | None
 
 
 class _Search:
     """The assignments that are known, and the minorants of all."""
 
-    def __init__(self, problem: Problem, chosen: Chosen) -> None:
-        self.problem, self.chosen, self._evaluations = problem, chosen, dict[bytes, _Assignment]()
+    def __init__(self, problem: Problem, optima: CounterweightOptima) -> None:
+        self.problem, self.optima, self._evaluations = problem, optima, dict[bytes, _Assignment]()
         self.below = Minorants(np.zeros(0), np.zeros((0, problem.start.size), complex), np.zeros((0, problem.row.size)))
-        self.solve(problem.listed[None])
+        self.solve(problem.input_order[None])
 
     @property
     def best(self) -> _Assignment:
@@ -57,16 +57,16 @@ class _Search:
         return min(evaluation.bound for evaluation in self._evaluations.values())
 
     @property
-    def listed(self) -> _Assignment:
-        return self._evaluations[self._key(self.problem.listed)]
+    def input_order(self) -> _Assignment:
+        return self._evaluations[self._key(self.problem.input_order)]
 
     @property
     def late(self) -> bool:
-        return time.thread_time() >= self.chosen.until
+        return time.thread_time() >= self.optima.until
 
     def solve(self, mass: Real) -> None:
         """Solve assignments (N, T), and add what they prove of all."""
-        result = self.chosen.at(mass, self.best.value if self._evaluations else np.inf)
+        result = self.optima.at(mass, self.best.value if self._evaluations else np.inf)
         rows = zip(result.value.tolist(), result.lower_bound.tolist(), mass, result.fitted, strict=True)
         for row in rows:
             self._evaluations[self._key(row[2])] = _Assignment(*row)
@@ -85,12 +85,12 @@ class _Search:
         return self.problem.row_masses(mass).tobytes()
 
 
-def with_chosen(request: MatchRequest, problem: Problem, near: float) -> WithChosen:
+def search_assignments(request: MatchRequest, problem: Problem, near: float) -> SearchOutcome:
     """The best assignment with the counterweights that are best for it: planes below what they reach, one by one."""
     until = time.thread_time() + request.accuracy.time_limit_s
-    search = _Search(problem, Chosen(request, problem, near, until))
+    search = _Search(problem, CounterweightOptima(request, problem, near, until))
     result = _best(search, near)
-    return WithChosen(result, search.best.fitted, search.listed.fitted)
+    return SearchOutcome(result, search.best.fitted, search.input_order.fitted)
 
 
 def _best(search: _Search, near: float) -> BestAssignment:
@@ -98,8 +98,8 @@ def _best(search: _Search, near: float) -> BestAssignment:
     for _ in range(_ROUNDS):
         if search.late:
             break
-        tried = searched(problem, search.below, search.best.mass[None])
-        new = search.unknown(tried[search.values(tried) < search.best.value])[:_PROGRAMS]
+        proposals = searched(problem, search.below, search.best.mass[None])
+        new = search.unknown(proposals[search.values(proposals) < search.best.value])[:_PROGRAMS]
         if not new.size:
             break
         search.solve(new)

@@ -70,8 +70,8 @@ def _ascended(problem: Problem, minorant: Minorants, value: float, near: float) 
         length = np.sqrt(np.abs(v) ** 2 + smooth**2)
         if not np.all(length > 0):
             break
-        tried, corner = plane(problem, constant, slope + weight * v / length)
-        best = max(best, tried, key=lambda cut: cut.least)
+        candidate, corner = plane(problem, constant, slope + weight * v / length)
+        best = max(best, candidate, key=lambda cut: cut.least)
         mixed = constant + float(np.real(np.vdot(slope, v)) + weight @ np.abs(v))
         if value - best.least <= near or mixed - best.least <= _CLOSE * abs(value - best.least):
             break
@@ -97,7 +97,7 @@ def _mixture(corners: Complex, slope: Complex, stiffness: Real) -> Real:
     far = _FAR * size
     squares = np.concatenate([scaled.real, scaled.imag, (far + linear / far)[None], np.full((1, len(corners)), far)])
     squares[-2] -= far
-    wanted = np.zeros(len(squares))
-    wanted[-1], wanted[-2] = far, -far
-    shares, _ = nnls(squares, wanted)
+    target = np.zeros(len(squares))
+    target[-1], target[-2] = far, -far
+    shares, _ = nnls(squares, target)
     return shares / np.sum(shares)

@@ -52,7 +52,7 @@ class Solved(NamedTuple):
 
 
 @record(frozen=True)
-class Chosen:
+class CounterweightOptima:
     """What counterweights make of assignments."""
 
     request: MatchRequest
@@ -61,7 +61,7 @@ class Chosen:
     until: float  # of this thread's own time, when no more are searched
 
     @property
-    def as_made(self) -> bool:
+    def is_nonconvex(self) -> bool:
         """Whether every assignment is certified by itself: chosen, at least so heavy, or cut from plates."""
         machine = self.request.machine
         return machine.choice is not None or plates(machine) is not None
@@ -77,7 +77,7 @@ class Chosen:
         program = self._programs(row_mass)
         answer = optima(program, _GAP, False)
         below = self._minorants(program, answer.multipliers, mass)
-        if not self.as_made:
+        if not self.is_nonconvex:
             return Solved(answer.objective, answer.lower_bound, below, [None] * len(mass))
         value, bound = np.full(len(mass), np.inf), answer.lower_bound.copy()
         fitted_there: list[Solution | None] = [None] * len(mass)
@@ -90,17 +90,17 @@ class Chosen:
         return Solved(value, bound, below, fitted_there)
 
     @cached_property
-    def _posed(self) -> OptimizeRequest:
+    def _optimize_request(self) -> OptimizeRequest:
         return OptimizeRequest(machine=self.request.machine, objective=self.request.objective)
 
     @cached_property
-    def _of_any_mass(self) -> ReciprocatingMachine:
+    def _convex_machine(self) -> ReciprocatingMachine:
         """The machine whose counterweights have any mass within their limits; plates reach as far as they can."""
         machine = self.request.machine
         return with_fields(machine, {("webs",): closed(machine).webs})
 
     def _programs(self, row_mass: Real) -> Statement:
-        machine = with_masses(self._of_any_mass, row_mass)
+        machine = with_masses(self._convex_machine, row_mass)
         leading = row_mass.shape[:-1]
         plan = spread(laden(layout(machine), machine), leading)
         space, objective = design_space(machine, self.request.objective)
@@ -117,8 +117,8 @@ class Chosen:
         machine = with_masses(self.request.machine, row_mass)
         gap = np.clip(_OPEN * self.near / at_rest if at_rest > 0 else 1.0, _CLOSEST, 1.0)
         left = max(self.until - time.thread_time(), _SHORTEST_S)
-        task = Task(machine, self.request.objective, self._posed.fidelity, float(gap), left)
-        scene = prepare(self._posed, self._posed.outputs, machine=machine)
+        task = Task(machine, self.request.objective, self._optimize_request.fidelity, float(gap), left)
+        scene = prepare(self._optimize_request, self._optimize_request.outputs, machine=machine)
         # without ceilings nothing is infeasible
         solution = solve(task, scene, in_full=False).certain()
         proof = solution.certificate
@@ -138,11 +138,11 @@ class Chosen:
         return Minorants(constant[mask], slope[mask], weight[mask])
 
 
-def with_masses(machine: ReciprocatingMachine, added: Real) -> ReciprocatingMachine:
+def with_masses(machine: ReciprocatingMachine, increase: Real) -> ReciprocatingMachine:
     """The machine with more on its rows, kg: numbers (rows,), or columns (N, rows) of many machines."""
     places = [(t, r) for t, throw in enumerate(machine.throws) for r in range(len(throw.rows))]
     values: dict[Path, Real | float] = {}
-    for (t, r), more in zip(places, np.moveaxis(added, -1, 0), strict=True):
+    for (t, r), more in zip(places, np.moveaxis(increase, -1, 0), strict=True):
         heavier = machine.throws[t].rows[r].reciprocating_mass_kg + more
         values["throws", t, "rows", r, "reciprocating_mass_kg"] = heavier if more.ndim else float(heavier)
     return with_fields(machine, values)

@@ -33,8 +33,8 @@ class Half(NamedTuple):
 
     def mass(self, number: int) -> dict[int, Real]:
         """Masses at the rows of every class of one arrangement."""
-        which = np.unravel_index(number, [len(mass) for mass in self.masses])
-        return {c: mass[k] for c, mass, k in zip(self.classes, self.masses, which, strict=True)}
+        digits = np.unravel_index(number, [len(mass) for mass in self.masses])
+        return {c: mass[k] for c, mass, k in zip(self.classes, self.masses, digits, strict=True)}
 
 
 def _arranged(places: Places) -> Real | None:
@@ -51,24 +51,24 @@ def halves(problem: Problem) -> tuple[Half, Half] | None:
     if len(masses) < len(results):
         return None
     sizes, every = [float(len(mass)) for mass in masses], range(len(masses))
-    splits = [some for count in range(len(masses)) for some in combinations(every, count)]
-    half = min(splits, key=lambda some: max(np.prod([sizes[c] for c in some]), _rest(sizes, some)))
-    other = tuple(c for c in every if c not in half)
-    if max(np.prod([sizes[c] for c in half]), np.prod([sizes[c] for c in other])) > _SUMS:
+    splits = [subset for count in range(len(masses)) for subset in combinations(every, count)]
+    half = min(splits, key=lambda subset: max(np.prod([sizes[c] for c in subset]), _rest(sizes, subset)))
+    rest = tuple(c for c in every if c not in half)
+    if max(np.prod([sizes[c] for c in half]), np.prod([sizes[c] for c in rest])) > _SUMS:
         return None
-    return _half(problem, half, masses), _half(problem, other, masses)
+    return _half(problem, half, masses), _half(problem, rest, masses)
 
 
-def _rest(sizes: list[float], some: tuple[int, ...]) -> float:
-    return float(np.prod([size for c, size in enumerate(sizes) if c not in some]))
+def _rest(sizes: list[float], subset: tuple[int, ...]) -> float:
+    return float(np.prod([size for c, size in enumerate(sizes) if c not in subset]))
 
 
 def _half(problem: Problem, classes: tuple[int, ...], masses: list[Real]) -> Half:
     sums = np.zeros((1, problem.start.size), complex)
     for c in classes:
         on = problem.classes[c].row
-        added = masses[c] @ problem.of_row[:, on[on >= 0]].T
-        sums = (sums[:, None, :] + added[None, :, :]).reshape(-1, problem.start.size)
+        contribution = masses[c] @ problem.of_row[:, on[on >= 0]].T
+        sums = (sums[:, None, :] + contribution[None, :, :]).reshape(-1, problem.start.size)
     return Half(classes, tuple(masses[c] for c in classes), sums)
 
 
@@ -84,8 +84,8 @@ def candidates(problem: Problem, minorants: Minorants, value: float, cut: Plane)
     parts = halves(problem)
     if parts is None:
         return None
-    half, other = parts
-    base = problem.start + other.sums
+    half, rest = parts
+    base = problem.start + rest.sums
     pairs = _pairs(problem, minorants, value, cut, half.sums, base)
     if pairs is None:
         return None
@@ -97,15 +97,15 @@ def candidates(problem: Problem, minorants: Minorants, value: float, cut: Plane)
         below = np.flatnonzero(result < value)
         places.append(below + at)
         values.append(result[below])
-    chosen, worth = np.concatenate([*places, np.zeros(0, int)]), np.concatenate([*values, np.zeros(0)])
+    numbers, worth = np.concatenate([*places, np.zeros(0, int)]), np.concatenate([*values, np.zeros(0)])
     # of one that is exactly the best known many may be equal: those are no better, and not here
     order = np.argsort(worth, kind="stable")[:_CHUNK]
-    if chosen.size > _CHUNK:
+    if numbers.size > _CHUNK:
         return None
     masses = [
-        _assignment(problem, half.mass(int(first[n])) | other.mass(int(second[n]))) for n in chosen[order].tolist()
+        _assignment(problem, half.mass(int(first[n])) | rest.mass(int(second[n]))) for n in numbers[order].tolist()
     ]
-    return np.array(masses).reshape(-1, problem.listed.size), worth[order]
+    return np.array(masses).reshape(-1, problem.input_order.size), worth[order]
 
 
 def _assignment(problem: Problem, by_class: dict[int, Real]) -> Real:

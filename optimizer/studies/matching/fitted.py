@@ -37,17 +37,17 @@ def as_fitted(problem: Problem, near: float, seconds: float, has_nuts: bool) -> 
     has_nuts : the last class is that of nuts.
     """
     until = time.thread_time() + seconds
-    peaks, listed = problem.peaks, problem.listed
+    peaks, input_order = problem.peaks, problem.input_order
     # not as they are listed, so that the order of the list changes nothing
-    begun = np.concatenate([np.sort(listed[part]) for part in problem.slices])
+    begun = np.concatenate([np.sort(input_order[part]) for part in problem.slices])
     starts = [begun]
     if has_nuts and len(problem.classes) > 1:
         bare = as_fitted(replace(problem, classes=problem.classes[:-1]), near, _BARE * seconds, False)
         starts.append(np.concatenate([bare.mass, problem.classes[-1].mass]))
-    mass = min([searched(problem, peaks, np.array(starts))[0], listed], key=lambda start: _value(problem, start))
+    mass = min([searched(problem, peaks, np.array(starts))[0], input_order], key=lambda start: _value(problem, start))
     value = _value(problem, mass)
     cut = best_plane(problem, peaks, value, near)
-    bound, all_counted = cut.least, False
+    bound, is_complete = cut.least, False
 
     def spent() -> bool:
         return time.thread_time() >= until
@@ -57,7 +57,7 @@ def as_fitted(problem: Problem, near: float, seconds: float, has_nuts: bool) -> 
         if better is not None:
             result, values = better
             mass, value = (result[0], float(values[0])) if values.size else (mass, value)
-            bound, all_counted = value, True
+            bound, is_complete = value, True
         else:
             if bound <= problem.rounding and not all_sets(problem):
                 mass = near_to_nothing(problem, mass, bound + near, spent)
@@ -65,8 +65,8 @@ def as_fitted(problem: Problem, near: float, seconds: float, has_nuts: bool) -> 
             if single_class(problem):
                 ended = exhausted(problem, cut, value, near, spent)
                 mass, value = (mass, value) if ended.mass is None else (ended.mass, ended.value)
-                bound, all_counted = max(bound, ended.lower_bound), ended.complete
-    return BestAssignment(mass, bound - problem.rounding, all_counted, value - bound > near and spent())
+                bound, is_complete = max(bound, ended.lower_bound), ended.complete
+    return BestAssignment(mass, bound - problem.rounding, is_complete, value - bound > near and spent())
 
 
 def few(problem: Problem) -> bool:

@@ -40,19 +40,19 @@ def near_to_nothing(problem: Problem, mass: Real, enough: float, spent: Callable
         if len(groups) < 4:
             break
         every = first, second, third, fourth = [_orders(rows, mass, places) for places in groups]
-        wanted = -axes @ _real(problem, problem.vectors(mass))
+        target = -axes @ _real(problem, problem.vectors(mass))
         middle = np.mean(first.points, axis=0) + np.mean(second.points, axis=0)
-        rest = wanted - np.mean(third.points, axis=0) - np.mean(fourth.points, axis=0)
+        rest = target - np.mean(third.points, axis=0) - np.mean(fourth.points, axis=0)
         # any share will do that is as near to the middle of both pairs
         about = chance.random() * 0.5 * (middle + rest)
-        which = nearest_sums([group.points for group in every], about, wanted)
-        tried = np.tile(mass, (which.shape[1], 1))
-        for group, order in zip(every, which, strict=True):
-            tried[:, group.places] = group.mass[order]
-        values = problem.peaks.at(problem.vectors(tried))
+        orders = nearest_sums([group.points for group in every], about, target)
+        trials = np.tile(mass, (orders.shape[1], 1))
+        for group, order in zip(every, orders, strict=True):
+            trials[:, group.places] = group.mass[order]
+        values = problem.peaks.at(problem.vectors(trials))
         left -= 1
         if values.size and np.min(values) < value:
-            mass, value, left = tried[np.argmin(values)], float(np.min(values)), _PATIENCE
+            mass, value, left = trials[np.argmin(values)], float(np.min(values)), _PATIENCE
     return mass
 
 
@@ -88,8 +88,8 @@ def _dealt(problem: Problem, chance: np.random.Generator) -> list[np.ndarray]:
 
 
 def _orders(rows: Real, mass: Real, places: np.ndarray) -> _Orders:
-    put = mass[places][_every(places.size)]
-    return _Orders(places, put, (put - mass[places]) @ rows[:, places].T)
+    arrangement = mass[places][_every(places.size)]
+    return _Orders(places, arrangement, (arrangement - mass[places]) @ rows[:, places].T)
 
 
 @lru_cache(maxsize=_PLACES)

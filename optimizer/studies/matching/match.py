@@ -21,8 +21,8 @@ from optimizer.optimize import optimize
 from optimizer.program.verdict import Claim, verdict
 from optimizer.solve.solution import Solution
 from optimizer.solve.statuses import LATE
-from optimizer.studies.matching.chosen import with_masses
-from optimizer.studies.matching.chosen_search import WithChosen, with_chosen
+from optimizer.studies.matching.assignment_search import SearchOutcome, search_assignments
+from optimizer.studies.matching.counterweight_optima import with_masses
 from optimizer.studies.matching.fitted import BestAssignment, as_fitted
 from optimizer.studies.matching.problem import Problem, stated
 from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer, Timing
@@ -57,12 +57,12 @@ def match(request: MatchRequest) -> MatchAnswer:
     problem = stated(request, cut, fitted, angle)
     searching = time.perf_counter()
     choice = request.choose_counterweights and any(web.max_mass_kg != 0 for web in request.machine.every_web)
-    near = request.accuracy.relative_gap * float(problem.peaks.at(problem.vectors(problem.listed)))
+    near = request.accuracy.relative_gap * float(problem.peaks.at(problem.vectors(problem.input_order)))
     if choice:
-        result = with_chosen(request, problem, near)
+        result = search_assignments(request, problem, near)
     else:
         best = as_fitted(problem, near, request.accuracy.time_limit_s, bool(request.balance_nuts_kg))
-        result = WithChosen(best, None, None)
+        result = SearchOutcome(best, None, None)
     reporting = time.perf_counter()
     fields = _answer(request, problem, result)
     end = time.perf_counter()
@@ -78,10 +78,10 @@ def match(request: MatchRequest) -> MatchAnswer:
     )
 
 
-def _answer(request: MatchRequest, problem: Problem, result: WithChosen) -> dict[str, Any]:
+def _answer(request: MatchRequest, problem: Problem, result: SearchOutcome) -> dict[str, Any]:
     """Names for masses, and every figure evaluated anew by the mechanics."""
     machine, best = request.machine, result.best
-    before = _evaluated(request, with_masses(machine, problem.row_masses(problem.listed)), result.listed)
+    before = _evaluated(request, with_masses(machine, problem.row_masses(problem.input_order)), result.input_order)
     heavier = with_masses(machine, problem.row_masses(best.mass))
     after = _evaluated(request, heavier, result.fitted)
     omega_squared = (machine.speed_rpm * np.pi / 30.0) ** 2
@@ -100,7 +100,7 @@ def _answer(request: MatchRequest, problem: Problem, result: WithChosen) -> dict
         ),
         request.accuracy.relative_gap,
     )
-    assignments, spares = _named(request, problem, best.mass)
+    assignments, spares = _assignments(request, problem, best.mass)
     nothing = bool(np.isnan(judged.relative_gap))
     rows = [row for throw in heavier.throws for row in throw.rows]
     return {
@@ -146,20 +146,20 @@ class _Evaluated(NamedTuple):
     rounding: float  # of the objective
 
 
-def _evaluated(request: MatchRequest, machine: ReciprocatingMachine, chosen: Solution | None) -> _Evaluated:
+def _evaluated(request: MatchRequest, machine: ReciprocatingMachine, solution: Solution | None) -> _Evaluated:
     """A machine with its parts.
 
     Parameters
     ----------
-    chosen : counterweights that were searched; None: those of the request, or those of any masses that are best.
+    solution : counterweights that were searched; None: those of the request, or those of any masses that are best.
     """
     goal = request.objective
     answer: AnalyzeAnswer | OptimizeAnswer
-    if request.choose_counterweights and chosen is None:
+    if request.choose_counterweights and solution is None:
         close = {"relative_gap": min(request.accuracy.relative_gap, 1e-6)}
         answer = optimize(OptimizeRequest(machine=machine, objective=goal, accuracy=Accuracy(**close)))
     else:
-        weights = tuple(GivenCounterweight(**counterweight) for counterweight in _counterweights(request, chosen))
+        weights = tuple(GivenCounterweight(**counterweight) for counterweight in _counterweights(request, solution))
         answer = analyze(AnalyzeRequest(machine=machine, counterweights=weights))
     fitted = every_counterweight(answer)
     mass, angle = np.array([weight.mass_kg for weight in fitted]), np.array([weight.angle_deg for weight in fitted])
@@ -180,25 +180,27 @@ def _evaluated(request: MatchRequest, machine: ReciprocatingMachine, chosen: Sol
     )
 
 
-def _counterweights(request: MatchRequest, chosen: Solution | None) -> Iterator[dict[str, Any]]:
+def _counterweights(request: MatchRequest, solution: Solution | None) -> Iterator[dict[str, Any]]:
     """Counterweights that are on the machine, those that were chosen or those of the request."""
-    if chosen is None:
+    if solution is None:
         yield from (counterweight.model_dump() for counterweight in request.counterweights)
         return
-    for weight in chosen.shown.all_of_them:
+    for weight in solution.placement.all_of_them:
         if weight.mass_kg > 0.0 and not weight.fixed:
             yield {"web": weight.web, "mass_kg": weight.mass_kg, "angle_deg": weight.angle_deg}
 
 
-def _named(request: MatchRequest, problem: Problem, mass: Real) -> tuple[tuple[Assignment, ...], tuple[Spare, ...]]:
+def _assignments(
+    request: MatchRequest, problem: Problem, mass: Real
+) -> tuple[tuple[Assignment, ...], tuple[Spare, ...]]:
     """Parts for masses: of equal ones the first that is listed goes to the first row."""
     assignments, spares, rows = [], [], [place.model_dump() for place in request.places]
     for group, part in zip(problem.classes, problem.slices, strict=True):
         free = list(range(group.mass.size))
         for row, weight in zip(group.row.tolist(), mass[part].tolist(), strict=True):
-            which = next(k for k in free if group.mass[k] == weight)
-            free.remove(which)
-            name = group.names[which]
+            number = next(k for k in free if group.mass[k] == weight)
+            free.remove(number)
+            name = group.names[number]
             if name is None:
                 continue
             fields = {"kind": group.kind, "part": name, "mass_kg": weight}

@@ -79,7 +79,7 @@ class Problem:
         return int(self.of_row.shape[1])
 
     @property
-    def listed(self) -> Real:
+    def input_order(self) -> Real:
         """Masses as they are listed (T,), class by class."""
         return np.concatenate([group.mass for group in self.classes])
 
@@ -114,7 +114,7 @@ class Problem:
         for group in self.classes:
             heaviest[group.row[group.row >= 0]] += np.max(group.mass)
         most = self.start_size + self.size_of_row @ heaviest
-        return 8 * np.finfo(float).eps * self.listed.size * float(np.max(self.peaks.weight @ most))
+        return 8 * np.finfo(float).eps * self.input_order.size * float(np.max(self.peaks.weight @ most))
 
 
 def stated(request: MatchRequest, machine: Machine, fitted: Real, angle_deg: Real) -> Problem:
@@ -130,21 +130,21 @@ def stated(request: MatchRequest, machine: Machine, fitted: Real, angle_deg: Rea
     plan = layout(machine)
     u = unbalance(fitted, angle_deg, web_radii(design_space(machine, goal).machine))
     u = posed(machine, goal, u)
-    wanted, across = weights(machine, goal), goal.direction_weights
+    response_weights, across = weights(machine, goal), goal.direction_weights
     base = responses(plan, rotating(plan).plus(reciprocating(plan, 1)), goal)
     unit = responses(plan, reciprocating(_per_kilogram(plan), 1), goal)
-    weighed = [k for k, response in enumerate(base) if wanted[response.name] > 0]
+    weighed = [k for k, response in enumerate(base) if response_weights[response.name] > 0]
     p, q = 0.5 * (across.x + across.y), 0.5 * (across.x - across.y)
     start, of_row, start_size, size_of_row, terms, row = [], [], [], [], [], []
     for number, k in enumerate(weighed):
-        weight = wanted[base[k].name]
+        weight = response_weights[base[k].name]
         (f, b), (f_unit, b_unit) = _pair(base[k], u), _pair(unit[k], None)
         start.append(weight * _vectors(f, b, p, q))
         of_row.append(weight * _vectors(f_unit, b_unit, p, q))
         start_size.append(weight * _vectors(np.abs(f), np.abs(b), p, abs(q)).real)
         size_of_row.append(weight * _vectors(np.abs(f_unit), np.abs(b_unit), p, abs(q)).real)
-        both = q != 0 or base[k].counter_influence is not None
-        terms += [2 * number, 2 * number + 1] if both else [number, -1]
+        is_paired = q != 0 or base[k].counter_influence is not None
+        terms += [2 * number, 2 * number + 1] if is_paired else [number, -1]
         row += [number if goal.combine == "max" else 0] * 2
     owner = np.array(row)
     membership = (owner == np.arange(owner[-1] + 1)[:, None]).astype(float)

@@ -37,12 +37,12 @@ class Exhausted(NamedTuple):
 
 def single_class(problem: Problem) -> bool:
     """Whether the parts are of one class, of which the orders on half of the places can be listed."""
-    return len(problem.classes) == 1 and problem.listed.size <= _MOST
+    return len(problem.classes) == 1 and problem.input_order.size <= _MOST
 
 
 def all_sets(problem: Problem) -> bool:
     """Whether besides all sets of them can be looked at, as where equal masses balance."""
-    return single_class(problem) and problem.listed.size <= _MOST_SETS
+    return single_class(problem) and problem.input_order.size <= _MOST_SETS
 
 
 def exhausted(problem: Problem, cut: Plane, value: float, near: float, spent: Callable[[], bool]) -> Exhausted:
@@ -74,10 +74,10 @@ def exhausted(problem: Problem, cut: Plane, value: float, near: float, spent: Ca
         first, second = (_sums(*part) for part in zip(effects, (mass[:half], mass[half:]), orders, strict=True))
         rising = np.argsort(first[:, 0], kind="stable")
         rising_orders, sums = (orders[0][rising], orders[1]), (first[rising], second)
-        reached, put = best_below(window, peaks, mass, lowest, rising_orders, sums, best)
+        reached, arrangement = best_below(window, peaks, mass, lowest, rising_orders, sums, best)
         if reached < best:
-            best, result = float(reached), np.empty_like(put)
-            result[place] = put
+            best, result = float(reached), np.empty_like(arrangement)
+            result[place] = arrangement
     return Exhausted(result, best, best, True)
 
 
@@ -101,15 +101,15 @@ def _window(problem: Problem, cut: Plane, effect: Complex, lever: Real) -> Windo
     reach = np.stack([np.ones(begin.size), np.where(is_height, 0.0, 1.0)])
     scatter = np.std(rows, axis=1) / np.sum(reach, axis=0)
     order = np.argsort(-scatter, kind="stable")
-    order = order[scatter[order] * np.ptp(problem.listed) > _ROUNDINGS * problem.rounding]
+    order = order[scatter[order] * np.ptp(problem.input_order) > _ROUNDINGS * problem.rounding]
     return Window(begin[order], rows[order], is_height[order].astype(float), np.take(reach, order, axis=1))
 
 
 def _left(problem: Problem, cut: Plane) -> Real:
     """What a plane leaves of the weights of lengths (J,); the largest of several is no less than a mean of them."""
     weight = problem.peaks.weight
-    held = np.where(weight > 0, np.abs(cut.slope) / np.where(weight > 0, weight, 1.0), 0.0)
-    share = np.max(held, axis=1)
+    ratio = np.where(weight > 0, np.abs(cut.slope) / np.where(weight > 0, weight, 1.0), 0.0)
+    share = np.max(ratio, axis=1)
     share = share + max(1.0 - float(np.sum(share)), 0.0) / share.size
     left: Real = share @ weight - np.abs(cut.slope)
     return np.where(left > _NOTHING, left, 0.0)
@@ -118,7 +118,7 @@ def _left(problem: Problem, cut: Plane) -> Real:
 def _sets(problem: Problem, cut: Plane, lever: Real) -> tuple[Real, Real]:
     """Masses (N, n) of the parts on the first half and of the others, in rising order of what none of their
     assignments is below (N,): its height by sorting each half."""
-    mass, half = np.sort(problem.listed), (lever.size + 1) // 2
+    mass, half = np.sort(problem.input_order), (lever.size + 1) // 2
     parts = np.array(list(combinations(range(mass.size), half)))
     left = np.ones((len(parts), mass.size), bool)
     np.put_along_axis(left, parts, False, axis=1)

@@ -43,11 +43,11 @@ def _pairs(problem: Problem) -> np.ndarray:
 
 def _starts(problem: Problem, count: int) -> list[Real]:
     """Assignments (1, T): sorted along the vectors as they are listed, and by chance."""
-    listed = problem.listed
-    results = [sorted_masses(problem, problem.vectors(listed))[None]]
+    input_order = problem.input_order
+    results = [sorted_masses(problem, problem.vectors(input_order))[None]]
     rng = np.random.default_rng(_SEED)
     results += [
-        np.concatenate([rng.permutation(listed[part]) for part in problem.slices])[None] for _ in range(count - 1)
+        np.concatenate([rng.permutation(input_order[part]) for part in problem.slices])[None] for _ in range(count - 1)
     ]
     return results[:count]
 
@@ -79,15 +79,15 @@ def _doubly_swapped(problem: Problem, minorants: Minorants, mass: Real, pairs: n
     change: Complex = (place[:, i] - place[:, k]).T
     touches = np.zeros((i.size, mass.size), bool)
     touches[np.arange(i.size), i] = touches[np.arange(i.size), k] = True
-    swap, other = np.nonzero(np.triu(touches.astype(int) @ touches.T.astype(int) == 0, 1))
+    swap, second = np.nonzero(np.triu(touches.astype(int) @ touches.T.astype(int) == 0, 1))
     mass = mass.copy()
     for _ in range(_ROUNDS):
         v = problem.vectors(mass)
         shift = (mass[k] - mass[i])[:, None] * change
-        values = minorants.at(v + shift[swap] + shift[other]) if swap.size else np.array([np.inf])
+        values = minorants.at(v + shift[swap] + shift[second]) if swap.size else np.array([np.inf])
         best = int(np.argmin(values))
         if not values[best] < minorants.at(v):
             break
-        for pair in (swap[best], other[best]):
+        for pair in (swap[best], second[best]):
             mass[i[pair]], mass[k[pair]] = mass[k[pair]], mass[i[pair]]
     return mass

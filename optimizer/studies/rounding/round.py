@@ -107,13 +107,13 @@ class _Judge:
     def weights(self, weights: _Set) -> Weights:
         """As it is answered."""
         mass, angle = beside(self.machine, *weights)
-        (objective, excess), shown = self.values(weights), fitted(self.machine, mass, angle)
+        (objective, excess), placement = self.values(weights), fitted(self.machine, mass, angle)
         budget = self.machine.max_total_mass_kg
         return Weights(
             objective=objective,
             limits_kept=excess <= CEILING_TOLERANCE
-            and (budget is None or shown.total_mass_kg <= budget * (1.0 + _ROUNDING)),
-            **shown.fields,
+            and (budget is None or placement.total_mass_kg <= budget * (1.0 + _ROUNDING)),
+            **placement.fields,
         )
 
 
@@ -223,9 +223,9 @@ def _steps(request: RoundRequest, judge: _Judge, best: _Set, value: float) -> It
     for k in np.flatnonzero(best.mass > 0.0).tolist():
 
         def rise(mass: float, angle: float, web: int = k) -> float:
-            heavier, turned = best.mass.copy(), best.angle.copy()
-            heavier[web], turned[web] = max(heavier[web] + mass, 0.0), turned[web] + angle
-            return judge.objective(_Set(heavier, turned)) - value
+            masses, angles = best.mass.copy(), best.angle.copy()
+            masses[web], angles[web] = max(masses[web] + mass, 0.0), angles[web] + angle
+            return judge.objective(_Set(masses, angles)) - value
 
         yield StepRise(
             web=webs[k].name,

@@ -117,7 +117,7 @@ def plan(request: SweepRequest) -> Plan:
         if the base and the axes together lack what an output needs, whichever the design.
     """
     _require_inputs(request)
-    columns = request.chosen_columns
+    columns = request.column_selection
     return Plan(
         total=request.total,
         chunk_rows=_chunk_rows(request),
@@ -161,7 +161,7 @@ def block_rows(request: SweepRequest) -> int:
 
 
 def _chunk_rows(request: SweepRequest) -> int:
-    cells = max(len(request.all_columns), len(request.chosen_columns))
+    cells = max(len(request.all_columns), len(request.column_selection))
     largest = min(_CHUNK_S / _seconds_per_design(request), _CELLS / cells, 100_000)
     fair = max(-(-request.total // _FEWEST_CHUNKS), _SMALLEST_CHUNK)
     return max(1, min(round(largest), fair), -(-request.total // _MOST_CHUNKS))
@@ -169,7 +169,7 @@ def _chunk_rows(request: SweepRequest) -> int:
 
 def _seconds_per_design(request: SweepRequest) -> float:
     """Rough time of a design on one core."""
-    seconds = _ROW_S + _SAMPLE_S * work_per_design(request.base, request.always, request.wanted)
+    seconds = _ROW_S + _SAMPLE_S * work_per_design(request.base, request.always, request.column_keys)
     seconds += _DETAIL_S * worked_out_alone(request)
     if request.over_the_turn:
         seconds += _TURN_S + _CUTS_S * curves_over_turn(request)

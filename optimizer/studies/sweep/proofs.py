@@ -26,10 +26,10 @@ def multipliers_as_text(request: OptimizeRequest, best: Certified) -> np.ndarray
     implied = implied_max_mass(machine, program.limits.max_mass)
     for n, unreachable in enumerate(optima.unreachable.tolist()):
         of_mass = least_mass and not unreachable
-        against = conflict(program.chosen(n), optima.conflict.chosen(n), square[n]) if unreachable else None
+        against = conflict(program.subset(n), optima.conflict.subset(n), square[n]) if unreachable else None
         texts[n] = DesignMultipliers(
-            objective=None if unreachable else named(program, objective.chosen(n)),
-            mass=named(program, mass.chosen(n)) if of_mass else None,
+            objective=None if unreachable else named(program, objective.subset(n)),
+            mass=named(program, mass.subset(n)) if of_mass else None,
             mass_objective_limit=limit[n] if of_mass else None,
             conflict=None if against is None else named_conflict(program, against),
             implied_max_mass_kg=implied[n],

@@ -73,26 +73,26 @@ class _Collecting:
     def _compare(self) -> None:
         if self._fresh:
             # copied, so that what is no longer wanted does not stay in memory with it
-            self._best = self._chosen(pa.concat_tables([self._best, *self._fresh])).combine_chunks()
+            self._best = self._selection(pa.concat_tables([self._best, *self._fresh])).combine_chunks()
             self._fresh, self._waiting = [], 0
         if self._most is not None and self._best.num_rows > self._most:
             raise TooManyRows(f"more than {self._most} rows")
 
-    def _chosen(self, table: pa.Table) -> pa.Table:
+    def _selection(self, table: pa.Table) -> pa.Table:
         raise NotImplementedError
 
 
 class Top(_Collecting):
     """The rows with the smallest (or largest) values of a column; of equal ones those of the lower index."""
 
-    def __init__(self, wanted: TopFilter, schema: pa.Schema, most: int | None = None) -> None:
-        super().__init__([wanted.by], schema, most)
-        self._wanted = wanted
+    def __init__(self, top_filter: TopFilter, schema: pa.Schema, most: int | None = None) -> None:
+        super().__init__([top_filter.by], schema, most)
+        self._filter = top_filter
 
-    def _chosen(self, table: pa.Table) -> pa.Table:
-        order = "descending" if self._wanted.largest else "ascending"
-        places = pc.sort_indices(table, sort_keys=[(self._wanted.by, order), ("index", "ascending")])
-        return table.take(places[: self._wanted.count])
+    def _selection(self, table: pa.Table) -> pa.Table:
+        order = "descending" if self._filter.largest else "ascending"
+        places = pc.sort_indices(table, sort_keys=[(self._filter.by, order), ("index", "ascending")])
+        return table.take(places[: self._filter.count])
 
     def table(self) -> pa.Table:
         """The rows kept, best first."""
@@ -109,7 +109,7 @@ class ParetoFilter(_Collecting):
         super().__init__(columns, schema, most)
         self._proceed = proceed
 
-    def _chosen(self, table: pa.Table) -> pa.Table:
+    def _selection(self, table: pa.Table) -> pa.Table:
         points = np.stack([table[name].to_numpy() for name in self._compared], axis=-1)
         return table.filter(pa.array(unbeaten(points, self._proceed)))
 
@@ -150,10 +150,10 @@ def unbeaten(points: Real, proceed: Proceed = lambda: None) -> Mask:
     By halves, in some n log(n)^(d-1) steps (Kung, Luccio and Preparata 1975, On finding the maxima of a set of
     vectors, Journal of the ACM 22).
     """
-    distinct, which = np.unique(points, axis=0, return_inverse=True)
+    distinct, inverse = np.unique(points, axis=0, return_inverse=True)
     stays = np.zeros(len(distinct), dtype=bool)
     stays[_front(distinct, np.arange(len(distinct)), proceed)] = True
-    return stays[which.reshape(-1)]
+    return stays[inverse.reshape(-1)]
 
 
 def _front(points: Real, places: Places, proceed: Proceed) -> Places:
@@ -163,8 +163,8 @@ def _front(points: Real, places: Places, proceed: Proceed) -> Places:
         lowest = np.minimum.accumulate(np.concatenate([[np.inf], points[places, 1]]))[:-1]
         return places[points[places, 1] < lowest]
     if len(places) ** 2 <= _PAIRS:
-        some = points[places]
-        no_larger = np.all(some[None, :, :] <= some[:, None, :], axis=-1)
+        subset = points[places]
+        no_larger = np.all(subset[None, :, :] <= subset[:, None, :], axis=-1)
         # of distinct points the only one that is no larger and does not beat a point is the point itself
         return places[np.sum(no_larger, axis=-1) == 1]
     # no point is beaten by a later one; an earlier one is no larger in the first coordinate
@@ -174,29 +174,29 @@ def _front(points: Real, places: Places, proceed: Proceed) -> Places:
     return np.concatenate([first, second[rest]])
 
 
-def _covered(points: Real, others: Real, proceed: Proceed) -> Mask:
+def _covered(points: Real, rivals: Real, proceed: Proceed) -> Mask:
     """Which points (n, d) are nowhere below one of the others (m, d)."""
     proceed()
-    if len(points) == 0 or len(others) == 0:
+    if len(points) == 0 or len(rivals) == 0:
         return np.zeros(len(points), dtype=bool)
     if points.shape[-1] == 1:
-        return points[:, 0] >= np.min(others)
+        return points[:, 0] >= np.min(rivals)
     if points.shape[-1] == 2:
-        order = np.argsort(others[:, 0], kind="stable")
-        lowest = np.minimum.accumulate(np.concatenate([[np.inf], others[order, 1]]))
-        return points[:, 1] >= lowest[np.searchsorted(others[order, 0], points[:, 0], side="right")]
-    if len(points) * len(others) <= _PAIRS:
-        return np.any(np.all(others[None, :, :] <= points[:, None, :], axis=-1), axis=-1)
-    own, their = points[:, 0], others[:, 0]
+        order = np.argsort(rivals[:, 0], kind="stable")
+        lowest = np.minimum.accumulate(np.concatenate([[np.inf], rivals[order, 1]]))
+        return points[:, 1] >= lowest[np.searchsorted(rivals[order, 0], points[:, 0], side="right")]
+    if len(points) * len(rivals) <= _PAIRS:
+        return np.any(np.all(rivals[None, :, :] <= points[:, None, :], axis=-1), axis=-1)
+    own, their = points[:, 0], rivals[:, 0]
     if np.max(their) <= np.min(own):
-        return _covered(points[:, 1:], others[:, 1:], proceed)
+        return _covered(points[:, 1:], rivals[:, 1:], proceed)
     # the values up to the cut, and those above it, of which there is at least one
     values = np.unique(np.concatenate([own, their]))
     cut = values[(len(values) - 1) // 2]
     low, above = own <= cut, their > cut
     covered = np.zeros(len(points), dtype=bool)
-    covered[low] = _covered(points[low], others[~above], proceed)
-    covered[~low] = _covered(points[~low, 1:], others[~above][:, 1:], proceed)
+    covered[low] = _covered(points[low], rivals[~above], proceed)
+    covered[~low] = _covered(points[~low, 1:], rivals[~above][:, 1:], proceed)
     left = ~low & ~covered
-    covered[left] = _covered(points[left], others[above], proceed)
+    covered[left] = _covered(points[left], rivals[above], proceed)
     return covered

@@ -109,13 +109,13 @@ class Rows:
 @remembered
 def _blank_columns(request: SweepRequest) -> dict[str, float | None]:
     """Columns by name, with what stands where a design has none."""
-    columns = (*request.all_columns, *request.chosen_columns)
+    columns = (*request.all_columns, *request.column_selection)
     return {column.name: np.nan if column.kind == "number" else None for column in columns}
 
 
 @remembered
-def _wanted(request: SweepRequest) -> frozenset[str]:
-    return request.wanted
+def _column_keys(request: SweepRequest) -> frozenset[str]:
+    return request.column_keys
 
 
 def rows(request: SweepRequest, start: int, stop: int) -> dict[str, Any]:
@@ -150,7 +150,7 @@ class Group(Generic[Base]):
         self._base: Base = base
         self._targets, self._values = request.targets, values
         self.multipliers, self.always = request.multipliers, request.always
-        self.wanted = _wanted(request)
+        self.column_keys = _column_keys(request)
         #: by an output that all hold, designs without it: their goals are not about it, and their machines lack what it
         #: needs
         self.bare: dict[str, set[int]] = {output: set() for output in self.always}
@@ -170,8 +170,8 @@ class Group(Generic[Base]):
     def _columns(self, designs: Designs) -> Base:
         contents: dict[Path, Any] = {}
         for target, column in zip(self._targets, self._values, strict=True):
-            chosen = column[designs]
-            contents[target.path] = None if np.isnan(chosen[0]) else chosen
+            values = column[designs]
+            contents[target.path] = None if np.isnan(values[0]) else values
         return with_fields(self._base, contents)
 
     def single(self, design: int) -> Base:
@@ -310,9 +310,9 @@ def _fill_outputs(table: Rows, group: AnyGroup, designs: Designs, unbalance: Com
         return
     lacks = np.stack([np.isin(designs, list(bare)) for bare in group.bare.values()], axis=-1)
     for pattern in np.unique(lacks, axis=0):
-        some = (lacks == pattern).all(axis=-1)
-        held = tuple(output for output, without in zip(group.bare, pattern.tolist(), strict=True) if not without)
-        _fill_columns(table, group, designs[some], unbalance[some], held)
+        mask = (lacks == pattern).all(axis=-1)
+        outputs = tuple(output for output, without in zip(group.bare, pattern.tolist(), strict=True) if not without)
+        _fill_columns(table, group, designs[mask], unbalance[mask], outputs)
 
 
 def _fill_columns(table: Rows, group: AnyGroup, designs: Designs, unbalance: Complex, always: tuple[str, ...]) -> None:
@@ -320,13 +320,13 @@ def _fill_columns(table: Rows, group: AnyGroup, designs: Designs, unbalance: Com
     # without counterweights there is nothing with them
     none = table.infeasible(designs)
     fitted = np.where(none[:, None], np.nan, unbalance) if none.any() else unbalance
-    size = max(1, _AT_ONCE // max(work_per_design(group.of(designs), always, group.wanted), 1))
+    size = max(1, _AT_ONCE // max(work_per_design(group.of(designs), always, group.column_keys), 1))
     for first in range(0, designs.size, size):
         block = designs[first : first + size] if size < designs.size else designs
         part = group.of(block)
-        held = ("residual", *always) if isinstance(part, OptimizeRequest) else ()
+        outputs = ("residual", *always) if isinstance(part, OptimizeRequest) else ()
         part = on_webs(part) if isinstance(part, AnalyzeRequest) else part
-        table.put(block, columns(part, fitted[first : first + size], held, group.wanted))
+        table.put(block, columns(part, fitted[first : first + size], outputs, group.column_keys))
 
 
 def _refuse(table: Rows, designs: Designs, rules: Iterable[Rule], among: NDArray[np.bool_] | None = None) -> Designs:
@@ -347,9 +347,9 @@ def _refuse(table: Rows, designs: Designs, rules: Iterable[Rule], among: NDArray
     return _among(designs, valid)
 
 
-def _among(designs: Designs, chosen: NDArray[np.bool_]) -> Designs:
+def _among(designs: Designs, mask: NDArray[np.bool_]) -> Designs:
     """Some of the designs; of all of them the very same array."""
-    return designs if chosen.all() else designs[chosen]
+    return designs if mask.all() else designs[mask]
 
 
 def _same_nulls(values: Sequence[Real], designs: Designs) -> Iterator[Designs]:
@@ -358,6 +358,6 @@ def _same_nulls(values: Sequence[Real], designs: Designs) -> Iterator[Designs]:
     if not np.any(nulls):
         groups = [designs] if designs.size else []
     else:
-        patterns, which = np.unique(nulls, axis=0, return_inverse=True)
-        groups = [designs[which.reshape(-1) == k] for k in range(len(patterns))]
+        patterns, inverse = np.unique(nulls, axis=0, return_inverse=True)
+        groups = [designs[inverse.reshape(-1) == k] for k in range(len(patterns))]
     yield from groups

@@ -39,7 +39,7 @@ def single_optima(requests: Sequence[OptimizeRequest], multipliers: bool) -> tup
     }
     nothing = np.full(len(requests[0].machine.every_web), complex(np.nan))
     return columns, np.array(
-        [solution.shown.unbalance if isinstance(solution, Solution) else nothing for solution in solutions]
+        [solution.placement.unbalance if isinstance(solution, Solution) else nothing for solution in solutions]
     )
 
 
@@ -69,15 +69,17 @@ def _worst(request: OptimizeRequest, best: Solution | Infeasible) -> dict[str, f
 
 def _row(request: OptimizeRequest, best: Solution | Infeasible, multipliers: bool) -> dict[str, str | float | None]:
     """One design by the names of its columns; what is not there is nan."""
-    shown, certificate = (best.shown, best.certificate) if isinstance(best, Solution) else (None, None)
+    placement, certificate = (best.placement, best.certificate) if isinstance(best, Solution) else (None, None)
     row: dict[str, str | float | None] = {
         "status": best.status,
         "message": "" if best.status == "optimal" else best.reason,
         "method": best.method,
-        "total_mass_kg": np.nan if shown is None else shown.total_mass_kg,
+        "total_mass_kg": np.nan if placement is None else placement.total_mass_kg,
     }
     if balance_shafts(request.machine):
-        row["balance_shafts_mass_kg"] = np.nan if shown is None else _or_nan(shown.fields["balance_shafts_mass_kg"])
+        row["balance_shafts_mass_kg"] = (
+            np.nan if placement is None else _or_nan(placement.fields["balance_shafts_mass_kg"])
+        )
     for name in CERTIFICATE:
         row[name] = _or_nan(getattr(certificate, name, None))
     if request.tolerances is not None:
@@ -87,7 +89,7 @@ def _row(request: OptimizeRequest, best: Solution | Infeasible, multipliers: boo
     for column in goal_columns(request.objective):
         field, _, goal = column.name.removeprefix("goal_").partition(".")
         row[column.name] = _or_nan(getattr(by_name.get(goal), field, None))
-    fitted = () if shown is None else shown.all_of_them
+    fitted = () if placement is None else placement.all_of_them
     masses = {weight.web: (weight.mass_kg, weight.angle_deg) for weight in fitted}
     openings = {weight.web: weight.shape.half_angle_deg for weight in fitted if weight.shape is not None}
     for web in request.machine.every_web:

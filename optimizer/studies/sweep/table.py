@@ -28,7 +28,7 @@ def result_schema(request: SweepRequest, request_json: bytes) -> pa.Schema:
     request_json : the request as it is to be kept with the result.
     """
     fields = []
-    for column in request.chosen_columns:
+    for column in request.column_selection:
         notes = {"unit": column.unit, "meaning": column.meaning, "pointer": column.source}
         metadata = {key: value for key, value in notes.items() if value is not None}
         fields.append(pa.field(column.name, _TYPES[column.kind], column.name != "index", metadata))
@@ -64,12 +64,12 @@ def _array(column: Any, kind: pa.DataType) -> pa.Array:
         # few different texts, mostly the first: Arrow repeats them faster than Python does
         texts = column if isinstance(column, np.ndarray) else np.array(column, dtype=object)
         (places,) = (texts != texts[:1]).nonzero()
-        others = texts[places].tolist()
-        number = {text: k for k, text in enumerate(dict.fromkeys((*texts[:1].tolist(), *others)))}
-        which = np.zeros(texts.size, np.int32)
-        which[places] = np.fromiter(map(number.__getitem__, others), dtype=np.int32, count=len(others))
+        rest = texts[places].tolist()
+        number = {text: k for k, text in enumerate(dict.fromkeys((*texts[:1].tolist(), *rest)))}
+        codes = np.zeros(texts.size, np.int32)
+        codes[places] = np.fromiter(map(number.__getitem__, rest), dtype=np.int32, count=len(rest))
         dictionary = pa.array([text or None for text in number], kind)
-        return pa.DictionaryArray.from_arrays(pa.array(which), dictionary).cast(kind)
+        return pa.DictionaryArray.from_arrays(pa.array(codes), dictionary).cast(kind)
     return pa.array(column, kind)
 
 

@@ -25,7 +25,7 @@ def sweep_table(request: SweepRequest) -> pa.Table:
     tables = (run_chunk(document, start, stop) for start, stop in blocks(document, 0, request.total))
     if request.top is None and request.pareto is None:
         return pa.concat_tables(tables)
-    chosen = reducer(request)
+    collector = reducer(request)
     for table in tables:
-        chosen.add(table)
-    return chosen.table()
+        collector.add(table)
+    return collector.table()

@@ -8,15 +8,17 @@ from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep.request import SweepRequest
 
 
-def work_per_design(request: OptimizeRequest | AnalyzeRequest, always: tuple[str, ...], wanted: frozenset[str]) -> int:
+def work_per_design(
+    request: OptimizeRequest | AnalyzeRequest, always: tuple[str, ...], selection: frozenset[str]
+) -> int:
     """Rows times angles that one design needs at once, which bounds the memory of a block; 0 without any.
 
     Parameters
     ----------
     always : outputs that rows hold whether they were asked for or not.
-    wanted : keys of the columns that are.
+    selection : keys of the columns that are.
     """
-    groups = column_groups(request, always, wanted)
+    groups = column_groups(request, always, selection)
     effects = effects_of([need for group in groups for need in group.needs or ()])
     if not isinstance(request.machine, ReciprocatingMachine) or "kinematics" not in effects:
         return 0
@@ -35,7 +37,7 @@ def work_per_design(request: OptimizeRequest | AnalyzeRequest, always: tuple[str
 
 def worked_out_alone(request: SweepRequest) -> int:
     """How many groups of columns every design is worked out by itself for."""
-    return sum(group.alone for group in column_groups(request.base, request.always, request.wanted))
+    return sum(group.alone for group in column_groups(request.base, request.always, request.column_keys))
 
 
 def curves_over_turn(request: SweepRequest) -> int:

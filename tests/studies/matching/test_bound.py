@@ -23,7 +23,7 @@ def test_it_is_that_of_all_mixtures(rows: int, classes: int) -> None:
     masses = cp.hstack([one @ each.mass for one, each in zip(shares, problem.classes, strict=True)])
     relaxed = cp.Problem(cp.Minimize(cp.sum(cp.abs(problem.start + problem.of_place @ masses))), once)
     relaxed.solve(solver=cp.CLARABEL)
-    mass = searched(problem, problem.peaks, problem.listed[None])[0]
+    mass = searched(problem, problem.peaks, problem.input_order[None])[0]
     value = float(problem.peaks.at(problem.vectors(mass)))
     found = best_plane(problem, problem.peaks, value, 0.0).least
     assert found <= relaxed.value * (1 + 1e-6)

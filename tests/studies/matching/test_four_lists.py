@@ -32,8 +32,8 @@ def test_two_classes_of_four_rows_come_to_the_best_there_is() -> None:
     given, classes = machine(mirrored(4), [90.0] * 4), parts(3, 4, 4)
     request = MatchRequest.model_validate({"machine": given, "parts": classes})
     problem = stated(request, request.machine, np.zeros(0), np.zeros(0))
-    found = near_to_nothing(problem, problem.listed, 0.0, never)
-    assert all(sorted(found[part]) == sorted(problem.listed[part]) for part in problem.slices)
+    found = near_to_nothing(problem, problem.input_order, 0.0, never)
+    assert all(sorted(found[part]) == sorted(problem.input_order[part]) for part in problem.slices)
     best = np.min(objective(given, every(classes, 4), 1.0))
     assert objective(given, 12.0 + problem.row_masses(found), 1.0) == pytest.approx(best, rel=1e-9)
 
@@ -41,7 +41,7 @@ def test_two_classes_of_four_rows_come_to_the_best_there_is() -> None:
 def test_one_class_of_few_rows_is_left_as_it_is_where_nothing_is_better() -> None:
     request = MatchRequest.model_validate({"machine": machine([0.0, 180.0], [90.0] * 2), "parts": parts(3, 2)})
     problem = stated(request, request.machine, np.zeros(0), np.zeros(0))
-    assert sorted(near_to_nothing(problem, problem.listed, 0.0, never)) == sorted(problem.listed)
+    assert sorted(near_to_nothing(problem, problem.input_order, 0.0, never)) == sorted(problem.input_order)
 
 
 def test_a_class_of_one_row_ends_nothing() -> None:
@@ -53,8 +53,8 @@ def test_a_class_of_one_row_ends_nothing() -> None:
     body = {"machine": given, "parts": classes, "objective": {"moment_weight": 0}}
     request = MatchRequest.model_validate(body)
     problem = stated(request, request.machine, np.zeros(0), np.zeros(0))
-    found = near_to_nothing(problem, problem.listed, 0.0, never)
-    before, after = (float(problem.peaks.at(problem.vectors(mass))) for mass in (problem.listed, found))
+    found = near_to_nothing(problem, problem.input_order, 0.0, never)
+    before, after = (float(problem.peaks.at(problem.vectors(mass))) for mass in (problem.input_order, found))
     assert after < 1e-2 * before
 
 

@@ -55,7 +55,7 @@ def never() -> bool:
 def test_it_is_the_best_of_all_orders(cranks: list[float], axes: list[float], goal: dict[str, Any]) -> None:
     """Independent: every order of the parts; begun from one that a hundredth of them, or a few, are better than."""
     problem = problem_of(asked(cranks, axes, goal))
-    orders = problem.listed[np.array(list(permutations(range(len(cranks)))))]
+    orders = problem.input_order[np.array(list(permutations(range(len(cranks)))))]
     values = np.sort(problem.peaks.at(problem.vectors(orders)))
     for rank in (len(values) // 100, 20):
         known = float(values[min(rank, len(values) - 1)])
@@ -65,7 +65,7 @@ def test_it_is_the_best_of_all_orders(cranks: list[float], axes: list[float], go
         if found.complete:
             assert found.value == pytest.approx(values[0], abs=problem.rounding)
         if found.mass is not None:
-            assert sorted(found.mass) == sorted(problem.listed)
+            assert sorted(found.mass) == sorted(problem.input_order)
             assert float(problem.peaks.at(problem.vectors(found.mass))) == pytest.approx(found.value, rel=1e-9)
     # the windows of so few better ones are narrow enough to look at all
     assert found.complete
@@ -81,7 +81,7 @@ def test_a_machine_the_same_from_both_ends_is_looked_at_once(heavier_kg: float, 
     body["machine"]["throws"][0]["rows"][0]["reciprocating_mass_kg"] += heavier_kg
     body["parts"][0]["masses_kg"][:equal] = [41.0] * equal
     problem = problem_of(MatchRequest.model_validate(body))
-    values = problem.peaks.at(problem.vectors(np.array(list(permutations(problem.listed)))))
+    values = problem.peaks.at(problem.vectors(np.array(list(permutations(problem.input_order)))))
     known = float(np.partition(values, 20 * equal)[20 * equal])
     found = exhausted(problem, best_plane(problem, problem.peaks, known, 0.0), known, 0.0, never)
     assert found.complete
@@ -97,7 +97,7 @@ def test_ten_rows_of_each_kind_are_proven() -> None:
     assert (answer.status, answer.certificate.method) == ("optimal", "exhaustion")
     problem = problem_of(request)
     chance = np.random.default_rng(0)
-    some = np.array([chance.permutation(problem.listed) for _ in range(100_000)])
+    some = np.array([chance.permutation(problem.input_order) for _ in range(100_000)])
     omega_squared = (request.machine.speed_rpm * np.pi / 30.0) ** 2
     least = float(np.min(problem.peaks.at(problem.vectors(some)))) * omega_squared
     assert answer.certificate.lower_bound is not None
@@ -179,7 +179,9 @@ def test_classes_of_a_part_or_two_beside_a_large_one() -> None:
     request = MatchRequest.model_validate(body | {"accuracy": {"time_limit_s": 30}})
     answer, problem = match(request), problem_of(request)
     chance = np.random.default_rng(0)
-    some_of = [np.array([chance.permutation(problem.listed[part]) for _ in range(20_000)]) for part in problem.slices]
+    some_of = [
+        np.array([chance.permutation(problem.input_order[part]) for _ in range(20_000)]) for part in problem.slices
+    ]
     omega_squared = (request.machine.speed_rpm * np.pi / 30.0) ** 2
     least = float(np.min(problem.peaks.at(problem.vectors(np.concatenate(some_of, axis=1))))) * omega_squared
     assert answer.certificate.lower_bound is not None

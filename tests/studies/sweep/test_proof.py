@@ -64,9 +64,12 @@ def test_rows_show_their_multipliers_only_if_asked() -> None:
     body = {"machine": random_machine(1), "objective": {"force_ceiling_N": 1e9}}
     plain, asked = swept(body, [1e9], [1.0]), swept(body, [1e9], [1.0], multipliers=True)
     assert "multipliers" not in rows(plain, 0, 1)
-    assert [column.name for column in asked.chosen_columns] == [*(c.name for c in plain.chosen_columns), "multipliers"]
+    assert [column.name for column in asked.column_selection] == [
+        *(c.name for c in plain.column_selection),
+        "multipliers",
+    ]
     chosen = swept(body, [1e9], [1.0], multipliers=True, columns=["force_peak_N"])
-    assert [column.name for column in chosen.chosen_columns] == ["index", "status", "force_peak_N", "multipliers"]
+    assert [column.name for column in chosen.column_selection] == ["index", "status", "force_peak_N", "multipliers"]
 
 
 def test_rows_that_are_no_valid_designs_have_no_multipliers() -> None:

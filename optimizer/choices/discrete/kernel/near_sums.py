@@ -39,7 +39,7 @@ def gridded(left, right, slab, axes, low, side, cells, share):  # type: ignore[n
     for i in range(len(left)):
         begin, end = _reach(left[i, 0], right, slab)
         for j in range(begin, end):
-            if whole or _taken(i, j, share):
+            if whole or _in_share(i, j, share):
                 first[_cell(left, i, right, j, axes, low, finer, cells) + 1] += 1
     for c in range(first.size - 1):
         first[c + 1] += first[c]
@@ -48,7 +48,7 @@ def gridded(left, right, slab, axes, low, side, cells, share):  # type: ignore[n
     for i in range(len(left)):
         begin, end = _reach(left[i, 0], right, slab)
         for j in range(begin, end):
-            if whole or _taken(i, j, share):
+            if whole or _in_share(i, j, share):
                 c = _cell(left, i, right, j, axes, low, finer, cells)
                 n = there[c]
                 there[c] += 1
@@ -82,7 +82,7 @@ def near(first, sums, left, right, slab, axes, low, side, cells, share, start, s
     for i in range(start[0], len(left)):
         begin, end = _reach(left[i, 0], right, slab)
         for j in range(max(begin, start[1]) if i == start[0] else begin, end):
-            if not (whole or _taken(i, j, share)):
+            if not (whole or _in_share(i, j, share)):
                 continue
             if visits > most[1]:
                 after[0], after[1] = i, j
@@ -117,9 +117,9 @@ def near(first, sums, left, right, slab, axes, low, side, cells, share, start, s
 
 
 @inner
-def _reach(at, other, slab):  # type: ignore[no-untyped-def]
+def _reach(at, values, slab):  # type: ignore[no-untyped-def]
     """The part of a sorted list that leads into a slab: its first place, and the one after its last."""
-    return first_no_less(other, slab[0] - at), first_no_less(other, slab[1] - at)
+    return first_no_less(values, slab[0] - at), first_no_less(values, slab[1] - at)
 
 
 @inner
@@ -131,5 +131,5 @@ def _cell(left, i, right, j, axes, low, finer, cells):  # type: ignore[no-untype
 
 
 @inner
-def _taken(i, j, share):  # type: ignore[no-untyped-def]
+def _in_share(i, j, share):  # type: ignore[no-untyped-def]
     return (np.uint64(i) * _MIX ^ np.uint64(j)) * _MIX <= share

@@ -50,7 +50,7 @@ def best_below(window, peaks, mass, least, orders, sums, level):  # type: ignore
     (n,) : masses place by place, where there is one.
     """
     (first, second), half, slack = sums, orders[0].shape[1], level - least
-    best, put = np.zeros(mass.size), np.zeros(mass.size)
+    best, arrangement = np.zeros(mass.size), np.zeros(mass.size)
     for k in range(len(second)):
         there = window.start[0] - window.anchor[0] * level + second[k, 0]
         at = first_no_less(first, -window.reach[0, 0] * slack - there)
@@ -60,14 +60,14 @@ def best_below(window, peaks, mass, least, orders, sums, level):  # type: ignore
             if not _within(window, first[i], second[k], level, slack):
                 continue
             for place in range(half):
-                put[place] = mass[orders[0][i, place]]
-            for place in range(put.size - half):
-                put[half + place] = mass[half + orders[1][k, place]]
-            value = _peak(peaks, put)
+                arrangement[place] = mass[orders[0][i, place]]
+            for place in range(arrangement.size - half):
+                arrangement[half + place] = mass[half + orders[1][k, place]]
+            value = _peak(peaks, arrangement)
             if value < level:
                 level, slack = value, value - least
-                for place in range(put.size):
-                    best[place] = put[place]
+                for place in range(arrangement.size):
+                    best[place] = arrangement[place]
     return level, best
 
 
@@ -82,15 +82,15 @@ def _within(window, first, second, level, slack):  # type: ignore[no-untyped-def
 
 
 @inner
-def _peak(peaks, put):  # type: ignore[no-untyped-def]
+def _peak(peaks, arrangement):  # type: ignore[no-untyped-def]
     largest = 0.0
     for row in range(peaks.weight.shape[0]):
         total = 0.0
         for j in range(peaks.start.size):
             if peaks.weight[row, j] > 0.0:
                 v = peaks.start[j]
-                for place in range(put.size):
-                    v += peaks.effect[j, place] * put[place]
+                for place in range(arrangement.size):
+                    v += peaks.effect[j, place] * arrangement[place]
                 total += peaks.weight[row, j] * abs(v)
         largest = max(largest, total)
     return largest
